@@ -1,0 +1,41 @@
+# Build types and flags of this project's own code.
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Debug or Release" FORCE)
+endif()
+if(NOT CMAKE_BUILD_TYPE MATCHES "^(Debug|Release)$")
+  message(FATAL_ERROR
+    "CMAKE_BUILD_TYPE is '${CMAKE_BUILD_TYPE}', but deal.II comes in two "
+    "flavours only: choose Debug or Release.")
+endif()
+
+set(CMAKE_CXX_STANDARD 17)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+
+# Nothing that depends on the machine that compiles (-march) and nothing that
+# changes the meaning of floating-point arithmetic (-ffast-math): a library and
+# the programs that link it must agree on both. Whoever wants them passes
+# CMAKE_CXX_FLAGS, and then to deal.II too.
+#
+# The exact geometry is ten times slower without optimization and the debugger
+# gets by with -Og.
+set(NMM_FLAGS_DEBUG -Og -g1)
+set(NMM_FLAGS_RELEASE -O3)
+set(CMAKE_CXX_FLAGS_DEBUG "")
+set(CMAKE_CXX_FLAGS_RELEASE "")
+
+# Flags shared by the library, the programs and the tests, so that all of them
+# can use one precompiled header.
+add_library(nmm_options INTERFACE)
+target_compile_options(
+  nmm_options
+  INTERFACE -fPIC
+            -Wall
+            -Wextra
+            -Wpedantic
+            $<$<CONFIG:Debug>:${NMM_FLAGS_DEBUG}>
+            $<$<CONFIG:Release>:${NMM_FLAGS_RELEASE}>
+            $<$<BOOL:${NMM_WARNINGS_AS_ERRORS}>:-Werror>)
+target_compile_definitions(
+  nmm_options INTERFACE $<$<CONFIG:Debug>:_GLIBCXX_ASSERTIONS>)

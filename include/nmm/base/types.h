@@ -1,0 +1,19 @@
+#ifndef nmm_base_types_h
+#define nmm_base_types_h
+
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/types.h>
+
+/**
+ * The second-order numerical manifold method on deal.II.
+ *
+ * Modules, in the order data flows (a module includes only those before it):
+ * base, geometry, covers, quadrature, mechanics, io.
+ */
+namespace NMM
+{
+  /// "No such thing": an index that no object has.
+  constexpr unsigned int invalid_index = dealii::numbers::invalid_unsigned_int;
+} // namespace NMM
+
+#endif

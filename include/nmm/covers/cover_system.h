@@ -1,0 +1,114 @@
+#ifndef nmm_covers_cover_system_h
+#define nmm_covers_cover_system_h
+
+#include <nmm/covers/manifold_mesh.h>
+
+#include <deal.II/base/array_view.h>
+#include <deal.II/base/index_set.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/types.h>
+
+#include <vector>
+
+namespace NMM
+{
+  /**
+   * Physical covers and their unknowns.
+   *
+   * A physical cover is a connected component, per mathematical cover, of the
+   * manifold elements in its support, joined across shared mathematical edges
+   * where no physical curve separates them (design, decision 1). The map
+   * (element, local weight function) -> physical cover replaces deal.II's cell
+   * dof indices; nothing is copied.
+   *
+   * Numbering: by owner rank, then by first appearance along the element
+   * numbering, which keeps the bandwidth small. Unknown of component c of cover
+   * k: n_components * k + c.
+   *
+   * Ownership: an element belongs to the rank that owns its cell; ranks own
+   * consecutive stretches of the element numbering of about equal length. A cover belongs to the lowest
+   * rank among its elements.
+   *
+   * Lifetime: the manifold mesh must outlive this object.
+   */
+  class CoverSystem
+  {
+  public:
+    CoverSystem(const ManifoldMesh &manifold_mesh, MPI_Comm communicator);
+
+    const ManifoldMesh &
+    manifold_mesh() const;
+
+    MPI_Comm
+    communicator() const;
+
+    unsigned int
+    n_covers() const;
+
+    /// Physical covers of an element, in the order of the finite element's dofs.
+    dealii::ArrayView<const unsigned int>
+    covers(unsigned int element) const;
+
+    /// Unknowns of an element with @p n_components values per cover: entry
+    /// n_components * i + c belongs to weight function i, component c.
+    void
+    get_dof_indices(
+      unsigned int                                  element,
+      unsigned int                                  n_components,
+      std::vector<dealii::types::global_dof_index> &indices) const;
+
+    /// Mathematical cover that a physical cover is a piece of.
+    unsigned int
+    mathematical_cover(unsigned int cover) const;
+
+    /// Node of the weight function [m]; may lie outside the solid.
+    const dealii::Point<2> &
+    node(unsigned int cover) const;
+
+    /// Elements this rank integrates.
+    std::pair<unsigned int, unsigned int>
+    locally_owned_elements() const;
+
+    /// Covers owned / needed by this rank.
+    const dealii::IndexSet &
+    locally_owned_covers() const;
+
+    const dealii::IndexSet &
+    locally_relevant_covers() const;
+
+    /// The same for unknowns with @p n_components per cover.
+    dealii::IndexSet
+    locally_owned_dofs(unsigned int n_components) const;
+
+    dealii::IndexSet
+    locally_relevant_dofs(unsigned int n_components) const;
+
+    /// This rank needs the values of @p covers too.
+    void
+    make_relevant(std::vector<dealii::types::global_dof_index> covers);
+
+  private:
+    /// Layers of elements around the owned ones whose covers are relevant: what
+    /// recovery of stresses looks at.
+    static constexpr unsigned int halo_width = 6;
+
+    void
+    number_covers();
+
+    void
+    distribute();
+
+    void
+    add_relevant_elements(unsigned int n_layers);
+
+    const ManifoldMesh                   *mesh;
+    MPI_Comm                              mpi_communicator;
+    unsigned int                          n_per_element;
+    std::vector<unsigned int>             element_to_covers;
+    std::vector<unsigned int>             cover_to_mathematical;
+    std::pair<unsigned int, unsigned int> owned_elements;
+    dealii::IndexSet                      owned_covers, relevant_covers;
+  };
+} // namespace NMM
+
+#endif

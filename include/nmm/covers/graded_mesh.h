@@ -1,0 +1,90 @@
+#ifndef nmm_covers_graded_mesh_h
+#define nmm_covers_graded_mesh_h
+
+#include <nmm/covers/mathematical_mesh.h>
+#include <nmm/geometry/curve.h>
+
+#include <deal.II/base/bounding_box.h>
+
+#include <string>
+#include <vector>
+
+namespace NMM
+{
+  /**
+   * A place that wants smaller cells: edge length `size` there, growing with the
+   * distance d from it,
+   * @f[ h(x) = \texttt{size} + \texttt{growth}\; d(x). @f]
+   */
+  struct LocalSize
+  {
+    enum class Kind
+    {
+      point,
+      box,
+      curve
+    };
+    Kind kind = Kind::point;
+
+    /// Points: where [m].
+    dealii::Point<2> point;
+    /// Boxes: lower left and upper right corner [m]; d = 0 inside.
+    dealii::Point<2> lower, upper;
+    /// Curves: name; all curves of that name count.
+    std::string curve;
+
+    /// Wanted edge length [m].
+    double size = 0.;
+    /// Increase of the edge length per distance [-], at most 1.
+    double growth = 0.2;
+  };
+
+
+  struct GradedMeshParameters
+  {
+    /// Edge length far from all local sizes [m].
+    double                 cell_size = 0.;
+    std::vector<LocalSize> local_sizes;
+  };
+
+
+  /**
+   * The size field: the smallest of the cell size and all local sizes.
+   */
+  class SizeField
+  {
+  public:
+    /// @throws InputError for a size or growth out of range, an unknown curve.
+    SizeField(const PhysicalMesh  &physical_mesh,
+              GradedMeshParameters parameters);
+
+    /// Wanted edge length at @p x [m].
+    double
+    operator()(const dealii::Point<2> &x) const;
+
+  private:
+    GradedMeshParameters                 parameters;
+    std::vector<std::vector<CurvePiece>> pieces_of_local_size;
+  };
+
+
+  /**
+   * A conforming triangulation over the solid's bounding box whose edge lengths
+   * follow the size field: CGAL's Delaunay refinement (Rineau & Yvinec, angles at
+   * least 20.7 degrees), smoothed by Lloyd's iteration. Cells that lie outside
+   * the solid are dropped. It does not fit the solid's curves: cutting does that.
+   */
+  MathematicalMesh
+  make_graded_mesh(const PhysicalMesh         &physical_mesh,
+                   const GradedMeshParameters &parameters,
+                   unsigned int                degree);
+
+  /**
+   * A mesh of triangles from a gmsh file (format 2 or 4), as it is.
+   * @throws InputError if the file cannot be read or holds no triangles.
+   */
+  MathematicalMesh
+  read_gmsh_mesh(const std::string &file_name, unsigned int degree);
+} // namespace NMM
+
+#endif

@@ -1,0 +1,137 @@
+#ifndef nmm_covers_manifold_mesh_h
+#define nmm_covers_manifold_mesh_h
+
+#include <nmm/base/types.h>
+#include <nmm/covers/mathematical_mesh.h>
+#include <nmm/geometry/physical_mesh.h>
+
+#include <deal.II/base/array_view.h>
+#include <deal.II/base/point.h>
+
+#include <vector>
+
+namespace NMM
+{
+  /**
+   * One oriented edge of a manifold element's boundary; the element lies to its
+   * left. Straight, or an arc about a centre.
+   */
+  struct ElementEdge
+  {
+    dealii::Point<2> start, end;
+    /// Arcs only: centre [m].
+    dealii::Point<2> center;
+    /// 0: straight. Positive: arc of this radius run through counter-clockwise
+    /// about the centre (the element is on the concave side); negative: clockwise [m].
+    /// Arcs span at most a half circle.
+    double radius = 0.;
+    /// Physical curves that lie on this edge, an index for
+    /// ManifoldMesh::curve_set(), or invalid_index for a purely mathematical edge.
+    unsigned int curve_set = invalid_index;
+    /// Manifold element on the other side, or invalid_index outside the solid.
+    unsigned int neighbor = invalid_index;
+    /// Edge of the mathematical mesh that this edge lies on, or invalid_index.
+    unsigned int mesh_edge = invalid_index;
+
+    bool
+    is_arc() const
+    {
+      return radius != 0.;
+    }
+  };
+
+  /**
+   * The manifold elements: connected pieces of the mathematical mesh's triangles
+   * cut by the physical mesh; the units of integration. Immutable.
+   *
+   * Cutting is exact and touches only cells that a physical curve comes near;
+   * all others are whole elements that keep no edges. Elements are numbered so
+   * that neighbours have near numbers (reverse Cuthill-McKee on the element
+   * graph).
+   *
+   * Lifetime: both meshes must outlive this object.
+   */
+  class ManifoldMesh
+  {
+  public:
+    /// @throws InputError if the mathematical mesh does not cover the solid.
+    ManifoldMesh(const MathematicalMesh &mathematical_mesh,
+                 const PhysicalMesh     &physical_mesh);
+
+    const MathematicalMesh &
+    mathematical_mesh() const;
+
+    const PhysicalMesh &
+    physical_mesh() const;
+
+    unsigned int
+    n_elements() const;
+
+    unsigned int
+    cell(unsigned int element) const;
+
+    /// Region of the physical mesh, hence material and block.
+    unsigned int
+    region(unsigned int element) const;
+
+    unsigned int
+    block(unsigned int element) const;
+
+    /// Whole triangle (it may still have physical curves along its edges).
+    bool
+    is_whole(unsigned int element) const;
+
+    /// Area [m^2], never negative.
+    double
+    area(unsigned int element) const;
+
+    /**
+     * Boundary edges with the element on the left: outer loop and loops around
+     * holes one after the other, each loop closed. A crack that ends inside
+     * appears twice, once in each direction. Empty for a whole element that no
+     * physical curve comes near.
+     */
+    dealii::ArrayView<const ElementEdge>
+    edges(unsigned int element) const;
+
+    /**
+     * Elements joined to @p element across mathematical edges that no physical
+     * curve blocks, as (neighbour, local edge of the element's cell, local edge
+     * of the neighbour's cell).
+     */
+    struct Link
+    {
+      unsigned int neighbor;
+      unsigned int edge_here, edge_there;
+    };
+
+    dealii::ArrayView<const Link>
+    joined(unsigned int element) const;
+
+    /// Elements of a cell.
+    dealii::ArrayView<const unsigned int>
+    cell_elements(unsigned int cell) const;
+
+    /// Pieces of the physical mesh (PhysicalMesh::pieces()) on an edge.
+    const std::vector<unsigned int> &
+    curve_set(unsigned int index) const;
+
+    /// Cells that went through the exact cutter.
+    unsigned int
+    n_cells_cut_exactly() const;
+
+    /// Element containing @p x [m] (on an edge: one of them), or invalid_index.
+    unsigned int
+    find_element(const dealii::Point<2> &x) const;
+
+  private:
+    struct Data;
+    std::unique_ptr<Data> data;
+
+  public:
+    ~ManifoldMesh();
+    ManifoldMesh(ManifoldMesh &&) noexcept;
+  };
+} // namespace NMM
+
+#endif

@@ -1,0 +1,118 @@
+#ifndef nmm_geometry_curve_h
+#define nmm_geometry_curve_h
+
+#include <deal.II/base/point.h>
+
+#include <string>
+#include <vector>
+
+namespace NMM
+{
+  /**
+   * One straight segment, circular arc or full circle of the physical mesh.
+   *
+   * Coordinates are taken as the exact numbers their doubles are. An arc is
+   * given by three points it passes through, because three doubles always lie
+   * exactly on one circle, while a rounded end point does not lie exactly on a
+   * circle given by centre and radius.
+   */
+  struct CurvePiece
+  {
+    enum class Kind
+    {
+      segment,
+      arc,
+      circle
+    };
+
+    static CurvePiece
+    segment(const dealii::Point<2> &start, const dealii::Point<2> &end);
+
+    static CurvePiece
+    arc(const dealii::Point<2> &start,
+        const dealii::Point<2> &through,
+        const dealii::Point<2> &end);
+
+    static CurvePiece
+    circle(const dealii::Point<2> &center, double radius);
+
+    Kind kind = Kind::segment;
+
+    /// First and last point [m]; for a circle both are center + (radius, 0).
+    dealii::Point<2> start, end;
+
+    /// A point of the arc between start and end [m]; arcs only.
+    dealii::Point<2> through;
+
+    /// Centre [m] and radius [m]: given for circles; for arcs derived exactly
+    /// and rounded once.
+    dealii::Point<2> center;
+    double           radius = 0.;
+  };
+
+  /// What a curve means to the solid.
+  enum class CurveRole
+  {
+    /// Part of the outer boundary of a domain.
+    boundary,
+    /// Part of the boundary of a hole in a domain.
+    hole,
+    /// A joint or crack: the displacement may jump across it.
+    joint,
+    /// A material interface: bonded, strain may jump, displacement does not.
+    interface
+  };
+
+  /// A joint whose faces do not touch (open: stress free) or are held together
+  /// (closed: tied until a strength is exceeded).
+  enum class JointState
+  {
+    open,
+    closed
+  };
+
+  /**
+   * A named curve: consecutive pieces, each starting where the last one ended.
+   */
+  struct Curve
+  {
+    std::string             name;
+    CurveRole               role = CurveRole::boundary;
+    std::vector<CurvePiece> pieces;
+
+    /// Joints only.
+    JointState state = JointState::open;
+
+    /// Of a boundary: the material of its domain; of a closed interface: the
+    /// material inside it. Empty: not said here.
+    std::string material;
+
+    /// Where it was read, as "file:line"; empty if made by a call.
+    std::string source;
+
+    /// First point of the first piece and last point of the last piece [m].
+    const dealii::Point<2> &
+    start() const;
+    const dealii::Point<2> &
+    end() const;
+
+    /// Whether the last point is exactly the first one.
+    bool
+    is_closed() const;
+
+    /**
+     * Throw an InputError that names the curve, unless every coordinate is
+     * finite, every piece has a length, every radius is positive and finite, no
+     * arc has (exactly) collinear points, each piece starts exactly where the
+     * last one ended, a full circle is the only piece, and there is a piece.
+     */
+    void
+    check() const;
+  };
+
+  /// "boundary", "hole", "joint" or "interface": the word of geometry files.
+  std::string
+  to_string(CurveRole role);
+} // namespace NMM
+
+#endif

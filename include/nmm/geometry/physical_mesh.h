@@ -1,0 +1,114 @@
+#ifndef nmm_geometry_physical_mesh_h
+#define nmm_geometry_physical_mesh_h
+
+#include <nmm/base/types.h>
+#include <nmm/geometry/geometry.h>
+
+#include <deal.II/base/bounding_box.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace NMM
+{
+  namespace internal
+  {
+    // The CGAL arrangement of the physical curves; see
+    // source/geometry/arrangement.h.
+    struct PhysicalArrangement;
+  } // namespace internal
+
+  /**
+   * The physical mesh: the exact arrangement of boundaries, holes, joints and
+   * interfaces, and the regions and blocks it makes.
+   *
+   * A *region* is a bounded, connected piece of the solid that no curve
+   * crosses; it has one material. A *block* is a maximal set of regions
+   * connected across material interfaces: what moves as one piece. A joint that
+   * ends inside a block (a crack) does not divide it.
+   *
+   * The topology is exact (CGAL Arrangement_2 over circles and segments with
+   * exact constructions): a joint through a vertex, along another or tangent to
+   * a circle is an ordinary case. Immutable once built.
+   */
+  class PhysicalMesh
+  {
+  public:
+    struct Region
+    {
+      /// Index into material_names(), or invalid_index if none was given.
+      unsigned int material;
+      /// Block this region belongs to.
+      unsigned int block;
+      /// Area [m^2].
+      double area;
+      /// A point inside [m], for messages and pictures.
+      dealii::Point<2> inside;
+    };
+
+    /**
+     * Check and build. @throws InputError with the curve's name, coordinates and
+     * remedy for: an open or self-intersecting boundary or hole, a hole outside
+     * its domain, overlapping domains, a joint or interface wholly outside, a
+     * material point outside, no boundary at all.
+     */
+    explicit PhysicalMesh(Geometry geometry);
+
+    ~PhysicalMesh();
+    PhysicalMesh(PhysicalMesh &&) noexcept;
+    PhysicalMesh &
+    operator=(PhysicalMesh &&) noexcept;
+
+    const std::vector<Curve> &
+    curves() const;
+
+    /**
+     * Pieces of all curves, numbered through: piece i belongs to curve
+     * piece_to_curve()[i].
+     */
+    const std::vector<CurvePiece> &
+    pieces() const;
+
+    const std::vector<unsigned int> &
+    piece_to_curve() const;
+
+    const std::vector<Region> &
+    regions() const;
+
+    unsigned int
+    n_blocks() const;
+
+    const std::vector<std::string> &
+    material_names() const;
+
+    /// Bounding box of the solid [m].
+    const dealii::BoundingBox<2> &
+    bounding_box() const;
+
+    /// Index of the first curve called @p name, or invalid_index.
+    unsigned int
+    find_curve(const std::string &name) const;
+
+    /// Indices of all curves called @p name: curves of one role may share a
+    /// name and then form one group, to all of which conditions apply.
+    std::vector<unsigned int>
+    find_curves(const std::string &name) const;
+
+    /// Notices that are no errors: parts of joints outside the solid, a joint
+    /// along a boundary, duplicated joints, an interface that separates
+    /// nothing. Sentences for people.
+    const std::vector<std::string> &
+    notices() const;
+
+    /// For the covers module: the exact arrangement.
+    const internal::PhysicalArrangement &
+    arrangement() const;
+
+  private:
+    struct Data;
+    std::unique_ptr<Data> data;
+  };
+} // namespace NMM
+
+#endif

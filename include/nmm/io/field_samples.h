@@ -1,0 +1,104 @@
+#ifndef nmm_io_field_samples_h
+#define nmm_io_field_samples_h
+
+#include <nmm/covers/triangulate.h>
+#include <nmm/io/scene_parameters.h>
+#include <nmm/mechanics/displacement_field.h>
+#include <nmm/mechanics/stress_recovery.h>
+
+#include <array>
+#include <vector>
+
+namespace NMM
+{
+  /// The solution at one point; stresses tension positive [Pa].
+  struct FieldSample
+  {
+    dealii::Tensor<1, 2> displacement;
+
+    /// In-plane stress and sigma_zz.
+    struct Stress
+    {
+      dealii::SymmetricTensor<2, 2> in_plane;
+      double                        zz = 0.;
+    };
+    Stress direct, recovered;
+  };
+
+  /// sqrt(3/2 s : s) of the three-dimensional deviator s [Pa].
+  double
+  von_mises_stress(const FieldSample::Stress &stress);
+
+  /// In-plane principal stresses, larger one first [Pa].
+  std::array<double, 2>
+  principal_stresses(const FieldSample::Stress &stress);
+
+  /**
+   * Evaluates displacement and stresses at points of this rank's elements.
+   * Lifetime: the arguments of the constructor must outlive it.
+   */
+  class FieldEvaluator
+  {
+  public:
+    FieldEvaluator(const DisplacementField &field,
+                   const StressRecovery    &recovery,
+                   const ElasticityProblem &problem);
+
+    /// At @p x [m] of @p element.
+    FieldSample
+    operator()(unsigned int element, const dealii::Point<2> &x) const;
+
+    /// Displacement alone [m].
+    dealii::Tensor<1, 2>
+    displacement(unsigned int element, const dealii::Point<2> &x) const;
+
+  private:
+    const DisplacementField  *field;
+    const StressRecovery     *recovery;
+    const ElasticityProblem  *problem;
+    std::vector<unsigned int> region_to_material;
+
+    double
+    stress_zz(unsigned int element, const dealii::Tensor<2, 2> &gradient) const;
+  };
+
+
+  /**
+   * This rank's manifold elements as quadratic triangles, for output. Nodes of
+   * neighbouring triangles are not shared, because direct stresses jump between
+   * elements and displacements jump across joints.
+   */
+  struct FieldTriangles
+  {
+    std::vector<QuadraticTriangle>          nodes;
+    std::vector<unsigned int>               elements;
+    std::vector<std::array<FieldSample, 6>> samples;
+
+    /// Without a solution (@p evaluator null) all samples are zero.
+    FieldTriangles(const CoverSystem &covers, const FieldEvaluator *evaluator);
+
+    /// Largest displacement on any rank [m].
+    double
+    max_displacement(MPI_Comm communicator) const;
+  };
+
+
+  /// Indices of a manifold element's block, region and material (0 if the
+  /// region has none).
+  struct ElementIds
+  {
+    unsigned int block, region, material;
+  };
+
+  ElementIds
+  element_ids(const ManifoldMesh &mesh, unsigned int element);
+
+  /// The number a picture is coloured by, at @p x [m] of an element.
+  double
+  quantity_value(const FieldSample      &sample,
+                 const ElementIds       &ids,
+                 const dealii::Point<2> &x,
+                 const OutputParameters &parameters);
+} // namespace NMM
+
+#endif

@@ -1,0 +1,319 @@
+#ifndef nmm_io_scene_parameters_h
+#define nmm_io_scene_parameters_h
+
+#include <nmm/covers/aggregation.h>
+#include <nmm/covers/mathematical_mesh.h>
+#include <nmm/mechanics/elasticity_problem.h>
+#include <nmm/mechanics/static_elasticity.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace NMM
+{
+  /**
+   * The sections of a scene file. Every struct declares and parses the entries
+   * of its own section (the caller has entered it) and checks what patterns
+   * cannot express. Units are any consistent set; the help texts name SI ones.
+   *
+   * Sections that hold a list have an entry `Names`; each name has a
+   * subsection of its own, so the list must be known before the entries can be
+   * declared: see SceneNames.
+   */
+  struct GeometryParameters
+  {
+    /// WKT geometry file, relative to the scene file; empty: `text` is used.
+    std::string file;
+    /// Geometry records separated by semicolons.
+    std::string text;
+    /// Tolerance of the cleaning step [m]; 0: off.
+    double cleaning_tolerance = 0.;
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
+    void
+    check() const;
+  };
+
+
+  /// Where a graded mathematical mesh is to be fine.
+  struct LocalSizeParameters
+  {
+    enum class Type
+    {
+      point,
+      box,
+      curve
+    };
+
+    std::string      name;
+    Type             type = Type::point;
+    dealii::Point<2> point, lower_corner, upper_corner;
+    std::string      curve;
+    /// Edge length there [m] and its growth with distance [-].
+    double size = 0., growth = 0.;
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
+    void
+    check() const;
+  };
+
+
+  struct MathematicalMeshParameters
+  {
+    enum class Type
+    {
+      regular,
+      graded,
+      gmsh
+    };
+
+    Type                             type = Type::regular;
+    RegularMeshParameters            regular;
+    unsigned int                     degree = 2;
+    std::string                      gmsh_file;
+    std::vector<LocalSizeParameters> local_sizes;
+
+    static void
+    declare(dealii::ParameterHandler       &prm,
+            const std::vector<std::string> &local_size_names);
+    void
+    parse(dealii::ParameterHandler &prm);
+    void
+    check() const;
+  };
+
+
+  struct CoverParameters
+  {
+    Stabilization stabilization = Stabilization::aggregation;
+    /// Least share of its cell's area that makes an element good [-].
+    double threshold = default_aggregation_threshold;
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
+  };
+
+
+  struct MaterialParameters
+  {
+    static void
+    declare(dealii::ParameterHandler &prm);
+    static Material
+    parse(dealii::ParameterHandler &prm, const std::string &name);
+  };
+
+
+  struct ModelParameters
+  {
+    PlaneState           plane_state = PlaneState::plane_stress;
+    double               thickness   = 1.;
+    dealii::Tensor<1, 2> gravity;
+    /// "fx; fy", expressions of x and y; empty: none.
+    std::string body_force;
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
+  };
+
+
+  struct BoundaryConditionParameters
+  {
+    std::string name;
+    /// Curves of the geometry.
+    std::vector<std::string> boundaries;
+    BoundaryCondition::Type  type = BoundaryCondition::Type::traction;
+    /// Expressions of x and y, separated by semicolons.
+    std::string         value;
+    std::array<bool, 2> components = {{true, true}};
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
+    void
+    check() const;
+  };
+
+
+  struct PointForceParameters
+  {
+    static void
+    declare(dealii::ParameterHandler &prm);
+    static PointForce
+    parse(dealii::ParameterHandler &prm);
+  };
+
+
+  struct FixedPointParameters
+  {
+    static void
+    declare(dealii::ParameterHandler &prm);
+    static FixedPoint
+    parse(dealii::ParameterHandler &prm);
+  };
+
+
+  struct SolverParameters
+  {
+    static void
+    declare(dealii::ParameterHandler &prm);
+    static LinearSolverParameters
+    parse(dealii::ParameterHandler &prm);
+  };
+
+
+  /// What a picture can be coloured by.
+  enum class Quantity
+  {
+    von_mises,
+    stress_xx,
+    stress_yy,
+    stress_xy,
+    first_principal,
+    second_principal,
+    radial_stress,
+    hoop_stress,
+    displacement,
+    displacement_x,
+    displacement_y,
+    block,
+    material
+  };
+
+  /// Its name in scene files and pictures, e.g. "von Mises stress".
+  const std::string &
+  to_string(Quantity quantity);
+
+  struct OutputParameters
+  {
+    bool        fields  = true;
+    bool        picture = true;
+    std::string title;
+    Quantity    quantity = Quantity::von_mises;
+    /// Colour by the recovered instead of the direct stress.
+    bool recovered = true;
+    /// Centre of the polar coordinates of radial and hoop stress [m].
+    dealii::Point<2> center;
+    /// Factor on displacements in the picture [-]; negative: chosen so that the
+    /// largest displacement is 5 % of the solid's size.
+    double deformation_scale = -1.;
+    /// Values at the ends of the colour bar; equal: those of the solution.
+    double       range_min = 0., range_max = 0.;
+    bool         mesh_lines    = true;
+    unsigned int picture_width = 1600;
+    std::string  length_unit = "m", stress_unit = "Pa";
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
+    void
+    check() const;
+  };
+
+
+  /// A point, or points along a line, at which the solution is written.
+  struct ProbeParameters
+  {
+    std::string      name;
+    bool             is_line = false;
+    dealii::Point<2> point, from, to;
+    unsigned int     n_points = 101;
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
+    void
+    check() const;
+  };
+
+
+  /**
+   * The exact solution the results are compared with. The thick ring takes its
+   * centre and radii from the two named curves, its pressures from the
+   * conditions on them and its moduli from the material, so that nothing is
+   * said twice.
+   */
+  struct ExactSolutionParameters
+  {
+    enum class Type
+    {
+      none,
+      thick_ring
+    };
+
+    Type        type = Type::none;
+    std::string inner_boundary, outer_boundary;
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
+    void
+    check() const;
+  };
+
+
+  /// The names in a scene's lists: what decides which subsections exist.
+  struct SceneNames
+  {
+    std::vector<std::string> local_sizes, materials, boundary_conditions,
+      point_forces, fixed_points, probes;
+
+    /// One name each, for the parameter reference.
+    static SceneNames
+    examples();
+
+    /// Declare the entries `Names` only.
+    static void
+    declare(dealii::ParameterHandler &prm);
+
+    /// @throws InputError for a name given twice or with a slash in it.
+    void
+    parse(dealii::ParameterHandler &prm);
+  };
+
+
+  /// A whole scene file.
+  struct SceneParameters
+  {
+    GeometryParameters                       geometry;
+    MathematicalMeshParameters               mathematical_mesh;
+    CoverParameters                          covers;
+    std::vector<Material>                    materials;
+    ModelParameters                          model;
+    std::vector<BoundaryConditionParameters> boundary_conditions;
+    std::vector<PointForce>                  point_forces;
+    std::vector<FixedPoint>                  fixed_points;
+    LinearSolverParameters                   solver;
+    OutputParameters                         output;
+    std::vector<ProbeParameters>             probes;
+    ExactSolutionParameters                  exact_solution;
+
+    static void
+    declare(dealii::ParameterHandler &prm, const SceneNames &names);
+
+    void
+    parse(dealii::ParameterHandler &prm, const SceneNames &names);
+
+    /// @throws InputError naming the parameter and its value.
+    void
+    check() const;
+  };
+} // namespace NMM
+
+#endif

@@ -1,0 +1,23 @@
+#ifndef nmm_io_vtu_h
+#define nmm_io_vtu_h
+
+#include <nmm/io/field_samples.h>
+#include <nmm/io/output_directory.h>
+
+namespace NMM
+{
+  /**
+   * Write fields.vtu, in parallel one fields.<rank>.vtu each and fields.pvtu,
+   * and fields.pvd: manifold elements as quadratic triangles (VTK cell type 22)
+   * with displacement, direct and recovered stress, von Mises and principal
+   * stresses (of the recovered stress), block, region and material numbers and
+   * the rank. ParaView's "Warp by vector" of the displacement shows the deformed
+   * shape.
+   */
+  void
+  write_fields(const CoverSystem     &covers,
+               const FieldTriangles  &triangles,
+               const OutputDirectory &directory);
+} // namespace NMM
+
+#endif

@@ -1,0 +1,70 @@
+#ifndef nmm_mechanics_stress_recovery_h
+#define nmm_mechanics_stress_recovery_h
+
+#include <nmm/covers/aggregation.h>
+#include <nmm/covers/cover_system.h>
+#include <nmm/mechanics/displacement_field.h>
+
+#include <array>
+#include <vector>
+
+namespace NMM
+{
+  /**
+   * Recovered stress by polynomial preserving recovery (Zhang & Naga, SIAM J.
+   * Sci. Comput. 26 (2005) 1192), made for covers: around each physical cover k of a
+   * corner node a polynomial pi_k of degree p+1 is fitted in the least-squares
+   * sense to the nodal displacements of the physical covers near it that are well
+   * supported (not aggregated) and connected to it within the same region; the
+   * recovered gradient blends them with the linear weight functions lambda_k
+   * @f[ G(x) = \sum_{k=1}^3 \lambda_k(x)\,\nabla\pi_k(x) @f]
+   * on each manifold element, and stress is sigma_0 + C : sym G. It is continuous within a
+   * region and exact for displacements of degree p+1.
+   *
+   * Nothing is averaged across a joint: a patch never crosses one, and a cover
+   * whose support holds both sides of a crack (around its tip) keeps the
+   * direct stress.
+   */
+  class StressRecovery
+  {
+  public:
+    /// Both arguments' cover system and @p field must outlive this object.
+    StressRecovery(const DisplacementField &field,
+                   const Aggregation       &aggregation);
+
+    /// Recovered du_i/dx_j [-] at reference coordinates @p xi of an owned
+    /// element's cell.
+    dealii::Tensor<2, 2>
+    gradient(unsigned int element, const dealii::Point<2> &xi) const;
+
+    /// Recovered stress there [Pa].
+    dealii::SymmetricTensor<2, 2>
+    stress(unsigned int element, const dealii::Point<2> &xi) const;
+
+    /// Corner covers that keep the direct stress.
+    unsigned int
+    n_direct() const;
+
+  private:
+    /// A fitted polynomial of two components, in monomials centred at the
+    /// cover's node and scaled by `scale` [m]: 1, x, y, x^2, xy, y^2, and for
+    /// p = 2 x^3, x^2 y, x y^2, y^3. Coefficients in [m].
+    struct Polynomial
+    {
+      dealii::Point<2>                      center;
+      double                                scale;
+      std::array<std::array<double, 10>, 2> coefficients;
+    };
+
+    dealii::Tensor<2, 2>
+    polynomial_gradient(const Polynomial       &polynomial,
+                        const dealii::Point<2> &x) const;
+
+    const DisplacementField  *field;
+    std::vector<Polynomial>   polynomials;
+    std::vector<unsigned int> cover_to_polynomial;
+    unsigned int              direct = 0;
+  };
+} // namespace NMM
+
+#endif

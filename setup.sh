@@ -1,0 +1,260 @@
+#!/usr/bin/env bash
+#
+# Set up, build and run everything, on Debian 12 or later:
+#
+#   ./setup.sh run    the thick ring, with the driver
+#   ./setup.sh test   all tests, Debug and Release
+#
+# Safe to repeat. Environment variables, all optional:
+#   NMM_JOBS=N                    compile and test with N jobs at a time
+#   NMM_SKIP_PACKAGES=1           neither look for packages nor install any
+#   NMM_WARNINGS_AS_ERRORS=ON     treat warnings in this project's code as errors
+#   OPENBLAS_NUM_THREADS=N        threads of the linear algebra library (1)
+
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+
+readonly packages=(
+  g++ cmake ninja-build pkg-config git clang-format
+  libdeal.ii-dev mpi-default-bin libopenblas0-pthread
+  libcgal-dev libeigen3-dev libcairo2-dev fonts-dejavu-core
+  libgtest-dev gnuplot-nox)
+
+export OPENBLAS_NUM_THREADS="${OPENBLAS_NUM_THREADS:-1}"
+
+
+say()
+{
+  printf '\n== %s\n' "$*"
+}
+
+
+warn()
+{
+  printf 'setup.sh: warning: %s\n' "$*" >&2
+}
+
+
+die()
+{
+  printf 'setup.sh: %s\n' "$*" >&2
+  exit 1
+}
+
+
+usage()
+{
+  cat <<'USAGE'
+Usage: ./setup.sh run    set up, build, and run the thick ring
+       ./setup.sh test   set up, build Debug and Release, and run every test
+USAGE
+}
+
+
+# Packages of the list above that are not installed.
+missing_packages()
+{
+  local package
+  for package in "${packages[@]}"; do
+    [[ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" \
+         == installed ]] || printf '%s ' "$package"
+  done
+}
+
+
+install_packages()
+{
+  if [[ -n "${NMM_SKIP_PACKAGES:-}" ]]; then
+    return
+  fi
+  command -v dpkg-query >/dev/null && command -v apt-get >/dev/null ||
+    die "this is not a Debian system (no apt-get). Install deal.II 9.4 or later" \
+        "with Trilinos (with MUMPS) and MPI, CGAL 5.5, Eigen 3.4, cairo," \
+        "GoogleTest, CMake 3.21 and Ninja by other means, and run this again" \
+        "with NMM_SKIP_PACKAGES=1."
+
+  local missing
+  read -ra missing <<<"$(missing_packages)"
+  if [[ ${#missing[@]} -eq 0 ]]; then
+    return
+  fi
+
+  say "Installing ${missing[*]}"
+  local command="apt-get install ${missing[*]}"
+  local as_root=()
+  if [[ $EUID -ne 0 ]]; then
+    command -v sudo >/dev/null ||
+      die "the packages above are missing, and installing them takes root's" \
+          "rights: there is no sudo here. Run this script once as root, or ask" \
+          "for: $command"
+    as_root=(sudo)
+    if [[ ! -t 0 ]]; then
+      as_root=(sudo -n)
+    fi
+    "${as_root[@]}" true ||
+      die "sudo did not let you in, and the packages above are missing. Run this" \
+          "script once as root, or ask for: $command"
+  fi
+
+  local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get
+             -q -o DPkg::Lock::Timeout=300)
+  "${apt[@]}" -o APT::Update::Error-Mode=any update ||
+    die "apt could not fetch the package lists (its message is above). Check the" \
+        "network connection and /etc/apt, then run this again."
+  local package
+  for package in "${missing[@]}"; do
+    apt-cache show "$package" >/dev/null 2>&1 ||
+      die "this system has no package '$package'. Debian 12 (bookworm) and later" \
+          "have it; see that /etc/apt names Debian's main archive."
+  done
+  "${apt[@]}" install -y --no-install-recommends "${missing[@]}" ||
+    die "apt could not install the packages (its message is above). Check the" \
+        "network connection and the space left on the disk, then run this again."
+}
+
+
+check_versions()
+{
+  if [[ -n "${NMM_SKIP_PACKAGES:-}" ]]; then
+    return
+  fi
+  local version
+  version="$(dpkg-query -W -f='${Version}' libdeal.ii-dev)"
+  dpkg --compare-versions "$version" ge 9.4 ||
+    die "this system's deal.II is $version, and 9.4 or later is needed: use" \
+        "Debian 12 or later, or install deal.II yourself, set DEAL_II_DIR and" \
+        "run this again with NMM_SKIP_PACKAGES=1."
+
+  # The direct solver is 2.5 times slower with the reference BLAS.
+  local name library
+  for name in libblas.so.3 liblapack.so.3; do
+    library="$(PATH="$PATH:/sbin:/usr/sbin" ldconfig -p |
+                 awk -v n="$name" '$1 == n && !l {l = $NF} END {print l}')"
+    library="$(readlink -f "${library:-$name}" || true)"
+    [[ "$library" == *openblas* ]] ||
+      warn "$name is '$library', not OpenBLAS: direct solves will be slow." \
+           "As root, run: update-alternatives --auto $name-$(gcc -print-multiarch)"
+  done
+}
+
+
+# Compiling one source file takes up to 2 GB.
+n_jobs()
+{
+  if [[ -n "${NMM_JOBS:-}" ]]; then
+    echo "$NMM_JOBS"
+    return
+  fi
+  local cores by_memory
+  cores="$(nproc)"
+  by_memory="$(awk '/^MemAvailable/ {print int($2 / 2000000)}' /proc/meminfo)"
+  [[ -n "$by_memory" && "$by_memory" -lt "$cores" ]] && cores="$by_memory"
+  echo $((cores > 1 ? cores : 1))
+}
+
+
+# configure_and_build <preset> [<target>...]
+configure_and_build()
+{
+  local preset="$1"
+  shift
+
+  # A tree that was moved or copied brings a cache that names the old place.
+  local cache="build/$preset/CMakeCache.txt"
+  if [[ -f "$cache" ]] &&
+     ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$(pwd -P)" "$cache"; then
+    warn "build/$preset belongs to another source tree; starting it afresh."
+    rm -rf "build/$preset"
+  fi
+
+  local log="build/configure-$preset.log"
+  mkdir -p build
+  say "Configuring build/$preset"
+  if ! cmake --preset "$preset" \
+         -DNMM_WARNINGS_AS_ERRORS="${NMM_WARNINGS_AS_ERRORS:-OFF}" \
+         >"$log" 2>&1; then
+    cat "$log" >&2
+    die "CMake could not configure the project (its message is above). If it" \
+        "speaks of a stale cache, remove build/$preset and run this again."
+  fi
+
+  say "Building build/$preset"
+  local target_arguments=()
+  if [[ $# -gt 0 ]]; then
+    target_arguments=(--target "$@")
+  fi
+  cmake --build --preset "$preset" --parallel "$(n_jobs)" \
+    "${target_arguments[@]}" ||
+    die "the $preset build failed (the compiler's message is above). If it says" \
+        "'Killed', memory ran out: try again with NMM_JOBS=1."
+}
+
+
+command_run()
+{
+  local scene=applications/nmm/scenes/ring.prm
+  local output=output/ring
+
+  configure_and_build release program_nmm
+
+  say "Running $scene"
+  local status=0
+  build/release/bin/nmm --output "$output" "$scene" || status=$?
+  [[ $status -eq 0 ]] ||
+    die "the driver ended with exit code $status (its message is above)."
+  local file
+  for file in summary.csv picture.png; do
+    [[ -s "$output/$file" ]] ||
+      die "the driver ended well but did not write $output/$file."
+  done
+
+  say "Done. Look at:"
+  printf '   picture  %s\n   table    %s\n' \
+    "$PWD/$output/picture.png" "$PWD/$output/summary.csv"
+}
+
+
+command_test()
+{
+  local preset failed=()
+  for preset in debug release; do
+    configure_and_build "$preset"
+    say "Testing build/$preset"
+    ctest --preset "$preset" --no-tests=error --parallel "$(n_jobs)" ||
+      failed+=("$preset")
+  done
+
+  [[ ${#failed[@]} -eq 0 ]] ||
+    die "tests failed in: ${failed[*]} (see above; to repeat them:" \
+        "ctest --preset ${failed[0]} --rerun-failed)."
+  say "All tests passed, Debug and Release."
+}
+
+
+main()
+{
+  case "${1:-}" in
+    run | test)
+      if [[ $# -gt 1 ]]; then
+        usage >&2
+        die "'$1' takes no arguments; '$2' is one too many."
+      fi
+      install_packages
+      check_versions
+      "command_$1"
+      ;;
+    help | -h | --help)
+      usage
+      ;;
+    '')
+      usage >&2
+      die "say what to do: 'run' or 'test'."
+      ;;
+    *)
+      usage >&2
+      die "there is no command '$1'; there are 'run' and 'test'."
+      ;;
+  esac
+}
+
+main "$@"

@@ -1,0 +1,201 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/covers/aggregation.h>
+
+#include <algorithm>
+
+namespace NMM
+{
+  using namespace dealii;
+
+  namespace
+  {
+    Point<2>
+    centroid(const MathematicalMesh &mesh, const unsigned int cell)
+    {
+      Point<2> sum;
+      for (const unsigned int v : mesh.cell_vertices(cell))
+        sum += mesh.vertices()[v];
+      return Point<2>(sum / 3.);
+    }
+
+
+    /// Gives every element that is joined to a rooted one a root, layer by
+    /// layer; among the roots of the previous layer the nearest.
+    void
+    spread_roots(const ManifoldMesh        &manifold_mesh,
+                 std::vector<unsigned int>  layer,
+                 std::vector<unsigned int> &element_to_root)
+    {
+      const MathematicalMesh &mesh = manifold_mesh.mathematical_mesh();
+      while (!layer.empty())
+      {
+        std::vector<std::pair<unsigned int, unsigned int>> found;
+        for (const unsigned int e : layer)
+          for (const ManifoldMesh::Link &link : manifold_mesh.joined(e))
+            if (element_to_root[link.neighbor] == invalid_index)
+              found.emplace_back(link.neighbor, element_to_root[e]);
+        std::sort(found.begin(), found.end());
+
+        layer.clear();
+        for (std::size_t i = 0; i < found.size();)
+        {
+          const unsigned int e    = found[i].first;
+          const Point<2>     here = centroid(mesh, manifold_mesh.cell(e));
+          double             best = 1e300;
+          for (; i < found.size() && found[i].first == e; ++i)
+          {
+            const double d = here.distance(
+              centroid(mesh, manifold_mesh.cell(found[i].second)));
+            // candidates are sorted: ties go to the lower number
+            if (d < best * (1. - 1e-10))
+            {
+              best               = d;
+              element_to_root[e] = found[i].second;
+            }
+          }
+          layer.push_back(e);
+        }
+      }
+    }
+
+
+    /// The largest element of the connected set that @p start is in.
+    unsigned int
+    largest_joined(const ManifoldMesh         &mesh,
+                   const unsigned int          start,
+                   std::vector<unsigned char> &seen)
+    {
+      std::vector<unsigned int> stack(1, start);
+      unsigned int              largest = start;
+      seen[start]                       = 1;
+      while (!stack.empty())
+      {
+        const unsigned int e = stack.back();
+        stack.pop_back();
+        if (mesh.area(e) > mesh.area(largest))
+          largest = e;
+        for (const ManifoldMesh::Link &link : mesh.joined(e))
+          if (!seen[link.neighbor])
+          {
+            seen[link.neighbor] = 1;
+            stack.push_back(link.neighbor);
+          }
+      }
+      return largest;
+    }
+  } // namespace
+
+
+  Aggregation
+  aggregate(CoverSystem &covers, const double threshold)
+  {
+    const ManifoldMesh     &manifold_mesh = covers.manifold_mesh();
+    const MathematicalMesh &mesh          = manifold_mesh.mathematical_mesh();
+    const unsigned int      n_elements    = manifold_mesh.n_elements();
+
+    Aggregation result;
+    result.element_to_root.assign(n_elements, invalid_index);
+
+    // only bad elements and their good neighbours take part in the search
+    std::vector<unsigned int> first_layer;
+    std::vector<unsigned int> bad;
+    for (unsigned int e = 0; e < n_elements; ++e)
+      if (manifold_mesh.is_whole(e) ||
+          manifold_mesh.area(e) >=
+            threshold * mesh.cell_area(manifold_mesh.cell(e)))
+        result.element_to_root[e] = e;
+      else
+        bad.push_back(e);
+    for (const unsigned int e : bad)
+      for (const ManifoldMesh::Link &link : manifold_mesh.joined(e))
+        if (result.element_to_root[link.neighbor] == link.neighbor)
+          first_layer.push_back(link.neighbor);
+    spread_roots(manifold_mesh, first_layer, result.element_to_root);
+
+    // what is left has no good element
+    std::vector<unsigned int>  roots;
+    std::vector<unsigned char> seen(bad.empty() ? 0 : n_elements, 0);
+    for (const unsigned int e : bad)
+      if (result.element_to_root[e] == invalid_index && !seen[e])
+        roots.push_back(largest_joined(manifold_mesh, e, seen));
+    for (const unsigned int root : roots)
+      result.element_to_root[root] = root;
+    spread_roots(manifold_mesh, roots, result.element_to_root);
+
+    // covers
+    result.is_free.assign(covers.n_covers(), false);
+    for (unsigned int e = 0; e < n_elements; ++e)
+      if (result.element_to_root[e] == e)
+        for (const unsigned int k : covers.covers(e))
+          result.is_free[k] = true;
+
+    std::vector<std::pair<unsigned int, unsigned int>> candidates;
+    for (const unsigned int e : bad)
+      for (const unsigned int k : covers.covers(e))
+        if (!result.is_free[k])
+          candidates.emplace_back(k, result.element_to_root[e]);
+    std::sort(candidates.begin(), candidates.end());
+    for (std::size_t i = 0; i < candidates.size();)
+    {
+      const unsigned int                    k             = candidates[i].first;
+      std::pair<unsigned int, unsigned int> best          = candidates[i];
+      double                                best_distance = 1e300;
+      for (; i < candidates.size() && candidates[i].first == k; ++i)
+      {
+        const double d = covers.node(k).distance(
+          centroid(mesh, manifold_mesh.cell(candidates[i].second)));
+        if (d < best_distance * (1. - 1e-10))
+        {
+          best_distance = d;
+          best          = candidates[i];
+        }
+      }
+      result.cover_to_root.push_back(best);
+    }
+
+    // values this rank needs
+    std::vector<types::global_dof_index> relevant;
+    for (const auto &[k, root] : result.cover_to_root)
+      if (covers.locally_relevant_covers().is_element(k))
+        for (const unsigned int r : covers.covers(root))
+          relevant.push_back(r);
+    covers.make_relevant(std::move(relevant));
+    return result;
+  }
+
+
+  AffineConstraints<double>
+  make_constraints(const CoverSystem &covers,
+                   const Aggregation &aggregation,
+                   const unsigned int n_components)
+  {
+    const MathematicalMesh   &mesh = covers.manifold_mesh().mathematical_mesh();
+    AffineConstraints<double> constraints(
+      covers.locally_relevant_dofs(n_components));
+    for (const auto &[k, root] : aggregation.cover_to_root)
+    {
+      if (!covers.locally_relevant_covers().is_element(k))
+        continue;
+      const Point<2> xi =
+        mesh.real_to_reference(covers.manifold_mesh().cell(root),
+                               covers.node(k));
+      const auto root_covers = covers.covers(root);
+      for (unsigned int c = 0; c < n_components; ++c)
+      {
+        const types::global_dof_index line = n_components * k + c;
+        constraints.add_line(line);
+        for (unsigned int j = 0; j < root_covers.size(); ++j)
+        {
+          // nodes of regular meshes often lie on each other's lattice
+          const double weight = mesh.fe().shape_value(j, xi);
+          if (std::abs(weight) > 1e-14)
+            constraints.add_entry(line,
+                                  n_components * root_covers[j] + c,
+                                  weight);
+        }
+      }
+    }
+    constraints.close();
+    return constraints;
+  }
+} // namespace NMM

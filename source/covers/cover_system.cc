@@ -1,0 +1,338 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/covers/cover_system.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace NMM
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Disjoint sets with path halving.
+    class UnionFind
+    {
+    public:
+      explicit UnionFind(const unsigned int n)
+        : parent(n)
+      {
+        std::iota(parent.begin(), parent.end(), 0u);
+      }
+
+      unsigned int
+      find(unsigned int i)
+      {
+        while (parent[i] != i)
+          i = parent[i] = parent[parent[i]];
+        return i;
+      }
+
+      void
+      join(const unsigned int i, const unsigned int j)
+      {
+        const unsigned int a = find(i), b = find(j);
+        parent[std::max(a, b)] = std::min(a, b);
+      }
+
+    private:
+      std::vector<unsigned int> parent;
+    };
+
+
+    /**
+     * Mathematical covers in whose support a physical curve runs. All others are
+     * one physical cover each, provided their elements are whole cells that are
+     * all joined; that holds where no cell of the support was near a curve.
+     */
+    std::vector<unsigned char>
+    find_divided_covers(const ManifoldMesh &manifold_mesh)
+    {
+      const MathematicalMesh    &mesh = manifold_mesh.mathematical_mesh();
+      std::vector<unsigned char> divided(mesh.n_mathematical_covers(), 0);
+      for (unsigned int e = 0; e < manifold_mesh.n_elements(); ++e)
+        if (manifold_mesh.edges(e).size() > 0)
+        {
+          const unsigned int *covers = mesh.cell_covers(manifold_mesh.cell(e));
+          for (unsigned int i = 0; i < mesh.n_covers_per_cell(); ++i)
+            divided[covers[i]] = 1;
+        }
+      return divided;
+    }
+  } // namespace
+
+
+  CoverSystem::CoverSystem(const ManifoldMesh &manifold_mesh,
+                           MPI_Comm            communicator)
+    : mesh(&manifold_mesh)
+    , mpi_communicator(communicator)
+    , n_per_element(manifold_mesh.mathematical_mesh().n_covers_per_cell())
+  {
+    number_covers();
+    distribute();
+  }
+
+
+  void
+  CoverSystem::number_covers()
+  {
+    const MathematicalMesh &mathematical_mesh = mesh->mathematical_mesh();
+    const unsigned int      n_elements        = mesh->n_elements();
+    const std::vector<unsigned char> divided  = find_divided_covers(*mesh);
+
+    // one slot per undivided mathematical cover, then one per (element, weight
+    // function) of divided ones
+    const unsigned int n_mathematical =
+      mathematical_mesh.n_mathematical_covers();
+    element_to_covers.resize(n_elements * n_per_element);
+    unsigned int              n_slots = n_mathematical;
+    std::vector<unsigned int> slot_to_mathematical;
+    for (unsigned int e = 0; e < n_elements; ++e)
+    {
+      const unsigned int *covers = mathematical_mesh.cell_covers(mesh->cell(e));
+      for (unsigned int i = 0; i < n_per_element; ++i)
+        if (divided[covers[i]])
+        {
+          element_to_covers[e * n_per_element + i] = n_slots++;
+          slot_to_mathematical.push_back(covers[i]);
+        }
+        else
+          element_to_covers[e * n_per_element + i] = covers[i];
+    }
+
+    // join slots of one mathematical cover across unblocked edges
+    UnionFind          slots(n_slots);
+    const auto        &on_edge   = mathematical_mesh.edge_to_local_covers();
+    const unsigned int n_on_edge = mathematical_mesh.degree() + 1;
+    for (unsigned int e = 0; e < n_elements; ++e)
+      for (const ManifoldMesh::Link &link : mesh->joined(e))
+        if (e < link.neighbor)
+          for (unsigned int k = 0; k < n_on_edge; ++k)
+          {
+            // neighbours run along their common edge in opposite directions
+            const unsigned int i = on_edge[link.edge_here][k],
+                               j = on_edge[link.edge_there][k < 2 ? 1 - k : k];
+            const unsigned int
+              a = element_to_covers[e * n_per_element + i],
+              b = element_to_covers[link.neighbor * n_per_element + j];
+            if (a != b)
+              slots.join(a, b);
+          }
+
+    // number by first appearance
+    std::vector<unsigned int> slot_to_cover(n_slots, invalid_index);
+    cover_to_mathematical.reserve(n_mathematical);
+    for (unsigned int &slot : element_to_covers)
+    {
+      const unsigned int root = slots.find(slot);
+      if (slot_to_cover[root] == invalid_index)
+      {
+        slot_to_cover[root] = cover_to_mathematical.size();
+        cover_to_mathematical.push_back(
+          root < n_mathematical ? root
+                                : slot_to_mathematical[root - n_mathematical]);
+      }
+      slot = slot_to_cover[root];
+    }
+  }
+
+
+  void
+  CoverSystem::distribute()
+  {
+    const unsigned int n_ranks =
+                         Utilities::MPI::n_mpi_processes(mpi_communicator),
+                       rank =
+                         Utilities::MPI::this_mpi_process(mpi_communicator);
+    const unsigned int n_elements = mesh->n_elements();
+
+    // a stretch never ends inside a cell
+    const auto begin_of = [&](const unsigned int r) {
+      unsigned int e = static_cast<unsigned int>(
+        static_cast<std::uint64_t>(n_elements) * r / n_ranks);
+      while (e > 0 && e < n_elements && mesh->cell(e) == mesh->cell(e - 1))
+        ++e;
+      return e;
+    };
+    owned_elements = {begin_of(rank), begin_of(rank + 1)};
+
+    // numbered by first appearance: a rank owns the covers that first appear in
+    // its elements, a consecutive range
+    const auto first_new_cover = [&](const unsigned int element) {
+      unsigned int n = 0;
+      for (unsigned int i = 0; i < element * n_per_element; ++i)
+        n = std::max(n, element_to_covers[i] + 1);
+      return n;
+    };
+    owned_covers.set_size(n_covers());
+    owned_covers.add_range(first_new_cover(owned_elements.first),
+                           first_new_cover(owned_elements.second));
+    owned_covers.compress();
+
+    relevant_covers = owned_covers;
+    if (n_ranks > 1)
+      add_relevant_elements(halo_width);
+  }
+
+
+  void
+  CoverSystem::add_relevant_elements(const unsigned int n_layers)
+  {
+    std::vector<unsigned char> seen(mesh->n_elements(), 0);
+    std::vector<unsigned int>  layer;
+    for (unsigned int e = owned_elements.first; e < owned_elements.second; ++e)
+    {
+      seen[e] = 1;
+      layer.push_back(e);
+    }
+    std::vector<types::global_dof_index> relevant;
+    for (unsigned int l = 0; l <= n_layers; ++l)
+    {
+      std::vector<unsigned int> next;
+      for (const unsigned int e : layer)
+      {
+        for (const unsigned int k : covers(e))
+          relevant.push_back(k);
+        for (const ManifoldMesh::Link &link : mesh->joined(e))
+          if (!seen[link.neighbor])
+          {
+            seen[link.neighbor] = 1;
+            next.push_back(link.neighbor);
+          }
+        for (const ElementEdge &edge : mesh->edges(e))
+          if (edge.neighbor != invalid_index && !seen[edge.neighbor])
+          {
+            seen[edge.neighbor] = 1;
+            next.push_back(edge.neighbor);
+          }
+      }
+      layer.swap(next);
+    }
+    make_relevant(relevant);
+  }
+
+
+  void
+  CoverSystem::make_relevant(std::vector<types::global_dof_index> covers)
+  {
+    std::sort(covers.begin(), covers.end());
+    covers.erase(std::unique(covers.begin(), covers.end()), covers.end());
+    relevant_covers.add_indices(covers.begin(), covers.end());
+    relevant_covers.compress();
+  }
+
+
+  const ManifoldMesh &
+  CoverSystem::manifold_mesh() const
+  {
+    return *mesh;
+  }
+
+
+  MPI_Comm
+  CoverSystem::communicator() const
+  {
+    return mpi_communicator;
+  }
+
+
+  unsigned int
+  CoverSystem::n_covers() const
+  {
+    return cover_to_mathematical.size();
+  }
+
+
+  ArrayView<const unsigned int>
+  CoverSystem::covers(const unsigned int element) const
+  {
+    AssertIndexRange(element, mesh->n_elements());
+    return ArrayView<const unsigned int>(element_to_covers.data() +
+                                           element * n_per_element,
+                                         n_per_element);
+  }
+
+
+  void
+  CoverSystem::get_dof_indices(
+    const unsigned int                    element,
+    const unsigned int                    n_components,
+    std::vector<types::global_dof_index> &indices) const
+  {
+    indices.resize(n_components * n_per_element);
+    const auto element_covers = covers(element);
+    for (unsigned int i = 0; i < n_per_element; ++i)
+      for (unsigned int c = 0; c < n_components; ++c)
+        indices[n_components * i + c] =
+          static_cast<types::global_dof_index>(n_components) *
+            element_covers[i] +
+          c;
+  }
+
+
+  unsigned int
+  CoverSystem::mathematical_cover(const unsigned int cover) const
+  {
+    AssertIndexRange(cover, n_covers());
+    return cover_to_mathematical[cover];
+  }
+
+
+  const Point<2> &
+  CoverSystem::node(const unsigned int cover) const
+  {
+    return mesh->mathematical_mesh().cover_node(mathematical_cover(cover));
+  }
+
+
+  std::pair<unsigned int, unsigned int>
+  CoverSystem::locally_owned_elements() const
+  {
+    return owned_elements;
+  }
+
+
+  const IndexSet &
+  CoverSystem::locally_owned_covers() const
+  {
+    return owned_covers;
+  }
+
+
+  const IndexSet &
+  CoverSystem::locally_relevant_covers() const
+  {
+    return relevant_covers;
+  }
+
+
+  namespace
+  {
+    IndexSet
+    covers_to_dofs(const IndexSet &covers, const unsigned int n_components)
+    {
+      IndexSet dofs(covers.size() * n_components);
+      for (auto interval = covers.begin_intervals();
+           interval != covers.end_intervals();
+           ++interval)
+        dofs.add_range(*interval->begin() * n_components,
+                       (interval->last() + 1) * n_components);
+      dofs.compress();
+      return dofs;
+    }
+  } // namespace
+
+
+  IndexSet
+  CoverSystem::locally_owned_dofs(const unsigned int n_components) const
+  {
+    return covers_to_dofs(owned_covers, n_components);
+  }
+
+
+  IndexSet
+  CoverSystem::locally_relevant_dofs(const unsigned int n_components) const
+  {
+    return covers_to_dofs(relevant_covers, n_components);
+  }
+} // namespace NMM

@@ -1,0 +1,477 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/covers/manifold_mesh.h>
+#include <nmm/covers/point_location.h>
+
+#include "cutting.h"
+#include <algorithm>
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <mutex>
+#include <numeric>
+
+namespace NMM
+{
+  using namespace dealii;
+
+  namespace
+  {
+    namespace bg     = boost::geometry;
+    using BoostPoint = bg::model::point<double, 2, bg::cs::cartesian>;
+    using BoostBox   = bg::model::box<BoostPoint>;
+    using CellTree =
+      bg::index::rtree<std::pair<BoostBox, unsigned int>, bg::index::rstar<16>>;
+
+    /**
+     * Cells that hold elements, in the order of a breadth-first walk over the
+     * cells that starts at a cell far from the middle: neighbours get near
+     * numbers (Cuthill & McKee 1969; all cells have at most three neighbours,
+     * so sorting them by degree, as the full algorithm does, changes nothing).
+     */
+    std::vector<unsigned int>
+    order_cells(const MathematicalMesh           &mesh,
+                const std::vector<unsigned char> &holds_elements)
+    {
+      std::vector<unsigned int>  order;
+      std::vector<unsigned char> is_seen(mesh.n_cells(), 0);
+      order.reserve(mesh.n_cells());
+      const auto walk = [&](const unsigned int          start,
+                            std::vector<unsigned char> &seen,
+                            std::vector<unsigned int>  &result) {
+        unsigned int next = result.size();
+        seen[start]       = 1;
+        result.push_back(start);
+        for (; next < result.size(); ++next)
+          for (const unsigned int e : mesh.cell_edges(result[next]))
+            for (const unsigned int c : mesh.edges()[e].cells)
+              if (c != invalid_index && holds_elements[c] && !seen[c])
+              {
+                seen[c] = 1;
+                result.push_back(c);
+              }
+      };
+
+      std::vector<unsigned char> is_probed(mesh.n_cells(), 0);
+      std::vector<unsigned int>  probe;
+      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+        if (holds_elements[c] && !is_seen[c])
+        {
+          // the last cell of a first walk is (nearly) peripheral
+          probe.clear();
+          walk(c, is_probed, probe);
+          walk(probe.back(), is_seen, order);
+        }
+      return order;
+    }
+
+
+    unsigned int
+    local_edge(const MathematicalMesh &mesh,
+               const unsigned int      cell,
+               const unsigned int      mesh_edge)
+    {
+      const auto &edges = mesh.cell_edges(cell);
+      for (unsigned int i = 0; i < 3; ++i)
+        if (edges[i] == mesh_edge)
+          return i;
+      Assert(false, ExcInternalError());
+      return invalid_index;
+    }
+  } // namespace
+
+
+  struct ManifoldMesh::Data
+  {
+    const MathematicalMesh *mathematical_mesh;
+    const PhysicalMesh     *physical_mesh;
+
+    std::vector<unsigned int>  element_to_cell;
+    std::vector<unsigned int>  element_to_region;
+    std::vector<unsigned char> element_is_whole;
+    /// Elements that the exact cutter made: their range of edges.
+    std::vector<std::pair<unsigned int, unsigned int>> element_to_edges;
+    std::vector<ElementEdge>                           edges;
+    std::vector<std::vector<unsigned int>>             curve_sets;
+
+    std::vector<unsigned int> first_link;
+    std::vector<Link>         links;
+
+    std::vector<unsigned int> elements_of_cells;
+    std::vector<unsigned int> cell_first_element;
+    std::vector<unsigned int> cell_n_elements;
+    unsigned int              n_cells_cut_exactly = 0;
+
+    mutable std::once_flag            tree_made;
+    mutable std::unique_ptr<CellTree> cell_tree;
+
+    /// Numbers elements; returns the map from codes of the cutter.
+    void
+    number_elements(const internal::Cutting          &cutting,
+                    const std::vector<unsigned char> &touched,
+                    std::vector<unsigned int>        &exact_to_element);
+
+    void
+    copy_edges(const internal::Cutting         &cutting,
+               const std::vector<unsigned int> &exact_to_element);
+
+    void
+    make_links(const internal::Cutting          &cutting,
+               const std::vector<unsigned char> &touched,
+               const std::vector<unsigned int>  &exact_to_element);
+
+    unsigned int
+    decode(const unsigned int               code,
+           const std::vector<unsigned int> &exact_to_element) const
+    {
+      if (code == invalid_index)
+        return invalid_index;
+      return code >= internal::whole_cell_flag
+               ? cell_first_element[code - internal::whole_cell_flag]
+               : exact_to_element[code];
+    }
+  };
+
+
+  void
+  ManifoldMesh::Data::number_elements(
+    const internal::Cutting          &cutting,
+    const std::vector<unsigned char> &touched,
+    std::vector<unsigned int>        &exact_to_element)
+  {
+    const unsigned int        n_cells = mathematical_mesh->n_cells();
+    std::vector<unsigned int> n_in_cell(n_cells, 0);
+    for (const auto &element : cutting.elements)
+      ++n_in_cell[element.cell];
+    std::vector<unsigned char> holds(n_cells, 0);
+    for (unsigned int c = 0; c < n_cells; ++c)
+    {
+      if (!touched[c] && cutting.cell_region[c] != invalid_index)
+        n_in_cell[c] = 1;
+      holds[c] = (n_in_cell[c] > 0);
+    }
+
+    cell_first_element.assign(n_cells, invalid_index);
+    cell_n_elements = std::move(n_in_cell);
+    for (const unsigned int c : order_cells(*mathematical_mesh, holds))
+    {
+      cell_first_element[c] = element_to_cell.size();
+      element_to_cell.insert(element_to_cell.end(), cell_n_elements[c], c);
+      element_to_region.insert(element_to_region.end(),
+                               cell_n_elements[c],
+                               cutting.cell_region[c]);
+    }
+    elements_of_cells.resize(element_to_cell.size());
+    std::iota(elements_of_cells.begin(), elements_of_cells.end(), 0u);
+
+    element_is_whole.assign(element_to_cell.size(), 1);
+    std::vector<unsigned int> next(cell_first_element);
+    exact_to_element.resize(cutting.elements.size());
+    for (unsigned int i = 0; i < cutting.elements.size(); ++i)
+    {
+      const auto        &exact   = cutting.elements[i];
+      const unsigned int element = next[exact.cell]++;
+      exact_to_element[i]        = element;
+      element_to_region[element] = exact.region;
+      element_is_whole[element]  = exact.is_whole;
+    }
+  }
+
+
+  void
+  ManifoldMesh::Data::copy_edges(
+    const internal::Cutting         &cutting,
+    const std::vector<unsigned int> &exact_to_element)
+  {
+    element_to_edges.assign(element_to_cell.size(), {0, 0});
+    for (unsigned int i = 0; i < cutting.elements.size(); ++i)
+    {
+      const auto &exact = cutting.elements[i];
+      const auto  first = cutting.edges.begin() + exact.first_edge,
+                 last   = cutting.edges.begin() + exact.end_edge;
+      // a whole element nothing touches needs no edges
+      if (exact.is_whole &&
+          std::all_of(first, last, [](const ElementEdge &edge) {
+            return edge.curve_set == invalid_index;
+          }))
+        continue;
+      auto &range  = element_to_edges[exact_to_element[i]];
+      range.first  = edges.size();
+      range.second = range.first + (exact.end_edge - exact.first_edge);
+      edges.insert(edges.end(), first, last);
+    }
+    for (ElementEdge &edge : edges)
+      edge.neighbor = decode(edge.neighbor, exact_to_element);
+    curve_sets = cutting.curve_sets;
+  }
+
+
+  void
+  ManifoldMesh::Data::make_links(
+    const internal::Cutting          &cutting,
+    const std::vector<unsigned char> &touched,
+    const std::vector<unsigned int>  &exact_to_element)
+  {
+    struct Pair
+    {
+      unsigned int a, b, mesh_edge;
+    };
+    std::vector<Pair> pairs;
+    pairs.reserve(mathematical_mesh->edges().size());
+    for (unsigned int e = 0; e < mathematical_mesh->edges().size(); ++e)
+    {
+      const auto &c = mathematical_mesh->edges()[e].cells;
+      if (c[0] != invalid_index && c[1] != invalid_index && !touched[c[0]] &&
+          !touched[c[1]] && cell_n_elements[c[0]] > 0 &&
+          cell_n_elements[c[1]] > 0)
+        pairs.push_back(
+          {cell_first_element[c[0]], cell_first_element[c[1]], e});
+    }
+    const std::size_t n_whole = pairs.size();
+    for (const auto &link : cutting.links)
+    {
+      const unsigned int a = decode(link.elements[0], exact_to_element),
+                         b = decode(link.elements[1], exact_to_element);
+      pairs.push_back({std::min(a, b), std::max(a, b), link.mesh_edge});
+    }
+    // an edge that curves cross several times can join a pair several times
+    const auto key = [](const Pair &p) {
+      return std::tie(p.a, p.b, p.mesh_edge);
+    };
+    std::sort(pairs.begin() + n_whole,
+              pairs.end(),
+              [&](const Pair &p, const Pair &q) { return key(p) < key(q); });
+    pairs.erase(std::unique(pairs.begin() + n_whole,
+                            pairs.end(),
+                            [&](const Pair &p, const Pair &q) {
+                              return key(p) == key(q);
+                            }),
+                pairs.end());
+
+    first_link.assign(element_to_cell.size() + 1, 0);
+    for (const Pair &p : pairs)
+    {
+      ++first_link[p.a + 1];
+      ++first_link[p.b + 1];
+    }
+    std::partial_sum(first_link.begin(), first_link.end(), first_link.begin());
+    links.resize(first_link.back());
+    std::vector<unsigned int> next(first_link.begin(), first_link.end() - 1);
+    for (const Pair &p : pairs)
+    {
+      const unsigned int edge_a = local_edge(*mathematical_mesh,
+                                             element_to_cell[p.a],
+                                             p.mesh_edge),
+                         edge_b = local_edge(*mathematical_mesh,
+                                             element_to_cell[p.b],
+                                             p.mesh_edge);
+      links[next[p.a]++]        = {p.b, edge_a, edge_b};
+      links[next[p.b]++]        = {p.a, edge_b, edge_a};
+    }
+  }
+
+
+  ManifoldMesh::ManifoldMesh(const MathematicalMesh &mathematical_mesh,
+                             const PhysicalMesh     &physical_mesh)
+    : data(std::make_unique<Data>())
+  {
+    data->mathematical_mesh = &mathematical_mesh;
+    data->physical_mesh     = &physical_mesh;
+    const std::vector<unsigned char> touched =
+      internal::find_cells_near_curves(mathematical_mesh, physical_mesh);
+    const internal::Cutting cutting =
+      internal::cut(mathematical_mesh, physical_mesh, touched);
+    data->n_cells_cut_exactly =
+      std::count(touched.begin(), touched.end(), static_cast<unsigned char>(1));
+
+    std::vector<unsigned int> exact_to_element;
+    data->number_elements(cutting, touched, exact_to_element);
+    data->copy_edges(cutting, exact_to_element);
+    data->make_links(cutting, touched, exact_to_element);
+  }
+
+
+  ManifoldMesh::~ManifoldMesh() = default;
+
+  ManifoldMesh::ManifoldMesh(ManifoldMesh &&) noexcept = default;
+
+
+  const MathematicalMesh &
+  ManifoldMesh::mathematical_mesh() const
+  {
+    return *data->mathematical_mesh;
+  }
+
+
+  const PhysicalMesh &
+  ManifoldMesh::physical_mesh() const
+  {
+    return *data->physical_mesh;
+  }
+
+
+  unsigned int
+  ManifoldMesh::n_elements() const
+  {
+    return data->element_to_cell.size();
+  }
+
+
+  unsigned int
+  ManifoldMesh::cell(const unsigned int element) const
+  {
+    AssertIndexRange(element, n_elements());
+    return data->element_to_cell[element];
+  }
+
+
+  unsigned int
+  ManifoldMesh::region(const unsigned int element) const
+  {
+    AssertIndexRange(element, n_elements());
+    return data->element_to_region[element];
+  }
+
+
+  unsigned int
+  ManifoldMesh::block(const unsigned int element) const
+  {
+    return data->physical_mesh->regions()[region(element)].block;
+  }
+
+
+  bool
+  ManifoldMesh::is_whole(const unsigned int element) const
+  {
+    AssertIndexRange(element, n_elements());
+    return data->element_is_whole[element] != 0;
+  }
+
+
+  double
+  ManifoldMesh::area(const unsigned int element) const
+  {
+    if (is_whole(element))
+      return data->mathematical_mesh->cell_area(cell(element));
+    // Green's theorem about the first corner: triangles, plus the circular
+    // segments between arcs and their chords
+    const auto     view   = edges(element);
+    const Point<2> origin = view[0].start;
+    double         sum    = 0.;
+    for (const ElementEdge &edge : view)
+    {
+      const Tensor<1, 2> a = edge.start - origin, b = edge.end - origin;
+      sum += 0.5 * (a[0] * b[1] - a[1] * b[0]);
+      if (edge.is_arc())
+      {
+        const double sweep =
+          swept_angle(edge.center, edge.start, edge.end, edge.radius > 0.);
+        sum += 0.5 * edge.radius * edge.radius * (sweep - std::sin(sweep));
+      }
+    }
+    return std::max(sum, 0.);
+  }
+
+
+  ArrayView<const ElementEdge>
+  ManifoldMesh::edges(const unsigned int element) const
+  {
+    AssertIndexRange(element, n_elements());
+    const auto [first, last] = data->element_to_edges[element];
+    return ArrayView<const ElementEdge>(data->edges.data() + first,
+                                        last - first);
+  }
+
+
+  ArrayView<const ManifoldMesh::Link>
+  ManifoldMesh::joined(const unsigned int element) const
+  {
+    AssertIndexRange(element, n_elements());
+    const unsigned int first = data->first_link[element];
+    return ArrayView<const Link>(data->links.data() + first,
+                                 data->first_link[element + 1] - first);
+  }
+
+
+  ArrayView<const unsigned int>
+  ManifoldMesh::cell_elements(const unsigned int cell) const
+  {
+    AssertIndexRange(cell, data->cell_n_elements.size());
+    if (data->cell_n_elements[cell] == 0)
+      return ArrayView<const unsigned int>(nullptr, 0);
+    return ArrayView<const unsigned int>(data->elements_of_cells.data() +
+                                           data->cell_first_element[cell],
+                                         data->cell_n_elements[cell]);
+  }
+
+
+  const std::vector<unsigned int> &
+  ManifoldMesh::curve_set(const unsigned int index) const
+  {
+    AssertIndexRange(index, data->curve_sets.size());
+    return data->curve_sets[index];
+  }
+
+
+  unsigned int
+  ManifoldMesh::n_cells_cut_exactly() const
+  {
+    return data->n_cells_cut_exactly;
+  }
+
+
+  unsigned int
+  ManifoldMesh::find_element(const Point<2> &x) const
+  {
+    const MathematicalMesh &mesh = *data->mathematical_mesh;
+    std::call_once(data->tree_made, [&]() {
+      std::vector<std::pair<BoostBox, unsigned int>> boxes;
+      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+        if (data->cell_n_elements[c] > 0)
+        {
+          const auto &v = mesh.cell_vertices(c);
+          BoostBox    box;
+          bg::assign_inverse(box);
+          for (const unsigned int i : v)
+            bg::expand(box,
+                       BoostPoint(mesh.vertices()[i][0],
+                                  mesh.vertices()[i][1]));
+          boxes.emplace_back(box, c);
+        }
+      data->cell_tree = std::make_unique<CellTree>(boxes);
+    });
+
+    // on a boundary, rounding decides: accept the nearest element within it
+    double tolerance = 1e-12;
+    for (unsigned int d = 0; d < 2; ++d)
+      tolerance = std::max(tolerance, 1e-12 * std::abs(x[d]));
+    unsigned int   nearest          = invalid_index;
+    double         nearest_distance = 1e300;
+    const BoostBox around({x[0] - tolerance, x[1] - tolerance},
+                          {x[0] + tolerance, x[1] + tolerance});
+    for (auto it = data->cell_tree->qbegin(bg::index::intersects(around));
+         it != data->cell_tree->qend();
+         ++it)
+    {
+      const unsigned int c     = it->second;
+      const Point<2>     xi    = mesh.real_to_reference(c, x);
+      const double       slack = 2. * tolerance / std::sqrt(mesh.cell_area(c));
+      if (xi[0] < -slack || xi[1] < -slack || xi[0] + xi[1] > 1. + slack)
+        continue;
+      for (const unsigned int e : cell_elements(c))
+      {
+        if (is_whole(e) || is_inside(edges(e), x))
+          return e;
+        for (const ElementEdge &edge : edges(e))
+        {
+          const double d = distance(edge, x);
+          if (d < nearest_distance)
+          {
+            nearest_distance = d;
+            nearest          = e;
+          }
+        }
+      }
+    }
+    return nearest_distance <= 10. * tolerance ? nearest : invalid_index;
+  }
+} // namespace NMM

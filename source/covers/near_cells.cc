@@ -1,0 +1,160 @@
+#include <nmm/covers/point_location.h>
+
+#include "cutting.h"
+#include <algorithm>
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <cmath>
+
+namespace NMM
+{
+  namespace internal
+  {
+    using namespace dealii;
+
+    namespace
+    {
+      namespace bg     = boost::geometry;
+      using BoostPoint = bg::model::point<double, 2, bg::cs::cartesian>;
+      using BoostBox   = bg::model::box<BoostPoint>;
+
+      /// A short stretch of a curve: all its points lie within `width` of the
+      /// chord a b [m].
+      struct Chunk
+      {
+        Point<2> a, b;
+        double   width;
+      };
+
+      using Tree = bg::index::rtree<std::pair<BoostBox, unsigned int>,
+                                    bg::index::rstar<16>>;
+
+
+      /// Edge length that most cells have, from the mean area [m].
+      double
+      typical_size(const MathematicalMesh &mesh)
+      {
+        double area = 0.;
+        for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+          area += mesh.cell_area(c);
+        return std::sqrt(2. * area / mesh.n_cells());
+      }
+
+
+      std::vector<Chunk>
+      make_chunks(const PhysicalMesh &physical_mesh,
+                  const double        spacing,
+                  const double        margin)
+      {
+        std::vector<Chunk> chunks;
+        for (const CurvePiece &piece : physical_mesh.pieces())
+        {
+          bool     first = true;
+          Point<2> previous;
+          for_each_sample(piece, spacing, [&](const Point<2> &x) {
+            if (!first)
+            {
+              // sagitta of a chord of length L: at most L^2 / (4 r) for
+              // arcs up to a half circle
+              const double chord = previous.distance(x);
+              const double sagitta =
+                piece.kind == CurvePiece::Kind::segment
+                  ? 0.
+                  : std::min(0.25 * chord * chord / piece.radius, piece.radius);
+              // a whole tiny circle has coinciding or few samples
+              const double tiny = (piece.kind != CurvePiece::Kind::segment &&
+                                   2. * piece.radius < spacing)
+                                    ? 2. * piece.radius
+                                    : 0.;
+              chunks.push_back({previous, x, std::max(sagitta, tiny) + margin});
+            }
+            first    = false;
+            previous = x;
+          });
+        }
+        return chunks;
+      }
+
+
+      /**
+       * Separating axes: a triangle and a segment are further apart than
+       * @p width if their projections on the normal of some edge of either are.
+       */
+      bool
+      are_apart(const std::array<Point<2>, 3> &triangle, const Chunk &chunk)
+      {
+        const auto separates = [&](const Tensor<1, 2> &direction) {
+          const double length = direction.norm();
+          if (length == 0.)
+            return false;
+          const Tensor<1, 2> axis(
+            {direction[1] / length, -direction[0] / length});
+          double low = 1e300, high = -1e300;
+          for (const Point<2> &v : triangle)
+          {
+            const double s = axis * (v - triangle[0]);
+            low            = std::min(low, s);
+            high           = std::max(high, s);
+          }
+          const double sa = axis * (chunk.a - triangle[0]),
+                       sb = axis * (chunk.b - triangle[0]);
+          return std::min(sa, sb) > high + chunk.width ||
+                 std::max(sa, sb) < low - chunk.width;
+        };
+        for (unsigned int i = 0; i < 3; ++i)
+          if (separates(triangle[(i + 1) % 3] - triangle[i]))
+            return true;
+        return separates(chunk.b - chunk.a);
+      }
+    } // namespace
+
+
+    std::vector<unsigned char>
+    find_cells_near_curves(const MathematicalMesh &mathematical_mesh,
+                           const PhysicalMesh     &physical_mesh)
+    {
+      const BoundingBox<2> &box   = physical_mesh.bounding_box();
+      double                scale = 0.;
+      for (unsigned int d = 0; d < 2; ++d)
+        scale = std::max(
+          {scale, std::abs(box.lower_bound(d)), std::abs(box.upper_bound(d))});
+
+      const std::vector<Chunk> chunks =
+        make_chunks(physical_mesh,
+                    2. * typical_size(mathematical_mesh),
+                    1e-10 * scale);
+      std::vector<std::pair<BoostBox, unsigned int>> boxes;
+      boxes.reserve(chunks.size());
+      for (unsigned int i = 0; i < chunks.size(); ++i)
+      {
+        const auto &[a, b, w] = chunks[i];
+        boxes.emplace_back(
+          BoostBox({std::min(a[0], b[0]) - w, std::min(a[1], b[1]) - w},
+                   {std::max(a[0], b[0]) + w, std::max(a[1], b[1]) + w}),
+          i);
+      }
+      const Tree tree(boxes);
+
+      std::vector<unsigned char> near(mathematical_mesh.n_cells(), 0);
+      const auto                &vertices = mathematical_mesh.vertices();
+      for (unsigned int c = 0; c < mathematical_mesh.n_cells(); ++c)
+      {
+        const auto                   &v = mathematical_mesh.cell_vertices(c);
+        const std::array<Point<2>, 3> triangle = {
+          {vertices[v[0]], vertices[v[1]], vertices[v[2]]}};
+        const auto [x0, x1] =
+          std::minmax({triangle[0][0], triangle[1][0], triangle[2][0]});
+        const auto [y0, y1] =
+          std::minmax({triangle[0][1], triangle[1][1], triangle[2][1]});
+        const auto candidates =
+          bg::index::intersects(BoostBox({x0, y0}, {x1, y1})) &&
+          bg::index::satisfies([&](const auto &value) {
+            return !are_apart(triangle, chunks[value.second]);
+          });
+        near[c] = (tree.qbegin(candidates) != tree.qend());
+      }
+      return near;
+    }
+  } // namespace internal
+} // namespace NMM

@@ -1,0 +1,81 @@
+#ifndef nmm_source_geometry_geometry_scanner_h
+#define nmm_source_geometry_geometry_scanner_h
+
+#include <nmm/base/exceptions.h>
+
+#include <string>
+
+namespace NMM
+{
+  namespace internal
+  {
+    /**
+     * Cuts the text of a geometry file into tokens. Blanks separate them,
+     * comments vanish, line ends count only outside parentheses.
+     */
+    class GeometryScanner
+    {
+    public:
+      enum class Kind
+      {
+        word,
+        quoted,
+        open_parenthesis,
+        close_parenthesis,
+        comma,
+        equals,
+        end_of_line,
+        end_of_text
+      };
+
+      struct Token
+      {
+        Kind         kind = Kind::end_of_text;
+        std::string  text;
+        unsigned int line = 1;
+      };
+
+      GeometryScanner(const std::string &text, std::string source_name);
+
+      /// The token that next() will return.
+      const Token &
+      peek() const;
+
+      Token
+      next();
+
+      /// Whether a word and then "=" come next, as in "name=left".
+      bool
+      next_is_key() const;
+
+      /// "file:line" of the next token.
+      std::string
+      place() const;
+
+      /// @throws InputError unless the next token, which it skips, is @p kind.
+      void
+      expect(Kind kind, const std::string &spelled, const std::string &remedy);
+
+      /// The next token as a finite number. @throws InputError
+      double
+      number();
+
+    private:
+      void
+      advance();
+      void
+      skip_blanks();
+
+      const std::string &text;
+      std::string        source_name;
+      std::size_t        position = 0;
+      unsigned int       line     = 1;
+      unsigned int       depth    = 0;
+      /// Line of the outermost parenthesis now open.
+      unsigned int opening_line = 1;
+      Token        current;
+    };
+  } // namespace internal
+} // namespace NMM
+
+#endif

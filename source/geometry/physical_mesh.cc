@@ -1,0 +1,484 @@
+#include <nmm/geometry/physical_mesh.h>
+
+#include <CGAL/Arr_batched_point_location.h>
+
+#include "geometry/arrangement.h"
+#include "geometry/face_labels.h"
+#include "geometry/loops.h"
+#include "geometry/messages.h"
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+#include <utility>
+
+namespace NMM
+{
+  struct PhysicalMesh::Data
+  {
+    std::vector<Curve>            curves;
+    std::vector<CurvePiece>       pieces;
+    std::vector<unsigned int>     piece_to_curve;
+    std::vector<Region>           regions;
+    unsigned int                  n_blocks = 0;
+    std::vector<std::string>      material_names;
+    dealii::BoundingBox<2>        bounding_box;
+    std::vector<std::string>      notices;
+    internal::PhysicalArrangement arrangement;
+
+    void
+    take_curves(Geometry &geometry);
+    void
+    insert_pieces();
+    /// Number the solid faces; region_to_face.
+    std::vector<unsigned int>
+    make_regions(const internal::LabelledFaces &faces);
+    void
+    make_blocks(const internal::LabelledFaces &faces);
+    void
+    assign_loop_materials(const internal::LabelledFaces   &faces,
+                          const internal::Loops           &loops,
+                          const std::vector<unsigned int> &region_to_face);
+    void
+    assign_material_points(
+      const std::vector<std::pair<dealii::Point<2>, std::string>> &points);
+    void
+    inspect_lines(const internal::LabelledFaces &faces);
+    unsigned int
+    material_index(const std::string &name);
+  };
+
+
+  namespace
+  {
+    /// Lengths [m] of the parts of a joint or interface.
+    struct LineUse
+    {
+      double inside         = 0.;
+      double outside        = 0.;
+      double along_boundary = 0.;
+      double twice          = 0.;
+      /// Inside, with different regions on both sides.
+      double separating = 0.;
+    };
+
+    bool
+    is_line(const Curve &curve)
+    {
+      return curve.role == CurveRole::joint ||
+             curve.role == CurveRole::interface;
+    }
+  } // namespace
+
+
+  void
+  PhysicalMesh::Data::take_curves(Geometry &geometry)
+  {
+    curves = std::move(geometry.curves());
+    bool                                has_boundary = false;
+    std::map<std::string, unsigned int> name_to_curve;
+    for (unsigned int c = 0; c < curves.size(); ++c)
+    {
+      const Curve &curve = curves[c];
+      curve.check();
+      has_boundary  = has_boundary || curve.role == CurveRole::boundary;
+      const auto it = name_to_curve.insert({curve.name, c}).first;
+      AssertThrow(curves[it->second].role == curve.role,
+                  InputError("the name '" + curve.name + "' belongs to a " +
+                               to_string(curves[it->second].role) +
+                               " and to a " + to_string(curve.role),
+                             internal::describe_place(curve, curve.start()),
+                             "rename one; only curves of the same role may "
+                             "share a name"));
+      for (const CurvePiece &piece : curve.pieces)
+      {
+        pieces.push_back(piece);
+        piece_to_curve.push_back(c);
+      }
+    }
+    AssertThrow(has_boundary,
+                InputError("the geometry has no outer boundary",
+                           curves.empty() || curves[0].source.empty()
+                             ? ""
+                             : curves[0].source,
+                           "add a closed curve of role 'boundary'"));
+    Assert(pieces.size() < internal::mesh_edge_flag,
+           dealii::ExcInternalError());
+  }
+
+
+  void
+  PhysicalMesh::Data::insert_pieces()
+  {
+    std::vector<internal::Traits::Curve_2> exact;
+    exact.reserve(pieces.size());
+    for (unsigned int p = 0; p < pieces.size(); ++p)
+      exact.emplace_back(internal::exact_curve(pieces[p]), p);
+    CGAL::insert(arrangement.arrangement, exact.begin(), exact.end());
+  }
+
+
+  std::vector<unsigned int>
+  PhysicalMesh::Data::make_regions(const internal::LabelledFaces &faces)
+  {
+    std::vector<unsigned int> region_to_face;
+    for (unsigned int f = 0; f < faces.faces().size(); ++f)
+      if (faces.is_solid(f))
+        region_to_face.push_back(f);
+
+    // From left to right: independent of the order in which curves are given.
+    const auto key = [&](const unsigned int f) {
+      const auto &face = faces.faces()[f];
+      return std::make_tuple(face.corner[0],
+                             face.corner[1],
+                             face.inside[0],
+                             face.inside[1]);
+    };
+    std::stable_sort(region_to_face.begin(),
+                     region_to_face.end(),
+                     [&](const unsigned int f, const unsigned int g) {
+                       return key(f) < key(g);
+                     });
+
+    std::vector<internal::DirectedEdge> outline;
+    for (const unsigned int f : region_to_face)
+    {
+      const auto &face           = faces.faces()[f];
+      face.handle->data().region = regions.size();
+      regions.push_back({invalid_index, invalid_index, face.area, face.inside});
+      outline.insert(outline.end(), face.boundary.begin(), face.boundary.end());
+    }
+    Assert(!outline.empty(), dealii::ExcInternalError());
+    bounding_box = internal::bounding_box(outline);
+    return region_to_face;
+  }
+
+
+  void
+  PhysicalMesh::Data::make_blocks(const internal::LabelledFaces &faces)
+  {
+    // Union-find; the representative is the lowest region.
+    std::vector<unsigned int> parent(regions.size());
+    std::iota(parent.begin(), parent.end(), 0u);
+    const auto root = [&](unsigned int r) {
+      while (parent[r] != r)
+        r = parent[r] = parent[parent[r]];
+      return r;
+    };
+    for (const auto &edge : faces.edges())
+    {
+      const unsigned int a = edge.halfedge->face()->data().region;
+      const unsigned int b = edge.halfedge->twin()->face()->data().region;
+      if (a == invalid_index || b == invalid_index ||
+          !std::all_of(edge.curves.begin(),
+                       edge.curves.end(),
+                       [&](const unsigned int c) {
+                         return curves[c].role == CurveRole::interface;
+                       }))
+        continue;
+      const auto [low, high] = std::minmax(root(a), root(b));
+      parent[high]           = low;
+    }
+    for (unsigned int r = 0; r < regions.size(); ++r)
+      regions[r].block = root(r) == r ? n_blocks++ : regions[root(r)].block;
+  }
+
+
+  unsigned int
+  PhysicalMesh::Data::material_index(const std::string &name)
+  {
+    const auto it =
+      std::find(material_names.begin(), material_names.end(), name);
+    if (it != material_names.end())
+      return it - material_names.begin();
+    material_names.push_back(name);
+    return material_names.size() - 1;
+  }
+
+
+  void
+  PhysicalMesh::Data::assign_loop_materials(
+    const internal::LabelledFaces   &faces,
+    const internal::Loops           &loops,
+    const std::vector<unsigned int> &region_to_face)
+  {
+    // Number materials in the order in which curves name them.
+    for (const Curve &curve : curves)
+      if (!curve.material.empty())
+      {
+        AssertThrow(curve.role == CurveRole::boundary ||
+                      curve.role == CurveRole::interface,
+                    InputError(internal::describe(curve) +
+                                 " names the material '" + curve.material + "'",
+                               internal::describe_place(curve, curve.start()),
+                               "only boundaries, closed interfaces and "
+                               "material points have one"));
+        material_index(curve.material);
+      }
+
+    std::vector<std::vector<unsigned int>> loop_to_faces(loops.loops.size());
+    for (unsigned int f = 0; f < faces.faces().size(); ++f)
+      for (const unsigned int loop : faces.faces()[f].loops)
+        loop_to_faces[loop].push_back(f);
+    const auto encloses = [&](const unsigned int outer,
+                              const unsigned int inner) {
+      return loop_to_faces[outer].size() > loop_to_faces[inner].size() &&
+             std::includes(loop_to_faces[outer].begin(),
+                           loop_to_faces[outer].end(),
+                           loop_to_faces[inner].begin(),
+                           loop_to_faces[inner].end());
+    };
+
+    for (unsigned int r = 0; r < regions.size(); ++r)
+    {
+      // Of nested loops the innermost, of others the later one.
+      unsigned int boundary  = invalid_index;
+      unsigned int inclusion = invalid_index;
+      for (const unsigned int loop : faces.faces()[region_to_face[r]].loops)
+      {
+        const auto replace_unless_outside = [&](unsigned int &current) {
+          if (current == invalid_index || !encloses(loop, current))
+            current = loop;
+        };
+        if (loops.loops[loop].role == CurveRole::boundary)
+          replace_unless_outside(boundary);
+        else if (loops.loops[loop].role == CurveRole::interface &&
+                 !loops.loops[loop].material.empty())
+          replace_unless_outside(inclusion);
+      }
+      Assert(boundary != invalid_index, dealii::ExcInternalError());
+      const std::string &material =
+        loops.loops[inclusion != invalid_index ? inclusion : boundary].material;
+      if (!material.empty())
+        regions[r].material = material_index(material);
+    }
+  }
+
+
+  void
+  PhysicalMesh::Data::assign_material_points(
+    const std::vector<std::pair<dealii::Point<2>, std::string>> &points)
+  {
+    using Arrangement = internal::Arrangement;
+    using Point       = internal::Traits::Point_2;
+    using Location    = CGAL::Arr_point_location_result<Arrangement>::Type;
+    const auto less = [](const dealii::Point<2> &a, const dealii::Point<2> &b) {
+      return std::make_pair(a[0], a[1]) < std::make_pair(b[0], b[1]);
+    };
+
+    // The sweep returns points in its own order: find them again by their
+    // coordinates, which are exactly representable.
+    std::vector<Point> exact;
+    for (const auto &[point, material] : points)
+      exact.emplace_back(internal::Kernel::FT(point[0]),
+                         internal::Kernel::FT(point[1]));
+    std::vector<std::pair<Point, Location>> located;
+    CGAL::locate(arrangement.arrangement,
+                 exact.begin(),
+                 exact.end(),
+                 std::back_inserter(located));
+    std::map<dealii::Point<2>, unsigned int, decltype(less)> point_to_region(
+      less);
+    for (const auto &[point, location] : located)
+    {
+      const auto *face = boost::get<Arrangement::Face_const_handle>(&location);
+      AssertThrow(face != nullptr,
+                  InputError("a material point lies on a curve",
+                             to_string(internal::to_double(point)),
+                             "move it into the region it means"));
+      point_to_region[internal::to_double(point)] = (*face)->data().region;
+    }
+
+    for (const auto &[point, material] : points)
+    {
+      const unsigned int region = point_to_region.at(point);
+      AssertThrow(region != invalid_index,
+                  InputError("the point of material '" + material +
+                               "' is outside the solid",
+                             to_string(point),
+                             "move it into the region it means"));
+      regions[region].material = material_index(material);
+    }
+  }
+
+
+  void
+  PhysicalMesh::Data::inspect_lines(const internal::LabelledFaces &faces)
+  {
+    std::vector<LineUse>                                    uses(curves.size());
+    std::map<std::pair<unsigned int, unsigned int>, double> overlaps;
+    for (const auto &edge : faces.edges())
+    {
+      std::vector<unsigned int> lines;
+      bool                      is_on_boundary = false;
+      for (const unsigned int c : edge.curves)
+        if (is_line(curves[c]))
+          lines.push_back(c);
+        else
+          is_on_boundary = true;
+      if (lines.empty())
+        continue;
+
+      const double       length = internal::length(faces.geometry(edge));
+      const unsigned int n_solid_sides =
+        faces.is_solid(edge.left) + faces.is_solid(edge.right);
+      for (const unsigned int c : lines)
+      {
+        LineUse &use = uses[c];
+        if (n_solid_sides == 0)
+          use.outside += length;
+        else if (n_solid_sides == 1)
+          use.along_boundary += length;
+        else
+          use.inside += length;
+        if (n_solid_sides == 2 && edge.left != edge.right && !is_on_boundary)
+          use.separating += length;
+        if (edge.repeated_curve == c)
+          use.twice += length;
+      }
+      if (n_solid_sides == 2)
+        for (unsigned int i = 0; i < lines.size(); ++i)
+          for (unsigned int j = i + 1; j < lines.size(); ++j)
+            overlaps[{lines[i], lines[j]}] += length;
+    }
+
+    for (unsigned int c = 0; c < curves.size(); ++c)
+    {
+      const Curve   &curve = curves[c];
+      const LineUse &use   = uses[c];
+      if (!is_line(curve))
+        continue;
+      const std::string name = internal::describe(curve);
+      AssertThrow(use.inside + use.along_boundary > 0.,
+                  InputError(name + " is wholly outside the solid",
+                             internal::describe_place(curve, curve.start()),
+                             "move or remove it"));
+      if (use.outside > 0.)
+        notices.push_back(name + " reaches outside the solid over " +
+                          internal::describe_length(use.outside) +
+                          "; that part is ignored");
+      if (use.along_boundary > 0.)
+        notices.push_back(name + " runs along a boundary over " +
+                          internal::describe_length(use.along_boundary) +
+                          "; it has no effect there");
+      if (use.twice > 0.)
+        notices.push_back(name + " runs along itself over " +
+                          internal::describe_length(use.twice) +
+                          "; that part counts once");
+      if (curve.role == CurveRole::interface && use.separating == 0.)
+        notices.push_back(name + " separates nothing");
+    }
+    for (const auto &[pair, length] : overlaps)
+      notices.push_back(internal::describe(curves[pair.first]) + " and " +
+                        internal::describe(curves[pair.second]) +
+                        " coincide over " + internal::describe_length(length));
+  }
+
+
+  PhysicalMesh::PhysicalMesh(Geometry geometry)
+    : data(std::make_unique<Data>())
+  {
+    const auto points = geometry.material_points();
+    data->take_curves(geometry);
+    const internal::Loops loops = internal::find_loops(data->curves);
+    data->insert_pieces();
+    const internal::LabelledFaces faces(data->arrangement.arrangement,
+                                        data->curves,
+                                        data->pieces,
+                                        data->piece_to_curve,
+                                        loops);
+    const auto                    region_to_face = data->make_regions(faces);
+    data->make_blocks(faces);
+    data->assign_loop_materials(faces, loops, region_to_face);
+    data->assign_material_points(points);
+    data->inspect_lines(faces);
+  }
+
+
+  PhysicalMesh::~PhysicalMesh()                        = default;
+  PhysicalMesh::PhysicalMesh(PhysicalMesh &&) noexcept = default;
+  PhysicalMesh &
+  PhysicalMesh::operator=(PhysicalMesh &&) noexcept = default;
+
+
+  const std::vector<Curve> &
+  PhysicalMesh::curves() const
+  {
+    return data->curves;
+  }
+
+
+  const std::vector<CurvePiece> &
+  PhysicalMesh::pieces() const
+  {
+    return data->pieces;
+  }
+
+
+  const std::vector<unsigned int> &
+  PhysicalMesh::piece_to_curve() const
+  {
+    return data->piece_to_curve;
+  }
+
+
+  const std::vector<PhysicalMesh::Region> &
+  PhysicalMesh::regions() const
+  {
+    return data->regions;
+  }
+
+
+  unsigned int
+  PhysicalMesh::n_blocks() const
+  {
+    return data->n_blocks;
+  }
+
+
+  const std::vector<std::string> &
+  PhysicalMesh::material_names() const
+  {
+    return data->material_names;
+  }
+
+
+  const dealii::BoundingBox<2> &
+  PhysicalMesh::bounding_box() const
+  {
+    return data->bounding_box;
+  }
+
+
+  unsigned int
+  PhysicalMesh::find_curve(const std::string &name) const
+  {
+    const std::vector<unsigned int> found = find_curves(name);
+    return found.empty() ? invalid_index : found.front();
+  }
+
+
+  std::vector<unsigned int>
+  PhysicalMesh::find_curves(const std::string &name) const
+  {
+    std::vector<unsigned int> found;
+    for (unsigned int c = 0; c < data->curves.size(); ++c)
+      if (data->curves[c].name == name)
+        found.push_back(c);
+    return found;
+  }
+
+
+  const std::vector<std::string> &
+  PhysicalMesh::notices() const
+  {
+    return data->notices;
+  }
+
+
+  const internal::PhysicalArrangement &
+  PhysicalMesh::arrangement() const
+  {
+    return data->arrangement;
+  }
+} // namespace NMM

@@ -1,0 +1,83 @@
+#ifndef nmm_source_io_parsing_h
+#define nmm_source_io_parsing_h
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/point.h>
+#include <deal.II/base/utilities.h>
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace NMM
+{
+  namespace internal
+  {
+    /// Pattern of a point or vector "x, y".
+    inline dealii::Patterns::List
+    vector_pattern()
+    {
+      return dealii::Patterns::List(dealii::Patterns::Double(), 2, 2, ",");
+    }
+
+
+    inline dealii::Point<2>
+    get_point(const dealii::ParameterHandler &prm, const std::string &key)
+    {
+      const std::vector<double> numbers = dealii::Utilities::string_to_double(
+        dealii::Utilities::split_string_list(prm.get(key), ','));
+      return {numbers[0], numbers[1]};
+    }
+
+
+    /// A list of names without empty ones.
+    inline std::vector<std::string>
+    get_names(const dealii::ParameterHandler &prm, const std::string &key)
+    {
+      std::vector<std::string> names;
+      for (const std::string &name :
+           dealii::Utilities::split_string_list(prm.get(key), ','))
+        if (!name.empty())
+          names.push_back(name);
+      return names;
+    }
+
+
+    /// Pattern of a selection from the words of @p map.
+    template <typename Enum>
+    dealii::Patterns::Selection
+    selection(const std::vector<std::pair<std::string, Enum>> &words)
+    {
+      std::string text;
+      for (const auto &word : words)
+        text += (text.empty() ? "" : "|") + word.first;
+      return dealii::Patterns::Selection(text);
+    }
+
+
+    template <typename Enum>
+    Enum
+    get_selection(const dealii::ParameterHandler                  &prm,
+                  const std::string                               &key,
+                  const std::vector<std::pair<std::string, Enum>> &words)
+    {
+      const std::string text = prm.get(key);
+      for (const auto &word : words)
+        if (word.first == text)
+          return word.second;
+      AssertThrow(false, dealii::ExcInternalError());
+      return words.front().second;
+    }
+
+
+    /// Entry `Components` of conditions and fixed points.
+    void
+    declare_components(dealii::ParameterHandler &prm);
+
+    std::array<bool, 2>
+    get_components(const dealii::ParameterHandler &prm);
+  } // namespace internal
+} // namespace NMM
+
+#endif

@@ -1,0 +1,474 @@
+#include <nmm/io/picture.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <algorithm>
+#include <cairo.h>
+#include <cmath>
+#include <cstdint>
+#include <iomanip>
+#include <memory>
+#include <sstream>
+
+namespace NMM
+{
+  namespace
+  {
+    using dealii::Point;
+
+    /// Where things are in the picture [pixels], and how the solid is mapped
+    /// into it.
+    struct Layout
+    {
+      int      width, height;
+      double   unit; // a thousandth of the width: line widths and fonts scale
+      double   left, top, plot_width, plot_height;
+      double   scale;
+      Point<2> lower, center;
+
+      Point<2>
+      operator()(const Point<2> &x) const
+      {
+        return {left + 0.5 * plot_width + scale * (x[0] - center[0]),
+                top + 0.5 * plot_height - scale * (x[1] - center[1])};
+      }
+    };
+
+
+    Layout
+    make_layout(const PictureData &data, const unsigned int width)
+    {
+      Point<2> lower(1e300, 1e300), upper(-1e300, -1e300);
+      for (const PictureData::Triangle &triangle : data.triangles)
+        for (const Point<2> &x : triangle.nodes)
+          for (unsigned int d = 0; d < 2; ++d)
+          {
+            lower[d] = std::min(lower[d], x[d]);
+            upper[d] = std::max(upper[d], x[d]);
+          }
+      if (data.triangles.empty())
+        lower = upper = Point<2>();
+
+      Layout layout;
+      layout.width      = static_cast<int>(width);
+      layout.unit       = width / 1000.;
+      layout.left       = 30. * layout.unit;
+      layout.top        = 85. * layout.unit;
+      layout.plot_width = width - layout.left - 180. * layout.unit;
+      layout.center     = Point<2>(0.5 * (lower + upper));
+      const double size = std::max(upper[0] - lower[0], upper[1] - lower[1]);
+      const double box_width  = std::max(upper[0] - lower[0], 1e-3 * size);
+      const double box_height = std::max(upper[1] - lower[1], 1e-3 * size);
+      // As wide as there is room, unless that makes the picture too tall; a
+      // flat solid leaves room for the colour bar.
+      layout.scale = size > 0. ? std::min(layout.plot_width / box_width,
+                                          1000. * layout.unit / box_height)
+                               : 1.;
+      layout.plot_height =
+        std::max(layout.scale * box_height, 320. * layout.unit);
+      layout.height = static_cast<int>(
+        std::ceil(layout.top + layout.plot_height + 30. * layout.unit));
+      return layout;
+    }
+
+
+    /// A pixel image, ARGB32 in native byte order as Cairo's.
+    struct Canvas
+    {
+      unsigned char *pixels;
+      int            width, height, stride;
+
+      void
+      set(const int x, const int y, const std::uint32_t colour)
+      {
+        reinterpret_cast<std::uint32_t *>(pixels + y * stride)[x] = colour;
+      }
+    };
+
+
+    std::vector<std::uint32_t>
+    make_colour_table()
+    {
+      std::vector<std::uint32_t> table(1024);
+      for (std::size_t i = 0; i < table.size(); ++i)
+      {
+        const auto    rgb    = colour_map(static_cast<double>(i) /
+                                    (static_cast<double>(table.size()) - 1.));
+        std::uint32_t colour = 0xff;
+        for (const double part : rgb)
+          colour =
+            (colour << 8) | static_cast<std::uint32_t>(255. * part + 0.5);
+        table[i] = colour;
+      }
+      return table;
+    }
+
+
+    /**
+     * Fill a straight triangle with linearly varying values in [0, 1]. Each
+     * pixel whose centre lies in it is set; pixels on an edge are set from both
+     * sides, so neighbours leave no seam.
+     */
+    void
+    fill_triangle(const std::array<Point<2>, 3>    &p,
+                  const std::array<double, 3>      &values,
+                  const std::vector<std::uint32_t> &colours,
+                  Canvas                           &canvas)
+    {
+      const double determinant = (p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) -
+                                 (p[2][0] - p[0][0]) * (p[1][1] - p[0][1]);
+      if (determinant == 0.)
+        return;
+      const auto [x_min, x_max] = std::minmax({p[0][0], p[1][0], p[2][0]});
+      const auto [y_min, y_max] = std::minmax({p[0][1], p[1][1], p[2][1]});
+      const int first_x = std::max(0, static_cast<int>(std::floor(x_min)));
+      const int last_x =
+        std::min(canvas.width - 1, static_cast<int>(std::ceil(x_max)));
+      const int first_y = std::max(0, static_cast<int>(std::floor(y_min)));
+      const int last_y =
+        std::min(canvas.height - 1, static_cast<int>(std::ceil(y_max)));
+      constexpr double slack = 1e-6;
+
+      for (int y = first_y; y <= last_y; ++y)
+        for (int x = first_x; x <= last_x; ++x)
+        {
+          const double dx = x + 0.5 - p[0][0];
+          const double dy = y + 0.5 - p[0][1];
+          const double l1 =
+            (dx * (p[2][1] - p[0][1]) - dy * (p[2][0] - p[0][0])) / determinant;
+          const double l2 =
+            (dy * (p[1][0] - p[0][0]) - dx * (p[1][1] - p[0][1])) / determinant;
+          if (l1 < -slack || l2 < -slack || l1 + l2 > 1. + slack)
+            continue;
+          const double value = values[0] + l1 * (values[1] - values[0]) +
+                               l2 * (values[2] - values[0]);
+          const double position = std::min(1., std::max(0., value)) *
+                                  (static_cast<double>(colours.size()) - 1.);
+          canvas.set(x, y, colours[static_cast<std::size_t>(position + 0.5)]);
+        }
+    }
+
+
+    /// The six quadratic shape functions, nodes as in QuadraticTriangle.
+    std::array<double, 6>
+    shape_functions(const double l1, const double l2)
+    {
+      const double l0 = 1. - l1 - l2;
+      return {{l0 * (2. * l0 - 1.),
+               l1 * (2. * l1 - 1.),
+               l2 * (2. * l2 - 1.),
+               4. * l0 * l1,
+               4. * l1 * l2,
+               4. * l2 * l0}};
+    }
+
+
+    /// Split into straight triangles of a few pixels and fill these.
+    void
+    fill_quadratic_triangle(const PictureData::Triangle      &triangle,
+                            const Layout                     &layout,
+                            const double                      minimum,
+                            const double                      range,
+                            const std::vector<std::uint32_t> &colours,
+                            Canvas                           &canvas)
+    {
+      double longest = 0.;
+      for (unsigned int i = 0; i < 3; ++i)
+        longest = std::max(longest,
+                           layout.scale * triangle.nodes[i].distance(
+                                            triangle.nodes[(i + 1) % 3]));
+      const int n =
+        std::min(12, std::max(2, static_cast<int>(std::ceil(longest / 10.))));
+
+      const auto at = [&](const int i, const int j) {
+        const auto shape = shape_functions(static_cast<double>(i) / n,
+                                           static_cast<double>(j) / n);
+        Point<2>   x;
+        double     value = 0.;
+        for (unsigned int k = 0; k < 6; ++k)
+        {
+          x += shape[k] * triangle.nodes[k];
+          value += shape[k] * triangle.values[k];
+        }
+        return std::make_pair(layout(x), (value - minimum) / range);
+      };
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i + j < n; ++i)
+        {
+          const auto a = at(i, j), b = at(i + 1, j), c = at(i, j + 1);
+          fill_triangle({{a.first, b.first, c.first}},
+                        {{a.second, b.second, c.second}},
+                        colours,
+                        canvas);
+          if (i + j + 1 < n)
+          {
+            const auto d = at(i + 1, j + 1);
+            fill_triangle({{b.first, d.first, c.first}},
+                          {{b.second, d.second, c.second}},
+                          colours,
+                          canvas);
+          }
+        }
+    }
+
+
+    void
+    draw_lines(cairo_t                                  *cr,
+               const std::vector<PictureData::Polyline> &lines,
+               const Layout                             &layout,
+               const double                              width,
+               const std::array<double, 4>              &colour)
+    {
+      cairo_set_source_rgba(cr, colour[0], colour[1], colour[2], colour[3]);
+      cairo_set_line_width(cr, width * layout.unit);
+      cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+      cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+      for (const PictureData::Polyline &line : lines)
+      {
+        for (std::size_t i = 0; i < line.size(); ++i)
+        {
+          const Point<2> x = layout(line[i]);
+          if (i == 0)
+            cairo_move_to(cr, x[0], x[1]);
+          else
+            cairo_line_to(cr, x[0], x[1]);
+        }
+        cairo_stroke(cr);
+      }
+    }
+
+
+    void
+    draw_text(cairo_t           *cr,
+              const std::string &text,
+              const double       x,
+              const double       y,
+              const double       size,
+              const double       max_width,
+              const bool         bold = false)
+    {
+      cairo_select_font_face(cr,
+                             "sans-serif",
+                             CAIRO_FONT_SLANT_NORMAL,
+                             bold ? CAIRO_FONT_WEIGHT_BOLD
+                                  : CAIRO_FONT_WEIGHT_NORMAL);
+      cairo_set_font_size(cr, size);
+      cairo_text_extents_t extents;
+      cairo_text_extents(cr, text.c_str(), &extents);
+      if (extents.x_advance > max_width)
+        cairo_set_font_size(cr, size * max_width / extents.x_advance);
+      cairo_set_source_rgb(cr, 0.1, 0.1, 0.1);
+      cairo_move_to(cr, x, y);
+      cairo_show_text(cr, text.c_str());
+    }
+
+
+    std::string
+    number_text(const double value)
+    {
+      std::ostringstream text;
+      text << std::setprecision(4) << value;
+      return text.str();
+    }
+
+
+    void
+    draw_colour_bar(cairo_t      *cr,
+                    const Layout &layout,
+                    const double  minimum,
+                    const double  maximum)
+    {
+      const double u      = layout.unit;
+      const double x      = layout.width - 150. * u;
+      const double width  = 26. * u;
+      const double height = std::min(layout.plot_height, 560. * u);
+      const double y      = layout.top + 0.5 * (layout.plot_height - height);
+
+      const std::unique_ptr<cairo_pattern_t, decltype(&cairo_pattern_destroy)>
+                    gradient(cairo_pattern_create_linear(0., y + height, 0., y),
+                 &cairo_pattern_destroy);
+      constexpr int n_stops = 64;
+      for (int i = 0; i <= n_stops; ++i)
+      {
+        const double t   = static_cast<double>(i) / n_stops;
+        const auto   rgb = colour_map(t);
+        cairo_pattern_add_color_stop_rgb(
+          gradient.get(), t, rgb[0], rgb[1], rgb[2]);
+      }
+      cairo_rectangle(cr, x, y, width, height);
+      cairo_set_source(cr, gradient.get());
+      cairo_fill_preserve(cr);
+      cairo_set_source_rgb(cr, 0.1, 0.1, 0.1);
+      cairo_set_line_width(cr, u);
+      cairo_stroke(cr);
+
+      for (const double tick : round_ticks(minimum, maximum, 7))
+      {
+        const double position =
+          maximum > minimum ? (tick - minimum) / (maximum - minimum) : 0.5;
+        const double tick_y = y + height * (1. - position);
+        cairo_move_to(cr, x + width, tick_y);
+        cairo_line_to(cr, x + width + 5. * u, tick_y);
+        cairo_stroke(cr);
+        draw_text(cr,
+                  number_text(tick),
+                  x + width + 9. * u,
+                  tick_y + 5. * u,
+                  15. * u,
+                  105. * u);
+      }
+    }
+
+
+    std::string
+    subtitle(const PictureData &data, const OutputParameters &parameters)
+    {
+      const Quantity     quantity = parameters.quantity;
+      std::ostringstream text;
+      text << std::setprecision(3);
+      const bool is_stress = quantity < Quantity::displacement;
+      const bool is_index =
+        quantity == Quantity::block || quantity == Quantity::material;
+      if (is_stress && !parameters.recovered)
+        text << "direct ";
+      text << to_string(quantity);
+      if (!is_index)
+        text << " ["
+             << (is_stress ? parameters.stress_unit : parameters.length_unit)
+             << ']';
+      if (data.deformation_scale != 0.)
+        text << ", displacements × " << data.deformation_scale;
+      return text.str();
+    }
+
+
+    /// Values at the ends of the colour bar.
+    std::pair<double, double>
+    value_range(const PictureData &data, const OutputParameters &parameters)
+    {
+      if (parameters.range_min < parameters.range_max)
+        return {parameters.range_min, parameters.range_max};
+      double minimum = 1e300, maximum = -1e300;
+      for (const PictureData::Triangle &triangle : data.triangles)
+        for (const double value : triangle.values)
+        {
+          minimum = std::min(minimum, value);
+          maximum = std::max(maximum, value);
+        }
+      if (!(minimum <= maximum))
+        return {0., 0.};
+      // A constant must not be coloured by its rounding errors.
+      if (maximum - minimum <=
+          1e-9 * std::max(std::abs(minimum), std::abs(maximum)))
+        return {minimum, minimum};
+      return {minimum, maximum};
+    }
+  } // namespace
+
+
+  std::array<double, 3>
+  colour_map(const double value)
+  {
+    // Viridis (Smith & van der Walt) at eleven equal steps.
+    static const std::array<std::array<double, 3>, 11> colours = {
+      {{{0.267, 0.005, 0.329}},
+       {{0.283, 0.141, 0.458}},
+       {{0.254, 0.265, 0.530}},
+       {{0.207, 0.372, 0.553}},
+       {{0.164, 0.471, 0.558}},
+       {{0.128, 0.567, 0.551}},
+       {{0.135, 0.659, 0.518}},
+       {{0.267, 0.749, 0.441}},
+       {{0.478, 0.821, 0.318}},
+       {{0.741, 0.873, 0.150}},
+       {{0.993, 0.906, 0.144}}}};
+    const double position =
+      std::min(1., std::max(0., value)) * (colours.size() - 1.);
+    const auto   i = std::min<std::size_t>(static_cast<std::size_t>(position),
+                                         colours.size() - 2);
+    const double t = position - static_cast<double>(i);
+    std::array<double, 3> colour;
+    for (unsigned int c = 0; c < 3; ++c)
+      colour[c] = (1. - t) * colours[i][c] + t * colours[i + 1][c];
+    return colour;
+  }
+
+
+  std::vector<double>
+  round_ticks(const double min, const double max, const unsigned int n)
+  {
+    if (!(max > min))
+      return {min};
+    const double rough = (max - min) / n;
+    const double power = std::pow(10., std::floor(std::log10(rough)));
+    double       step  = 10. * power;
+    for (const double factor : {5., 2., 1.})
+      if (factor * power >= rough * (1. - 1e-9))
+        step = factor * power;
+    std::vector<double> ticks;
+    for (double k = std::ceil(min / step - 1e-9); k * step <= max + 1e-9 * step;
+         ++k)
+      // Adding zero turns -0 into 0.
+      ticks.push_back(k * step + 0.);
+    return ticks;
+  }
+
+
+  void
+  draw_picture(const PictureData      &data,
+               const OutputParameters &parameters,
+               const std::string      &title,
+               const std::string      &file_name)
+  {
+    const Layout layout           = make_layout(data, parameters.picture_width);
+    const auto [minimum, maximum] = value_range(data, parameters);
+
+    const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>
+      surface(cairo_image_surface_create(CAIRO_FORMAT_ARGB32,
+                                         layout.width,
+                                         layout.height),
+              &cairo_surface_destroy);
+    const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cr(
+      cairo_create(surface.get()), &cairo_destroy);
+    cairo_set_source_rgb(cr.get(), 1., 1., 1.);
+    cairo_paint(cr.get());
+    cairo_surface_flush(surface.get());
+
+    Canvas     canvas{cairo_image_surface_get_data(surface.get()),
+                  layout.width,
+                  layout.height,
+                  cairo_image_surface_get_stride(surface.get())};
+    const auto colours = make_colour_table();
+    for (const PictureData::Triangle &triangle : data.triangles)
+      fill_quadratic_triangle(triangle,
+                              layout,
+                              minimum,
+                              maximum > minimum ? maximum - minimum : 1.,
+                              colours,
+                              canvas);
+    cairo_surface_mark_dirty(surface.get());
+
+    draw_lines(cr.get(), data.mesh_lines, layout, 0.4, {{1., 1., 1., 0.35}});
+    draw_lines(cr.get(), data.interfaces, layout, 1.0, {{0.9, 0.9, 0.9, 0.9}});
+    draw_lines(cr.get(), data.outlines, layout, 1.4, {{0.05, 0.05, 0.05, 1.}});
+
+    const double u = layout.unit;
+    draw_text(
+      cr.get(), title, 30. * u, 36. * u, 24. * u, layout.width - 60. * u, true);
+    draw_text(cr.get(),
+              subtitle(data, parameters),
+              30. * u,
+              63. * u,
+              17. * u,
+              layout.width - 60. * u);
+    draw_colour_bar(cr.get(), layout, minimum, maximum);
+
+    cairo_surface_flush(surface.get());
+    const cairo_status_t status =
+      cairo_surface_write_to_png(surface.get(), file_name.c_str());
+    AssertThrow(status == CAIRO_STATUS_SUCCESS,
+                dealii::ExcMessage(
+                  "The picture '" + file_name +
+                  "' cannot be written: " + cairo_status_to_string(status)));
+  }
+} // namespace NMM

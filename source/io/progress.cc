@@ -1,0 +1,91 @@
+#include <nmm/io/progress.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <exception>
+#include <iomanip>
+#include <sstream>
+
+namespace NMM
+{
+  Progress::Progress(std::ostream  &out,
+                     const bool     is_terminal,
+                     const MPI_Comm communicator)
+    : out(out)
+    , is_terminal(is_terminal)
+    , communicator(communicator)
+    , prints(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+  {
+  }
+
+
+  Progress::Stage::Stage(Progress &progress, std::string name)
+    : progress(progress)
+    , name(std::move(name))
+    , start(std::chrono::steady_clock::now())
+    , n_exceptions(std::uncaught_exceptions())
+  {
+    if (progress.prints && progress.is_terminal)
+      progress.out << "  " << this->name << " ..." << std::flush;
+  }
+
+
+  Progress::Stage::~Stage()
+  {
+    const bool failed = std::uncaught_exceptions() > n_exceptions;
+    // Ranks may not all have failed, so nobody waits then.
+    if (!failed)
+      MPI_Barrier(progress.communicator);
+    const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
+        .count();
+    progress.stage_times.emplace_back(name, seconds);
+    if (!progress.prints)
+      return;
+
+    std::ostringstream line;
+    line << (progress.is_terminal ? "\r\033[K" : "") << "  " << std::left
+         << std::setw(18) << name << std::right;
+    if (failed)
+      line << "    failed";
+    else
+      line << std::fixed << std::setprecision(3) << std::setw(8) << seconds
+           << " s";
+    if (!text.empty())
+      line << "  " << text;
+    progress.out << line.str() << std::endl;
+  }
+
+
+  void
+  Progress::Stage::remark(const std::string &words)
+  {
+    text = words;
+  }
+
+
+  void
+  Progress::message(const std::string &text)
+  {
+    if (prints)
+      out << text << std::endl;
+  }
+
+
+  const std::vector<std::pair<std::string, double>> &
+  Progress::times() const
+  {
+    return stage_times;
+  }
+
+
+  double
+  peak_memory(const MPI_Comm communicator)
+  {
+    dealii::Utilities::System::MemoryStats statistics;
+    dealii::Utilities::System::get_memory_stats(statistics);
+    return dealii::Utilities::MPI::sum(static_cast<double>(statistics.VmHWM),
+                                       communicator) /
+           1024.;
+  }
+} // namespace NMM

@@ -1,0 +1,219 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/io/parameter_tree.h>
+#include <nmm/io/scene.h>
+
+#include <deal.II/base/function_parser.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+namespace NMM
+{
+  namespace
+  {
+    /**
+     * Expressions of x and y, separated by semicolons, as a function with
+     * @p n_components components; null if @p text is empty.
+     */
+    std::shared_ptr<const dealii::Function<2>>
+    make_function(const std::string &text,
+                  const unsigned int n_components,
+                  const std::string &parameter)
+    {
+      if (text.find_first_not_of(" \t") == std::string::npos)
+        return nullptr;
+
+      const std::vector<std::string> expressions =
+        dealii::Utilities::split_string_list(text, ';');
+      const std::string where = "parameter '" + parameter + "'";
+      AssertThrow(expressions.size() == n_components,
+                  InputError("'" + text + "' has " +
+                               std::to_string(expressions.size()) +
+                               " expression(s) instead of " +
+                               std::to_string(n_components),
+                             where,
+                             n_components == 1
+                               ? "give one expression of x and y"
+                               : "give two, separated by a semicolon"));
+
+      auto function = std::make_shared<dealii::FunctionParser<2>>(n_components);
+      try
+      {
+        function->initialize("x,y", expressions, {{"pi", dealii::numbers::PI}});
+        // Expressions are compiled when first used.
+        function->value(dealii::Point<2>(0.25, 0.25));
+      }
+      catch (const dealii::ExceptionBase &error)
+      {
+        std::ostringstream message;
+        error.print_info(message);
+        std::string reason = message.str();
+        std::replace(reason.begin(), reason.end(), '\n', ' ');
+        AssertThrow(false,
+                    InputError("'" + text + "' is no valid expression (" +
+                                 reason + ")",
+                               where,
+                               "use x, y, pi, numbers, + - * / ^ and the "
+                               "usual functions"));
+      }
+      return function;
+    }
+
+
+    unsigned int
+    n_values(const BoundaryCondition::Type type)
+    {
+      return type == BoundaryCondition::Type::traction ||
+                 type == BoundaryCondition::Type::displacement
+               ? 2
+               : 1;
+    }
+
+
+    void
+    print_parameters(const dealii::ParameterHandler &prm,
+                     std::ostream                   &out,
+                     const Scene::Format             format)
+    {
+      using dealii::ParameterHandler;
+      switch (format)
+      {
+        case Scene::Format::prm:
+          prm.print_parameters(out,
+                               ParameterHandler::PRM |
+                                 ParameterHandler::KeepDeclarationOrder);
+          break;
+        case Scene::Format::json:
+          prm.print_parameters(out,
+                               ParameterHandler::ShortJSON |
+                                 ParameterHandler::KeepDeclarationOrder);
+          break;
+        case Scene::Format::markdown:
+          out << parameter_reference(prm);
+          break;
+      }
+    }
+  } // namespace
+
+
+  Scene::Scene(const std::string              &file_name,
+               const std::vector<std::string> &overrides)
+    : file_name(file_name)
+    , prm(std::make_shared<dealii::ParameterHandler>())
+  {
+    std::vector<ParameterAssignment> assignments;
+    for (const std::string &text : overrides)
+      assignments.push_back(parse_assignment(text));
+
+    {
+      dealii::ParameterHandler first_pass;
+      SceneNames::declare(first_pass);
+      read_parameters(file_name, assignments, true, first_pass);
+      names.parse(first_pass);
+    }
+
+    SceneParameters::declare(*prm, names);
+    read_parameters(file_name, assignments, false, *prm);
+    scene_parameters.parse(*prm, names);
+    scene_parameters.check();
+  }
+
+
+  const SceneParameters &
+  Scene::parameters() const
+  {
+    return scene_parameters;
+  }
+
+
+  void
+  Scene::print(std::ostream &out, const Format format) const
+  {
+    print_parameters(*prm, out, format);
+  }
+
+
+  void
+  Scene::print_defaults(std::ostream &out, const Format format)
+  {
+    dealii::ParameterHandler prm;
+    SceneParameters::declare(prm, SceneNames::examples());
+    print_parameters(prm, out, format);
+  }
+
+
+  std::string
+  Scene::title() const
+  {
+    return scene_parameters.output.title.empty()
+             ? std::filesystem::path(file_name).stem().string()
+             : scene_parameters.output.title;
+  }
+
+
+  std::string
+  Scene::relative_to_scene(const std::string &name) const
+  {
+    return (std::filesystem::path(file_name).parent_path() / name).string();
+  }
+
+
+  Geometry
+  Scene::make_geometry() const
+  {
+    const GeometryParameters &parameters = scene_parameters.geometry;
+    if (!parameters.file.empty())
+      return read_geometry(relative_to_scene(parameters.file));
+    std::string text = parameters.text;
+    std::replace(text.begin(), text.end(), ';', '\n');
+    return parse_geometry(text, file_name + ", parameter 'Geometry/Text'");
+  }
+
+
+  MathematicalMesh
+  Scene::make_mathematical_mesh(const PhysicalMesh &physical_mesh) const
+  {
+    const MathematicalMeshParameters &parameters =
+      scene_parameters.mathematical_mesh;
+    return make_regular_mesh(physical_mesh,
+                             parameters.regular,
+                             parameters.degree);
+  }
+
+
+  ElasticityProblem
+  Scene::make_problem() const
+  {
+    const ModelParameters &model = scene_parameters.model;
+    ElasticityProblem      problem;
+    problem.plane_state = model.plane_state;
+    problem.thickness   = model.thickness;
+    problem.gravity     = model.gravity;
+    problem.body_force = make_function(model.body_force, 2, "Model/Body force");
+    problem.materials  = scene_parameters.materials;
+    problem.point_forces = scene_parameters.point_forces;
+    problem.fixed_points = scene_parameters.fixed_points;
+
+    for (const auto &parameters : scene_parameters.boundary_conditions)
+    {
+      const auto value =
+        make_function(parameters.value,
+                      n_values(parameters.type),
+                      "Boundary conditions/" + parameters.name + "/Value");
+      for (const std::string &curve : parameters.boundaries)
+      {
+        BoundaryCondition condition;
+        condition.name          = parameters.name;
+        condition.curve         = curve;
+        condition.type          = parameters.type;
+        condition.value         = value;
+        condition.components[0] = parameters.components[0];
+        condition.components[1] = parameters.components[1];
+        problem.boundary_conditions.push_back(condition);
+      }
+    }
+    return problem;
+  }
+} // namespace NMM

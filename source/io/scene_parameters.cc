@@ -1,0 +1,432 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/io/scene_parameters.h>
+
+#include <algorithm>
+#include <io/parsing.h>
+#include <set>
+
+// Geometry, mathematical mesh, covers and solver: how the problem is discretized
+// and solved. Its physics is in scene_parameters_mechanics.cc, what is written in
+// scene_parameters_output.cc.
+namespace NMM
+{
+  using dealii::ParameterHandler;
+  namespace Patterns = dealii::Patterns;
+  using namespace internal;
+
+  namespace
+  {
+    const std::vector<std::pair<std::string, LocalSizeParameters::Type>>
+      local_size_types = {{"point", LocalSizeParameters::Type::point},
+                          {"box", LocalSizeParameters::Type::box},
+                          {"curve", LocalSizeParameters::Type::curve}};
+
+    const std::vector<std::pair<std::string, MathematicalMeshParameters::Type>>
+      mesh_types = {{"regular", MathematicalMeshParameters::Type::regular},
+                    {"graded", MathematicalMeshParameters::Type::graded},
+                    {"gmsh", MathematicalMeshParameters::Type::gmsh}};
+
+    const std::vector<std::pair<std::string, MeshPattern>> mesh_patterns = {
+      {"equilateral", MeshPattern::equilateral},
+      {"right-angled", MeshPattern::right_angled}};
+
+    const std::vector<std::pair<std::string, Stabilization>> stabilizations = {
+      {"aggregation", Stabilization::aggregation},
+      {"none", Stabilization::none}};
+
+    const std::vector<std::pair<std::string, LinearSolverParameters::Type>>
+      solver_types = {{"automatic", LinearSolverParameters::Type::automatic},
+                      {"direct", LinearSolverParameters::Type::direct},
+                      {"iterative", LinearSolverParameters::Type::iterative}};
+  } // namespace
+
+
+  void
+  GeometryParameters::declare(ParameterHandler &prm)
+  {
+    prm.declare_entry("File",
+                      "",
+                      Patterns::Anything(),
+                      "Geometry file (WKT records), relative to the folder of "
+                      "the scene file. Either this or Text.");
+    prm.declare_entry("Text",
+                      "",
+                      Patterns::Anything(),
+                      "The geometry itself: the records of a geometry file, "
+                      "separated by semicolons.");
+    prm.declare_entry(
+      "Cleaning tolerance",
+      "0",
+      Patterns::Double(0),
+      "Before cutting, ends of curves nearer than this to a "
+      "vertex or curve are moved onto it and shorter overshoots "
+      "are trimmed; every change is reported [m]. 0: the "
+      "geometry is taken exactly as it is.");
+  }
+
+
+  void
+  GeometryParameters::parse(ParameterHandler &prm)
+  {
+    file               = prm.get("File");
+    text               = prm.get("Text");
+    cleaning_tolerance = prm.get_double("Cleaning tolerance");
+  }
+
+
+  void
+  GeometryParameters::check() const
+  {
+    AssertThrow(file.empty() != text.empty(),
+                InputError(file.empty() ? "the scene has no geometry"
+                                        : "the scene has two geometries",
+                           "section 'Geometry'",
+                           "set either 'File' or 'Text'"));
+  }
+
+
+  void
+  LocalSizeParameters::declare(ParameterHandler &prm)
+  {
+    prm.declare_entry("Type",
+                      "point",
+                      selection(local_size_types),
+                      "Fine at a point, in a box or along a curve.");
+    prm.declare_entry("Point",
+                      "0, 0",
+                      vector_pattern(),
+                      "Type point: x, y [m].");
+    prm.declare_entry("Lower corner",
+                      "0, 0",
+                      vector_pattern(),
+                      "Type box: its lower left corner x, y [m].");
+    prm.declare_entry("Upper corner",
+                      "0, 0",
+                      vector_pattern(),
+                      "Type box: its upper right corner x, y [m].");
+    prm.declare_entry("Curve",
+                      "",
+                      Patterns::Anything(),
+                      "Type curve: name of a curve of the geometry.");
+    prm.declare_entry("Size",
+                      "0",
+                      Patterns::Double(0),
+                      "Edge length of triangles there, > 0 [m].");
+    prm.declare_entry("Growth",
+                      "0.3",
+                      Patterns::Double(0),
+                      "Increase of the edge length per distance from there "
+                      "[-]: small values grade gently.");
+  }
+
+
+  void
+  LocalSizeParameters::parse(ParameterHandler &prm)
+  {
+    type         = get_selection(prm, "Type", local_size_types);
+    point        = get_point(prm, "Point");
+    lower_corner = get_point(prm, "Lower corner");
+    upper_corner = get_point(prm, "Upper corner");
+    curve        = prm.get("Curve");
+    size         = prm.get_double("Size");
+    growth       = prm.get_double("Growth");
+  }
+
+
+  void
+  LocalSizeParameters::check() const
+  {
+    const std::string section = "section 'Mathematical mesh/" + name + "'";
+    AssertThrow(size > 0.,
+                InputError("the local size is " + std::to_string(size) + " m",
+                           section,
+                           "set 'Size' to a positive edge length"));
+    AssertThrow(type != Type::curve || !curve.empty(),
+                InputError("a local size along a curve without its name",
+                           section,
+                           "set 'Curve' to a curve of the geometry"));
+    AssertThrow(type != Type::box || (lower_corner[0] < upper_corner[0] &&
+                                      lower_corner[1] < upper_corner[1]),
+                InputError("the box of a local size is empty, from " +
+                             to_string(lower_corner) + " to " +
+                             to_string(upper_corner),
+                           section,
+                           "give a lower corner left of and below the upper "
+                           "one"));
+  }
+
+
+  void
+  MathematicalMeshParameters::declare(
+    ParameterHandler               &prm,
+    const std::vector<std::string> &local_size_names)
+  {
+    prm.declare_entry("Type",
+                      "regular",
+                      selection(mesh_types),
+                      "regular: equal triangles over the bounding box; graded: "
+                      "triangles that follow the local sizes in Names; gmsh: "
+                      "read from a file. None needs to fit the geometry.");
+    prm.declare_entry("Degree",
+                      "2",
+                      Patterns::Integer(1, 2),
+                      "Polynomial degree of the weight functions: 2 is the "
+                      "second-order method with six-node triangles.");
+    prm.declare_entry("Cell size",
+                      "0",
+                      Patterns::Double(0),
+                      "regular: edge length of the triangles (equilateral) or "
+                      "squares (right-angled); graded: the largest edge length "
+                      "[m]. Must be set for both.");
+    prm.declare_entry("Pattern",
+                      "equilateral",
+                      selection(mesh_patterns),
+                      "regular: equilateral triangles, or squares halved along "
+                      "a diagonal.");
+    prm.declare_entry("Offset",
+                      "0, 0",
+                      vector_pattern(),
+                      "regular: a node of the mesh lies at the centre of the "
+                      "bounding box plus this, before rotation [m].");
+    prm.declare_entry("Rotation",
+                      "0",
+                      Patterns::Double(),
+                      "regular: the mesh is turned counter-clockwise about the "
+                      "centre of the bounding box [degrees].");
+    prm.declare_entry("Whole box",
+                      "false",
+                      Patterns::Bool(),
+                      "regular: keep also the cells that surely lie outside "
+                      "the solid.");
+    prm.declare_entry("Gmsh file",
+                      "",
+                      Patterns::Anything(),
+                      "gmsh: triangle mesh that covers the solid, relative to "
+                      "the folder of the scene file.");
+    prm.declare_entry("Names",
+                      "",
+                      Patterns::List(Patterns::Anything(), 0),
+                      "graded: names of the local sizes, each with a "
+                      "subsection of its own.");
+    for (const std::string &name : local_size_names)
+    {
+      prm.enter_subsection(name);
+      LocalSizeParameters::declare(prm);
+      prm.leave_subsection();
+    }
+  }
+
+
+  void
+  MathematicalMeshParameters::parse(ParameterHandler &prm)
+  {
+    type               = get_selection(prm, "Type", mesh_types);
+    degree             = prm.get_integer("Degree");
+    regular.cell_size  = prm.get_double("Cell size");
+    regular.pattern    = get_selection(prm, "Pattern", mesh_patterns);
+    regular.offset     = get_point(prm, "Offset");
+    regular.rotation   = prm.get_double("Rotation");
+    regular.whole_box  = prm.get_bool("Whole box");
+    gmsh_file          = prm.get("Gmsh file");
+    const auto entries = get_names(prm, "Names");
+    local_sizes.clear();
+    for (const std::string &name : entries)
+    {
+      local_sizes.emplace_back();
+      local_sizes.back().name = name;
+      prm.enter_subsection(name);
+      local_sizes.back().parse(prm);
+      prm.leave_subsection();
+    }
+  }
+
+
+  void
+  MathematicalMeshParameters::check() const
+  {
+    const std::string section = "section 'Mathematical mesh'";
+    AssertThrow(type == Type::gmsh || regular.cell_size > 0.,
+                InputError("the cell size of the mathematical mesh is " +
+                             std::to_string(regular.cell_size) + " m",
+                           section,
+                           "set 'Cell size' to a positive length"));
+    AssertThrow((type == Type::gmsh) == !gmsh_file.empty(),
+                InputError(gmsh_file.empty()
+                             ? "no file for a mathematical mesh of type gmsh"
+                             : "the file '" + gmsh_file +
+                                 "' would not be used by this type of mesh",
+                           section,
+                           "set 'Gmsh file' for 'Type = gmsh' only"));
+    AssertThrow(type == Type::graded || local_sizes.empty(),
+                InputError("local sizes would not be used by this type of mesh",
+                           section,
+                           "set 'Type = graded', or leave 'Names' empty"));
+    for (const LocalSizeParameters &local_size : local_sizes)
+      local_size.check();
+  }
+
+
+  void
+  CoverParameters::declare(ParameterHandler &prm)
+  {
+    prm.declare_entry("Stabilization",
+                      "aggregation",
+                      selection(stabilizations),
+                      "What is done about physical covers with little support. "
+                      "aggregation: they follow the polynomial of the nearest "
+                      "well-supported element of the same block, so accuracy "
+                      "and conditioning do not depend on how the mesh is cut; "
+                      "none: the plain method.");
+    prm.declare_entry("Threshold",
+                      dealii::Patterns::Tools::to_string(
+                        default_aggregation_threshold),
+                      Patterns::Double(0, 1),
+                      "aggregation: an element is well supported if its area "
+                      "is at least this share of its cell's [-].");
+  }
+
+
+  void
+  CoverParameters::parse(ParameterHandler &prm)
+  {
+    stabilization = get_selection(prm, "Stabilization", stabilizations);
+    threshold     = prm.get_double("Threshold");
+  }
+
+
+  void
+  SolverParameters::declare(ParameterHandler &prm)
+  {
+    const LinearSolverParameters defaults;
+    prm.declare_entry("Type",
+                      "automatic",
+                      selection(solver_types),
+                      "direct: MUMPS; iterative: conjugate gradients with "
+                      "algebraic multigrid, which needs less memory; "
+                      "automatic: direct below Direct limit unknowns.");
+    prm.declare_entry("Direct limit",
+                      std::to_string(defaults.direct_limit),
+                      Patterns::Integer(0),
+                      "automatic: unknowns from which on the iterative solver "
+                      "is used.");
+    prm.declare_entry("Tolerance",
+                      dealii::Patterns::Tools::to_string(defaults.tolerance),
+                      Patterns::Double(0, 1),
+                      "iterative: relative residual at which it ends [-].");
+    prm.declare_entry("Maximum iterations",
+                      std::to_string(defaults.max_iterations),
+                      Patterns::Integer(1),
+                      "iterative: iterations after which it gives up (exit "
+                      "code 3).");
+  }
+
+
+  LinearSolverParameters
+  SolverParameters::parse(ParameterHandler &prm)
+  {
+    LinearSolverParameters parameters;
+    parameters.type           = get_selection(prm, "Type", solver_types);
+    parameters.direct_limit   = prm.get_integer("Direct limit");
+    parameters.tolerance      = prm.get_double("Tolerance");
+    parameters.max_iterations = prm.get_integer("Maximum iterations");
+    AssertThrow(parameters.tolerance > 0.,
+                InputError("the tolerance of the solver is 0",
+                           "parameter 'Solver/Tolerance'",
+                           "give a positive number such as 1e-11"));
+    return parameters;
+  }
+
+
+  SceneNames
+  SceneNames::examples()
+  {
+    SceneNames names;
+    names.local_sizes         = {"<local size>"};
+    names.materials           = {"<material>"};
+    names.boundary_conditions = {"<condition>"};
+    names.point_forces        = {"<force>"};
+    names.fixed_points        = {"<fixed point>"};
+    names.probes              = {"<probe>"};
+    return names;
+  }
+
+
+  namespace
+  {
+    /// Section of each list of names.
+    template <typename Names>
+    auto
+    sections_of_lists(Names &names)
+    {
+      return std::vector<std::pair<std::string, decltype(&names.materials)>>{
+        {"Mathematical mesh", &names.local_sizes},
+        {"Materials", &names.materials},
+        {"Boundary conditions", &names.boundary_conditions},
+        {"Point forces", &names.point_forces},
+        {"Fixed points", &names.fixed_points},
+        {"Probes", &names.probes}};
+    }
+  } // namespace
+
+
+  void
+  SceneNames::declare(ParameterHandler &prm)
+  {
+    SceneNames names;
+    for (const auto &list : sections_of_lists(names))
+    {
+      prm.enter_subsection(list.first);
+      prm.declare_entry("Names", "", Patterns::Anything());
+      prm.leave_subsection();
+    }
+  }
+
+
+  void
+  SceneNames::parse(ParameterHandler &prm)
+  {
+    for (const auto &[section, list] : sections_of_lists(*this))
+    {
+      prm.enter_subsection(section);
+      *list = get_names(prm, "Names");
+      prm.leave_subsection();
+
+      const std::string     where = "parameter '" + section + "/Names'";
+      std::set<std::string> seen;
+      for (const std::string &name : *list)
+      {
+        AssertThrow(seen.insert(name).second,
+                    InputError("the name '" + name + "' is given twice",
+                               where,
+                               "give each name once"));
+        AssertThrow(name.find_first_of("/=") == std::string::npos,
+                    InputError("the name '" + name +
+                                 "' contains a slash or an equals sign",
+                               where,
+                               "use letters, digits, spaces, dots and "
+                               "hyphens"));
+      }
+    }
+  }
+
+
+  void
+  SceneParameters::check() const
+  {
+    geometry.check();
+    mathematical_mesh.check();
+    AssertThrow(!materials.empty(),
+                InputError("the scene has no material",
+                           "section 'Materials'",
+                           "list at least one name in 'Names' and describe it "
+                           "in a subsection"));
+    for (const Material &material : materials)
+      material.check(model.plane_state);
+    for (const BoundaryConditionParameters &condition : boundary_conditions)
+      condition.check();
+    output.check();
+    for (const ProbeParameters &probe : probes)
+      probe.check();
+    exact_solution.check();
+  }
+} // namespace NMM

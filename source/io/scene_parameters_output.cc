@@ -1,0 +1,410 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/io/scene_parameters.h>
+
+#include <algorithm>
+#include <cmath>
+#include <io/parsing.h>
+
+// What is written and compared, and the scene as a whole.
+namespace NMM
+{
+  using dealii::ParameterHandler;
+  namespace Patterns = dealii::Patterns;
+  using namespace internal;
+
+  namespace
+  {
+    const std::vector<std::pair<std::string, Quantity>> quantities = {
+      {"von Mises stress", Quantity::von_mises},
+      {"stress xx", Quantity::stress_xx},
+      {"stress yy", Quantity::stress_yy},
+      {"stress xy", Quantity::stress_xy},
+      {"first principal stress", Quantity::first_principal},
+      {"second principal stress", Quantity::second_principal},
+      {"radial stress", Quantity::radial_stress},
+      {"hoop stress", Quantity::hoop_stress},
+      {"displacement", Quantity::displacement},
+      {"displacement x", Quantity::displacement_x},
+      {"displacement y", Quantity::displacement_y},
+      {"block", Quantity::block},
+      {"material", Quantity::material}};
+
+    const std::vector<std::pair<std::string, bool>> stress_choices =
+      {{"recovered", true}, {"direct", false}};
+
+    const std::vector<std::pair<std::string, bool>> probe_types =
+      {{"point", false}, {"line", true}};
+
+    const std::vector<std::pair<std::string, ExactSolutionParameters::Type>>
+      exact_solutions = {{"none", ExactSolutionParameters::Type::none},
+                         {"thick ring",
+                          ExactSolutionParameters::Type::thick_ring}};
+  } // namespace
+
+
+  const std::string &
+  to_string(const Quantity quantity)
+  {
+    return std::find_if(quantities.begin(),
+                        quantities.end(),
+                        [&](const auto &entry) {
+                          return entry.second == quantity;
+                        })
+      ->first;
+  }
+
+
+  void
+  OutputParameters::declare(ParameterHandler &prm)
+  {
+    prm.declare_entry("Title",
+                      "",
+                      Patterns::Anything(),
+                      "Title of the picture; empty: the scene's file name.");
+    prm.declare_entry("Fields",
+                      "true",
+                      Patterns::Bool(),
+                      "Write fields.vtu (fields.pvtu and one file per rank in "
+                      "parallel) and fields.pvd.");
+    prm.declare_entry("Picture",
+                      "true",
+                      Patterns::Bool(),
+                      "Write picture.png.");
+    prm.declare_entry("Picture quantity",
+                      "von Mises stress",
+                      selection(quantities),
+                      "What the picture is coloured by; displacement is the "
+                      "length of the displacement vector.");
+    prm.declare_entry("Picture stress",
+                      "recovered",
+                      selection(stress_choices),
+                      "Stress in the picture: smoothed within each region "
+                      "(recovered) or as the displacements give it (direct).");
+    prm.declare_entry("Picture center",
+                      "0, 0",
+                      vector_pattern(),
+                      "Centre of the polar coordinates of radial and hoop "
+                      "stress, x, y [m].");
+    prm.declare_entry("Picture range",
+                      "0, 0",
+                      vector_pattern(),
+                      "Values at the ends of the colour bar [Pa or m]; equal: "
+                      "the least and greatest value of the solution.");
+    prm.declare_entry("Picture width",
+                      "1600",
+                      Patterns::Integer(300, 10000),
+                      "Width of the picture [pixels].");
+    prm.declare_entry("Mesh lines",
+                      "true",
+                      Patterns::Bool(),
+                      "Draw the mathematical mesh in the picture.");
+    prm.declare_entry(
+      "Deformation scale",
+      "-1",
+      Patterns::Double(),
+      "Displacements are multiplied by this in the picture [-]; "
+      "0 draws the undeformed solid; negative: chosen so that "
+      "the largest displacement is 5 % of the solid's size.");
+    prm.declare_entry("Length unit",
+                      "m",
+                      Patterns::Anything(),
+                      "Unit of length in what is written; only a word.");
+    prm.declare_entry("Stress unit",
+                      "Pa",
+                      Patterns::Anything(),
+                      "Unit of stress in what is written; only a word.");
+  }
+
+
+  void
+  OutputParameters::parse(ParameterHandler &prm)
+  {
+    title     = prm.get("Title");
+    fields    = prm.get_bool("Fields");
+    picture   = prm.get_bool("Picture");
+    quantity  = get_selection(prm, "Picture quantity", quantities);
+    recovered = get_selection(prm, "Picture stress", stress_choices);
+    center    = get_point(prm, "Picture center");
+    const dealii::Point<2> range = get_point(prm, "Picture range");
+    range_min                    = range[0];
+    range_max                    = range[1];
+    picture_width                = prm.get_integer("Picture width");
+    mesh_lines                   = prm.get_bool("Mesh lines");
+    deformation_scale            = prm.get_double("Deformation scale");
+    length_unit                  = prm.get("Length unit");
+    stress_unit                  = prm.get("Stress unit");
+  }
+
+
+  void
+  OutputParameters::check() const
+  {
+    AssertThrow(range_min <= range_max,
+                InputError("the picture's range runs from " +
+                             std::to_string(range_min) + " down to " +
+                             std::to_string(range_max),
+                           "parameter 'Output/Picture range'",
+                           "give the smaller value first"));
+    for (const std::string &unit : {length_unit, stress_unit})
+      AssertThrow(unit.find_first_of(",\"") == std::string::npos,
+                  InputError("the unit '" + unit +
+                               "' contains a comma or quotation mark",
+                             "section 'Output'",
+                             "it has to fit in a CSV file"));
+  }
+
+
+  void
+  ProbeParameters::declare(ParameterHandler &prm)
+  {
+    prm.declare_entry("Type",
+                      "point",
+                      selection(probe_types),
+                      "A point, or points at equal distances along a line.");
+    prm.declare_entry("Point",
+                      "0, 0",
+                      vector_pattern(),
+                      "point: x, y in the solid [m].");
+    prm.declare_entry("From", "0, 0", vector_pattern(), "line: x, y [m].");
+    prm.declare_entry("To",
+                      "0, 0",
+                      vector_pattern(),
+                      "line: x, y [m]. The line may leave the solid.");
+    prm.declare_entry("Number of points",
+                      "101",
+                      Patterns::Integer(2, 1000000),
+                      "line: points on it, ends included.");
+  }
+
+
+  void
+  ProbeParameters::parse(ParameterHandler &prm)
+  {
+    is_line  = get_selection(prm, "Type", probe_types);
+    point    = get_point(prm, "Point");
+    from     = get_point(prm, "From");
+    to       = get_point(prm, "To");
+    n_points = prm.get_integer("Number of points");
+  }
+
+
+  void
+  ProbeParameters::check() const
+  {
+    AssertThrow(
+      !is_line || from != to,
+      InputError("the line of a probe has no length, from and to are " +
+                   to_string(from),
+                 "section 'Probes/" + name + "'",
+                 "give two different points, or 'Type = point'"));
+    AssertThrow(name.find_first_of(",\"") == std::string::npos,
+                InputError("the name '" + name + "' contains a quotation mark",
+                           "parameter 'Probes/Names'",
+                           "it has to fit in a CSV file"));
+  }
+
+
+  void
+  ExactSolutionParameters::declare(ParameterHandler &prm)
+  {
+    prm.declare_entry("Type",
+                      "none",
+                      selection(exact_solutions),
+                      "thick ring: Lame's solution of a circular ring under "
+                      "inner and outer pressure.");
+    prm.declare_entry(
+      "Inner boundary",
+      "",
+      Patterns::Anything(),
+      "thick ring: the curve that is its inner circle or a part "
+      "of it; centre, radius and pressure are taken from it.");
+    prm.declare_entry(
+      "Outer boundary",
+      "",
+      Patterns::Anything(),
+      "thick ring: the curve that is its outer circle or a part "
+      "of it.");
+  }
+
+
+  void
+  ExactSolutionParameters::parse(ParameterHandler &prm)
+  {
+    type           = get_selection(prm, "Type", exact_solutions);
+    inner_boundary = prm.get("Inner boundary");
+    outer_boundary = prm.get("Outer boundary");
+  }
+
+
+  void
+  ExactSolutionParameters::check() const
+  {
+    AssertThrow(type == Type::none ||
+                  (!inner_boundary.empty() && !outer_boundary.empty()),
+                InputError("the thick ring's boundaries are not named",
+                           "section 'Exact solution'",
+                           "set 'Inner boundary' and 'Outer boundary'"));
+  }
+
+
+  namespace
+  {
+    /// Call @p action in the subsection of each name.
+    template <typename Action>
+    void
+    for_each_name(ParameterHandler               &prm,
+                  const std::vector<std::string> &names,
+                  const Action                   &action)
+    {
+      for (const std::string &name : names)
+      {
+        prm.enter_subsection(name);
+        action(name);
+        prm.leave_subsection();
+      }
+    }
+
+
+    void
+    declare_list(ParameterHandler               &prm,
+                 const std::string              &section,
+                 const std::vector<std::string> &names,
+                 const std::string              &help,
+                 void (*declare)(ParameterHandler &))
+    {
+      prm.enter_subsection(section);
+      prm.declare_entry("Names",
+                        "",
+                        Patterns::List(Patterns::Anything(), 0),
+                        help);
+      for_each_name(prm, names, [&](const std::string &) { declare(prm); });
+      prm.leave_subsection();
+    }
+
+
+    void
+    declare_section(ParameterHandler  &prm,
+                    const std::string &section,
+                    void (*declare)(ParameterHandler &))
+    {
+      prm.enter_subsection(section);
+      declare(prm);
+      prm.leave_subsection();
+    }
+
+
+    template <typename Section>
+    void
+    parse_section(ParameterHandler  &prm,
+                  const std::string &name,
+                  Section           &section)
+    {
+      prm.enter_subsection(name);
+      section.parse(prm);
+      prm.leave_subsection();
+    }
+
+
+    /// Structs that keep their own name and parse themselves.
+    template <typename Entry>
+    void
+    parse_list(ParameterHandler               &prm,
+               const std::string              &section,
+               const std::vector<std::string> &names,
+               std::vector<Entry>             &entries)
+    {
+      prm.enter_subsection(section);
+      entries.clear();
+      for_each_name(prm, names, [&](const std::string &name) {
+        entries.emplace_back();
+        entries.back().name = name;
+        entries.back().parse(prm);
+      });
+      prm.leave_subsection();
+    }
+  } // namespace
+
+
+  void
+  SceneParameters::declare(ParameterHandler &prm, const SceneNames &names)
+  {
+    declare_section(prm, "Geometry", &GeometryParameters::declare);
+    prm.enter_subsection("Mathematical mesh");
+    MathematicalMeshParameters::declare(prm, names.local_sizes);
+    prm.leave_subsection();
+    declare_section(prm, "Covers", &CoverParameters::declare);
+    declare_list(prm,
+                 "Materials",
+                 names.materials,
+                 "Names of the materials, each with a subsection of its own; "
+                 "the geometry uses them.",
+                 &MaterialParameters::declare);
+    declare_section(prm, "Model", &ModelParameters::declare);
+    declare_list(prm,
+                 "Boundary conditions",
+                 names.boundary_conditions,
+                 "Names of the conditions, each with a subsection of its own. "
+                 "Boundaries without one are free.",
+                 &BoundaryConditionParameters::declare);
+    declare_list(prm,
+                 "Point forces",
+                 names.point_forces,
+                 "Names of the forces, each with a subsection of its own.",
+                 &PointForceParameters::declare);
+    declare_list(prm,
+                 "Fixed points",
+                 names.fixed_points,
+                 "Names of the points, each with a subsection of its own.",
+                 &FixedPointParameters::declare);
+    declare_section(prm, "Solver", &SolverParameters::declare);
+    declare_section(prm, "Output", &OutputParameters::declare);
+    declare_list(prm,
+                 "Probes",
+                 names.probes,
+                 "Names of the probes, each with a subsection of its own.",
+                 &ProbeParameters::declare);
+    declare_section(prm, "Exact solution", &ExactSolutionParameters::declare);
+  }
+
+
+  void
+  SceneParameters::parse(ParameterHandler &prm, const SceneNames &names)
+  {
+    parse_section(prm, "Geometry", geometry);
+    parse_section(prm, "Mathematical mesh", mathematical_mesh);
+    parse_section(prm, "Covers", covers);
+    parse_section(prm, "Model", model);
+    parse_section(prm, "Output", output);
+    parse_section(prm, "Exact solution", exact_solution);
+    parse_list(prm,
+               "Boundary conditions",
+               names.boundary_conditions,
+               boundary_conditions);
+    parse_list(prm, "Probes", names.probes, probes);
+
+    prm.enter_subsection("Solver");
+    solver = SolverParameters::parse(prm);
+    prm.leave_subsection();
+
+    prm.enter_subsection("Materials");
+    materials.clear();
+    for_each_name(prm, names.materials, [&](const std::string &name) {
+      materials.push_back(MaterialParameters::parse(prm, name));
+    });
+    prm.leave_subsection();
+
+    prm.enter_subsection("Point forces");
+    point_forces.clear();
+    for_each_name(prm, names.point_forces, [&](const std::string &) {
+      point_forces.push_back(PointForceParameters::parse(prm));
+    });
+    prm.leave_subsection();
+
+    prm.enter_subsection("Fixed points");
+    fixed_points.clear();
+    for_each_name(prm, names.fixed_points, [&](const std::string &) {
+      fixed_points.push_back(FixedPointParameters::parse(prm));
+    });
+    prm.leave_subsection();
+  }
+} // namespace NMM

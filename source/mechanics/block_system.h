@@ -1,0 +1,159 @@
+#ifndef nmm_source_mechanics_block_system_h
+#define nmm_source_mechanics_block_system_h
+
+#include <nmm/covers/cover_system.h>
+
+#include <deal.II/base/array_view.h>
+#include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <array>
+#include <vector>
+
+namespace NMM
+{
+  namespace internal
+  {
+    /**
+     * The linear system while it is assembled: a row-compressed matrix of 2x2
+     * blocks, one block row per physical cover that this rank's elements touch,
+     * with constraints resolved on the way in.
+     *
+     * A contribution names covers and a dense local matrix. Covers with
+     * constrained unknowns are replaced by what they are constrained to
+     * (u_k = sum_r W_kr u_r + g_k); their own rows keep a diagonal entry only.
+     * The order of calls is couple()*, build(), add()*, finish().
+     *
+     * Against deal.II's DynamicSparsityPattern + AffineConstraints +
+     * TrilinosWrappers::SparseMatrix::add(), all work is per cover instead of
+     * per unknown (a quarter of the entries), rows are written where their
+     * final place in memory is, and nothing is looked up by global number.
+     *
+     * Rows of covers that other ranks own are collected here and sent to their
+     * owners, the pattern in build(), the values in finish().
+     */
+    class BlockSystem
+    {
+    public:
+      BlockSystem(const CoverSystem                       &covers,
+                  const dealii::AffineConstraints<double> &constraints);
+
+      /// All pairs of @p covers will be coupled. Owned elements are coupled
+      /// already.
+      void
+      couple(dealii::ArrayView<const unsigned int> covers);
+
+      /// Make the sparsity pattern.
+      void
+      build();
+
+      /**
+       * Add a local matrix, row-major, (2n x 2n), and right-hand side, (2n), to
+       * the n @p covers; unknown c of cover i is row 2i + c. A cover may be
+       * named twice.
+       */
+      void
+      add(dealii::ArrayView<const unsigned int> covers,
+          const double                         *matrix,
+          const double                         *rhs);
+
+      /// Exchange with other ranks and hand over to Trilinos.
+      void
+      finish(dealii::TrilinosWrappers::SparseMatrix &matrix,
+             dealii::TrilinosWrappers::MPI::Vector  &rhs);
+
+    private:
+      /// u_k += block * u_cover.
+      struct Term
+      {
+        unsigned int          cover;
+        std::array<double, 4> block;
+      };
+
+      /// What constrained covers stand for, one after the other.
+      struct Expansion
+      {
+        std::vector<unsigned int>          begin;
+        std::vector<Term>                  terms;
+        std::vector<std::array<double, 2>> inhomogeneity;
+        std::vector<std::array<bool, 2>>   constrained;
+      };
+
+      void
+      read_constraints(const dealii::AffineConstraints<double> &constraints);
+
+      /// The free covers that @p covers stand for, each once, in the order in
+      /// which they are met; appended to @p expanded.
+      void
+      expand(dealii::ArrayView<const unsigned int> covers,
+             std::vector<unsigned int>            &expanded) const;
+
+      void
+      number_rows();
+
+      void
+      fill_rows();
+
+      void
+      exchange_pattern();
+
+      void
+      localize_columns();
+
+      void
+      exchange_values();
+
+      void
+      fix_empty_diagonals();
+
+      void
+      add_to_rows(const unsigned int *covers,
+                  unsigned int        n,
+                  const double       *matrix,
+                  const double       *rhs);
+
+      void
+      add_constrained(dealii::ArrayView<const unsigned int> covers,
+                      const double                         *matrix,
+                      const double                         *rhs);
+
+      bool
+      has_constrained(dealii::ArrayView<const unsigned int> covers) const;
+
+      /// Block of a row, of which entry (c, d) is at [c * stride + d].
+      double *
+      find_block(unsigned int row, unsigned int column, unsigned int &stride);
+
+      const CoverSystem        *covers;
+      unsigned int              first_owned, n_owned;
+      std::vector<unsigned int> cover_to_expansion;
+      Expansion                 expansion;
+
+      /// Sets of mutually coupled covers; released by build().
+      std::vector<unsigned int> stencil_begin, stencil_covers;
+
+      /// Local numbers: owned covers first, then others, ascending.
+      std::vector<unsigned int> cover_to_local;
+      std::vector<unsigned int> ghost_covers;
+      unsigned int              n_rows = 0;
+
+      /// Block rows: columns in local numbers, ascending. Values lie as in the
+      /// scalar matrix: both scalar rows of a block row one after the other.
+      std::vector<std::size_t>  row_begin;
+      std::vector<unsigned int> columns;
+      std::vector<double>       values;
+      std::vector<double>       right_hand_side;
+
+      /// Per rank: rows sent and received, each as cover, n, n columns (global).
+      std::vector<std::pair<unsigned int, std::vector<unsigned int>>> sent,
+        received;
+
+      /// Scratch of add_constrained().
+      std::vector<unsigned int> local_covers, local_position;
+      std::vector<double>       local_matrix, local_rhs;
+    };
+  } // namespace internal
+} // namespace NMM
+
+#endif

@@ -1,0 +1,96 @@
+#include <Epetra_CrsGraph.h>
+#include <Epetra_CrsMatrix.h>
+#include <Epetra_Map.h>
+#include <algorithm>
+#include <mechanics/block_system.h>
+
+namespace NMM
+{
+  namespace internal
+  {
+    namespace
+    {
+      using Index = dealii::TrilinosWrappers::types::int_type;
+
+      void
+      check(const int error_code)
+      {
+        AssertThrow(error_code >= 0,
+                    dealii::ExcMessage("Epetra returned the error code " +
+                                       std::to_string(error_code)));
+      }
+    } // namespace
+
+
+    /**
+     * Straight into an Epetra matrix with known row lengths and local column
+     * numbers: TrilinosWrappers::SparsityPattern would look up every column.
+     */
+    void
+    BlockSystem::finish(dealii::TrilinosWrappers::SparseMatrix &matrix,
+                        dealii::TrilinosWrappers::MPI::Vector  &rhs)
+    {
+      if (dealii::Utilities::MPI::n_mpi_processes(covers->communicator()) > 1)
+        exchange_values();
+      fix_empty_diagonals();
+
+      const dealii::IndexSet owned = covers->locally_owned_dofs(2);
+      const Epetra_Map       row_map =
+        owned.make_trilinos_map(covers->communicator(), false);
+      std::vector<Index> column_numbers;
+      column_numbers.reserve(2 * (n_owned + ghost_covers.size()));
+      for (unsigned int i = 0; i < 2 * n_owned; ++i)
+        column_numbers.push_back(2 * first_owned + i);
+      for (const unsigned int k : ghost_covers)
+      {
+        column_numbers.push_back(2 * k);
+        column_numbers.push_back(2 * k + 1);
+      }
+      const Epetra_Map column_map(
+        -1, column_numbers.size(), column_numbers.data(), 0, row_map.Comm());
+
+      std::vector<int> lengths(2 * n_owned);
+      for (unsigned int r = 0; r < n_owned; ++r)
+        lengths[2 * r] = lengths[2 * r + 1] =
+          2 * static_cast<int>(row_begin[r + 1] - row_begin[r]);
+
+      Epetra_CrsGraph graph(
+        ::Copy, row_map, column_map, lengths.data(), /*StaticProfile=*/true);
+      std::vector<int> indices;
+      for (unsigned int r = 0; r < n_owned; ++r)
+      {
+        indices.clear();
+        for (std::size_t i = row_begin[r]; i < row_begin[r + 1]; ++i)
+        {
+          indices.push_back(2 * columns[i]);
+          indices.push_back(2 * columns[i] + 1);
+        }
+        for (unsigned int c = 0; c < 2; ++c)
+          check(
+            graph.InsertMyIndices(2 * r + c, indices.size(), indices.data()));
+      }
+      check(graph.FillComplete(row_map, row_map));
+
+      Epetra_CrsMatrix trilinos_matrix(::Copy, graph);
+      for (unsigned int r = 0; r < 2 * n_owned; ++r)
+      {
+        int     n;
+        double *row;
+        check(trilinos_matrix.ExtractMyRowView(r, n, row));
+        AssertDimension(n, lengths[r]);
+        const double *from =
+          values.data() + 4 * row_begin[r / 2] + (r % 2) * lengths[r];
+        std::copy(from, from + n, row);
+      }
+      std::vector<double>().swap(values);
+      std::vector<unsigned int>().swap(columns);
+      check(trilinos_matrix.FillComplete(row_map, row_map));
+      matrix.reinit(trilinos_matrix);
+
+      rhs.reinit(owned, covers->communicator());
+      std::copy(right_hand_side.begin(),
+                right_hand_side.begin() + 2 * n_owned,
+                rhs.begin());
+    }
+  } // namespace internal
+} // namespace NMM

@@ -1,0 +1,272 @@
+#include <cmath>
+#include <mechanics/boundary_terms.h>
+
+namespace NMM
+{
+  namespace internal
+  {
+    EdgeTerms::EdgeTerms(const CoverSystem       &covers,
+                         const ElasticityProblem &problem,
+                         const CurveConditions   &conditions,
+                         TraceConstants          &trace_constants)
+      : covers(&covers)
+      , problem(&problem)
+      , conditions(&conditions)
+      , trace_constants(&trace_constants)
+      , degree(covers.manifold_mesh().mathematical_mesh().degree())
+      , n_per_cell(WeightFunctions::n_per_cell(degree))
+    {
+      for (const unsigned int m :
+           problem.region_to_material(covers.manifold_mesh().physical_mesh()))
+      {
+        region_to_elasticity.push_back(
+          problem.materials[m].plane_elasticity(problem.plane_state));
+        region_to_initial_stress.push_back(problem.materials[m].initial_stress);
+      }
+    }
+
+
+    void
+    EdgeTerms::append(const unsigned int          element,
+                      const dealii::Point<2>     &xi,
+                      const dealii::Tensor<1, 2> &normal,
+                      const double                sign,
+                      const double                share,
+                      PointFunctionals           &functionals) const
+    {
+      const ManifoldMesh        &mesh = covers->manifold_mesh();
+      const dealii::Tensor<2, 2> T    = dealii::transpose(
+        dealii::invert(mesh.mathematical_mesh().jacobian(mesh.cell(element))));
+      const PlaneElasticity &c = region_to_elasticity[mesh.region(element)];
+
+      double w[WeightFunctions::max_per_cell];
+      double g[WeightFunctions::max_per_cell][2];
+      WeightFunctions::values(degree, xi, w);
+      WeightFunctions::gradients(degree, xi, g);
+      for (unsigned int i = 0; i < n_per_cell; ++i)
+      {
+        const unsigned int k    = functionals.n_covers++;
+        const double       G[2] = {T[0][0] * g[i][0] + T[0][1] * g[i][1],
+                                   T[1][0] * g[i][0] + T[1][1] * g[i][1]};
+        const double       Gn   = G[0] * normal[0] + G[1] * normal[1];
+        functionals.jump[k]     = sign * w[i];
+        for (unsigned int a = 0; a < 2; ++a)
+          for (unsigned int b = 0; b < 2; ++b)
+            functionals.flux[k][a][b] =
+              share * (c.lambda * normal[a] * G[b] + c.mu * G[a] * normal[b] +
+                       (a == b ? c.mu * Gn : 0.));
+      }
+      functionals.initial_flux +=
+        share * (region_to_initial_stress[mesh.region(element)] * normal);
+    }
+
+
+    void
+    EdgeTerms::add_nitsche(const PointFunctionals              &functionals,
+                           const dealii::SymmetricTensor<2, 2> &projection,
+                           const double                         penalty,
+                           const dealii::Tensor<1, 2>          &prescribed,
+                           const double                         weight,
+                           LocalSystem                         &system)
+    {
+      const unsigned int n = functionals.n_covers;
+      AssertDimension(n, system.n_covers);
+      const double P[2][2] = {{projection[0][0], projection[0][1]},
+                              {projection[1][0], projection[1][1]}};
+
+      double projected_flux[LocalSystem::max_covers][2][2];
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int a = 0; a < 2; ++a)
+          for (unsigned int b = 0; b < 2; ++b)
+            projected_flux[i][a][b] = P[a][0] * functionals.flux[i][0][b] +
+                                      P[a][1] * functionals.flux[i][1][b];
+
+      const dealii::Tensor<1, 2> g = projection * prescribed;
+      const dealii::Tensor<1, 2> s = projection * functionals.initial_flux;
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int c = 0; c < 2; ++c)
+        {
+          const double jump = functionals.jump[i];
+          double      *row  = system.row(i, c);
+          for (unsigned int j = 0; j < n; ++j)
+            for (unsigned int d = 0; d < 2; ++d)
+              row[2 * j + d] +=
+                weight * (-jump * projected_flux[j][c][d] -
+                          projected_flux[i][d][c] * functionals.jump[j] +
+                          penalty * jump * functionals.jump[j] * P[c][d]);
+          system.rhs[2 * i + c] +=
+            weight * (-functionals.flux[i][0][c] * g[0] -
+                      functionals.flux[i][1][c] * g[1] + penalty * jump * g[c] +
+                      jump * s[c]);
+        }
+    }
+
+
+    void
+    EdgeTerms::add_conditions(const unsigned int element, LocalSystem &system)
+    {
+      const ManifoldMesh &mesh = covers->manifold_mesh();
+      const unsigned int  cell = mesh.cell(element);
+      for (const ElementEdge &edge : mesh.edges(element))
+      {
+        const std::vector<unsigned int> &on_edge = conditions->conditions(edge);
+        if (on_edge.empty())
+          continue;
+        const EdgeRule rule =
+          make_edge_rule(edge,
+                         cell_frame(mesh.mathematical_mesh(), cell),
+                         2 * degree);
+        for (const unsigned int c : on_edge)
+        {
+          const BoundaryCondition &condition = problem->boundary_conditions[c];
+          switch (condition.type)
+          {
+            case BoundaryCondition::Type::traction:
+            case BoundaryCondition::Type::pressure:
+              add_load(condition, cell, rule, system);
+              break;
+            case BoundaryCondition::Type::displacement:
+            case BoundaryCondition::Type::normal_displacement:
+              add_displacement(condition, element, rule, system);
+              break;
+          }
+        }
+      }
+    }
+
+
+    void
+    EdgeTerms::add_load(const BoundaryCondition &condition,
+                        const unsigned int       cell,
+                        const EdgeRule          &rule,
+                        LocalSystem             &system) const
+    {
+      if (condition.value == nullptr)
+        return;
+      const MathematicalMesh &mesh =
+        covers->manifold_mesh().mathematical_mesh();
+
+      double w[WeightFunctions::max_per_cell];
+      for (unsigned int q = 0; q < rule.points.size(); ++q)
+      {
+        const dealii::Point<2> x = mesh.reference_to_real(cell, rule.points[q]);
+        dealii::Tensor<1, 2>   t;
+        if (condition.type == BoundaryCondition::Type::pressure)
+          t = -condition.value->value(x) * rule.normals[q];
+        else
+          for (unsigned int c = 0; c < 2; ++c)
+            t[c] = condition.value->value(x, c);
+
+        WeightFunctions::values(degree, rule.points[q], w);
+        for (unsigned int i = 0; i < n_per_cell; ++i)
+          for (unsigned int c = 0; c < 2; ++c)
+            system.rhs[2 * i + c] += rule.weights[q] * w[i] * t[c];
+      }
+    }
+
+
+    void
+    EdgeTerms::add_displacement(const BoundaryCondition &condition,
+                                const unsigned int       element,
+                                const EdgeRule          &rule,
+                                LocalSystem             &system)
+    {
+      const ManifoldMesh &mesh = covers->manifold_mesh();
+      const double        bound =
+        region_to_elasticity[mesh.region(element)].largest_eigenvalue() *
+        (*trace_constants)(element);
+      // no area, hence no energy: the neighbours' conditions hold it
+      if (!std::isfinite(bound))
+        return;
+
+      PointFunctionals functionals;
+      for (unsigned int q = 0; q < rule.points.size(); ++q)
+      {
+        const dealii::Tensor<1, 2> &n = rule.normals[q];
+        functionals.n_covers          = 0;
+        functionals.initial_flux      = 0.;
+        append(element, rule.points[q], n, 1., 1., functionals);
+
+        const dealii::Point<2> x =
+          mesh.mathematical_mesh().reference_to_real(mesh.cell(element),
+                                                     rule.points[q]);
+        dealii::SymmetricTensor<2, 2> projection;
+        dealii::Tensor<1, 2>          prescribed;
+        if (condition.type == BoundaryCondition::Type::normal_displacement)
+        {
+          projection[0][0] = n[0] * n[0];
+          projection[0][1] = n[0] * n[1];
+          projection[1][1] = n[1] * n[1];
+          if (condition.value != nullptr)
+            prescribed = condition.value->value(x) * n;
+        }
+        else
+          for (unsigned int c = 0; c < 2; ++c)
+            if (condition.components[c])
+            {
+              projection[c][c] = 1.;
+              if (condition.value != nullptr)
+                prescribed[c] = condition.value->value(x, c);
+            }
+        add_nitsche(functionals,
+                    projection,
+                    safety * bound,
+                    prescribed,
+                    rule.weights[q],
+                    system);
+      }
+    }
+
+
+    void
+    EdgeTerms::add_tie(const unsigned int element,
+                       const ElementEdge &edge,
+                       LocalSystem       &system)
+    {
+      const ManifoldMesh     &mesh              = covers->manifold_mesh();
+      const MathematicalMesh &mathematical_mesh = mesh.mathematical_mesh();
+      const unsigned int      elements[2]       = {element, edge.neighbor};
+
+      double bound[2];
+      for (unsigned int side = 0; side < 2; ++side)
+        bound[side] = region_to_elasticity[mesh.region(elements[side])]
+                        .largest_eigenvalue() *
+                      (*trace_constants)(elements[side]);
+      if (!std::isfinite(bound[0]) && !std::isfinite(bound[1]))
+        return;
+      // k_2 / (k_1 + k_2), written so that one k may be infinite
+      const double share[2] = {
+        std::isfinite(bound[0]) ? 1. / (1. + bound[0] / bound[1]) : 0.,
+        std::isfinite(bound[1]) ? 1. / (1. + bound[1] / bound[0]) : 0.};
+      const double penalty = safety / (1. / bound[0] + 1. / bound[1]);
+
+      const EdgeRule rule =
+        make_edge_rule(edge,
+                       cell_frame(mathematical_mesh, mesh.cell(element)),
+                       2 * degree);
+      PointFunctionals functionals;
+      for (unsigned int q = 0; q < rule.points.size(); ++q)
+      {
+        const dealii::Point<2> x =
+          mathematical_mesh.reference_to_real(mesh.cell(element),
+                                              rule.points[q]);
+        functionals.n_covers     = 0;
+        functionals.initial_flux = 0.;
+        for (unsigned int side = 0; side < 2; ++side)
+          append(elements[side],
+                 mathematical_mesh.real_to_reference(mesh.cell(elements[side]),
+                                                     x),
+                 rule.normals[q],
+                 side == 0 ? 1. : -1.,
+                 share[side],
+                 functionals);
+        add_nitsche(functionals,
+                    dealii::unit_symmetric_tensor<2>(),
+                    penalty,
+                    dealii::Tensor<1, 2>(),
+                    rule.weights[q],
+                    system);
+      }
+    }
+  } // namespace internal
+} // namespace NMM

@@ -1,0 +1,129 @@
+#include <nmm/mechanics/displacement_field.h>
+#include <nmm/mechanics/weight_functions.h>
+
+#include <limits>
+
+namespace NMM
+{
+  DisplacementField::DisplacementField(
+    const CoverSystem                           &covers,
+    const ElasticityProblem                     &problem,
+    const dealii::TrilinosWrappers::MPI::Vector &solution)
+    : covers(&covers)
+    , degree(covers.manifold_mesh().mathematical_mesh().degree())
+    , nodal_values(covers.n_covers(), unknown_value())
+  {
+    for (const unsigned int cover : covers.locally_relevant_covers())
+      for (unsigned int c = 0; c < 2; ++c)
+        nodal_values[cover][c] = solution(2 * cover + c);
+    set_materials(problem);
+  }
+
+
+  DisplacementField::DisplacementField(
+    const CoverSystem                &covers,
+    const ElasticityProblem          &problem,
+    std::vector<dealii::Tensor<1, 2>> nodal_values)
+    : covers(&covers)
+    , degree(covers.manifold_mesh().mathematical_mesh().degree())
+    , nodal_values(std::move(nodal_values))
+  {
+    AssertDimension(this->nodal_values.size(), covers.n_covers());
+    set_materials(problem);
+  }
+
+
+  dealii::Tensor<1, 2>
+  DisplacementField::unknown_value()
+  {
+    dealii::Tensor<1, 2> value;
+    value[0] = value[1] = std::numeric_limits<double>::quiet_NaN();
+    return value;
+  }
+
+
+  void
+  DisplacementField::set_materials(const ElasticityProblem &problem)
+  {
+    for (const unsigned int material :
+         problem.region_to_material(covers->manifold_mesh().physical_mesh()))
+    {
+      const Material &m = problem.materials[material];
+      region_to_elasticity.push_back(m.plane_elasticity(problem.plane_state));
+      region_to_initial_stress.push_back(m.initial_stress);
+    }
+  }
+
+
+  const CoverSystem &
+  DisplacementField::cover_system() const
+  {
+    return *covers;
+  }
+
+
+  dealii::Tensor<1, 2>
+  DisplacementField::displacement(const unsigned int      element,
+                                  const dealii::Point<2> &xi) const
+  {
+    double values[WeightFunctions::max_per_cell];
+    WeightFunctions::values(degree, xi, values);
+
+    dealii::Tensor<1, 2> u;
+    unsigned int         i = 0;
+    for (const unsigned int cover : covers->covers(element))
+      u += values[i++] * nodal_values[cover];
+    return u;
+  }
+
+
+  dealii::Tensor<2, 2>
+  DisplacementField::gradient(const unsigned int      element,
+                              const dealii::Point<2> &xi) const
+  {
+    double gradients[WeightFunctions::max_per_cell][2];
+    WeightFunctions::gradients(degree, xi, gradients);
+
+    dealii::Tensor<2, 2> reference_gradient;
+    unsigned int         i = 0;
+    for (const unsigned int cover : covers->covers(element))
+    {
+      const dealii::Tensor<1, 2> &value = nodal_values[cover];
+      for (unsigned int c = 0; c < 2; ++c)
+        for (unsigned int d = 0; d < 2; ++d)
+          reference_gradient[c][d] += value[c] * gradients[i][d];
+      ++i;
+    }
+    const ManifoldMesh &mesh = covers->manifold_mesh();
+    return reference_gradient *
+           dealii::invert(
+             mesh.mathematical_mesh().jacobian(mesh.cell(element)));
+  }
+
+
+  dealii::SymmetricTensor<2, 2>
+  DisplacementField::stress(const unsigned int      element,
+                            const dealii::Point<2> &xi) const
+  {
+    return stress_from_gradient(element, gradient(element, xi));
+  }
+
+
+  dealii::SymmetricTensor<2, 2>
+  DisplacementField::stress_from_gradient(
+    const unsigned int          element,
+    const dealii::Tensor<2, 2> &gradient) const
+  {
+    const unsigned int region = covers->manifold_mesh().region(element);
+    return region_to_initial_stress[region] +
+           region_to_elasticity[region].stress(gradient);
+  }
+
+
+  dealii::Tensor<1, 2>
+  DisplacementField::nodal_value(const unsigned int cover) const
+  {
+    AssertIndexRange(cover, nodal_values.size());
+    return nodal_values[cover];
+  }
+} // namespace NMM

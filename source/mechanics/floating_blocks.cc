@@ -1,0 +1,250 @@
+#include <nmm/base/exceptions.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <mechanics/floating_blocks.h>
+#include <mechanics/trace_constant.h>
+#include <numeric>
+#include <vector>
+
+namespace NMM
+{
+  namespace internal
+  {
+    namespace
+    {
+      /// Number of the connected piece of each element; returns how many.
+      unsigned int
+      find_pieces(const ManifoldMesh        &mesh,
+                  const CurveConditions     &conditions,
+                  std::vector<unsigned int> &element_to_piece)
+      {
+        std::vector<unsigned int> parent(mesh.n_elements());
+        std::iota(parent.begin(), parent.end(), 0u);
+        const auto root = [&parent](unsigned int i) {
+          while (parent[i] != i)
+            i = parent[i] = parent[parent[i]];
+          return i;
+        };
+        const auto join = [&](const unsigned int i, const unsigned int j) {
+          const unsigned int a = root(i), b = root(j);
+          parent[std::max(a, b)] = std::min(a, b);
+        };
+        for (unsigned int e = 0; e < mesh.n_elements(); ++e)
+        {
+          for (const ManifoldMesh::Link &link : mesh.joined(e))
+            if (link.neighbor < e)
+              join(e, link.neighbor);
+          for (const ElementEdge &edge : mesh.edges(e))
+            if (edge.neighbor < e && conditions.is_tied(e, edge))
+              join(e, edge.neighbor);
+        }
+
+        unsigned int n_pieces = 0;
+        element_to_piece.resize(mesh.n_elements());
+        for (unsigned int e = 0; e < mesh.n_elements(); ++e)
+          element_to_piece[e] =
+            root(e) == e ? n_pieces++ : element_to_piece[root(e)];
+        return n_pieces;
+      }
+
+
+      /// A connected piece's extent and what is known of its rigid motion.
+      struct Piece
+      {
+        double           area = 0.;
+        dealii::Point<2> lower{1e300, 1e300}, upper{-1e300, -1e300};
+        /// Largest element, for messages.
+        unsigned int element = invalid_index;
+
+        dealii::Point<2>
+        center() const
+        {
+          return dealii::Point<2>(0.5 * (lower + upper));
+        }
+
+        double
+        size() const
+        {
+          return 0.5 * lower.distance(upper);
+        }
+      };
+
+
+      std::vector<Piece>
+      measure_pieces(const ManifoldMesh              &mesh,
+                     const std::vector<unsigned int> &element_to_piece,
+                     const unsigned int               n_pieces)
+      {
+        const MathematicalMesh &mathematical_mesh = mesh.mathematical_mesh();
+        std::vector<Piece>      pieces(n_pieces);
+        for (unsigned int e = 0; e < mesh.n_elements(); ++e)
+        {
+          Piece       &piece = pieces[element_to_piece[e]];
+          const double area  = mesh.area(e);
+          piece.area += area;
+          if (piece.element == invalid_index || area > mesh.area(piece.element))
+            piece.element = e;
+          for (const unsigned int v :
+               mathematical_mesh.cell_vertices(mesh.cell(e)))
+            for (unsigned int d = 0; d < 2; ++d)
+            {
+              const double x = mathematical_mesh.vertices()[v][d];
+              piece.lower[d] = std::min(piece.lower[d], x);
+              piece.upper[d] = std::max(piece.upper[d], x);
+            }
+        }
+        return pieces;
+      }
+
+
+      /// The 3x3 matrices of the header's formula, nine numbers per piece.
+      class HeldModes
+      {
+      public:
+        explicit HeldModes(const std::vector<Piece> &pieces)
+          : pieces(&pieces)
+          , matrices(9 * pieces.size(), 0.)
+        {
+        }
+
+        /// The displacement along @p direction at @p x is held.
+        void
+        add(const unsigned int          piece,
+            const dealii::Point<2>     &x,
+            const dealii::Tensor<1, 2> &direction)
+        {
+          const dealii::Tensor<1, 2> d =
+            (x - (*pieces)[piece].center()) / (*pieces)[piece].size();
+          const double modes[3] = {direction[0],
+                                   direction[1],
+                                   direction[1] * d[0] - direction[0] * d[1]};
+          for (unsigned int i = 0; i < 3; ++i)
+            for (unsigned int j = 0; j < 3; ++j)
+              matrices[9 * piece + 3 * i + j] += modes[i] * modes[j];
+        }
+
+        void
+        sum_over_ranks(const MPI_Comm communicator)
+        {
+          dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(matrices),
+                                      communicator,
+                                      dealii::ArrayView<double>(matrices));
+        }
+
+        /// Which motion of the piece is free; empty if none.
+        std::string
+        free_motion(const unsigned int piece) const
+        {
+          const Eigen::Map<const Eigen::Matrix3d> matrix(matrices.data() +
+                                                         9 * piece);
+          if (matrix.trace() == 0.)
+            return "nothing holds it";
+          const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(matrix);
+          if (solver.eigenvalues()(0) > 1e-13 * solver.eigenvalues()(2))
+            return "";
+          const Eigen::Vector3d mode = solver.eigenvectors().col(0);
+          if (std::abs(mode(2)) > 1e-3)
+            return "it can rotate";
+          return std::abs(mode(0)) > std::abs(mode(1)) ? "it can move along x"
+                                                       : "it can move along y";
+        }
+
+      private:
+        const std::vector<Piece> *pieces;
+        std::vector<double>       matrices;
+      };
+
+
+      void
+      add_boundary(const unsigned int       element,
+                   const unsigned int       piece,
+                   const ManifoldMesh      &mesh,
+                   const ElasticityProblem &problem,
+                   const CurveConditions   &conditions,
+                   HeldModes               &held)
+      {
+        const MathematicalMesh &mathematical_mesh = mesh.mathematical_mesh();
+        const unsigned int      cell              = mesh.cell(element);
+        for (const ElementEdge &edge : mesh.edges(element))
+        {
+          if (!conditions.has_displacement(edge))
+            continue;
+          const EdgeRule rule =
+            make_edge_rule(edge, cell_frame(mathematical_mesh, cell), 2);
+          for (const unsigned int c : conditions.conditions(edge))
+            for (unsigned int q = 0; q < rule.points.size(); ++q)
+            {
+              const BoundaryCondition &condition =
+                problem.boundary_conditions[c];
+              const dealii::Point<2> x =
+                mathematical_mesh.reference_to_real(cell, rule.points[q]);
+              if (condition.type ==
+                  BoundaryCondition::Type::normal_displacement)
+                held.add(piece, x, rule.normals[q]);
+              else if (condition.type == BoundaryCondition::Type::displacement)
+                for (unsigned int d = 0; d < 2; ++d)
+                  if (condition.components[d])
+                    held.add(piece, x, dealii::Point<2>::unit_vector(d));
+            }
+        }
+      }
+    } // namespace
+
+
+    void
+    check_no_block_floats(const CoverSystem       &covers,
+                          const ElasticityProblem &problem,
+                          const CurveConditions   &conditions,
+                          const PointTerms        &point_terms)
+    {
+      const ManifoldMesh       &mesh = covers.manifold_mesh();
+      std::vector<unsigned int> element_to_piece;
+      const unsigned int        n_pieces =
+        find_pieces(mesh, conditions, element_to_piece);
+      const std::vector<Piece> pieces =
+        measure_pieces(mesh, element_to_piece, n_pieces);
+
+      HeldModes held(pieces);
+      const auto [first, last] = covers.locally_owned_elements();
+      for (unsigned int e = first; e < last; ++e)
+        add_boundary(e, element_to_piece[e], mesh, problem, conditions, held);
+      for (unsigned int f = 0; f < problem.fixed_points.size(); ++f)
+      {
+        const unsigned int e = point_terms.fixed_point_elements()[f];
+        if (e >= first && e < last)
+          for (unsigned int d = 0; d < 2; ++d)
+            if (problem.fixed_points[f].components[d])
+              held.add(element_to_piece[e],
+                       problem.fixed_points[f].point,
+                       dealii::Point<2>::unit_vector(d));
+      }
+      held.sum_over_ranks(covers.communicator());
+
+      const std::vector<unsigned int> region_to_material =
+        problem.region_to_material(mesh.physical_mesh());
+      for (unsigned int p = 0; p < n_pieces; ++p)
+      {
+        // a piece without area has no unknowns of its own that matter
+        if (pieces[p].area == 0.)
+          continue;
+        const std::string motion = held.free_motion(p);
+        if (motion.empty())
+          continue;
+        const unsigned int region = mesh.region(pieces[p].element);
+        AssertThrow(
+          false,
+          NumericalFailure(
+            "Block " + std::to_string(mesh.block(pieces[p].element)) +
+              " of material \"" +
+              problem.materials[region_to_material[region]].name +
+              "\" floats freely (" + motion + ")",
+            to_string(mesh.physical_mesh().regions()[region].inside),
+            "hold it by displacement conditions or fixed points that stop "
+            "two translations and the rotation, or tie it to its neighbours "
+            "by closed joints"));
+      }
+    }
+  } // namespace internal
+} // namespace NMM

@@ -1,0 +1,172 @@
+#include <nmm/mechanics/static_elasticity.h>
+
+#include <mechanics/block_system.h>
+#include <mechanics/boundary_terms.h>
+#include <mechanics/curve_conditions.h>
+#include <mechanics/floating_blocks.h>
+#include <mechanics/linear_solver.h>
+#include <mechanics/local_system.h>
+#include <mechanics/point_terms.h>
+#include <mechanics/trace_constant.h>
+#include <mechanics/volume_terms.h>
+#include <memory>
+
+namespace NMM
+{
+  namespace
+  {
+    /// A section of the timer, if there is one.
+    std::unique_ptr<dealii::TimerOutput::Scope>
+    time_section(dealii::TimerOutput *timer, const std::string &name)
+    {
+      return timer == nullptr
+               ? nullptr
+               : std::make_unique<dealii::TimerOutput::Scope>(*timer, name);
+    }
+
+
+    /// Call action(element, edge) for each tie of owned elements; each pair's
+    /// edge once, from the element with the lower number.
+    template <typename Action>
+    void
+    for_each_tie(const CoverSystem               &covers,
+                 const internal::CurveConditions &conditions,
+                 const Action                    &action)
+    {
+      const auto [first, last] = covers.locally_owned_elements();
+      for (unsigned int e = first; e < last; ++e)
+        for (const ElementEdge &edge : covers.manifold_mesh().edges(e))
+          if (conditions.is_tied(e, edge) && e < edge.neighbor)
+            action(e, edge);
+    }
+
+
+    std::array<unsigned int, internal::LocalSystem::max_covers>
+    covers_of_pair(const CoverSystem &covers,
+                   const unsigned int element,
+                   const unsigned int neighbor)
+    {
+      std::array<unsigned int, internal::LocalSystem::max_covers> result{};
+      unsigned int                                                n = 0;
+      for (const unsigned int e : {element, neighbor})
+        for (const unsigned int k : covers.covers(e))
+          result[n++] = k;
+      return result;
+    }
+  } // namespace
+
+
+  StaticElasticity::StaticElasticity(
+    const CoverSystem                       &covers,
+    const QuadratureCollection              &quadrature,
+    const dealii::AffineConstraints<double> &constraints,
+    const ElasticityProblem                 &problem)
+    : covers(&covers)
+    , quadrature(&quadrature)
+    , constraints(&constraints)
+    , problem(&problem)
+  {
+    problem.check(covers.manifold_mesh().physical_mesh());
+    // points outside the solid show here
+    const internal::PointTerms points(covers, problem);
+  }
+
+
+  void
+  StaticElasticity::assemble(dealii::TimerOutput *timer)
+  {
+    using namespace internal;
+    const ManifoldMesh &mesh = covers->manifold_mesh();
+    const unsigned int  n_per_cell =
+      mesh.mathematical_mesh().n_covers_per_cell();
+
+    const CurveConditions conditions(mesh, *problem);
+    const PointTerms      points(*covers, *problem);
+    check_no_block_floats(*covers, *problem, conditions, points);
+
+    auto        section = time_section(timer, "sparsity");
+    BlockSystem block_system(*covers, *constraints);
+    for_each_tie(*covers,
+                 conditions,
+                 [&](const unsigned int e, const ElementEdge &edge) {
+                   const auto pair = covers_of_pair(*covers, e, edge.neighbor);
+                   block_system.couple({pair.data(), 2 * n_per_cell});
+                 });
+    block_system.build();
+
+    section.reset();
+    section = time_section(timer, "assembly");
+    const VolumeTerms volume_terms(*covers, *quadrature, *problem);
+    TraceConstants    trace_constants(*covers,
+                                   *quadrature,
+                                   *constraints,
+                                   conditions);
+    EdgeTerms   edge_terms(*covers, *problem, conditions, trace_constants);
+    LocalSystem local;
+    const auto [first, last] = covers->locally_owned_elements();
+    auto point_element       = std::lower_bound(points.elements().begin(),
+                                          points.elements().end(),
+                                          first);
+    for (unsigned int e = first; e < last; ++e)
+    {
+      local.reset(n_per_cell);
+      volume_terms.add(e, local);
+      edge_terms.add_conditions(e, local);
+      if (point_element != points.elements().end() && *point_element == e)
+      {
+        points.add(e, local);
+        ++point_element;
+      }
+      block_system.add(covers->covers(e), local.matrix, local.rhs);
+    }
+    for_each_tie(*covers,
+                 conditions,
+                 [&](const unsigned int e, const ElementEdge &edge) {
+                   const auto pair = covers_of_pair(*covers, e, edge.neighbor);
+                   local.reset(2 * n_per_cell);
+                   edge_terms.add_tie(e, edge, local);
+                   block_system.add({pair.data(), 2 * n_per_cell},
+                                    local.matrix,
+                                    local.rhs);
+                 });
+    section.reset();
+    section = time_section(timer, "to Trilinos");
+    block_system.finish(matrix, rhs);
+  }
+
+
+  LinearSolverReport
+  StaticElasticity::solve(const LinearSolverParameters &parameters)
+  {
+    dealii::TrilinosWrappers::MPI::Vector distributed_solution;
+    const LinearSolverReport report = internal::solve_linear_system(
+      matrix, rhs, *covers, *constraints, parameters, distributed_solution);
+    constraints->distribute(distributed_solution);
+    relevant_solution.reinit(covers->locally_owned_dofs(2),
+                             covers->locally_relevant_dofs(2),
+                             covers->communicator());
+    relevant_solution = distributed_solution;
+    return report;
+  }
+
+
+  const dealii::TrilinosWrappers::MPI::Vector &
+  StaticElasticity::solution() const
+  {
+    return relevant_solution;
+  }
+
+
+  const dealii::TrilinosWrappers::SparseMatrix &
+  StaticElasticity::system_matrix() const
+  {
+    return matrix;
+  }
+
+
+  const dealii::TrilinosWrappers::MPI::Vector &
+  StaticElasticity::system_rhs() const
+  {
+    return rhs;
+  }
+} // namespace NMM

@@ -1,0 +1,89 @@
+#ifndef nmm_source_mechanics_trace_constant_h
+#define nmm_source_mechanics_trace_constant_h
+
+#include <nmm/covers/cover_system.h>
+#include <nmm/quadrature/element_quadrature.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/lac/affine_constraints.h>
+
+#include <mechanics/curve_conditions.h>
+#include <vector>
+
+namespace NMM
+{
+  namespace internal
+  {
+    /// The affine frame of a cell, for quadrature.
+    CellFrame
+    cell_frame(const MathematicalMesh &mesh, unsigned int cell);
+
+    /**
+     * The constants of the discrete trace inequality that Nitsche's penalty is
+     * made of: for stresses of degree p - 1 on an element E with weakly held
+     * boundary Gamma (all its displacement conditions and ties together)
+     * @f[ \int_\Gamma q^2\,ds \le \Lambda_E \int_E q^2\,dA
+     *     \quad\forall q\in P_{p-1}. @f]
+     * For p = 1, Lambda = |Gamma| / |E|. For p = 2 it is the largest eigenvalue
+     * of the traces' moments in a basis that is orthonormal on E (3 x 3), which
+     * second moments of E give directly; this is sharp for any shape of E, where
+     * formulas in a cell size h are not.
+     *
+     * A sliver has a large constant: 4 / thickness. Where aggregation ties its
+     * unknowns to a root element R, the polynomial's energy on R bounds its
+     * trace on Gamma as well, and the smaller of Lambda_E and 2 Lambda_R (with
+     * R's area and E's boundary; 2 because some covers of E may be free) is
+     * taken, which is of order 1/h.
+     */
+    class TraceConstants
+    {
+    public:
+      TraceConstants(const CoverSystem                       &covers,
+                     const QuadratureCollection              &quadrature,
+                     const dealii::AffineConstraints<double> &constraints,
+                     const CurveConditions                   &conditions);
+
+      /// Lambda [1/m], infinite for an element without area.
+      double
+      operator()(unsigned int element);
+
+    private:
+      /// Area [m^2], centroid [m] and second moments about it [m^4].
+      struct Moments
+      {
+        double                        area = 0.;
+        dealii::Point<2>              centroid;
+        dealii::SymmetricTensor<2, 2> second;
+      };
+
+      struct BoundaryPoints
+      {
+        std::vector<dealii::Point<2>> points;
+        std::vector<double>           weights;
+      };
+
+      Moments
+      moments(unsigned int element) const;
+
+      BoundaryPoints
+      boundary_points(unsigned int element) const;
+
+      double
+      constant(const Moments &moments, const BoundaryPoints &boundary) const;
+
+      /// The element to whose polynomial covers of @p element are constrained,
+      /// or invalid_index.
+      unsigned int
+      find_root(unsigned int element) const;
+
+      const CoverSystem                       *covers;
+      const QuadratureCollection              *quadrature;
+      const dealii::AffineConstraints<double> *constraints;
+      const CurveConditions                   *conditions;
+      unsigned int                             degree;
+      std::vector<double>                      known;
+    };
+  } // namespace internal
+} // namespace NMM
+
+#endif

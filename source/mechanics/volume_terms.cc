@@ -1,0 +1,168 @@
+#include <mechanics/volume_terms.h>
+
+namespace NMM
+{
+  namespace internal
+  {
+    VolumeTerms::VolumeTerms(const CoverSystem          &covers,
+                             const QuadratureCollection &quadrature,
+                             const ElasticityProblem    &problem)
+      : covers(&covers)
+      , quadrature(&quadrature)
+      , problem(&problem)
+      , degree(covers.manifold_mesh().mathematical_mesh().degree())
+      , n_per_cell(WeightFunctions::n_per_cell(degree))
+      , has_whole_integrals(false)
+    {
+      const ManifoldMesh &mesh = covers.manifold_mesh();
+      for (const unsigned int m :
+           problem.region_to_material(mesh.physical_mesh()))
+      {
+        const Material &material = problem.materials[m];
+        region_to_elasticity.push_back(
+          material.plane_elasticity(problem.plane_state));
+        region_to_initial_stress.push_back(material.initial_stress);
+        region_to_weight.push_back(material.density * problem.gravity);
+      }
+
+      const auto [first, last] = covers.locally_owned_elements();
+      for (unsigned int e = first; e < last && !has_whole_integrals; ++e)
+        if (mesh.is_whole(e))
+        {
+          integrate(quadrature.rule(e), whole_integrals);
+          has_whole_integrals = true;
+        }
+    }
+
+
+    void
+    VolumeTerms::integrate(const dealii::Quadrature<2> &rule,
+                           ReferenceIntegrals          &integrals) const
+    {
+      integrals = ReferenceIntegrals();
+      double g[n_max][2], w[n_max];
+      for (unsigned int q = 0; q < rule.size(); ++q)
+      {
+        const double weight = rule.weight(q);
+        WeightFunctions::gradients(degree, rule.point(q), g);
+        WeightFunctions::values(degree, rule.point(q), w);
+        for (unsigned int i = 0; i < n_per_cell; ++i)
+        {
+          const double g0 = weight * g[i][0], g1 = weight * g[i][1];
+          for (unsigned int j = i; j < n_per_cell; ++j)
+          {
+            auto &product = integrals.gradient_products[i][j];
+            product[0][0] += g0 * g[j][0];
+            product[0][1] += g0 * g[j][1];
+            product[1][0] += g1 * g[j][0];
+            product[1][1] += g1 * g[j][1];
+          }
+          integrals.gradients[i][0] += g0;
+          integrals.gradients[i][1] += g1;
+          integrals.values[i] += weight * w[i];
+        }
+      }
+    }
+
+
+    void
+    VolumeTerms::add(const unsigned int element, LocalSystem &system) const
+    {
+      const ManifoldMesh &mesh   = covers->manifold_mesh();
+      const unsigned int  region = mesh.region(element);
+
+      ReferenceIntegrals        cut_integrals;
+      const ReferenceIntegrals *integrals = &whole_integrals;
+      if (!mesh.is_whole(element))
+      {
+        integrate(quadrature->rule(element), cut_integrals);
+        integrals = &cut_integrals;
+      }
+
+      const dealii::Tensor<2, 2> jacobian =
+        mesh.mathematical_mesh().jacobian(mesh.cell(element));
+      const double det = dealii::determinant(jacobian);
+      // T[k][a]: the physical gradient is T times the reference gradient
+      const dealii::Tensor<2, 2> T =
+        dealii::transpose(dealii::invert(jacobian));
+      const double t00 = T[0][0], t01 = T[0][1], t10 = T[1][0], t11 = T[1][1];
+
+      const PlaneElasticity &elasticity = region_to_elasticity[region];
+      const double           lambda     = elasticity.lambda * det;
+      const double           mu         = elasticity.mu * det;
+
+      for (unsigned int i = 0; i < n_per_cell; ++i)
+        for (unsigned int j = i; j < n_per_cell; ++j)
+        {
+          const auto  &s   = integrals->gradient_products[i][j];
+          const double b00 = t00 * s[0][0] + t01 * s[1][0],
+                       b01 = t00 * s[0][1] + t01 * s[1][1],
+                       b10 = t10 * s[0][0] + t11 * s[1][0],
+                       b11 = t10 * s[0][1] + t11 * s[1][1];
+          const double a00 = b00 * t00 + b01 * t01, a01 = b00 * t10 + b01 * t11,
+                       a10 = b10 * t00 + b11 * t01, a11 = b10 * t10 + b11 * t11;
+          const double k00 = (lambda + 2. * mu) * a00 + mu * a11,
+                       k01 = lambda * a01 + mu * a10,
+                       k10 = lambda * a10 + mu * a01,
+                       k11 = (lambda + 2. * mu) * a11 + mu * a00;
+          double *row0     = system.row(i, 0) + 2 * j;
+          double *row1     = system.row(i, 1) + 2 * j;
+          row0[0] += k00;
+          row0[1] += k01;
+          row1[0] += k10;
+          row1[1] += k11;
+          if (i != j)
+          {
+            double *mirror0 = system.row(j, 0) + 2 * i;
+            double *mirror1 = system.row(j, 1) + 2 * i;
+            mirror0[0] += k00;
+            mirror0[1] += k10;
+            mirror1[0] += k01;
+            mirror1[1] += k11;
+          }
+        }
+
+      const dealii::Tensor<1, 2>          &weight = region_to_weight[region];
+      const dealii::SymmetricTensor<2, 2> &stress =
+        region_to_initial_stress[region];
+      for (unsigned int i = 0; i < n_per_cell; ++i)
+      {
+        const double *g = integrals->gradients[i];
+        const double g0 = t00 * g[0] + t01 * g[1], g1 = t10 * g[0] + t11 * g[1];
+        for (unsigned int c = 0; c < 2; ++c)
+          system.rhs[2 * i + c] +=
+            det * (integrals->values[i] * weight[c] - stress[c][0] * g0 -
+                   stress[c][1] * g1);
+      }
+      if (problem->body_force != nullptr)
+        add_body_force_function(element, system);
+    }
+
+
+    void
+    VolumeTerms::add_body_force_function(const unsigned int element,
+                                         LocalSystem       &system) const
+    {
+      const ManifoldMesh     &mesh              = covers->manifold_mesh();
+      const MathematicalMesh &mathematical_mesh = mesh.mathematical_mesh();
+      const unsigned int      cell              = mesh.cell(element);
+      const double det = dealii::determinant(mathematical_mesh.jacobian(cell));
+
+      const dealii::Quadrature<2> &rule = quadrature->rule(element);
+      double                       w[n_max];
+      for (unsigned int q = 0; q < rule.size(); ++q)
+      {
+        const dealii::Point<2> x =
+          mathematical_mesh.reference_to_real(cell, rule.point(q));
+        WeightFunctions::values(degree, rule.point(q), w);
+        for (unsigned int c = 0; c < 2; ++c)
+        {
+          const double f =
+            det * rule.weight(q) * problem->body_force->value(x, c);
+          for (unsigned int i = 0; i < n_per_cell; ++i)
+            system.rhs[2 * i + c] += f * w[i];
+        }
+      }
+    }
+  } // namespace internal
+} // namespace NMM

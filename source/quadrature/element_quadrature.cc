@@ -1,0 +1,111 @@
+#include <nmm/quadrature/element_quadrature.h>
+#include <nmm/quadrature/element_rule_builder.h>
+
+#include "element_frame.h"
+#include "moments.h"
+#include "slab_candidates.h"
+#include <cmath>
+#include <map>
+
+namespace NMM
+{
+  dealii::Quadrature<2>
+  make_element_rule(const dealii::ArrayView<const ElementEdge> edges,
+                    const CellFrame                           &frame,
+                    const unsigned int                         degree)
+  {
+    // tables and scratch memory outlive the call
+    thread_local std::map<unsigned int, ElementRuleBuilder> builders;
+    auto it = builders.find(degree);
+    if (it == builders.end())
+      it = builders.emplace(degree, ElementRuleBuilder(degree)).first;
+    return it->second.build(edges, frame);
+  }
+
+
+
+  EdgeRule
+  make_edge_rule(const ElementEdge &edge,
+                 const CellFrame   &frame,
+                 const unsigned int degree)
+  {
+    thread_local internal::GaussTable gauss;
+
+    EdgeRule                   rule;
+    const dealii::Tensor<1, 2> chord = edge.end - edge.start;
+    if (chord.norm_square() == 0.)
+      return rule;
+
+    const dealii::Tensor<2, 2> to_reference = dealii::invert(frame.jacobian);
+    // differences first: the cell may be far from the origin
+    const dealii::Tensor<1, 2> from_origin =
+      0.5 * ((edge.start - frame.origin) + (edge.end - frame.origin));
+    dealii::Tensor<1, 2> right;
+    right[0] = chord[1];
+    right[1] = -chord[0];
+
+    if (!edge.is_arc())
+    {
+      const internal::GaussTable::Rule &line   = gauss.rule(degree / 2 + 1);
+      const double                      length = chord.norm();
+      for (std::size_t q = 0; q < line.points.size(); ++q)
+      {
+        rule.points.emplace_back(
+          to_reference * (from_origin + (line.points[q] - 0.5) * chord));
+        rule.normals.push_back(right / length);
+        rule.weights.push_back(line.weights[q] * length);
+      }
+      return rule;
+    }
+
+    // x = middle + sin(tau)/sin(phi) chord/2
+    //            + (cos(tau) - cos(phi))/sin(phi) bulge/2,
+    // with the bulge away from the centre: to the right of a counter-clockwise
+    // arc, whose outward normal is radial, to the left of a clockwise one,
+    // whose normal looks at the centre.
+    const double               phi    = internal::arc_half_angle(edge);
+    const double               sine   = std::sin(phi);
+    const double               sign   = edge.radius > 0. ? 1. : -1.;
+    const dealii::Tensor<1, 2> bulge  = sign * right;
+    const double               radius = 0.5 * chord.norm() / sine;
+    const double half_sine_squared = std::sin(0.5 * phi) * std::sin(0.5 * phi);
+    const internal::GaussTable::Rule &angles =
+      gauss.rule(internal::n_arc_points(degree, phi));
+    for (std::size_t q = 0; q < angles.points.size(); ++q)
+    {
+      const double tau  = phi * (2. * angles.points[q] - 1.);
+      const double half = std::sin(0.5 * tau);
+      rule.points.emplace_back(
+        to_reference * (from_origin + (0.5 * std::sin(tau) / sine) * chord +
+                        ((half_sine_squared - half * half) / sine) * bulge));
+      dealii::Tensor<1, 2> radial =
+        std::sin(tau) * chord + std::cos(tau) * bulge;
+      rule.normals.push_back(sign * radial / radial.norm());
+      rule.weights.push_back(2. * phi * radius * angles.weights[q]);
+    }
+    return rule;
+  }
+
+
+
+  dealii::NonMatching::ImmersedSurfaceQuadrature<2>
+  make_surface_rule(const ElementEdge &edge,
+                    const CellFrame   &frame,
+                    const unsigned int degree)
+  {
+    const EdgeRule      rule = make_edge_rule(edge, frame, degree);
+    std::vector<double> weights;
+    std::vector<dealii::Tensor<1, 2>> normals;
+    const double det = std::abs(dealii::determinant(frame.jacobian));
+    // Nanson: n dS = |det J| J^{-T} n_ref dS_ref, read backwards.
+    for (std::size_t q = 0; q < rule.points.size(); ++q)
+    {
+      const dealii::Tensor<1, 2> surface =
+        (rule.weights[q] / det) *
+        (dealii::transpose(frame.jacobian) * rule.normals[q]);
+      weights.push_back(surface.norm());
+      normals.push_back(surface / surface.norm());
+    }
+    return {rule.points, weights, normals};
+  }
+} // namespace NMM

@@ -1,0 +1,169 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/quadrature/element_rule_builder.h>
+
+#include "element_frame.h"
+#include "moments.h"
+#include "rule_reduction.h"
+#include "slab_candidates.h"
+#include <limits>
+#include <string>
+
+namespace NMM
+{
+  namespace
+  {
+    constexpr unsigned int n_levels = 4;
+    constexpr double       epsilon  = std::numeric_limits<double>::epsilon();
+  } // namespace
+
+
+
+  struct ElementRuleBuilder::Data
+  {
+    explicit Data(const unsigned int degree)
+      : basis(degree)
+    {
+    }
+
+    internal::ElementFrame   frame;
+    internal::GaussTable     gauss;
+    internal::LegendreBasis  basis;
+    internal::SlabCandidates candidates;
+    internal::RuleReduction  reduction;
+
+    std::vector<double>           moments, values, weights;
+    std::vector<double>           best_weights;
+    std::vector<dealii::Point<2>> best_points;
+    double                        best_error = 0.;
+
+    bool         fallback   = false;
+    unsigned int n_attempts = 0;
+
+    void
+    keep_if_best(double error);
+
+    dealii::Quadrature<2>
+    result() const;
+  };
+
+
+
+  ElementRuleBuilder::ElementRuleBuilder(const unsigned int degree)
+    : data(std::make_unique<Data>(degree))
+  {
+    AssertThrow(degree <= max_degree,
+                InputError("Quadrature of degree " + std::to_string(degree),
+                           "",
+                           "ask for at most " + std::to_string(max_degree)));
+  }
+
+
+
+  ElementRuleBuilder::~ElementRuleBuilder() = default;
+
+  ElementRuleBuilder::ElementRuleBuilder(ElementRuleBuilder &&) noexcept =
+    default;
+
+
+
+  bool
+  ElementRuleBuilder::last_was_fallback() const
+  {
+    return data->fallback;
+  }
+
+
+
+  unsigned int
+  ElementRuleBuilder::n_attempts() const
+  {
+    return data->n_attempts;
+  }
+
+
+
+  void
+  ElementRuleBuilder::Data::keep_if_best(const double error)
+  {
+    if (!best_points.empty() && error >= best_error)
+      return;
+    best_error = error;
+    best_points.clear();
+    best_weights.clear();
+    for (std::size_t k = 0; k < weights.size(); ++k)
+      if (weights[k] > 0.)
+      {
+        best_points.push_back(candidates.reference[k]);
+        best_weights.push_back(weights[k] / frame.reference_to_scaled_area());
+      }
+  }
+
+
+
+  dealii::Quadrature<2>
+  ElementRuleBuilder::Data::result() const
+  {
+    return best_points.empty()
+             ? dealii::Quadrature<2>()
+             : dealii::Quadrature<2>(best_points, best_weights);
+  }
+
+
+
+  dealii::Quadrature<2>
+  ElementRuleBuilder::build(const dealii::ArrayView<const ElementEdge> &edges,
+                            const CellFrame                            &cell)
+  {
+    Data &d      = *data;
+    d.fallback   = false;
+    d.n_attempts = 0;
+    d.best_points.clear();
+    d.best_weights.clear();
+    if (edges.size() == 0 || !d.frame.reinit(edges, cell))
+      return d.result();
+
+    const double scale = d.basis.moments(d.frame.edges(), d.gauss, d.moments);
+    AssertThrow(std::isfinite(scale),
+                NumericalFailure("The boundary of an element is not finite",
+                                 to_string(edges[0].start),
+                                 "check the coordinates of the curves there"));
+    if (d.moments[0] <=
+        std::max(d.frame.area_resolution(), 16. * epsilon * scale))
+      return d.result();
+
+    // The box integral of the error bound is at least 2 in scaled coordinates.
+    const double goal       = 2. * epsilon * std::max(scale, 1.);
+    const double acceptable = 16. * epsilon * std::max(scale, 1.);
+    const double tolerable  = 48. * epsilon * std::max(scale, 1.);
+    for (unsigned int level = 0; level < n_levels; ++level)
+    {
+      d.candidates.reinit(d.frame, d.basis.degree(), level, d.gauss);
+      ++d.n_attempts;
+      if (d.candidates.weights.empty())
+        continue;
+      d.basis.evaluate(d.candidates.s1, d.candidates.s2, d.values);
+      d.weights = d.candidates.weights;
+      if (!d.reduction.reduce(
+            d.values, d.moments, 4. * epsilon * scale, true, d.weights))
+        continue;
+      const double error =
+        d.reduction.polish(d.values, d.moments, goal, d.weights);
+      d.keep_if_best(error);
+      if (error <= acceptable)
+        return d.result();
+    }
+
+    if (d.best_points.empty() && !d.candidates.weights.empty())
+    {
+      // the moments of the candidates instead of those of the element
+      d.weights = d.candidates.weights;
+      d.reduction.reduce(d.values, d.moments, 0., false, d.weights);
+      d.best_error = std::numeric_limits<double>::max();
+      d.keep_if_best(0.);
+      d.fallback = true;
+    }
+    else
+      d.fallback = d.best_points.empty() || d.best_error > tolerable;
+    return d.result();
+  }
+} // namespace NMM

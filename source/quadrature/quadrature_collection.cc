@@ -1,0 +1,98 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/quadrature/element_quadrature.h>
+#include <nmm/quadrature/element_rule_builder.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <string>
+
+namespace NMM
+{
+  dealii::Quadrature<2>
+  make_triangle_rule(const unsigned int degree)
+  {
+    // Fewest points among deal.II's rules with positive weights inside:
+    // degree             1  2  3  4  5   6   7   8   9  10  11  12  13  14
+    // QGaussSimplex      1     4     7      15
+    // Witherden-Vincent  1  3  6  6  7  12  15  16  19  25  28  33  37  42
+    AssertThrow(degree <= 14,
+                InputError("Quadrature of degree " + std::to_string(degree) +
+                             " on triangles",
+                           "",
+                           "deal.II has rules up to degree 14"));
+    if (degree <= 1)
+      return dealii::QGaussSimplex<2>(1);
+    if (degree == 3)
+      return dealii::QGaussSimplex<2>(2);
+    return dealii::QWitherdenVincentSimplex<2>((degree + 1) / 2,
+                                               degree % 2 == 1);
+  }
+
+
+
+  QuadratureCollection::QuadratureCollection(
+    const ManifoldMesh                         &mesh,
+    const unsigned int                          degree_whole,
+    const unsigned int                          degree_cut,
+    const std::pair<unsigned int, unsigned int> elements)
+    : whole_rule(make_triangle_rule(degree_whole))
+    , first_element(elements.first)
+  {
+    Assert(elements.first <= elements.second &&
+             elements.second <= mesh.n_elements(),
+           dealii::ExcMessage("No such range of elements."));
+    const unsigned int n = elements.second - elements.first;
+    element_to_rule.assign(n, invalid_index);
+    area_fractions.assign(n, 1.);
+
+    const MathematicalMesh &cells = mesh.mathematical_mesh();
+    ElementRuleBuilder      builder(degree_cut);
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      const unsigned int element = elements.first + i;
+      if (mesh.is_whole(element))
+        continue;
+      const unsigned int cell = mesh.cell(element);
+      element_to_rule[i]      = cut_rules.size();
+      cut_rules.push_back(
+        builder.build(mesh.edges(element),
+                      {cells.vertices()[cells.cell_vertices(cell)[0]],
+                       cells.jacobian(cell)}));
+      if (builder.last_was_fallback())
+        ++fallbacks;
+      // the reference triangle has area 1/2
+      double area = 0.;
+      for (const double weight : cut_rules.back().get_weights())
+        area += weight;
+      area_fractions[i] = std::min(2. * area, 1.);
+    }
+  }
+
+
+
+  const dealii::Quadrature<2> &
+  QuadratureCollection::rule(const unsigned int element) const
+  {
+    AssertIndexRange(element - first_element, element_to_rule.size());
+    const unsigned int index = element_to_rule[element - first_element];
+    return index == invalid_index ? whole_rule : cut_rules[index];
+  }
+
+
+
+  double
+  QuadratureCollection::area_fraction(const unsigned int element) const
+  {
+    AssertIndexRange(element - first_element, area_fractions.size());
+    return area_fractions[element - first_element];
+  }
+
+
+
+  unsigned int
+  QuadratureCollection::n_fallbacks() const
+  {
+    return fallbacks;
+  }
+} // namespace NMM

@@ -1,0 +1,101 @@
+#ifndef nmm_quadrature_rule_reduction_h
+#define nmm_quadrature_rule_reduction_h
+
+#include <vector>
+
+namespace NMM
+{
+  namespace internal
+  {
+    /**
+     * Shortens a positive rule to at most as many points as there are
+     * functions, keeping its moments: Caratheodory's theorem, made into an
+     * algorithm for cubature by Tchakaloff (Bull. Sci. Math. 81, 1957).
+     *
+     * With A the matrix of the functions' values times weights (functions x
+     * points) and u = 1 the relative weights, Gauss-Jordan elimination with
+     * pivoting over the *points* gives A = A_B [I T]: a well-conditioned basis B of points
+     * (discrete Leja points) and a null vector for every other point. As in
+     * the simplex method the others are driven out one by one; a basic point
+     * whose weight reaches zero first leaves in exchange. Functions that
+     * vanish on all points to round-off lower the rank, and the number of
+     * points left, by one each.
+     * Cost: O(functions^2 x points + functions x eliminated points^2).
+     */
+    class RuleReduction
+    {
+    public:
+      /**
+       * @param values  functions x points, row by row.
+       * @param moments those wanted.
+       * @param noise   round-off of the moments.
+       * @param correct weights that miss the moments by more than @p noise are
+       *   first changed by the smallest relative amounts that restore the
+       *   moments; without it the rule keeps the moments of the given weights.
+       * @param weights positive; on return zero where points are dropped.
+       * @return false if a corrected weight was not positive.
+       */
+      bool
+      reduce(const std::vector<double> &values,
+             const std::vector<double> &moments,
+             double                     noise,
+             bool                       correct,
+             std::vector<double>       &weights);
+
+      /// Solve once more for the weights of the points left, until no moment
+      /// is off by more than @p goal or nothing improves; weights stay positive.
+      /// @return largest error of a moment.
+      double
+      polish(const std::vector<double> &values,
+             const std::vector<double> &moments,
+             double                     goal,
+             std::vector<double>       &weights);
+
+    private:
+      void
+      make_tableau(const std::vector<double> &values,
+                   const std::vector<double> &weights,
+                   std::size_t                n_points,
+                   double                     rank_tolerance);
+
+      bool
+      correct_weights();
+
+      void
+      eliminate();
+
+      void
+      pivot(std::size_t row, std::size_t column);
+
+      double
+      residual_of(const std::vector<double> &values,
+                  const std::vector<double> &moments,
+                  const std::vector<double> &weights);
+
+      void
+      solve_survivors(const std::vector<double> &values,
+                      const std::vector<double> &weights);
+
+      double *
+      row(const std::size_t i)
+      {
+        return tableau.data() + rows[i] * stride;
+      }
+
+      std::size_t n = 0, n_columns = 0, stride = 0, rank = 0;
+
+      /// n x stride; columns [rank, n_columns) hold T.
+      std::vector<double> tableau;
+      /// Tableau rows of the basic points.
+      std::vector<std::size_t> rows;
+      /// Points of the columns.
+      std::vector<std::size_t> columns, active;
+      /// Relative weights of the columns.
+      std::vector<double> u;
+      std::vector<double> right_side, residual;
+      std::vector<double> gram, solution, before;
+    };
+  } // namespace internal
+} // namespace NMM
+
+#endif

@@ -1,0 +1,371 @@
+#include "slab_candidates.h"
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace NMM
+{
+  namespace internal
+  {
+    namespace
+    {
+      /// Slabs below this width of scaled coordinates have no weight that
+      /// anybody could see.
+      constexpr double narrowest_slab = 1e-14;
+
+      /// Points keep this distance from the edges so that the round-off of
+      /// the test for being inside cannot matter.
+      constexpr double inside_margin =
+        8. * std::numeric_limits<double>::epsilon();
+
+      /// Grading of points along a slab towards an end where an arc turns
+      /// vertical; there its height behaves like a square root, which a
+      /// parameter with vanishing derivative makes smooth.
+      struct Grading
+      {
+        bool at_left, at_right;
+
+        std::pair<double, double>
+        operator()(const double t) const
+        {
+          if (at_left && at_right)
+            return {t * t * (3. - 2. * t), 6. * t * (1. - t)};
+          if (at_left)
+            return {t * t, 2. * t};
+          if (at_right)
+            return {t * (2. - t), 2. * (1. - t)};
+          return {t, 1.};
+        }
+      };
+    } // namespace
+
+
+
+    const GaussTable::Rule &
+    GaussTable::rule(const unsigned int n_points)
+    {
+      if (rules.size() <= n_points)
+        rules.resize(n_points + 1);
+      Rule &rule = rules[n_points];
+      if (rule.points.empty())
+      {
+        const dealii::QGauss<1> gauss(n_points);
+        for (unsigned int q = 0; q < n_points; ++q)
+        {
+          rule.points.push_back(gauss.point(q)[0]);
+          rule.weights.push_back(gauss.weight(q));
+        }
+      }
+      return rule;
+    }
+
+
+
+    // The root t = tan(tau/2) of s_1(tau) = s is that of the quadratic
+    //   alpha t^2 + 2 beta t + gamma = 0,
+    // whose derivative at the root, 2 (alpha t + beta), has the sign of
+    // ds_1/dtau. Both ways to write the root; the one without cancellation.
+    double
+    SlabCandidates::Piece::arc_parameter(const double s) const
+    {
+      const double v     = 2. * edge->cosine_axis[0];
+      const double q     = edge->half_sine_squared;
+      const double shift = s - edge->middle[0];
+      const double alpha = v * (q - 1.) - shift;
+      const double beta  = edge->sine_axis[0];
+      const double gamma = v * q - shift;
+      const double root =
+        slope_sign * std::sqrt(std::max(beta * beta - alpha * gamma, 0.));
+      const double sum        = -beta + root;
+      const double difference = -beta - root;
+      double       t          = 0.5 * (t_min + t_max);
+      if (std::abs(sum) > std::abs(difference))
+        t = sum / alpha;
+      else if (difference != 0.)
+        t = gamma / difference;
+      return std::min(std::max(t, t_min), t_max);
+    }
+
+
+
+    double
+    SlabCandidates::Piece::height(const double s) const
+    {
+      if (edge->is_arc)
+        return edge->arc_coordinate(1, arc_parameter(s));
+      const double t = (s - edge->start[0]) / (edge->end[0] - edge->start[0]);
+      return t < 0.5
+               ? edge->start[1] + t * (edge->end[1] - edge->start[1])
+               : edge->end[1] - (1. - t) * (edge->end[1] - edge->start[1]);
+    }
+
+
+
+    double
+    SlabCandidates::Piece::arc_speed(const double s) const
+    {
+      const double t       = arc_parameter(s);
+      const double inverse = 1. / (1. + t * t);
+      return std::abs(edge->sine_axis[0] * ((1. - t * t) * inverse) -
+                      edge->cosine_axis[0] * (2. * t * inverse));
+    }
+
+
+
+    void
+    SlabCandidates::add_piece(const FrameEdge &edge,
+                              const double     left,
+                              const double     right,
+                              const bool       is_bottom,
+                              const double     t_min,
+                              const double     t_max,
+                              const double     slope_sign)
+    {
+      pieces.push_back(
+        {&edge, left, right, is_bottom, t_min, t_max, slope_sign});
+    }
+
+
+
+    void
+    SlabCandidates::make_pieces(const std::vector<FrameEdge> &edges)
+    {
+      pieces.clear();
+      slices.clear();
+
+      // A crack is traversed twice and bounds nothing.
+      is_cancelled.assign(edges.size(), false);
+      for (std::size_t i = 0; i < edges.size(); ++i)
+        for (std::size_t j = 0; j < i && !is_cancelled[i]; ++j)
+          if (!is_cancelled[j] && edges[i].start == edges[j].end &&
+              edges[i].end == edges[j].start &&
+              edges[i].cosine_axis[0] == edges[j].cosine_axis[0] &&
+              edges[i].cosine_axis[1] == edges[j].cosine_axis[1])
+            is_cancelled[i] = is_cancelled[j] = true;
+
+      for (std::size_t i = 0; i < edges.size(); ++i)
+        if (!is_cancelled[i])
+        {
+          const FrameEdge &edge = edges[i];
+          const double     a    = edge.start[0];
+          const double     b    = edge.end[0];
+          slices.push_back(a);
+          if (!edge.is_arc)
+          {
+            if (a != b)
+              add_piece(
+                edge, std::min(a, b), std::max(a, b), a < b, 0., 0., 0.);
+            continue;
+          }
+          const double u      = edge.sine_axis[0];
+          const double v      = edge.cosine_axis[0];
+          const double t_end  = std::tan(0.5 * edge.half_angle);
+          const double t_turn = v == 0. ? 2. : std::tan(0.5 * std::atan(u / v));
+          if (std::abs(t_turn) < t_end)
+          {
+            // s_1 has its extreme, of the sign of v, inside the arc
+            const double s    = edge.arc_coordinate(0, t_turn);
+            const double sign = v > 0. ? 1. : -1.;
+            slices.push_back(s);
+            add_piece(edge,
+                      std::min(a, s),
+                      std::max(a, s),
+                      sign > 0.,
+                      -t_end,
+                      t_turn,
+                      sign);
+            add_piece(edge,
+                      std::min(b, s),
+                      std::max(b, s),
+                      sign < 0.,
+                      t_turn,
+                      t_end,
+                      -sign);
+          }
+          else if (a != b)
+            add_piece(edge,
+                      std::min(a, b),
+                      std::max(a, b),
+                      a < b,
+                      -t_end,
+                      t_end,
+                      a < b ? 1. : -1.);
+        }
+      std::sort(slices.begin(), slices.end());
+    }
+
+
+
+    bool
+    SlabCandidates::add_point(const ElementFrame          &frame,
+                              const Piece                 &bottom,
+                              const Piece                 &top,
+                              const double                 left,
+                              const double                 right,
+                              const std::array<double, 2> &s,
+                              const double                 weight)
+    {
+      // Where the element is not much wider than the spacing of doubles, the
+      // rounded point may be outside: try to hit the target better, then the
+      // middle of the trapezoid, and leave the point out in the end; the
+      // moments give its weight to others.
+      std::array<double, 2> target = s;
+      std::array<double, 2> xi     = frame.scaled_to_reference(target);
+      for (unsigned int attempt = 0; attempt < 4; ++attempt)
+      {
+        const std::array<double, 2> rounded = frame.reference_to_scaled(xi);
+        if (rounded[0] > left + inside_margin &&
+            rounded[0] < right - inside_margin &&
+            rounded[1] > bottom.height(rounded[0]) + inside_margin &&
+            rounded[1] < top.height(rounded[0]) - inside_margin)
+        {
+          s1.push_back(rounded[0]);
+          s2.push_back(rounded[1]);
+          reference.emplace_back(xi[0], xi[1]);
+          weights.push_back(weight);
+          return true;
+        }
+        if (attempt == 1)
+          target[1] = 0.5 * (bottom.height(s[0]) + top.height(s[0]));
+        const std::array<double, 2> step = frame.scaled_to_reference_increment(
+          {{target[0] - rounded[0], target[1] - rounded[1]}});
+        xi[0] += step[0];
+        xi[1] += step[1];
+      }
+      return false;
+    }
+
+
+
+    void
+    SlabCandidates::fill_trapezoid(const ElementFrame &frame,
+                                   const Piece        &bottom,
+                                   const Piece        &top,
+                                   const double        left,
+                                   const double        right,
+                                   const unsigned int  n_along,
+                                   const unsigned int  n_across,
+                                   GaussTable         &gauss)
+    {
+      Grading grading = {false, false};
+      for (const Piece *piece : {&bottom, &top})
+        if (piece->edge->is_arc)
+        {
+          const double at_left  = piece->arc_speed(left);
+          const double at_right = piece->arc_speed(right);
+          const double middle   = piece->arc_speed(0.5 * (left + right));
+          grading.at_left       = grading.at_left || at_left < 0.3 * middle;
+          grading.at_right      = grading.at_right || at_right < 0.3 * middle;
+        }
+      gauss.rule(n_across); // grows the table before references are taken
+      const GaussTable::Rule &along = gauss.rule(
+        n_along + (grading.at_left ? 1 : 0) + (grading.at_right ? 1 : 0));
+      const GaussTable::Rule &across = gauss.rule(n_across);
+      for (std::size_t i = 0; i < along.points.size(); ++i)
+      {
+        const auto [x, dx]  = grading(along.points[i]);
+        const double s      = left + x * (right - left);
+        const double lower  = bottom.height(s);
+        const double height = top.height(s) - lower;
+        if (height <= 4. * inside_margin)
+          continue;
+        const double weight = along.weights[i] * dx * (right - left) * height;
+        for (std::size_t j = 0; j < across.points.size(); ++j)
+          add_point(frame,
+                    bottom,
+                    top,
+                    left,
+                    right,
+                    {{s, lower + across.points[j] * height}},
+                    weight * across.weights[j]);
+      }
+    }
+
+
+
+    void
+    SlabCandidates::fill_slab(const ElementFrame &frame,
+                              const double        left,
+                              const double        right,
+                              const unsigned int  n_along,
+                              const unsigned int  n_across,
+                              const unsigned int  n_arc_extra,
+                              GaussTable         &gauss)
+    {
+      const double middle = 0.5 * (left + right);
+      stack.clear();
+      for (const Piece &piece : pieces)
+        if (piece.left <= left + narrowest_slab &&
+            piece.right >= right - narrowest_slab)
+          stack.emplace_back(piece.height(middle), &piece);
+      std::sort(stack.begin(), stack.end(), [](const auto &a, const auto &b) {
+        return a.first != b.first ? a.first < b.first
+                                  : a.second->is_bottom < b.second->is_bottom;
+      });
+
+      // The winding number tells inside from outside; counting odd and even
+      // edges would fail where rounded edges overlap.
+      int          winding = 0;
+      const Piece *bottom  = nullptr;
+      for (const auto &[height, piece] : stack)
+      {
+        if (piece->is_bottom && ++winding == 1)
+          bottom = piece;
+        else if (!piece->is_bottom && --winding == 0)
+          fill_trapezoid(frame,
+                         *bottom,
+                         *piece,
+                         left,
+                         right,
+                         n_along + (bottom->edge->is_arc || piece->edge->is_arc
+                                      ? n_arc_extra
+                                      : 0),
+                         n_across,
+                         gauss);
+      }
+    }
+
+
+
+    void
+    SlabCandidates::reinit(const ElementFrame &frame,
+                           const unsigned int  degree,
+                           const unsigned int  level,
+                           GaussTable         &gauss)
+    {
+      s1.clear();
+      s2.clear();
+      reference.clear();
+      weights.clear();
+      make_pieces(frame.edges());
+
+      // Across, q is of degree m; along, its integral over the height of a
+      // trapezoid of degree m + 1.
+      unsigned int n_along  = (degree + 3) / 2 + level;
+      unsigned int n_across = (degree + 2) / 2 + level;
+      if (level >= 2)
+        n_along = n_across = degree + 1 + 2 * (level - 2);
+      const unsigned int n_arc_extra = 1 + level;
+
+      for (std::size_t i = 0; i + 1 < slices.size();)
+      {
+        std::size_t next = i + 1;
+        while (next < slices.size() &&
+               slices[next] - slices[i] <= narrowest_slab)
+          ++next;
+        if (next < slices.size())
+          fill_slab(frame,
+                    slices[next - 1],
+                    slices[next],
+                    n_along,
+                    n_across,
+                    n_arc_extra,
+                    gauss);
+        i = next;
+      }
+    }
+  } // namespace internal
+} // namespace NMM

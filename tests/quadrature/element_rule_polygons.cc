@@ -1,0 +1,234 @@
+// Rules on polygons against exact rational arithmetic.
+
+#include <nmm/quadrature/element_rule_builder.h>
+
+#include "../support/simplex_integration.h"
+#include "random_elements.h"
+#include <gtest/gtest.h>
+#include <map>
+
+using namespace NMM;
+using namespace NMM::Testing;
+
+namespace
+{
+  constexpr unsigned int seed = 20240117;
+
+  RationalPoint
+  exact(const dealii::Point<2> &p)
+  {
+    return {{Rational(p[0]), Rational(p[1])}};
+  }
+
+
+  /// A rule and its element as rational numbers, about the middle of the element's bounding box.
+  struct ExactElement
+  {
+    std::vector<std::pair<RationalPoint, RationalPoint>> edges;
+    RationalPoint                                        half_box;
+    std::vector<RationalPoint>                           points;
+    std::vector<Rational>                                weights;
+
+    ExactElement(const std::vector<ElementEdge> &element,
+                 const CellFrame                &frame,
+                 const dealii::Quadrature<2>    &rule)
+    {
+      RationalPoint lower = exact(element[0].start), upper = lower;
+      for (const ElementEdge &edge : element)
+        for (unsigned int d = 0; d < 2; ++d)
+        {
+          lower[d] = std::min<Rational>(lower[d], Rational(edge.start[d]));
+          upper[d] = std::max<Rational>(upper[d], Rational(edge.start[d]));
+        }
+      RationalPoint middle;
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        middle[d]   = (lower[d] + upper[d]) / 2;
+        half_box[d] = (upper[d] - lower[d]) / 2;
+      }
+      const auto centred = [&](RationalPoint p) {
+        for (unsigned int d = 0; d < 2; ++d)
+          p[d] -= middle[d];
+        return p;
+      };
+      for (const ElementEdge &edge : element)
+        edges.emplace_back(centred(exact(edge.start)),
+                           centred(exact(edge.end)));
+
+      const auto    &J   = frame.jacobian;
+      const Rational det = abs(Rational(Rational(J[0][0]) * Rational(J[1][1]) -
+                                        Rational(J[0][1]) * Rational(J[1][0])));
+      for (unsigned int k = 0; k < rule.size(); ++k)
+      {
+        const RationalPoint xi = exact(rule.point(k));
+        RationalPoint       x  = exact(frame.origin);
+        for (unsigned int d = 0; d < 2; ++d)
+          x[d] += Rational(J[d][0]) * xi[0] + Rational(J[d][1]) * xi[1];
+        points.push_back(centred(x));
+        weights.push_back(det * Rational(rule.weight(k)));
+      }
+    }
+
+    /// Largest error of a monomial over its integral of absolute value over the box.
+    double
+    error(const unsigned int degree) const
+    {
+      double worst = 0.;
+      for (unsigned int i = 0; i <= degree; ++i)
+        for (unsigned int j = 0; i + j <= degree; ++j)
+        {
+          Rational sum = 0;
+          for (const auto &[p, q] : edges)
+            sum -= simplex_integral(p, q, i, j);
+          for (std::size_t k = 0; k < points.size(); ++k)
+            sum += weights[k] * power(points[k][0], i) * power(points[k][1], j);
+          const Rational box = 4 * power(half_box[0], i + 1) *
+                               power(half_box[1], j + 1) / ((i + 1) * (j + 1));
+          worst =
+            std::max(worst, std::abs(Rational(sum / box).convert_to<double>()));
+        }
+      return worst;
+    }
+  };
+
+
+  struct Statistics
+  {
+    double       worst_error = 0.;
+    unsigned int n_elements = 0, n_retried = 0, n_empty = 0;
+  };
+
+
+  void
+  check(const std::vector<ElementEdge> &element,
+        const CellFrame                &frame,
+        const unsigned int              degree,
+        Statistics                     &statistics)
+  {
+    static std::map<unsigned int, ElementRuleBuilder> builders;
+    ElementRuleBuilder                               &builder =
+      builders.try_emplace(degree, degree).first->second;
+    const dealii::Quadrature<2> rule =
+      builder.build(dealii::make_array_view(element), frame);
+    ++statistics.n_elements;
+    if (builder.n_attempts() > 1)
+      ++statistics.n_retried;
+    ASSERT_GT(rule.size(), 0u);
+    EXPECT_LE(rule.size(), (degree + 1) * (degree + 2) / 2);
+    EXPECT_FALSE(builder.last_was_fallback());
+
+    const ExactElement exact_element(element, frame, rule);
+    for (unsigned int k = 0; k < rule.size(); ++k)
+    {
+      EXPECT_GT(rule.weight(k), 0.);
+      EXPECT_EQ(winding_number(exact_element.edges, exact_element.points[k]), 1)
+        << "point " << rule.point(k) << " is not in the element";
+    }
+    // The bar for every rule of this project.
+    const double error = exact_element.error(degree);
+    EXPECT_LE(error, 1e-13);
+    statistics.worst_error = std::max(statistics.worst_error, error);
+  }
+
+
+  void
+  report(const Statistics &statistics)
+  {
+    std::cout << "    " << statistics.n_elements << " elements, worst error "
+              << statistics.worst_error << ", " << statistics.n_retried
+              << " took a second set of candidates" << std::endl;
+    ::testing::Test::RecordProperty("worst_error",
+                                    std::to_string(statistics.worst_error));
+  }
+
+
+  const std::vector<RandomElements::Shape> shapes = {
+    RandomElements::Shape::triangle,
+    RandomElements::Shape::convex,
+    RandomElements::Shape::concave,
+    RandomElements::Shape::hole,
+    RandomElements::Shape::crack_from_boundary,
+    RandomElements::Shape::inner_crack};
+
+
+  struct Family
+  {
+    const char  *name;
+    double       squeeze;
+    bool         rotated;
+    double       shift;
+    unsigned int n_samples;
+  };
+
+
+  class ElementRulePolygons
+    : public ::testing::TestWithParam<std::tuple<Family, unsigned int>>
+  {
+  };
+
+
+  // Slivers: squeezed shapes whose exact edges, as rounded, are still simple.
+  TEST_P(ElementRulePolygons, EqualsSimplexIntegration)
+  {
+    const auto [family, degree] = GetParam();
+    RandomElements random(seed + degree);
+    Statistics     statistics;
+    for (unsigned int sample = 0; sample < family.n_samples; ++sample)
+      for (const RandomElements::Shape shape : shapes)
+      {
+        SCOPED_TRACE("seed " + std::to_string(seed + degree) + " sample " +
+                     std::to_string(sample) + " shape " +
+                     std::to_string(static_cast<int>(shape)));
+        auto                   element = random.element(shape);
+        const double           scale   = std::pow(10., random.uniform(-3., 3.));
+        CellFrame              frame   = random.frame(3. * scale);
+        const dealii::Point<2> shift(family.shift * scale *
+                                       random.uniform(-1., 1.),
+                                     family.shift * scale *
+                                       random.uniform(-1., 1.));
+        transform(element,
+                  family.squeeze,
+                  family.rotated ? random.uniform(0., 6.28) : 0.,
+                  scale,
+                  shift);
+        frame.origin += shift;
+        check(element, frame, degree, statistics);
+        if (HasFatalFailure())
+          return;
+      }
+    report(statistics);
+  }
+
+
+  std::string
+  name_of(
+    const ::testing::TestParamInfo<std::tuple<Family, unsigned int>> &info)
+  {
+    return std::string(std::get<0>(info.param).name) + "_degree" +
+           std::to_string(std::get<1>(info.param));
+  }
+
+
+  INSTANTIATE_TEST_SUITE_P(
+    LowDegrees,
+    ElementRulePolygons,
+    ::testing::Combine(
+      ::testing::Values(Family{"compact", 1., true, 1., 60},
+                        Family{"far_from_origin", 1., true, 1e6, 30},
+                        Family{"aspect_1e3", 1e-3, true, 1., 30},
+                        Family{"aspect_1e8", 1e-8, false, 1., 30},
+                        Family{"aspect_1e8_rotated", 1e-8, true, 1., 30},
+                        Family{"aspect_1e12", 1e-12, false, 1., 30}),
+      ::testing::Values(1, 2, 3, 4)),
+    name_of);
+
+  INSTANTIATE_TEST_SUITE_P(
+    HighDegrees,
+    ElementRulePolygons,
+    ::testing::Combine(
+      ::testing::Values(Family{"compact", 1., true, 1., 5},
+                        Family{"aspect_1e8", 1e-8, false, 1., 5},
+                        Family{"aspect_1e8_rotated", 1e-8, true, 1., 5}),
+      ::testing::Values(6, 8)),
+    name_of);
+} // namespace

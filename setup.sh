@@ -17,7 +17,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 readonly packages=(
   g++ cmake ninja-build pkg-config git clang-format
   libdeal.ii-dev mpi-default-bin libopenblas0-pthread
-  libcgal-dev libeigen3-dev libcairo2-dev fonts-dejavu-core
+  libcgal-dev libeigen3-dev libboost-program-options-dev
+  libcairo2-dev fonts-dejavu-core
   libgtest-dev gnuplot-nox)
 
 export OPENBLAS_NUM_THREADS="${OPENBLAS_NUM_THREADS:-1}"

@@ -1,3 +1,4 @@
+#include <nmm/base/compat.h>
 #include <nmm/base/exceptions.h>
 #include <nmm/covers/aggregation.h>
 
@@ -169,9 +170,11 @@ namespace NMM
                    const Aggregation &aggregation,
                    const unsigned int n_components)
   {
-    const MathematicalMesh   &mesh = covers.manifold_mesh().mathematical_mesh();
-    AffineConstraints<double> constraints(
-      covers.locally_relevant_dofs(n_components));
+    const MathematicalMesh &mesh = covers.manifold_mesh().mathematical_mesh();
+    auto                    constraints =
+      Compat::make_affine_constraints(covers.locally_owned_dofs(n_components),
+                                      covers.locally_relevant_dofs(
+                                        n_components));
     for (const auto &[k, root] : aggregation.cover_to_root)
     {
       if (!covers.locally_relevant_covers().is_element(k))

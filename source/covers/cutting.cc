@@ -7,6 +7,7 @@
 #include "../geometry/arrangement.h"
 #include <algorithm>
 #include <map>
+#include <unordered_map>
 
 namespace NMM
 {
@@ -99,7 +100,14 @@ namespace NMM
         const std::vector<unsigned char> &touched;
         Arrangement                       arrangement;
 
+        /// A vertex as doubles, converted once: a second conversion of a lazy
+        /// number can differ in the last place, and loops must close exactly.
+        Point<2>
+        point(const Arrangement::Vertex_handle &vertex);
+
         std::map<std::vector<unsigned int>, unsigned int> curve_set_to_index;
+        std::unordered_map<const Arrangement::Vertex *, Point<2>>
+          vertex_to_point;
       };
 
 
@@ -324,6 +332,17 @@ namespace NMM
       }
 
 
+      Point<2>
+      Cutter::point(const Arrangement::Vertex_handle &vertex)
+      {
+        const auto [position, is_new] =
+          vertex_to_point.emplace(&*vertex, Point<2>());
+        if (is_new)
+          position->second = to_double(vertex->point());
+        return position->second;
+      }
+
+
       unsigned int
       Cutter::curve_set_index(const Halfedge &halfedge)
       {
@@ -346,8 +365,8 @@ namespace NMM
       Cutter::read_edge(const Halfedge &halfedge)
       {
         ElementEdge edge;
-        edge.start     = to_double(halfedge->source()->point());
-        edge.end       = to_double(halfedge->target()->point());
+        edge.start     = point(halfedge->source());
+        edge.end       = point(halfedge->target());
         edge.curve_set = curve_set_index(halfedge);
         edge.neighbor  = left_element(halfedge->twin());
         edge.mesh_edge = mesh_edge(halfedge);

@@ -4,6 +4,7 @@
 #include <nmm/geometry/physical_mesh.h>
 
 #include <deal.II/base/numbers.h>
+#include <deal.II/grid/tria_description.h>
 
 #include <array>
 #include <cmath>

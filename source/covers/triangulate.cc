@@ -76,6 +76,23 @@ namespace NMM
     }
 
 
+    /// Area of a triangle with parabolic sides: its corners' plus, per side, 2/3
+    /// of chord times bulge [m^2].
+    double
+    curved_area(const QuadraticTriangle &t)
+    {
+      const auto cross = [](const Tensor<1, 2> &a, const Tensor<1, 2> &b) {
+        return a[0] * b[1] - a[1] * b[0];
+      };
+      double area = 0.5 * cross(t[1] - t[0], t[2] - t[0]);
+      for (unsigned int i = 0; i < 3; ++i)
+        area -= 2. / 3. * cross(t[(i + 1) % 3] - t[i], t[3 + i] - t[i]);
+      return area;
+    }
+
+
+    /// A sliver between an arc and a curve that nearly touches it can be thinner
+    /// than the arc's bulge: then its sides stay straight.
     QuadraticTriangle
     make_triangle(const std::array<Point<2>, 3> &corners,
                   const ArcMiddles              &arc_middles)
@@ -89,6 +106,9 @@ namespace NMM
         triangle[3 + i] =
           found != arc_middles.end() ? found->second : Point<2>(0.5 * (a + b));
       }
+      if (curved_area(triangle) <= 0.)
+        for (unsigned int i = 0; i < 3; ++i)
+          triangle[3 + i] = Point<2>(0.5 * (corners[i] + corners[(i + 1) % 3]));
       return triangle;
     }
   } // namespace

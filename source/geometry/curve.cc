@@ -58,15 +58,13 @@ namespace NMM
     check_segment_or_arc(const Curve &curve, const CurvePiece &piece)
     {
       const bool is_arc = piece.kind == CurvePiece::Kind::arc;
-      AssertThrow(is_finite(piece.start) && is_finite(piece.end) &&
-                    (!is_arc || is_finite(piece.through)),
-                  InputError("a coordinate of " + internal::describe(curve) +
-                               " is not a finite number",
-                             internal::describe_place(curve,
-                                                      is_finite(piece.start)
-                                                        ? piece.start
-                                                        : piece.end),
-                             "give finite numbers"));
+      for (const dealii::Point<2> &point :
+           {piece.start, is_arc ? piece.through : piece.start, piece.end})
+        AssertThrow(is_finite(point),
+                    InputError("a coordinate of " + internal::describe(curve) +
+                                 " is not a finite number",
+                               internal::describe_place(curve, point),
+                               "give finite numbers"));
       if (!is_arc)
       {
         AssertThrow(piece.start != piece.end,

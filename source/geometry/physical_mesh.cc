@@ -176,7 +176,7 @@ namespace NMM
                          return curves[c].role == CurveRole::interface;
                        }))
         continue;
-      const auto [low, high] = std::minmax(root(a), root(b));
+      const auto [low, high] = std::minmax({root(a), root(b)});
       parent[high]           = low;
     }
     for (unsigned int r = 0; r < regions.size(); ++r)

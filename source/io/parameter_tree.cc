@@ -351,7 +351,11 @@ namespace NMM
                                        "(.*)")))
       {
         std::vector<std::string> child_path = path;
-        child_path.push_back(trimmed(match.str(1)));
+        // Below the top level the name comes with its path.
+        const std::string prefix = path.empty() ? "" : join(path, ".") + ".";
+        const std::string name   = trimmed(match.str(1));
+        child_path.push_back(
+          name.rfind(prefix, 0) == 0 ? name.substr(prefix.size()) : name);
         find_section(tree, child_path, where);
       }
       if (std::regex_search(message,

@@ -35,6 +35,10 @@ namespace NMM
     };
 
 
+    /// Width of what is right of the solid [thousandths of the picture width].
+    constexpr double bar_space = 160.;
+
+
     Layout
     make_layout(const PictureData &data, const unsigned int width)
     {
@@ -50,11 +54,10 @@ namespace NMM
         lower = upper = Point<2>();
 
       Layout layout;
-      layout.width      = static_cast<int>(width);
       layout.unit       = width / 1000.;
       layout.left       = 30. * layout.unit;
       layout.top        = 85. * layout.unit;
-      layout.plot_width = width - layout.left - 180. * layout.unit;
+      layout.plot_width = width - layout.left - bar_space * layout.unit;
       layout.center     = Point<2>(0.5 * (lower + upper));
       const double size = std::max(upper[0] - lower[0], upper[1] - lower[1]);
       const double box_width  = std::max(upper[0] - lower[0], 1e-3 * size);
@@ -64,8 +67,12 @@ namespace NMM
       layout.scale = size > 0. ? std::min(layout.plot_width / box_width,
                                           1000. * layout.unit / box_height)
                                : 1.;
+      layout.plot_width =
+        std::max(layout.scale * box_width, 420. * layout.unit);
       layout.plot_height =
         std::max(layout.scale * box_height, 320. * layout.unit);
+      layout.width = static_cast<int>(
+        std::ceil(layout.left + layout.plot_width + bar_space * layout.unit));
       layout.height = static_cast<int>(
         std::ceil(layout.top + layout.plot_height + 30. * layout.unit));
       return layout;
@@ -106,8 +113,9 @@ namespace NMM
 
     /**
      * Fill a straight triangle with linearly varying values in [0, 1]. Each
-     * pixel whose centre lies in it is set; pixels on an edge are set from both
-     * sides, so neighbours leave no seam.
+     * pixel whose centre lies in it, or outside an edge by less than half a
+     * pixel, is set: neighbours leave no seam and slivers do not vanish.
+     * Outlines drawn later cover the rim.
      */
     void
     fill_triangle(const std::array<Point<2>, 3>    &p,
@@ -121,13 +129,20 @@ namespace NMM
         return;
       const auto [x_min, x_max] = std::minmax({p[0][0], p[1][0], p[2][0]});
       const auto [y_min, y_max] = std::minmax({p[0][1], p[1][1], p[2][1]});
+      // Pixel i covers [i, i + 1].
       const int first_x = std::max(0, static_cast<int>(std::floor(x_min)));
       const int last_x =
-        std::min(canvas.width - 1, static_cast<int>(std::ceil(x_max)));
+        std::min(canvas.width - 1, static_cast<int>(std::floor(x_max)));
       const int first_y = std::max(0, static_cast<int>(std::floor(y_min)));
       const int last_y =
-        std::min(canvas.height - 1, static_cast<int>(std::ceil(y_max)));
-      constexpr double slack = 1e-6;
+        std::min(canvas.height - 1, static_cast<int>(std::floor(y_max)));
+      // Half a pixel as barycentric coordinate of the corner opposite an edge.
+      const auto slack = [&](const unsigned int i, const unsigned int j) {
+        return 0.5 * p[i].distance(p[j]) / std::abs(determinant);
+      };
+      const double slack_0 = slack(1, 2);
+      const double slack_1 = slack(2, 0);
+      const double slack_2 = slack(0, 1);
 
       for (int y = first_y; y <= last_y; ++y)
         for (int x = first_x; x <= last_x; ++x)
@@ -138,7 +153,7 @@ namespace NMM
             (dx * (p[2][1] - p[0][1]) - dy * (p[2][0] - p[0][0])) / determinant;
           const double l2 =
             (dy * (p[1][0] - p[0][0]) - dx * (p[1][1] - p[0][1])) / determinant;
-          if (l1 < -slack || l2 < -slack || l1 + l2 > 1. + slack)
+          if (l1 < -slack_1 || l2 < -slack_2 || l1 + l2 > 1. + slack_0)
             continue;
           const double value = values[0] + l1 * (values[1] - values[0]) +
                                l2 * (values[2] - values[0]);
@@ -217,11 +232,12 @@ namespace NMM
                const std::vector<PictureData::Polyline> &lines,
                const Layout                             &layout,
                const double                              width,
+               const cairo_line_cap_t                    cap,
                const std::array<double, 4>              &colour)
     {
       cairo_set_source_rgba(cr, colour[0], colour[1], colour[2], colour[3]);
       cairo_set_line_width(cr, width * layout.unit);
-      cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+      cairo_set_line_cap(cr, cap);
       cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
       for (const PictureData::Polyline &line : lines)
       {
@@ -272,14 +288,39 @@ namespace NMM
     }
 
 
+    /// Power of ten, a multiple of three, that numbers are shown in; 0 for
+    /// handy ones.
+    int
+    choose_exponent(const double minimum, const double maximum)
+    {
+      const double largest = std::max(std::abs(minimum), std::abs(maximum));
+      if (largest == 0. || (largest >= 0.1 && largest < 1e4))
+        return 0;
+      return 3 * static_cast<int>(std::floor(std::log10(largest) / 3.));
+    }
+
+
+    std::string
+    superscript(const int number)
+    {
+      static const std::array<const char *, 10> digits = {
+        {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"}};
+      std::string text = number < 0 ? "⁻" : "";
+      for (const char c : std::to_string(std::abs(number)))
+        text += digits[c - '0'];
+      return text;
+    }
+
+
     void
     draw_colour_bar(cairo_t      *cr,
                     const Layout &layout,
                     const double  minimum,
                     const double  maximum)
     {
+      const double factor = std::pow(10., choose_exponent(minimum, maximum));
       const double u      = layout.unit;
-      const double x      = layout.width - 150. * u;
+      const double x      = layout.width - (bar_space - 30.) * u;
       const double width  = 26. * u;
       const double height = std::min(layout.plot_height, 560. * u);
       const double y      = layout.top + 0.5 * (layout.plot_height - height);
@@ -311,7 +352,7 @@ namespace NMM
         cairo_line_to(cr, x + width + 5. * u, tick_y);
         cairo_stroke(cr);
         draw_text(cr,
-                  number_text(tick),
+                  number_text(tick / factor),
                   x + width + 9. * u,
                   tick_y + 5. * u,
                   15. * u,
@@ -321,23 +362,29 @@ namespace NMM
 
 
     std::string
-    subtitle(const PictureData &data, const OutputParameters &parameters)
+    subtitle(const PictureData      &data,
+             const OutputParameters &parameters,
+             const int               exponent)
     {
       const Quantity     quantity = parameters.quantity;
       std::ostringstream text;
-      text << std::setprecision(3);
-      const bool is_stress = quantity < Quantity::displacement;
-      const bool is_index =
+      const bool         is_stress = quantity < Quantity::displacement;
+      const bool         is_index =
         quantity == Quantity::block || quantity == Quantity::material;
       if (is_stress && !parameters.recovered)
         text << "direct ";
       text << to_string(quantity);
       if (!is_index)
         text << " ["
+             << (exponent == 0 ? "" : "10" + superscript(exponent) + " ")
              << (is_stress ? parameters.stress_unit : parameters.length_unit)
              << ']';
       if (data.deformation_scale != 0.)
-        text << ", displacements × " << data.deformation_scale;
+      {
+        // No exponent below a million.
+        text << ", displacements × " << std::setprecision(6)
+             << data.deformation_scale;
+      }
       return text.str();
     }
 
@@ -448,15 +495,30 @@ namespace NMM
                               canvas);
     cairo_surface_mark_dirty(surface.get());
 
-    draw_lines(cr.get(), data.mesh_lines, layout, 0.4, {{1., 1., 1., 0.35}});
-    draw_lines(cr.get(), data.interfaces, layout, 1.0, {{0.9, 0.9, 0.9, 0.9}});
-    draw_lines(cr.get(), data.outlines, layout, 1.4, {{0.05, 0.05, 0.05, 1.}});
+    draw_lines(cr.get(),
+               data.mesh_lines,
+               layout,
+               0.4,
+               CAIRO_LINE_CAP_BUTT,
+               {{1., 1., 1., 0.35}});
+    draw_lines(cr.get(),
+               data.interfaces,
+               layout,
+               1.,
+               CAIRO_LINE_CAP_BUTT,
+               {{0.9, 0.9, 0.9, 0.9}});
+    draw_lines(cr.get(),
+               data.outlines,
+               layout,
+               1.4,
+               CAIRO_LINE_CAP_ROUND,
+               {{0.05, 0.05, 0.05, 1.}});
 
     const double u = layout.unit;
     draw_text(
       cr.get(), title, 30. * u, 36. * u, 24. * u, layout.width - 60. * u, true);
     draw_text(cr.get(),
-              subtitle(data, parameters),
+              subtitle(data, parameters, choose_exponent(minimum, maximum)),
               30. * u,
               63. * u,
               17. * u,

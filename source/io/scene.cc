@@ -7,12 +7,35 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iostream>
+#include <regex>
 #include <sstream>
 
 namespace NMM
 {
   namespace
   {
+    /// While it lives nothing is printed on the standard error stream, where
+    /// FunctionParser repeats what it throws.
+    class SilentErrorStream
+    {
+    public:
+      SilentErrorStream()
+        : buffer(std::cerr.rdbuf(text.rdbuf()))
+      {
+      }
+
+      ~SilentErrorStream()
+      {
+        std::cerr.rdbuf(buffer);
+      }
+
+    private:
+      std::ostringstream text;
+      std::streambuf    *buffer;
+    };
+
+
     /**
      * Expressions of x and y, separated by semicolons, as a function with
      * @p n_components components; null if @p text is empty.
@@ -43,14 +66,16 @@ namespace NMM
       {
         function->initialize("x,y", expressions, {{"pi", dealii::numbers::PI}});
         // Expressions are compiled when first used.
-        function->value(dealii::Point<2>(0.25, 0.25));
+        const SilentErrorStream silence;
+        for (unsigned int c = 0; c < n_components; ++c)
+          function->value(dealii::Point<2>(0.25, 0.25), c);
       }
       catch (const dealii::ExceptionBase &error)
       {
         std::ostringstream message;
         error.print_info(message);
         std::string reason = message.str();
-        std::replace(reason.begin(), reason.end(), '\n', ' ');
+        reason = std::regex_replace(reason, std::regex("\\s+"), " ");
         AssertThrow(false,
                     InputError("'" + text + "' is no valid expression (" +
                                  reason + ")",
@@ -177,6 +202,18 @@ namespace NMM
   {
     const MathematicalMeshParameters &parameters =
       scene_parameters.mathematical_mesh;
+    switch (parameters.type)
+    {
+      case MathematicalMeshParameters::Type::graded:
+        return make_graded_mesh(physical_mesh,
+                                parameters.graded,
+                                parameters.degree);
+      case MathematicalMeshParameters::Type::gmsh:
+        return read_gmsh_mesh(relative_to_scene(parameters.gmsh_file),
+                              parameters.degree);
+      case MathematicalMeshParameters::Type::regular:
+        break;
+    }
     return make_regular_mesh(physical_mesh,
                              parameters.regular,
                              parameters.degree);

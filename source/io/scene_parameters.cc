@@ -16,10 +16,10 @@ namespace NMM
 
   namespace
   {
-    const std::vector<std::pair<std::string, LocalSizeParameters::Type>>
-      local_size_types = {{"point", LocalSizeParameters::Type::point},
-                          {"box", LocalSizeParameters::Type::box},
-                          {"curve", LocalSizeParameters::Type::curve}};
+    const std::vector<std::pair<std::string, LocalSize::Kind>>
+      local_size_types = {{"point", LocalSize::Kind::point},
+                          {"box", LocalSize::Kind::box},
+                          {"curve", LocalSize::Kind::curve}};
 
     const std::vector<std::pair<std::string, MathematicalMeshParameters::Type>>
       mesh_types = {{"regular", MathematicalMeshParameters::Type::regular},
@@ -113,46 +113,46 @@ namespace NMM
                       Patterns::Double(0),
                       "Edge length of triangles there, > 0 [m].");
     prm.declare_entry("Growth",
-                      "0.3",
-                      Patterns::Double(0),
+                      "0.2",
+                      Patterns::Double(0, 1),
                       "Increase of the edge length per distance from there "
                       "[-]: small values grade gently.");
   }
 
 
-  void
-  LocalSizeParameters::parse(ParameterHandler &prm)
+  LocalSize
+  LocalSizeParameters::parse(ParameterHandler &prm, const std::string &name)
   {
-    type         = get_selection(prm, "Type", local_size_types);
-    point        = get_point(prm, "Point");
-    lower_corner = get_point(prm, "Lower corner");
-    upper_corner = get_point(prm, "Upper corner");
-    curve        = prm.get("Curve");
-    size         = prm.get_double("Size");
-    growth       = prm.get_double("Growth");
-  }
+    LocalSize local_size;
+    local_size.kind   = get_selection(prm, "Type", local_size_types);
+    local_size.point  = get_point(prm, "Point");
+    local_size.lower  = get_point(prm, "Lower corner");
+    local_size.upper  = get_point(prm, "Upper corner");
+    local_size.curve  = prm.get("Curve");
+    local_size.size   = prm.get_double("Size");
+    local_size.growth = prm.get_double("Growth");
 
-
-  void
-  LocalSizeParameters::check() const
-  {
     const std::string section = "section 'Mathematical mesh/" + name + "'";
-    AssertThrow(size > 0.,
-                InputError("the local size is " + std::to_string(size) + " m",
+    AssertThrow(local_size.size > 0.,
+                InputError("the local size is " +
+                             std::to_string(local_size.size) + " m",
                            section,
                            "set 'Size' to a positive edge length"));
-    AssertThrow(type != Type::curve || !curve.empty(),
+    AssertThrow(local_size.kind != LocalSize::Kind::curve ||
+                  !local_size.curve.empty(),
                 InputError("a local size along a curve without its name",
                            section,
                            "set 'Curve' to a curve of the geometry"));
-    AssertThrow(type != Type::box || (lower_corner[0] < upper_corner[0] &&
-                                      lower_corner[1] < upper_corner[1]),
+    AssertThrow(local_size.kind != LocalSize::Kind::box ||
+                  (local_size.lower[0] < local_size.upper[0] &&
+                   local_size.lower[1] < local_size.upper[1]),
                 InputError("the box of a local size is empty, from " +
-                             to_string(lower_corner) + " to " +
-                             to_string(upper_corner),
+                             to_string(local_size.lower) + " to " +
+                             to_string(local_size.upper),
                            section,
                            "give a lower corner left of and below the upper "
                            "one"));
+    return local_size;
   }
 
 
@@ -220,22 +220,20 @@ namespace NMM
   void
   MathematicalMeshParameters::parse(ParameterHandler &prm)
   {
-    type               = get_selection(prm, "Type", mesh_types);
-    degree             = prm.get_integer("Degree");
-    regular.cell_size  = prm.get_double("Cell size");
-    regular.pattern    = get_selection(prm, "Pattern", mesh_patterns);
-    regular.offset     = get_point(prm, "Offset");
-    regular.rotation   = prm.get_double("Rotation");
-    regular.whole_box  = prm.get_bool("Whole box");
-    gmsh_file          = prm.get("Gmsh file");
-    const auto entries = get_names(prm, "Names");
-    local_sizes.clear();
-    for (const std::string &name : entries)
+    type              = get_selection(prm, "Type", mesh_types);
+    degree            = prm.get_integer("Degree");
+    regular.cell_size = prm.get_double("Cell size");
+    regular.pattern   = get_selection(prm, "Pattern", mesh_patterns);
+    regular.offset    = get_point(prm, "Offset");
+    regular.rotation  = prm.get_double("Rotation");
+    regular.whole_box = prm.get_bool("Whole box");
+    gmsh_file         = prm.get("Gmsh file");
+    graded.cell_size  = regular.cell_size;
+    graded.local_sizes.clear();
+    for (const std::string &name : get_names(prm, "Names"))
     {
-      local_sizes.emplace_back();
-      local_sizes.back().name = name;
       prm.enter_subsection(name);
-      local_sizes.back().parse(prm);
+      graded.local_sizes.push_back(LocalSizeParameters::parse(prm, name));
       prm.leave_subsection();
     }
   }
@@ -257,12 +255,10 @@ namespace NMM
                                  "' would not be used by this type of mesh",
                            section,
                            "set 'Gmsh file' for 'Type = gmsh' only"));
-    AssertThrow(type == Type::graded || local_sizes.empty(),
+    AssertThrow(type == Type::graded || graded.local_sizes.empty(),
                 InputError("local sizes would not be used by this type of mesh",
                            section,
                            "set 'Type = graded', or leave 'Names' empty"));
-    for (const LocalSizeParameters &local_size : local_sizes)
-      local_size.check();
   }
 
 

@@ -562,8 +562,10 @@ namespace NMM
             sum_and_count[0] += std::abs(diagonal(r, c));
             sum_and_count[1] += 1.;
           }
-      sum_and_count =
-        dealii::Utilities::MPI::sum(sum_and_count, covers->communicator());
+      dealii::Utilities::MPI::sum(
+        dealii::ArrayView<const double>(sum_and_count.data(), 2),
+        covers->communicator(),
+        dealii::ArrayView<double>(sum_and_count.data(), 2));
       const double mean =
         sum_and_count[1] > 0. ? sum_and_count[0] / sum_and_count[1] : 1.;
       for (unsigned int r = 0; r < n_owned; ++r)

@@ -51,7 +51,9 @@ namespace NMM
         sums[3] += weight * sigma.norm() * sigma.norm();
       }
     }
-    sums = dealii::Utilities::MPI::sum(sums, covers.communicator());
+    dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums.data(), 4),
+                                covers.communicator(),
+                                dealii::ArrayView<double>(sums.data(), 4));
 
     ErrorNorms norms;
     norms.displacement_norm = std::sqrt(sums[1]);

@@ -3,13 +3,10 @@
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/trilinos_precondition.h>
 
-#include <Amesos_Mumps.h>
-#include <Epetra_CrsMatrix.h>
-#include <Epetra_LinearProblem.h>
-#include <Epetra_MultiVector.h>
 #include <Teuchos_ParameterList.hpp>
 #include <cmath>
 #include <mechanics/linear_solver.h>
+#include <mechanics/mumps_solver.h>
 #include <ml_MultiLevelPreconditioner.h>
 #include <sstream>
 
@@ -32,80 +29,6 @@ namespace NMM
         matrix.vmult(residual, x);
         residual.sadd(-1., rhs);
         return norm > 0. ? residual.l2_norm() / norm : residual.l2_norm();
-      }
-
-
-      /**
-       * The upper triangle, for MUMPS' symmetric factorization: half the memory
-       * and little more than half the time of the general one.
-       */
-      Epetra_CrsMatrix
-      upper_triangle(const Epetra_CrsMatrix &matrix)
-      {
-        const Epetra_Map &row_map    = matrix.RowMap();
-        const Epetra_Map &column_map = matrix.ColMap();
-
-        std::vector<int> lengths(matrix.NumMyRows(), 0);
-        const auto       for_each_entry = [&](const auto &action) {
-          int     n;
-          double *values;
-          int    *indices;
-          for (int row = 0; row < matrix.NumMyRows(); ++row)
-          {
-            matrix.ExtractMyRowView(row, n, values, indices);
-            const int global_row = row_map.GID(row);
-            for (int i = 0; i < n; ++i)
-              if (column_map.GID(indices[i]) >= global_row)
-                action(row, indices[i], values[i]);
-          }
-        };
-        for_each_entry([&](const int row, int, double) { ++lengths[row]; });
-        Epetra_CrsMatrix result(
-          ::Copy, row_map, column_map, lengths.data(), true);
-        for_each_entry([&](const int row, int column, double value) {
-          result.InsertMyValues(row, 1, &value, &column);
-        });
-        result.FillComplete(matrix.DomainMap(), matrix.RangeMap());
-        return result;
-      }
-
-
-      void
-      check_mumps(const int error_code, const std::string &stage)
-      {
-        AssertThrow(
-          error_code == 0,
-          NumericalFailure(
-            "MUMPS' " + stage + " failed with error code " +
-              std::to_string(error_code),
-            "",
-            "the system is singular or too large for this machine's "
-            "memory: check that every block is held and that its "
-            "size is above rounding, or choose the iterative solver"));
-      }
-
-
-      void
-      solve_direct(const Matrix &matrix, const Vector &rhs, Vector &solution)
-      {
-        Epetra_CrsMatrix     upper = upper_triangle(matrix.trilinos_matrix());
-        Epetra_LinearProblem problem;
-        problem.SetOperator(&upper);
-        problem.SetLHS(&solution.trilinos_vector());
-        problem.SetRHS(
-          const_cast<Epetra_MultiVector *>(&rhs.trilinos_vector()));
-
-        Amesos_Mumps           solver(problem);
-        Teuchos::ParameterList parameters;
-        parameters.set("MatrixProperty", "SPD");
-        parameters.set("PrintTiming", false);
-        parameters.set("PrintStatus", false);
-        parameters.set("OutputLevel", 0);
-        solver.SetParameters(parameters);
-
-        check_mumps(solver.SymbolicFactorization(), "analysis");
-        check_mumps(solver.NumericFactorization(), "factorization");
-        check_mumps(solver.Solve(), "solution");
       }
 
 
@@ -219,7 +142,7 @@ namespace NMM
         return report;
 
       if (report.direct)
-        solve_direct(matrix, rhs, solution);
+        solve_by_mumps(matrix, rhs, solution);
       else
         report.n_iterations = solve_iterative(
           matrix, rhs, covers, constraints, parameters, solution);

@@ -27,7 +27,7 @@ namespace NMM
       /// Arcs only.
       std::array<double, 2> sine_axis   = {{0., 0.}};
       std::array<double, 2> cosine_axis = {{0., 0.}};
-      double                half_angle = 0.;
+      double                half_angle  = 0.;
       /// @f$\sin^2(\varphi/2)@f$.
       double half_sine_squared = 0.;
       bool   is_arc            = false;

@@ -5,6 +5,7 @@
 #include "moments.h"
 #include "rule_reduction.h"
 #include "slab_candidates.h"
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -119,22 +120,31 @@ namespace NMM
     d.n_attempts = 0;
     d.best_points.clear();
     d.best_weights.clear();
-    if (edges.size() == 0 || !d.frame.reinit(edges, cell))
+    if (edges.size() == 0)
+      return d.result();
+    for (const ElementEdge &edge : edges)
+      AssertThrow(std::isfinite(edge.start.norm_square() +
+                                edge.end.norm_square() +
+                                edge.center.norm_square()),
+                  NumericalFailure("The boundary of an element is not finite",
+                                   to_string(edge.start),
+                                   "check the coordinates of the curves "
+                                   "there"));
+    if (!d.frame.reinit(edges, cell))
       return d.result();
 
     const double scale = d.basis.moments(d.frame.edges(), d.gauss, d.moments);
-    AssertThrow(std::isfinite(scale),
-                NumericalFailure("The boundary of an element is not finite",
-                                 to_string(edges[0].start),
-                                 "check the coordinates of the curves there"));
     if (d.moments[0] <=
         std::max(d.frame.area_resolution(), 16. * epsilon * scale))
       return d.result();
 
-    // The box integral of the error bound is at least 2 in scaled coordinates.
+    // The bar is 1e-13 of the box integral of every |monomial|. The box has an
+    // area of at least 2 in scaled coordinates, and |s_1^i s_2^j| a mean over
+    // it of 1 / (i + 1) / (j + 1).
+    const double mean       = std::pow(0.5 * d.basis.degree() + 1., -2.);
+    const double tolerable  = 1e-13 * 2. * mean;
     const double goal       = 2. * epsilon * std::max(scale, 1.);
-    const double acceptable = 16. * epsilon * std::max(scale, 1.);
-    const double tolerable  = 48. * epsilon * std::max(scale, 1.);
+    const double acceptable = std::max(tolerable / 8., goal);
     for (unsigned int level = 0; level < n_levels; ++level)
     {
       d.candidates.reinit(d.frame, d.basis.degree(), level, d.gauss);
@@ -145,7 +155,13 @@ namespace NMM
       d.weights = d.candidates.weights;
       if (!d.reduction.reduce(
             d.values, d.moments, 4. * epsilon * scale, true, d.weights))
-        continue;
+      {
+        // A thin bent strip: polynomials that nearly vanish on it cannot be
+        // told from round-off of the moments. The candidates' own moments may
+        // still be good enough.
+        d.weights = d.candidates.weights;
+        d.reduction.reduce(d.values, d.moments, 0., false, d.weights);
+      }
       const double error =
         d.reduction.polish(d.values, d.moments, goal, d.weights);
       d.keep_if_best(error);
@@ -153,17 +169,7 @@ namespace NMM
         return d.result();
     }
 
-    if (d.best_points.empty() && !d.candidates.weights.empty())
-    {
-      // the moments of the candidates instead of those of the element
-      d.weights = d.candidates.weights;
-      d.reduction.reduce(d.values, d.moments, 0., false, d.weights);
-      d.best_error = std::numeric_limits<double>::max();
-      d.keep_if_best(0.);
-      d.fallback = true;
-    }
-    else
-      d.fallback = d.best_points.empty() || d.best_error > tolerable;
+    d.fallback = d.best_points.empty() || d.best_error > tolerable;
     return d.result();
   }
 } // namespace NMM

@@ -348,7 +348,10 @@ namespace NMM
       unsigned int n_across = (degree + 2) / 2 + level;
       if (level >= 2)
         n_along = n_across = degree + 1 + 2 * (level - 2);
-      const unsigned int n_arc_extra = 1 + level;
+      // Arcs: enough for the moments to correct the rest; at the last level,
+      // enough to need no correction.
+      constexpr std::array<unsigned int, 4> extra = {{1, 2, 4, 14}};
+      const unsigned int n_arc_extra              = extra[std::min(level, 3u)];
 
       for (std::size_t i = 0; i + 1 < slices.size();)
       {

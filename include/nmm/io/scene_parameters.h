@@ -2,6 +2,7 @@
 #define nmm_io_scene_parameters_h
 
 #include <nmm/covers/aggregation.h>
+#include <nmm/covers/graded_mesh.h>
 #include <nmm/covers/mathematical_mesh.h>
 #include <nmm/mechanics/elasticity_problem.h>
 #include <nmm/mechanics/static_elasticity.h>
@@ -44,26 +45,11 @@ namespace NMM
   /// Where a graded mathematical mesh is to be fine.
   struct LocalSizeParameters
   {
-    enum class Type
-    {
-      point,
-      box,
-      curve
-    };
-
-    std::string      name;
-    Type             type = Type::point;
-    dealii::Point<2> point, lower_corner, upper_corner;
-    std::string      curve;
-    /// Edge length there [m] and its growth with distance [-].
-    double size = 0., growth = 0.;
-
     static void
     declare(dealii::ParameterHandler &prm);
-    void
-    parse(dealii::ParameterHandler &prm);
-    void
-    check() const;
+    /// @throws InputError if what the type needs is missing.
+    static LocalSize
+    parse(dealii::ParameterHandler &prm, const std::string &name);
   };
 
 
@@ -76,11 +62,11 @@ namespace NMM
       gmsh
     };
 
-    Type                             type = Type::regular;
-    RegularMeshParameters            regular;
-    unsigned int                     degree = 2;
-    std::string                      gmsh_file;
-    std::vector<LocalSizeParameters> local_sizes;
+    Type                  type = Type::regular;
+    RegularMeshParameters regular;
+    GradedMeshParameters  graded;
+    unsigned int          degree = 2;
+    std::string           gmsh_file;
 
     static void
     declare(dealii::ParameterHandler       &prm,

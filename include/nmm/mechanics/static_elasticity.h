@@ -19,7 +19,7 @@ namespace NMM
     {
       /// direct below `direct_limit` unknowns, else iterative.
       automatic,
-      /// Amesos MUMPS.
+      /// MUMPS, symmetric factorization.
       direct,
       /// Conjugate gradients with ML, rigid-body modes as near-null space.
       iterative

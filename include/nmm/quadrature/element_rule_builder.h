@@ -58,7 +58,8 @@ namespace NMM
     build(const dealii::ArrayView<const ElementEdge> &edges,
           const CellFrame                            &frame);
 
-    /// The last rule misses moments by more than 1e-14 of the box integral.
+    /// The last rule misses a moment by more than 1e-13 of the monomial's integral
+    /// of absolute value over the element's box.
     bool
     last_was_fallback() const;
 

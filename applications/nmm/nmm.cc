@@ -1,0 +1,273 @@
+// The general driver: reads a scene file, solves it and writes tables, fields
+// and a picture. See doc/scene-format.md.
+
+#include <nmm/base/exceptions.h>
+#include <nmm/io/output_directory.h>
+#include <nmm/io/progress.h>
+#include <nmm/io/scene.h>
+
+#include <deal.II/base/mpi.h>
+
+#include "static_analysis.h"
+#include <boost/program_options.hpp>
+#include <filesystem>
+#include <iostream>
+#include <sstream>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+namespace
+{
+  namespace po = boost::program_options;
+
+  enum ExitCode
+  {
+    success           = 0,
+    internal_error    = 1,
+    input_error       = 2,
+    numerical_failure = 3
+  };
+
+  struct Options
+  {
+    std::string              scene;
+    std::string              output;
+    std::vector<std::string> overrides;
+    bool                     check_only       = false;
+    bool                     print_parameters = false;
+    NMM::Scene::Format       format           = NMM::Scene::Format::prm;
+    /// Text to print instead of running.
+    std::string answer;
+  };
+
+
+  po::options_description
+  visible_options()
+  {
+    po::options_description options("Options");
+    auto                    add = options.add_options();
+    add("output,o",
+        po::value<std::string>(),
+        "folder for the results, made if need be (default: the scene's name "
+        "with '-output', in the current folder)");
+    add("set,s",
+        po::value<std::vector<std::string>>()->composing(),
+        "Section/Key=value, replaces a value of the scene; may be repeated");
+    add("check,c",
+        po::bool_switch(),
+        "read, cut and report, but do not solve and write nothing");
+    add("print-parameters",
+        po::value<std::string>()->implicit_value("prm"),
+        "print all parameters, of the scene if one is given, and end; "
+        "=prm, =json or =markdown");
+    add("help,h", po::bool_switch(), "print this and end");
+    add("version", po::bool_switch(), "print the version and end");
+    return options;
+  }
+
+
+  std::string
+  help_text()
+  {
+    std::ostringstream text;
+    text << "nmm solves a scene with the second-order numerical manifold "
+            "method.\n\n"
+            "Usage: nmm [options] scene.prm\n\n"
+         << visible_options()
+         << "\nWrites summary.csv, probes.csv, fields.vtu and picture.png. "
+            "Scene files are\nexplained in doc/scene-format.md.\n\n"
+            "Exit codes: 0 success, 1 internal error, 2 bad input (nothing "
+            "is written),\n3 no solution (what is known is written).\n";
+    return text.str();
+  }
+
+
+  NMM::Scene::Format
+  parse_format(const std::string &word)
+  {
+    AssertThrow(word == "prm" || word == "json" || word == "markdown",
+                NMM::InputError("'" + word + "' is no format of parameters",
+                                "--print-parameters",
+                                "choose prm, json or markdown"));
+    return word == "prm"    ? NMM::Scene::Format::prm
+           : word == "json" ? NMM::Scene::Format::json
+                            : NMM::Scene::Format::markdown;
+  }
+
+
+  Options
+  parse_command_line(const int argc, char **argv)
+  {
+    po::options_description hidden;
+    hidden.add_options()("scene", po::value<std::vector<std::string>>());
+    po::options_description all;
+    all.add(visible_options()).add(hidden);
+    po::positional_options_description positional;
+    positional.add("scene", -1);
+
+    po::variables_map variables;
+    try
+    {
+      namespace style = po::command_line_style;
+      po::store(po::command_line_parser(argc, argv)
+                  .options(all)
+                  .positional(positional)
+                  .style(style::unix_style & ~style::allow_guessing)
+                  .run(),
+                variables);
+      po::notify(variables);
+    }
+    catch (const po::error &error)
+    {
+      AssertThrow(false,
+                  NMM::InputError(error.what(),
+                                  "the command line",
+                                  "see nmm --help"));
+    }
+
+    Options options;
+    if (variables["help"].as<bool>())
+      options.answer = help_text();
+    else if (variables["version"].as<bool>())
+      options.answer = "nmm " NMM_VERSION "\n";
+
+    std::vector<std::string> scenes;
+    if (variables.count("scene") > 0)
+      scenes = variables["scene"].as<std::vector<std::string>>();
+    if (variables.count("set") > 0)
+      options.overrides = variables["set"].as<std::vector<std::string>>();
+    options.check_only       = variables["check"].as<bool>();
+    options.print_parameters = variables.count("print-parameters") > 0;
+    if (options.print_parameters)
+    {
+      // "--print-parameters scene.prm": the next word is the scene.
+      const auto word = variables["print-parameters"].as<std::string>();
+      if (scenes.empty() && word.find('.') != std::string::npos)
+        scenes.push_back(word);
+      else
+        options.format = parse_format(word);
+    }
+
+    const bool needs_scene =
+      options.answer.empty() && !options.print_parameters;
+    AssertThrow(scenes.size() <= 1 && (!scenes.empty() || !needs_scene),
+                NMM::InputError(std::to_string(scenes.size()) +
+                                  " scene files are given",
+                                "the command line",
+                                "give one; see nmm --help"));
+    if (!scenes.empty())
+      options.scene = scenes.front();
+    options.output =
+      variables.count("output") > 0
+        ? variables["output"].as<std::string>()
+        : std::filesystem::path(options.scene).stem().string() + "-output";
+    return options;
+  }
+
+
+  int
+  run_scene(const Options &options, const MPI_Comm communicator)
+  {
+    // What mpirun collects from several ranks is no place for a moving display.
+    const bool is_terminal =
+      isatty(STDOUT_FILENO) != 0 &&
+      dealii::Utilities::MPI::n_mpi_processes(communicator) == 1;
+    NMM::Progress              progress(std::cout, is_terminal, communicator);
+    const NMM::Scene           scene(options.scene, options.overrides);
+    const NMM::OutputDirectory directory(options.output);
+    if (!options.check_only)
+      directory.check();
+
+    progress.message(scene.title());
+    StaticAnalysis analysis(scene, progress, communicator);
+    analysis.build();
+    analysis.print_report();
+    if (options.check_only)
+      return success;
+
+    try
+    {
+      analysis.solve();
+    }
+    catch (const NMM::NumericalFailure &)
+    {
+      analysis.write(directory);
+      throw;
+    }
+    analysis.verify();
+    analysis.write(directory);
+    progress.message("Results are in " + directory.path().string());
+    return success;
+  }
+
+
+  int
+  run(const int argc, char **argv, const MPI_Comm communicator)
+  {
+    const bool is_first =
+      dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+    try
+    {
+      const Options options = parse_command_line(argc, argv);
+      if (!options.answer.empty())
+      {
+        if (is_first)
+          std::cout << options.answer;
+        return success;
+      }
+      if (options.print_parameters)
+      {
+        std::ostringstream text;
+        if (options.scene.empty())
+          NMM::Scene::print_defaults(text, options.format);
+        else
+          NMM::Scene(options.scene, options.overrides)
+            .print(text, options.format);
+        if (is_first)
+          std::cout << text.str();
+        return success;
+      }
+      return run_scene(options, communicator);
+    }
+    catch (const NMM::InputError &error)
+    {
+      if (is_first)
+        std::cerr << "nmm: " << error.message() << std::endl;
+      return input_error;
+    }
+    catch (const NMM::NumericalFailure &error)
+    {
+      if (is_first)
+        std::cerr << "nmm: " << error.message() << std::endl;
+      return numerical_failure;
+    }
+  }
+} // namespace
+
+
+int
+main(int argc, char **argv)
+{
+  try
+  {
+    dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+    try
+    {
+      return run(argc, argv, MPI_COMM_WORLD);
+    }
+    catch (const std::exception &error)
+    {
+      std::cerr << "nmm: internal error: " << error.what() << std::endl;
+      // Other ranks may wait for this one.
+      if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+        MPI_Abort(MPI_COMM_WORLD, internal_error);
+      return internal_error;
+    }
+  }
+  catch (const std::exception &error)
+  {
+    std::cerr << "nmm: " << error.what() << std::endl;
+    return internal_error;
+  }
+}

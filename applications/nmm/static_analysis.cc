@@ -1,0 +1,422 @@
+#include "static_analysis.h"
+
+#include <nmm/base/exceptions.h>
+#include <nmm/covers/point_location.h>
+#include <nmm/io/picture.h>
+#include <nmm/io/vtu.h>
+#include <nmm/mechanics/error_norms.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+using namespace NMM;
+using dealii::Point;
+using Stage = Progress::Stage;
+
+StaticAnalysis::StaticAnalysis(const Scene   &scene,
+                               Progress      &progress,
+                               const MPI_Comm communicator)
+  : scene(scene)
+  , progress(progress)
+  , communicator(communicator)
+{
+}
+
+
+void
+StaticAnalysis::build()
+{
+  const SceneParameters &parameters = scene.parameters();
+  {
+    Stage    stage(progress, "geometry");
+    Geometry geometry = scene.make_geometry();
+    cleaning_actions  = clean(geometry, parameters.geometry.cleaning_tolerance);
+    physical_mesh     = std::make_unique<PhysicalMesh>(std::move(geometry));
+    problem           = scene.make_problem();
+    problem.check(*physical_mesh);
+    make_exact_solution();
+  }
+  {
+    Stage stage(progress, "mathematical mesh");
+    mathematical_mesh = std::make_unique<MathematicalMesh>(
+      scene.make_mathematical_mesh(*physical_mesh));
+  }
+  {
+    Stage stage(progress, "cutting");
+    manifold_mesh =
+      std::make_unique<ManifoldMesh>(*mathematical_mesh, *physical_mesh);
+    probes = std::make_unique<ProbePoints>(*manifold_mesh, parameters.probes);
+  }
+  {
+    Stage stage(progress, "covers");
+    covers = std::make_unique<CoverSystem>(*manifold_mesh, communicator);
+    // With threshold 0 every element is well supported and no cover is
+    // constrained.
+    aggregation =
+      aggregate(*covers,
+                parameters.covers.stabilization == Stabilization::aggregation
+                  ? parameters.covers.threshold
+                  : 0.);
+    constraints = make_constraints(*covers, aggregation, 2);
+  }
+  {
+    Stage stage(progress, "quadrature");
+    // Stiffness needs 2p - 2, a constant body force p; one that varies is
+    // integrated with the accuracy of the mass matrix.
+    const unsigned int p = mathematical_mesh->degree();
+    const unsigned int degree =
+      problem.body_force ? 2 * p : std::max(2 * p - 2, p);
+    quadrature = std::make_unique<QuadratureCollection>(
+      *manifold_mesh, degree, degree, covers->locally_owned_elements());
+  }
+  elasticity = std::make_unique<StaticElasticity>(*covers,
+                                                  *quadrature,
+                                                  constraints,
+                                                  problem);
+  add_counts();
+}
+
+
+void
+StaticAnalysis::add_counts()
+{
+  const auto [first, last] = covers->locally_owned_elements();
+  double area = 0., smallest = 1.;
+  for (unsigned int element = first; element < last; ++element)
+  {
+    const double fraction = quadrature->area_fraction(element);
+    smallest              = std::min(smallest, fraction);
+    area +=
+      fraction * mathematical_mesh->cell_area(manifold_mesh->cell(element));
+  }
+  namespace MPI = dealii::Utilities::MPI;
+  summary.add("ranks", MPI::n_mpi_processes(communicator));
+  summary.add("degree", mathematical_mesh->degree());
+  summary.add("blocks", physical_mesh->n_blocks());
+  summary.add("regions", physical_mesh->regions().size());
+  summary.add("cells", mathematical_mesh->n_cells());
+  summary.add("cells_cut_exactly", manifold_mesh->n_cells_cut_exactly());
+  summary.add("mathematical_covers",
+              mathematical_mesh->n_mathematical_covers());
+  summary.add("manifold_elements", manifold_mesh->n_elements());
+  summary.add("physical_covers", covers->n_covers());
+  summary.add("aggregated_covers", aggregation.cover_to_root.size());
+  summary.add("unknowns",
+              2. * (covers->n_covers() - aggregation.cover_to_root.size()));
+  summary.add("area",
+              MPI::sum(area, communicator),
+              scene.parameters().output.length_unit + "^2");
+  summary.add("smallest_area_fraction", MPI::min(smallest, communicator));
+  summary.add("quadrature_fallbacks",
+              MPI::sum(quadrature->n_fallbacks(), communicator));
+  summary.add("cleaning_actions", cleaning_actions.size());
+  summary.add("notices", physical_mesh->notices().size());
+}
+
+
+void
+StaticAnalysis::print_report()
+{
+  for (const CleaningAction &action : cleaning_actions)
+    progress.message("  cleaned: " + action.description());
+  for (const std::string &notice : physical_mesh->notices())
+    progress.message("  notice: " + notice);
+
+  const auto count = [&](const std::string &name) {
+    std::ostringstream text;
+    text << std::fixed;
+    text.precision(0);
+    text << summary.value(name);
+    return text.str();
+  };
+  progress.message("  " + count("blocks") + " block(s), " + count("regions") +
+                   " region(s), " + count("cells") + " cells (" +
+                   count("cells_cut_exactly") + " cut exactly), " +
+                   count("mathematical_covers") + " mathematical covers");
+  progress.message("  " + count("manifold_elements") + " manifold elements, " +
+                   count("physical_covers") + " physical covers (" +
+                   count("aggregated_covers") + " aggregated), " +
+                   count("unknowns") + " unknowns");
+  std::ostringstream smallest;
+  smallest << "  smallest element area over cell area "
+           << summary.value("smallest_area_fraction");
+  progress.message(smallest.str());
+  if (summary.value("quadrature_fallbacks") > 0.)
+    progress.message("  warning: " + count("quadrature_fallbacks") +
+                     " quadrature rule(s) of lower quality");
+}
+
+
+void
+StaticAnalysis::solve()
+{
+  {
+    Stage stage(progress, "assembly");
+    elasticity->assemble();
+  }
+  {
+    Stage                    stage(progress, "solution");
+    const LinearSolverReport report =
+      elasticity->solve(scene.parameters().solver);
+    stage.remark(report.direct
+                   ? "direct solver"
+                   : "conjugate gradients, " +
+                       std::to_string(report.n_iterations) + " iterations");
+    summary.add("solver_direct", report.direct ? 1. : 0.);
+    summary.add("solver_iterations", report.n_iterations);
+    summary.add("solver_relative_residual", report.relative_residual);
+  }
+  {
+    Stage stage(progress, "stress recovery");
+    field     = std::make_unique<DisplacementField>(*covers,
+                                                problem,
+                                                elasticity->solution());
+    recovery  = std::make_unique<StressRecovery>(*field, aggregation);
+    evaluator = std::make_unique<FieldEvaluator>(*field, *recovery, problem);
+  }
+  is_solved = true;
+}
+
+
+namespace
+{
+  /// The circle all pieces of a curve lie on.
+  CurvePiece
+  circle_of(const PhysicalMesh &mesh, const std::string &name)
+  {
+    const std::string  where = "section 'Exact solution'";
+    const unsigned int curve = mesh.find_curve(name);
+    AssertThrow(curve != invalid_index,
+                InputError("the geometry has no curve '" + name + "'",
+                           where,
+                           "name a circle or arc of the geometry"));
+    const CurvePiece piece = mesh.curves()[curve].pieces.front();
+    for (const CurvePiece &other : mesh.curves()[curve].pieces)
+      AssertThrow(other.kind != CurvePiece::Kind::segment &&
+                    other.center.distance(piece.center) < 1e-9 * piece.radius &&
+                    std::abs(other.radius - piece.radius) < 1e-9 * piece.radius,
+                  InputError("the curve '" + name +
+                               "' is not part of one circle",
+                             where,
+                             "name a circle or arc of the geometry"));
+    return piece;
+  }
+
+
+  /// Sum of the constant pressures on a curve [Pa].
+  double
+  pressure_on(const ElasticityProblem &problem,
+              const std::string       &curve,
+              const Point<2>          &x)
+  {
+    double pressure = 0.;
+    for (const BoundaryCondition &condition : problem.boundary_conditions)
+      if (condition.curve == curve)
+      {
+        AssertThrow(condition.type == BoundaryCondition::Type::pressure,
+                    InputError("the condition '" + condition.name + "' on '" +
+                                 curve + "' is no pressure",
+                               "section 'Exact solution'",
+                               "the thick ring is loaded by pressure"));
+        if (condition.value)
+          pressure += condition.value->value(x);
+      }
+    return pressure;
+  }
+} // namespace
+
+
+void
+StaticAnalysis::make_exact_solution()
+{
+  const ExactSolutionParameters &parameters = scene.parameters().exact_solution;
+  if (parameters.type == ExactSolutionParameters::Type::none)
+    return;
+
+  const CurvePiece inner = circle_of(*physical_mesh, parameters.inner_boundary);
+  const CurvePiece outer = circle_of(*physical_mesh, parameters.outer_boundary);
+  AssertThrow(inner.center.distance(outer.center) < 1e-9 * outer.radius,
+              InputError("the ring's inner circle about " +
+                           to_string(inner.center) +
+                           " and its outer one about " +
+                           to_string(outer.center) + " are not concentric",
+                         "section 'Exact solution'",
+                         "name two concentric curves"));
+  AssertThrow(pressure_on(problem, parameters.outer_boundary, outer.start) ==
+                0.,
+              InputError("there is a pressure on the ring's outside",
+                         "section 'Exact solution'",
+                         "this exact solution has inner pressure only"));
+  AssertThrow(problem.materials.size() == 1,
+              InputError("the exact solution has one material, the scene " +
+                           std::to_string(problem.materials.size()),
+                         "section 'Exact solution'",
+                         "remove materials that are not used"));
+  exact_solution.emplace(inner.radius,
+                         outer.radius,
+                         pressure_on(problem,
+                                     parameters.inner_boundary,
+                                     inner.start),
+                         problem.materials.front(),
+                         problem.plane_state,
+                         inner.center);
+}
+
+
+void
+StaticAnalysis::verify()
+{
+  Stage stage(progress, "verification");
+  summary.add("strain_energy",
+              strain_energy(),
+              scene.parameters().output.stress_unit + "*" +
+                scene.parameters().output.length_unit + "^3");
+  summary.add("direct_stress_covers",
+              dealii::Utilities::MPI::sum(recovery->n_direct(), communicator));
+  if (exact_solution)
+    add_errors();
+}
+
+
+void
+StaticAnalysis::add_errors()
+{
+  const ThickRing &ring         = *exact_solution;
+  const auto       displacement = [&](const Point<2> &x) {
+    return ring.displacement(x);
+  };
+  const auto       stress = [&](const Point<2> &x) { return ring.stress(x); };
+  const ErrorNorms direct = compute_errors(*field, displacement, stress);
+  const ErrorNorms recovered =
+    compute_errors(*field,
+                   displacement,
+                   stress,
+                   [&](const unsigned int element, const Point<2> &xi) {
+                     return recovery->stress(element, xi);
+                   });
+  summary.add("error_displacement_l2", direct.displacement);
+  summary.add("error_direct_stress_l2", direct.stress);
+  summary.add("error_recovered_stress_l2", recovered.stress);
+
+  // Along the radius through the middle of the inner curve's first piece.
+  const CurvePiece inner =
+    circle_of(*physical_mesh, scene.parameters().exact_solution.inner_boundary);
+  const double middle =
+    angle_about(inner.center, inner.start) + 0.5 * swept_angle(inner);
+  const dealii::Tensor<1, 2> radial({std::cos(middle), std::sin(middle)});
+  const dealii::Tensor<1, 2> hoop({-radial[1], radial[0]});
+  ProbeParameters            line;
+  line.is_line = true;
+  line.from    = ring.center() + ring.inner_radius() * radial;
+  line.to      = ring.center() + ring.outer_radius() * radial;
+  const ProbePoints points(*manifold_mesh, {line});
+  const auto        samples = points.evaluate(*covers, *evaluator);
+
+  double error_direct = 0., error_recovered = 0.;
+  for (unsigned int i = 0; i < samples.size(); ++i)
+    if (samples[i])
+    {
+      const double exact =
+        ring.hoop_stress(points.entries()[i].x.distance(ring.center()));
+      const auto error = [&](const FieldSample::Stress &value) {
+        return std::abs(hoop * (value.in_plane * hoop) / exact - 1.);
+      };
+      error_direct    = std::max(error_direct, error(samples[i]->direct));
+      error_recovered = std::max(error_recovered, error(samples[i]->recovered));
+    }
+  summary.add("error_direct_hoop_max", error_direct);
+  summary.add("error_recovered_hoop_max", error_recovered);
+}
+
+
+double
+StaticAnalysis::strain_energy() const
+{
+  double energy            = 0.;
+  const auto [first, last] = covers->locally_owned_elements();
+  for (unsigned int element = first; element < last; ++element)
+  {
+    const dealii::Quadrature<2> &rule = quadrature->rule(element);
+    const double                 determinant =
+      2. * mathematical_mesh->cell_area(manifold_mesh->cell(element));
+    const auto initial_stress =
+      field->stress_from_gradient(element, dealii::Tensor<2, 2>());
+    for (unsigned int q = 0; q < rule.size(); ++q)
+    {
+      const auto gradient = field->gradient(element, rule.point(q));
+      const auto elastic_stress =
+        field->stress_from_gradient(element, gradient) - initial_stress;
+      energy += 0.5 * determinant * rule.weight(q) *
+                (elastic_stress * dealii::symmetrize(gradient));
+    }
+  }
+  return problem.thickness * dealii::Utilities::MPI::sum(energy, communicator);
+}
+
+
+void
+StaticAnalysis::write(const OutputDirectory &directory)
+{
+  const bool is_first =
+    dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+  OutputParameters parameters = scene.parameters().output;
+  {
+    Stage stage(progress, "output");
+    if (is_first)
+      directory.create();
+    MPI_Barrier(communicator);
+
+    if (is_solved && !probes->entries().empty())
+    {
+      const auto samples = probes->evaluate(*covers, *evaluator);
+      if (is_first)
+        directory.write_text("probes.csv", [&](std::ostream &out) {
+          probes->write(out, samples);
+        });
+    }
+
+    const FieldTriangles triangles(*covers, evaluator.get());
+    summary.add("max_displacement",
+                triangles.max_displacement(communicator),
+                parameters.length_unit);
+    if (parameters.fields)
+      write_fields(*covers, triangles, directory);
+    if (parameters.picture)
+    {
+      // Without a solution the picture still shows which block is which.
+      if (!is_solved)
+        parameters.quantity = Quantity::block;
+      const PictureData data =
+        make_picture_data(*covers, triangles, evaluator.get(), parameters);
+      if (is_first)
+        directory.write_file("picture.png", [&](const std::string &name) {
+          draw_picture(data,
+                       parameters,
+                       scene.title() + (is_solved ? "" : " (not solved)"),
+                       name);
+        });
+    }
+  }
+  write_summary(directory);
+}
+
+
+void
+StaticAnalysis::write_summary(const OutputDirectory &directory)
+{
+  summary.add("solved", is_solved ? 1. : 0.);
+  double total = 0.;
+  for (const auto &[name, seconds] : progress.times())
+  {
+    std::string row = "time_" + name;
+    std::replace(row.begin(), row.end(), ' ', '_');
+    summary.add(row, seconds, "s");
+    total += seconds;
+  }
+  summary.add("time_total", total, "s");
+  summary.add("peak_memory", peak_memory(communicator), "MB");
+  if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+    directory.write_text("summary.csv",
+                         [&](std::ostream &out) { summary.write(out); });
+}

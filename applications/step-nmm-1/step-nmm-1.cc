@@ -1,0 +1,336 @@
+// step-nmm-1: a thick ring under inner pressure, solved on a mesh that does not
+// fit it.
+//
+// This program follows the paper's first example (Figs. 5-7). The physics is an
+// undergraduate's: Lamé's solution is known in closed form. What is tested is
+// the method: circles cut a regular mesh of triangles wherever they like, and
+// the question is what that costs in accuracy and time against triangles that
+// fit the circles, with the same number of unknowns.
+
+// @sect3{Include files}
+
+// From this library: the modules in the order in which data flows through them.
+#include <nmm/base/exceptions.h>
+#include <nmm/covers/aggregation.h>
+#include <nmm/covers/cover_system.h>
+#include <nmm/covers/manifold_mesh.h>
+#include <nmm/covers/mathematical_mesh.h>
+#include <nmm/geometry/physical_mesh.h>
+#include <nmm/mechanics/error_norms.h>
+#include <nmm/mechanics/static_elasticity.h>
+#include <nmm/mechanics/stress_recovery.h>
+#include <nmm/mechanics/thick_ring.h>
+#include <nmm/quadrature/element_quadrature.h>
+
+#include <deal.II/base/function.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/timer.h>
+#include <deal.II/base/utilities.h>
+
+#include "fitted_ring.h"
+#include "study.h"
+#include <cmath>
+#include <iostream>
+#include <map>
+#include <random>
+
+namespace StepNMM1
+{
+  using namespace dealii;
+
+  // @sect3{Geometry}
+
+  // The ring as curves. The inner and the outer circle get names, because loads
+  // and supports are given on named curves. A full ring is two circles; half a
+  // ring and a quarter are two arcs and the two straight cuts, on which symmetry
+  // holds. Arcs are given by three points they pass through: three doubles always lie
+  // exactly on one circle.
+  NMM::Geometry
+  make_ring(const RingShape shape, const double a, const double b)
+  {
+    using NMM::CurvePiece;
+    NMM::Geometry geometry;
+    if (shape == RingShape::full)
+    {
+      geometry.add_circle(Point<2>(), b, "outer", NMM::CurveRole::boundary);
+      geometry.add_circle(Point<2>(), a, "inner", NMM::CurveRole::hole);
+      return geometry;
+    }
+
+    const auto add = [&](const std::string &name, const CurvePiece &piece) {
+      NMM::Curve curve;
+      curve.name   = name;
+      curve.role   = NMM::CurveRole::boundary;
+      curve.pieces = {piece};
+      geometry.add(std::move(curve));
+    };
+    const bool is_half = (shape == RingShape::half);
+    const auto last    = [&](const double r) {
+      return is_half ? Point<2>(-r, 0.) : Point<2>(0., r);
+    };
+    const double c   = is_half ? 0. : std::sqrt(0.5);
+    const double s   = is_half ? 1. : std::sqrt(0.5);
+    const auto   arc = [&](const double r) {
+      return CurvePiece::arc(Point<2>(r, 0.), Point<2>(r * c, r * s), last(r));
+    };
+    add("inner", arc(a));
+    add("outer", arc(b));
+    add("first cut", CurvePiece::segment(Point<2>(a, 0.), Point<2>(b, 0.)));
+    add("last cut", CurvePiece::segment(last(a), last(b)));
+    return geometry;
+  }
+
+
+  // @sect3{The problem}
+
+  // Pressure inside, symmetry on the cuts. A symmetry line is a displacement
+  // prescribed along the normal, as zero; it is imposed weakly, since the mesh has no
+  // nodes there. A half ring could still move along its cut, a full ring move and
+  // turn: points that symmetry holds still anyway get the springs of the
+  // paper's eq. (12), which carry no force then.
+  NMM::ElasticityProblem
+  make_problem(const RingShape      shape,
+               const double         a,
+               const double         b,
+               const double         pressure,
+               const NMM::Material &material)
+  {
+    using Condition = NMM::BoundaryCondition;
+    NMM::ElasticityProblem problem;
+    problem.plane_state = NMM::PlaneState::plane_stress;
+    problem.materials   = {material};
+
+    Condition load;
+    load.name  = "pressure";
+    load.curve = "inner";
+    load.type  = Condition::Type::pressure;
+    load.value = std::make_shared<Functions::ConstantFunction<2>>(pressure);
+    problem.boundary_conditions.push_back(load);
+
+    if (shape != RingShape::full)
+      for (const std::string cut : {"first cut", "last cut"})
+      {
+        Condition symmetry;
+        symmetry.name  = "symmetry on the " + cut;
+        symmetry.curve = cut;
+        symmetry.type  = Condition::Type::normal_displacement;
+        problem.boundary_conditions.push_back(symmetry);
+      }
+
+    const double r    = 0.5 * (a + b);
+    const auto   hold = [&](const Point<2> &x, const bool in_x) {
+      NMM::FixedPoint point;
+      point.point         = x;
+      point.components[0] = in_x;
+      point.components[1] = !in_x;
+      problem.fixed_points.push_back(point);
+    };
+    if (shape != RingShape::quarter)
+      hold(Point<2>(0., r), true);
+    if (shape == RingShape::full)
+    {
+      hold(Point<2>(r, 0.), false);
+      hold(Point<2>(-r, 0.), false);
+    }
+    return problem;
+  }
+
+
+  // @sect3{One run}
+
+  // From curves to displacements. The order is that of the library's modules, and
+  // each result is an immutable object the next one refers to: nothing here is
+  // ever copied or updated in place.
+  Measurement
+  run_manifold_method(const Parameters                 &parameters,
+                      const NMM::RegularMeshParameters &mesh_parameters,
+                      const unsigned int                degree,
+                      HoopProfile                      *profile)
+  {
+    const NMM::Material  material = parameters.material();
+    const NMM::ThickRing exact(parameters.inner_radius,
+                               parameters.outer_radius,
+                               parameters.pressure,
+                               material,
+                               NMM::PlaneState::plane_stress);
+
+    Measurement result;
+    result.method    = "manifold";
+    result.degree    = degree;
+    result.cell_size = mesh_parameters.cell_size;
+    StageClock clock(result);
+
+    const NMM::PhysicalMesh     physical_mesh(make_ring(parameters.shape,
+                                                    parameters.inner_radius,
+                                                    parameters.outer_radius));
+    const NMM::MathematicalMesh mathematical_mesh =
+      NMM::make_regular_mesh(physical_mesh, mesh_parameters, degree);
+    clock.lap("mesh");
+
+    const NMM::ManifoldMesh manifold_mesh(mathematical_mesh, physical_mesh);
+    clock.lap("cutting");
+
+    NMM::CoverSystem       covers(manifold_mesh, MPI_COMM_WORLD);
+    const NMM::Aggregation aggregation = NMM::aggregate(covers);
+    const auto constraints = NMM::make_constraints(covers, aggregation, 2);
+    clock.lap("covers");
+
+    // The stiffness of a whole triangle integrates products of first derivatives,
+    // degree 2(p-1); cut elements get the full 2p, as the body force would
+    // need it.
+    const NMM::QuadratureCollection quadrature(manifold_mesh,
+                                               std::max(1u, 2 * (degree - 1)),
+                                               2 * degree,
+                                               covers.locally_owned_elements());
+    clock.lap("quadrature");
+
+    const NMM::ElasticityProblem problem = make_problem(parameters.shape,
+                                                        parameters.inner_radius,
+                                                        parameters.outer_radius,
+                                                        parameters.pressure,
+                                                        material);
+    NMM::StaticElasticity elasticity(covers, quadrature, constraints, problem);
+    elasticity.assemble();
+    clock.lap("assembly");
+
+    elasticity.solve(parameters.solver);
+    clock.lap("solution");
+    clock.stop();
+
+    // What follows is not part of the method but of its examination.
+    const NMM::DisplacementField field(covers, problem, elasticity.solution());
+    const NMM::ErrorNorms        errors = NMM::compute_errors(
+      field,
+      [&](const Point<2> &x) { return exact.displacement(x); },
+      [&](const Point<2> &x) { return exact.stress(x); });
+    const NMM::StressRecovery recovery(field, aggregation);
+    clock.lap("recovery");
+
+    result.n_unknowns    = 2 * covers.n_covers();
+    result.n_constrained = 2 * aggregation.cover_to_root.size();
+    result.n_elements    = manifold_mesh.n_elements();
+    result.error_u       = errors.displacement;
+    result.error_stress  = errors.stress;
+    const auto sample_of = [&](const auto &stress_at) {
+      return [&, stress_at](const Point<2> &x) {
+        const unsigned int element = manifold_mesh.find_element(x);
+        AssertThrow(element != NMM::invalid_index, ExcInternalError());
+        return stress_at(
+          element,
+          mathematical_mesh.real_to_reference(manifold_mesh.cell(element), x));
+      };
+    };
+    const auto direct =
+      sample_of([&](const unsigned int element, const Point<2> &xi) {
+        return field.stress(element, xi);
+      });
+    const auto recovered =
+      sample_of([&](const unsigned int element, const Point<2> &xi) {
+        return recovery.stress(element, xi);
+      });
+    result.error_hoop = largest_hoop_error(exact, parameters, direct);
+    result.error_hoop_recovered =
+      largest_hoop_error(exact, parameters, recovered);
+    if (profile != nullptr)
+      *profile = sample_hoop(exact, parameters, direct, recovered);
+    return result;
+  }
+
+
+  // @sect3{The study}
+
+  // Six mesh sizes, first and second order, and fitted triangles of deal.II
+  // beside them.
+  std::vector<Measurement>
+  run_convergence_study(const Parameters                   &parameters,
+                        std::map<std::string, HoopProfile> &profiles)
+  {
+    std::vector<Measurement> measurements;
+    for (const unsigned int degree : {1u, 2u})
+      for (unsigned int level = 0; level < parameters.cell_sizes.size();
+           ++level)
+      {
+        NMM::RegularMeshParameters mesh;
+        mesh.cell_size = parameters.cell_sizes[level];
+        mesh.offset    = parameters.offset;
+        mesh.rotation  = parameters.rotation;
+        HoopProfile profile;
+        measurements.push_back(
+          run_manifold_method(parameters, mesh, degree, &profile));
+        print_progress(measurements.back());
+        profiles["p" + std::to_string(degree) + " level " +
+                 std::to_string(level)] = std::move(profile);
+      }
+    for (const double cell_size : parameters.cell_sizes)
+    {
+      measurements.push_back(run_fitted_elements(parameters, cell_size));
+      print_progress(measurements.back());
+    }
+    return measurements;
+  }
+
+
+  // An unfitted method must not care where its mesh happens to lie: the same
+  // ring with the mesh moved and turned at random.
+  std::vector<Measurement>
+  run_placement_study(const Parameters &parameters)
+  {
+    std::mt19937 engine(parameters.seed);
+    const auto   uniform = [&](const double high) {
+      return high * (engine() / 4294967296.);
+    };
+    std::vector<Measurement> measurements;
+    for (unsigned int k = 0; k < parameters.n_placements; ++k)
+    {
+      NMM::RegularMeshParameters mesh;
+      mesh.cell_size = parameters.placement_cell_size;
+      mesh.offset[0] = uniform(mesh.cell_size);
+      mesh.offset[1] = uniform(mesh.cell_size);
+      mesh.rotation  = uniform(60.);
+      measurements.push_back(run_manifold_method(parameters, mesh, 2, nullptr));
+      print_progress(measurements.back());
+    }
+    return measurements;
+  }
+} // namespace StepNMM1
+
+
+// @sect3{The main function}
+
+int
+main(int argc, char **argv)
+{
+  using namespace StepNMM1;
+  try
+  {
+    const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+    const Parameters                               parameters =
+      read_parameters(argc > 1 ? argv[1] : "", argc > 2 ? argv[2] : ".");
+
+    std::map<std::string, HoopProfile> profiles;
+    const std::vector<Measurement>     study =
+      run_convergence_study(parameters, profiles);
+    const std::vector<Measurement> placements = run_placement_study(parameters);
+
+    print_table(study);
+    print_placements(placements);
+    write_results(parameters, study, placements, profiles);
+    draw_figures(parameters);
+  }
+  catch (const NMM::InputError &error)
+  {
+    error.print_info(std::cerr);
+    return 2;
+  }
+  catch (const NMM::NumericalFailure &error)
+  {
+    error.print_info(std::cerr);
+    return 3;
+  }
+  catch (const std::exception &error)
+  {
+    std::cerr << error.what() << std::endl;
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,189 @@
+#include <nmm/base/exceptions.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <Epetra_CrsMatrix.h>
+#include <algorithm>
+#include <dmumps_c.h>
+#include <mechanics/mumps_solver.h>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace NMM
+{
+  namespace internal
+  {
+    namespace
+    {
+      /// One MUMPS instance; control parameters by their number in the manual.
+      class Mumps
+      {
+      public:
+        explicit Mumps(const MPI_Comm communicator)
+          : data()
+        {
+          data.comm_fortran = MPI_Comm_c2f(communicator);
+          data.par          = 1; // the host computes too
+          // Symmetric, not "positive definite": a matrix that is indefinite by
+          // rounding is then reported by its residual instead of an error.
+          data.sym = 2;
+          run(-1, "initialization");
+          for (int i = 1; i <= 4; ++i)
+            control(i) = i < 4 ? -1 : 0; // no output
+        }
+
+        ~Mumps()
+        {
+          data.job = -2;
+          dmumps_c(&data);
+        }
+
+        Mumps(const Mumps &) = delete;
+        Mumps &
+        operator=(const Mumps &) = delete;
+
+        MUMPS_INT &
+        control(const int i)
+        {
+          return data.icntl[i - 1];
+        }
+
+        void
+        run(const int job, const std::string &stage)
+        {
+          data.job = job;
+          dmumps_c(&data);
+          AssertThrow(data.infog[0] >= 0,
+                      NumericalFailure(
+                        "MUMPS' " + stage + " failed with the error code " +
+                          std::to_string(data.infog[0]) + ", " +
+                          std::to_string(data.infog[1]),
+                        "",
+                        data.infog[0] == -10 || data.infog[0] == -6
+                          ? "the system is singular: check that every block is "
+                            "held and has an area above rounding"
+                          : "the system may be too large for this machine's "
+                            "memory: choose the iterative solver or a coarser "
+                            "mesh"));
+        }
+
+        DMUMPS_STRUC_C data;
+      };
+
+
+      /// The upper triangle as coordinates from 1 and values.
+      struct Triplets
+      {
+        std::vector<MUMPS_INT> rows, columns;
+        std::vector<double>    values;
+
+        explicit Triplets(const Epetra_CrsMatrix &matrix)
+        {
+          const std::size_t n_expected =
+            matrix.NumMyNonzeros() / 2 + matrix.NumMyRows();
+          rows.reserve(n_expected);
+          columns.reserve(n_expected);
+          values.reserve(n_expected);
+          const int *column_numbers = matrix.ColMap().MyGlobalElements();
+          for (int r = 0; r < matrix.NumMyRows(); ++r)
+          {
+            int       n;
+            double   *row_values;
+            int      *indices;
+            const int row = matrix.RowMap().GID(r);
+            matrix.ExtractMyRowView(r, n, row_values, indices);
+            for (int i = 0; i < n; ++i)
+              if (column_numbers[indices[i]] >= row)
+              {
+                rows.push_back(row + 1);
+                columns.push_back(column_numbers[indices[i]] + 1);
+                values.push_back(row_values[i]);
+              }
+          }
+        }
+      };
+    } // namespace
+
+
+    void
+    solve_by_mumps(const dealii::TrilinosWrappers::SparseMatrix &matrix,
+                   const dealii::TrilinosWrappers::MPI::Vector  &rhs,
+                   dealii::TrilinosWrappers::MPI::Vector        &solution)
+    {
+      const MPI_Comm     communicator = matrix.get_mpi_communicator();
+      const unsigned int n_ranks =
+        dealii::Utilities::MPI::n_mpi_processes(communicator);
+      const bool is_host =
+        dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+
+      Triplets triplets(matrix.trilinos_matrix());
+      Mumps    mumps(communicator);
+      mumps.data.n = matrix.m();
+      if (n_ranks > 1)
+      {
+        mumps.control(18)  = 3; // distributed entries
+        mumps.data.nnz_loc = triplets.values.size();
+        mumps.data.irn_loc = triplets.rows.data();
+        mumps.data.jcn_loc = triplets.columns.data();
+        mumps.data.a_loc   = triplets.values.data();
+      }
+      else
+      {
+        mumps.data.nnz = triplets.values.size();
+        mumps.data.irn = triplets.rows.data();
+        mumps.data.jcn = triplets.columns.data();
+        mumps.data.a   = triplets.values.data();
+      }
+      // Approximate minimum degree orders in a fifth of the time of what MUMPS
+      // chooses by itself; its larger fill tells only on large systems.
+      constexpr unsigned int large = 150000;
+      mumps.control(7)             = matrix.m() < large ? 0 : 7;
+      // The diagonal is that of a stiffness matrix: no permutation for larger
+      // pivots is looked for, and no compression of 2x2 pivots.
+      mumps.control(6)  = 0;
+      mumps.control(12) = 1;
+      mumps.control(14) = 30; // percent of memory to spare
+      mumps.run(1, "analysis");
+      mumps.run(2, "factorization");
+
+      // right-hand side and solution are on the host
+      const int n_local = rhs.locally_owned_size();
+      if (n_ranks == 1)
+      {
+        std::copy(rhs.begin(), rhs.end(), solution.begin());
+        mumps.data.rhs = &*solution.begin();
+        mumps.run(3, "solution");
+        return;
+      }
+      const std::vector<int> counts =
+        dealii::Utilities::MPI::all_gather(communicator, n_local);
+      std::vector<int> offsets(n_ranks, 0);
+      std::partial_sum(counts.begin(), counts.end() - 1, offsets.begin() + 1);
+      std::vector<double>       global(is_host ? matrix.m() : 1);
+      const std::vector<double> local(rhs.begin(), rhs.end());
+      std::vector<double>       local_solution(n_local);
+      MPI_Gatherv(local.data(),
+                  n_local,
+                  MPI_DOUBLE,
+                  global.data(),
+                  counts.data(),
+                  offsets.data(),
+                  MPI_DOUBLE,
+                  0,
+                  communicator);
+      mumps.data.rhs = global.data();
+      mumps.run(3, "solution");
+      MPI_Scatterv(global.data(),
+                   counts.data(),
+                   offsets.data(),
+                   MPI_DOUBLE,
+                   local_solution.data(),
+                   n_local,
+                   MPI_DOUBLE,
+                   0,
+                   communicator);
+      std::copy(local_solution.begin(), local_solution.end(), solution.begin());
+    }
+  } // namespace internal
+} // namespace NMM

@@ -1,0 +1,272 @@
+// The linear system: symmetry, solvers, ranks, and problems without a solution.
+
+#include <gtest/gtest.h>
+#include <mechanics/model.h>
+
+using namespace NMM;
+using namespace NMM::Test;
+
+namespace
+{
+  constexpr auto normal = BoundaryCondition::Type::normal_displacement;
+
+  /// A box with a crack, a closed joint and an interface, two materials.
+  std::unique_ptr<Model>
+  jointed_box(const MPI_Comm communicator)
+  {
+    Geometry geometry;
+    add_box(geometry, {0., 0.}, {2., 1.});
+    geometry.add_polyline({{0.3, 0.2}, {0.7, 0.8}}, "crack", CurveRole::joint);
+    geometry.add_polyline({{1.1, -0.1}, {1.25, 1.1}},
+                          "tied",
+                          CurveRole::joint,
+                          JointState::closed);
+    geometry.add_polyline({{-0.1, 0.55}, {2.1, 0.45}},
+                          "layer",
+                          CurveRole::interface);
+    geometry.add_material_point({0.1, 0.1}, "rock");
+    geometry.add_material_point({0.1, 0.9}, "soil");
+    geometry.add_material_point({1.9, 0.1}, "rock");
+    geometry.add_material_point({1.9, 0.9}, "soil");
+    auto model               = std::make_unique<Model>(std::move(geometry),
+                                         mesh_parameters(0.09, {}, 9.),
+                                         2,
+                                         Stabilization::aggregation,
+                                         communicator);
+    model->problem.materials = {material("rock", 1000., 0.2, 2.),
+                                material("soil", 50., 0.35, 1.)};
+    model->problem.gravity   = Tensor<1, 2>({0., -1.});
+    model->problem.boundary_conditions = {
+      condition(BoundaryCondition::Type::displacement, "bottom"),
+      condition(normal, "left"),
+      condition(BoundaryCondition::Type::traction,
+                "right",
+                vector_function([](const Point<2> &x) {
+                  return Tensor<1, 2>({std::sin(3. * x[1]), 0.5});
+                }))};
+    return model;
+  }
+
+
+  double
+  maximum(const double value)
+  {
+    return dealii::Utilities::MPI::max(value, MPI_COMM_WORLD);
+  }
+} // namespace
+
+
+TEST(System, IsSymmetric)
+{
+  const auto model = jointed_box(MPI_COMM_WORLD);
+  model->solve();
+  const auto &matrix  = model->system->system_matrix();
+  double      largest = 0., difference = 0.;
+  for (const auto &entry : matrix)
+  {
+    largest    = std::max(largest, std::abs(entry.value()));
+    difference = std::max(difference,
+                          std::abs(entry.value() -
+                                   matrix.el(entry.column(), entry.row())));
+  }
+  EXPECT_GT(largest, 0.);
+  EXPECT_LT(difference, 1e-13 * largest);
+}
+
+
+TEST(System, RanksAgreeMPI)
+{
+  const auto parallel = jointed_box(MPI_COMM_WORLD);
+  const auto serial   = jointed_box(MPI_COMM_SELF);
+  parallel->solve();
+  serial->solve();
+
+  // covers are numbered alike
+  ASSERT_EQ(parallel->covers.n_covers(), serial->covers.n_covers());
+  const auto &A       = parallel->system->system_matrix();
+  const auto &B       = serial->system->system_matrix();
+  double      largest = 0., difference = 0.;
+  for (const unsigned int row : parallel->covers.locally_owned_dofs(2))
+  {
+    EXPECT_EQ(A.row_length(row), B.row_length(row));
+    for (auto entry = B.begin(row); entry != B.end(row); ++entry)
+    {
+      largest = std::max(largest, std::abs(entry->value()));
+      difference =
+        std::max(difference,
+                 std::abs(entry->value() - A.el(row, entry->column())));
+    }
+  }
+  EXPECT_LT(difference, 1e-12 * largest);
+
+  double largest_u = 0., difference_u = 0.;
+  for (const unsigned int k : parallel->covers.locally_relevant_covers())
+  {
+    largest_u    = std::max(largest_u, serial->field->nodal_value(k).norm());
+    difference_u = std::max(
+      difference_u,
+      (serial->field->nodal_value(k) - parallel->field->nodal_value(k)).norm());
+  }
+  // rounding of the matrix times its condition number
+  EXPECT_LT(difference_u, 1e-10 * largest_u);
+
+  // the recovered stress too
+  const StressRecovery recovered(*parallel->field, parallel->aggregation),
+    expected(*serial->field, serial->aggregation);
+  const auto [first, last] = parallel->covers.locally_owned_elements();
+  double largest_s = 0., difference_s = 0.;
+  for (unsigned int e = first; e < last; ++e)
+  {
+    const auto s = expected.stress(e, {0.3, 0.3});
+    largest_s    = std::max(largest_s, s.norm());
+    difference_s =
+      std::max(difference_s, (recovered.stress(e, {0.3, 0.3}) - s).norm());
+  }
+  EXPECT_LT(difference_s, 1e-9 * largest_s);
+}
+
+
+TEST(System, DirectAndIterativeAgreeMPI)
+{
+  const auto             model = jointed_box(MPI_COMM_WORLD);
+  LinearSolverParameters parameters;
+  parameters.type                 = LinearSolverParameters::Type::direct;
+  const LinearSolverReport direct = model->solve(parameters);
+  EXPECT_TRUE(direct.direct);
+  EXPECT_LT(direct.relative_residual, 1e-12);
+  std::vector<Tensor<1, 2>> expected;
+  for (const unsigned int k : model->covers.locally_relevant_covers())
+    expected.push_back(model->field->nodal_value(k));
+
+  parameters.type                    = LinearSolverParameters::Type::iterative;
+  const LinearSolverReport iterative = model->solve(parameters);
+  EXPECT_FALSE(iterative.direct);
+  EXPECT_GT(iterative.n_iterations, 0u);
+  EXPECT_LT(iterative.relative_residual, 1e-10);
+  double       largest = 0., difference = 0.;
+  unsigned int i = 0;
+  for (const unsigned int k : model->covers.locally_relevant_covers())
+  {
+    largest = std::max(largest, expected[i].norm());
+    difference =
+      std::max(difference, (model->field->nodal_value(k) - expected[i]).norm());
+    ++i;
+  }
+  // residual 1e-11 times the condition number that is left
+  EXPECT_LT(maximum(difference), 1e-7 * maximum(largest));
+}
+
+
+TEST(System, IterationThatStopsEarlyIsReportedMPI)
+{
+  const auto             model = jointed_box(MPI_COMM_WORLD);
+  LinearSolverParameters parameters;
+  parameters.type           = LinearSolverParameters::Type::iterative;
+  parameters.max_iterations = 2;
+  try
+  {
+    model->solve(parameters);
+    FAIL() << "no exception";
+  }
+  catch (const NumericalFailure &failure)
+  {
+    EXPECT_NE(failure.message().find("2 iterations"), std::string::npos)
+      << failure.message();
+  }
+}
+
+
+namespace
+{
+  std::string
+  floating_message(const std::vector<BoundaryCondition> &conditions,
+                   const std::vector<FixedPoint>        &fixed_points,
+                   const JointState                      joint)
+  {
+    Geometry geometry;
+    add_box(geometry, {0., 0.}, {2., 1.});
+    geometry.add_polyline({{1.2, -0.1}, {1.3, 1.1}},
+                          "split",
+                          CurveRole::joint,
+                          joint);
+    Model model(std::move(geometry), mesh_parameters(0.2, {}, 3.), 2);
+    model.problem.materials           = {material("granite")};
+    model.problem.boundary_conditions = conditions;
+    model.problem.fixed_points        = fixed_points;
+    model.problem.gravity             = Tensor<1, 2>({0., -1.});
+    try
+    {
+      model.solve();
+    }
+    catch (const NumericalFailure &failure)
+    {
+      return failure.message();
+    }
+    return "";
+  }
+
+
+  FixedPoint
+  fixed(const Point<2> &x, const bool hold_x = true, const bool hold_y = true)
+  {
+    FixedPoint point;
+    point.point         = x;
+    point.components[0] = hold_x;
+    point.components[1] = hold_y;
+    return point;
+  }
+} // namespace
+
+
+TEST(System, FloatingBlocksAreNamedMPI)
+{
+  using testing::AssertionFailure;
+  const auto contains = [](const std::string &text, const std::string &part) {
+    return text.find(part) != std::string::npos
+             ? testing::AssertionSuccess()
+             : testing::AssertionFailure() << "\"" << text << "\"";
+  };
+  const auto clamped = condition(BoundaryCondition::Type::displacement, "left");
+
+  // held on the left only: the right block is free unless the joint is closed
+  const std::string right = floating_message({clamped}, {}, JointState::open);
+  EXPECT_TRUE(contains(right, "floats freely"));
+  EXPECT_TRUE(contains(right, "nothing holds it"));
+  EXPECT_TRUE(contains(right, "granite"));
+  EXPECT_EQ(floating_message({clamped}, {}, JointState::closed), "");
+
+  // one fixed point leaves the rotation
+  EXPECT_TRUE(
+    contains(floating_message({}, {fixed({0.5, 0.4})}, JointState::closed),
+             "rotate"));
+  EXPECT_EQ(floating_message({},
+                             {fixed({0.5, 0.4}), fixed({1.5, 0.4}, false)},
+                             JointState::closed),
+            "");
+  // two springs along the line through them do not stop the rotation
+  EXPECT_TRUE(contains(floating_message({},
+                                        {fixed({0.5, 0.4}),
+                                         fixed({1.5, 0.4}, true, false)},
+                                        JointState::closed),
+                       "rotate"));
+  // rollers
+  EXPECT_TRUE(contains(
+    floating_message({condition(normal, "bottom")}, {}, JointState::closed),
+    "move along x"));
+  EXPECT_TRUE(contains(floating_message({condition(normal, "left"),
+                                         condition(normal, "right")},
+                                        {},
+                                        JointState::closed),
+                       "move along y"));
+}
+
+
+TEST(System, RollersOnACircleLeaveTheRotation)
+{
+  Geometry geometry;
+  geometry.add_circle({0.3, 0.2}, 1., "rim", CurveRole::boundary);
+  Model model(std::move(geometry), mesh_parameters(0.3), 2);
+  model.problem.materials           = {material()};
+  model.problem.boundary_conditions = {condition(normal, "rim")};
+  EXPECT_THROW(model.solve(), NumericalFailure);
+}

@@ -1,0 +1,219 @@
+#include "run_driver.h"
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <string>
+#include <vector>
+
+// Everything a user can get wrong ends with exit code 2, a message that names what
+// is wrong, where and what to do, and no output folder.
+namespace
+{
+  const std::string base_scene = NMM_SOURCE_DIR "/tests/scenes/base.prm";
+
+  const std::string square =
+    "boundary name=square material=rock POLYGON ((0 0, 1 0, 1 1, 0 1))";
+
+
+  void
+  expect_rejected(std::vector<std::string>        arguments,
+                  const std::vector<std::string> &words,
+                  const unsigned int              n_ranks = 1)
+  {
+    const std::string output = fresh_output_dir("rejected");
+    arguments.insert(arguments.begin(), {"--output", output});
+    const DriverResult result = run_driver(arguments, n_ranks);
+    EXPECT_EQ(result.exit_code, 2) << result.output;
+    for (const std::string &word : words)
+      EXPECT_NE(result.output.find(word), std::string::npos)
+        << "'" << word << "' is missing in: " << result.output;
+    EXPECT_FALSE(std::filesystem::exists(output)) << result.output;
+  }
+
+
+  void
+  expect_rejected_override(const std::string              &override,
+                           const std::vector<std::string> &words)
+  {
+    SCOPED_TRACE(override);
+    expect_rejected({"--set", override, base_scene}, words);
+  }
+
+
+  void
+  expect_rejected_geometry(const std::string              &records,
+                           const std::vector<std::string> &words)
+  {
+    expect_rejected_override("Geometry/Text=" + records, words);
+  }
+
+
+  /// A scene file with the lines of the base scene and @p more.
+  std::string
+  write_scene(const std::string &name, const std::string &text)
+  {
+    const std::string file_name = NMM_TEST_OUTPUT_DIR "/" + name;
+    std::ofstream(file_name) << text;
+    return file_name;
+  }
+
+
+  TEST(BadInput, TheBaseSceneIsGood)
+  {
+    // Otherwise everything below would pass for the wrong reason.
+    const DriverResult result = run_driver({"--check", base_scene});
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+  }
+
+
+  TEST(BadInput, CommandLine)
+  {
+    expect_rejected({}, {"scene"});
+    expect_rejected({base_scene, base_scene}, {"2 scene files"});
+    expect_rejected({"--sett", "a/b=c", base_scene}, {"--sett", "--help"});
+    expect_rejected({"--print-parameters=yaml"}, {"yaml", "markdown"});
+    expect_rejected({"no-such-file.prm"}, {"no-such-file.prm"});
+    expect_rejected({NMM_SOURCE_DIR}, {NMM_SOURCE_DIR});
+  }
+
+
+  TEST(BadInput, OutputFolderThatCannotBeMade)
+  {
+    const DriverResult result =
+      run_driver({"--output", base_scene + "/results", base_scene});
+    EXPECT_EQ(result.exit_code, 2) << result.output;
+    EXPECT_NE(result.output.find("is not a folder"), std::string::npos)
+      << result.output;
+  }
+
+
+  TEST(BadInput, Overrides)
+  {
+    expect_rejected_override("Solver/Type", {"Solver/Type", "'='"});
+    expect_rejected_override("Type=direct", {"Section/Key"});
+    expect_rejected_override("Solvr/Type=direct", {"Solvr", "'Solver'"});
+    expect_rejected_override("Solver/Tipe=direct", {"Tipe", "'Type'"});
+    expect_rejected_override("Solver/Type=fast",
+                             {"fast", "Solver/Type", "iterative"});
+    expect_rejected_override("Materials/rok/Density=1", {"rok", "'rock'"});
+    expect_rejected_override("Materials/rock/Density=-1", {"-1", "Density"});
+    expect_rejected_override("Materials/Names=rock, rock", {"rock", "twice"});
+    expect_rejected_override("Materials/Names=a/b", {"a/b", "slash"});
+  }
+
+
+  TEST(BadInput, SceneFile)
+  {
+    expect_rejected({write_scene("section.prm",
+                                 "subsection Geometri\n  set File = x\nend\n")},
+                    {"section.prm:1", "Geometri", "'Geometry'"});
+    expect_rejected({write_scene("key.prm",
+                                 "subsection Geometry\n  set Fill = x\nend\n")},
+                    {"key.prm:2", "'Fill'", "'File'", "'Geometry'"});
+    expect_rejected({write_scene("value.prm",
+                                 "# a comment\nsubsection Model\n"
+                                 "  set Thickness = thick\nend\n")},
+                    {"value.prm:3", "'thick'", "Model/Thickness"});
+    expect_rejected({write_scene("nested.prm",
+                                 "subsection Materials\n  set Names = rock\n"
+                                 "  subsection rok\n  end\nend\n")},
+                    {"nested.prm:3", "'rok'", "'rock'"});
+    expect_rejected({write_scene("syntax.prm",
+                                 "subsection Model\n  Thickness = 1\nend\n")},
+                    {"syntax.prm:2"});
+    expect_rejected({write_scene("open.prm", "subsection Model\n")},
+                    {"open.prm", "subsection"});
+    expect_rejected({write_scene("empty.prm", "")}, {"empty.prm"});
+    expect_rejected({write_scene("syntax.json", "{\"Model\": \n}")},
+                    {"syntax.json:2"});
+    expect_rejected({write_scene("key.json", "{\"Geometry\": {\"Fill\": 1}}")},
+                    {"key.json", "'Fill'", "'File'"});
+  }
+
+
+  TEST(BadInput, Parameters)
+  {
+    expect_rejected_override("Geometry/Text=", {"no geometry", "'File'"});
+    expect_rejected_override("Geometry/File=x.wkt", {"two geometries"});
+    expect_rejected_override("Mathematical mesh/Cell size=0", {"Cell size"});
+    expect_rejected_override("Mathematical mesh/Cell size=-1", {"Cell size"});
+    expect_rejected_override("Mathematical mesh/Cell size=nan", {"Cell size"});
+    expect_rejected_override("Mathematical mesh/Cell size=1e-9", {"cell"});
+    expect_rejected_override("Mathematical mesh/Degree=3", {"Degree"});
+    expect_rejected_override("Mathematical mesh/Type=gmsh", {"Gmsh file"});
+    expect_rejected_override("Materials/rock/Young's modulus=0", {"rock", "0"});
+    expect_rejected_override("Materials/rock/Poisson's ratio=0.5", {"rock"});
+    expect_rejected_override("Materials/rock/Poisson's ratio=0.6",
+                             {"0.6", "Poisson"});
+    expect_rejected_override("Model/Thickness=0", {"Thickness"});
+    expect_rejected_override("Model/Gravity=1", {"Gravity"});
+    expect_rejected_override("Model/Body force=x", {"Body force", "two"});
+    expect_rejected_override("Model/Body force=x; y +", {"Body force", "y +"});
+    expect_rejected_override("Model/Body force=x; z", {"Body force", "z"});
+    expect_rejected_override("Boundary conditions/held/Boundary=base",
+                             {"held", "base"});
+    expect_rejected_override("Boundary conditions/held/Boundary=",
+                             {"held", "Boundary"});
+    expect_rejected_override("Boundary conditions/held/Value=0",
+                             {"held", "semicolon"});
+    expect_rejected_override("Probes/inside/Point=2, 2",
+                             {"inside", "(2, 2)", "outside"});
+    expect_rejected_override("Fixed points/corner/Point=2, 2", {"(2, 2)"});
+    expect_rejected_override("Output/Picture range=2, 1", {"Picture range"});
+    expect_rejected_override("Exact solution/Type=thick ring", {"boundar"});
+  }
+
+
+  TEST(BadInput, Geometry)
+  {
+    // Open and self-intersecting boundaries.
+    expect_rejected_geometry(
+      "boundary name=square material=rock LINESTRING (0 0, 1 0, 1 1, 0 1)",
+      {"square", "0", "1"});
+    expect_rejected_geometry(
+      "boundary name=square material=rock POLYGON ((0 0, 1 1, 1 0, 0 1))",
+      {"square", "0.5"});
+    // A joint wholly outside, a hole outside its domain.
+    expect_rejected_geometry(square + "; joint name=far LINESTRING (2 2, 3 3)",
+                             {"far", "2"});
+    expect_rejected_geometry(square + "; hole name=well CIRCLE (3 3, 0.1)",
+                             {"well", "3"});
+    // Pieces of no length, a circle of no size, numbers that are none.
+    expect_rejected_geometry(square +
+                               "; joint name=dot LINESTRING (0.5 0.5, 0.5 0.5)",
+                             {"dot", "0.5"});
+    expect_rejected_geometry(square + "; hole name=well CIRCLE (0.5 0.5, 0)",
+                             {"well", "0"});
+    expect_rejected_geometry(square +
+                               "; joint name=odd LINESTRING (0.5 nan, 0.5 0.7)",
+                             {"nan"});
+    expect_rejected_geometry(
+      square + "; joint name=odd LINESTRING (0.5 0.1, 0.5 1e999)", {"1e999"});
+    // Materials the scene does not describe.
+    expect_rejected_geometry(
+      "boundary name=square material=roc POLYGON ((0 0, 1 0, 1 1, 0 1))",
+      {"roc"});
+    // Records that cannot be read.
+    expect_rejected_geometry(square + "; fault LINESTRING (0 0, 1 1)",
+                             {"fault"});
+    expect_rejected_geometry(square + "; joint LINESTRING (0 0, 1 1",
+                             {"joint"});
+    expect_rejected_geometry("joint name=alone LINESTRING (0 0, 1 1)",
+                             {"boundary"});
+    expect_rejected({"--set",
+                     "Geometry/Text=",
+                     "--set",
+                     "Geometry/File=no-such.wkt",
+                     base_scene},
+                    {"no-such.wkt"});
+  }
+
+
+  TEST(BadInput, IsRejectedOnTwoRanksToo)
+  {
+    expect_rejected({"--set", "Solver/Tipe=direct", base_scene}, {"Tipe"}, 2);
+    expect_rejected({"--set", "Probes/inside/Point=2, 2", base_scene},
+                    {"outside"},
+                    2);
+  }
+} // namespace

@@ -1,0 +1,309 @@
+#include "run_driver.h"
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+// Each folder beside this file is a case: expected.csv says in comment lines which
+// scene is run and how ("# scene:", "# arguments:", "# ranks:", "# exit code:"), and
+// has the rows name, value, abs_tol, rel_tol, source of the value. A name is a row
+// of summary.csv or "probes/<probe>/<point>/<column>" of probes.csv. A value v
+// passes if |v - expected| <= abs_tol + rel_tol * |expected|.
+namespace
+{
+  namespace fs = std::filesystem;
+
+  struct Row
+  {
+    std::string name;
+    double      value, abs_tol, rel_tol;
+  };
+
+  struct Case
+  {
+    std::string              scene;
+    std::vector<std::string> arguments;
+    unsigned int             n_ranks   = 1;
+    int                      exit_code = 0;
+    std::vector<Row>         rows;
+  };
+
+
+  const fs::path cases_dir = fs::path(NMM_SOURCE_DIR) / "tests" / "scenes";
+
+
+  std::vector<std::string>
+  split(const std::string &line, const char separator)
+  {
+    std::vector<std::string> fields;
+    std::istringstream       stream(line);
+    for (std::string field; std::getline(stream, field, separator);)
+    {
+      const auto first = field.find_first_not_of(' ');
+      fields.push_back(
+        first == std::string::npos
+          ? ""
+          : field.substr(first, field.find_last_not_of(' ') - first + 1));
+    }
+    return fields;
+  }
+
+
+  Case
+  read_case(const std::string &name)
+  {
+    Case          result;
+    std::ifstream file(cases_dir / name / "expected.csv");
+    EXPECT_TRUE(file.good());
+    for (std::string line; std::getline(file, line);)
+    {
+      const auto directive = [&](const std::string &key) {
+        return line.rfind("# " + key + ":", 0) == 0
+                 ? split(line.substr(key.size() + 3), ';')
+                 : std::vector<std::string>();
+      };
+      if (const auto scene = directive("scene"); !scene.empty())
+        result.scene = scene.front();
+      else if (const auto arguments = directive("arguments");
+               !arguments.empty())
+        result.arguments = arguments;
+      else if (const auto ranks = directive("ranks"); !ranks.empty())
+        result.n_ranks = std::stoul(ranks.front());
+      else if (const auto code = directive("exit code"); !code.empty())
+        result.exit_code = std::stoi(code.front());
+      else if (!line.empty() && line[0] != '#' && line.rfind("name,", 0) != 0)
+      {
+        const auto fields = split(line, ',');
+        // A tolerance or source left out is a mistake in the case.
+        if (fields.size() < 5 || fields[4].empty())
+          ADD_FAILURE() << "incomplete row: " << line;
+        else
+          result.rows.push_back({fields[0],
+                                 std::stod(fields[1]),
+                                 std::stod(fields[2]),
+                                 std::stod(fields[3])});
+      }
+    }
+    return result;
+  }
+
+
+  std::map<std::string, double>
+  read_results(const fs::path &directory)
+  {
+    std::map<std::string, double> values;
+    std::ifstream                 summary(directory / "summary.csv");
+    EXPECT_TRUE(summary.good()) << "no summary.csv in " << directory;
+    std::string line;
+    std::getline(summary, line);
+    EXPECT_EQ(line, "name,value,unit");
+    while (std::getline(summary, line))
+    {
+      const auto fields = split(line, ',');
+      values[fields[0]] = std::stod(fields[1]);
+    }
+
+    std::ifstream probes(directory / "probes.csv");
+    if (!std::getline(probes, line))
+      return values;
+    const auto columns = split(line, ',');
+    while (std::getline(probes, line))
+    {
+      const auto fields = split(line, ',');
+      for (std::size_t i = 2; i < fields.size(); ++i)
+        values["probes/" + fields[0] + "/" + fields[1] + "/" + columns[i]] =
+          std::stod(fields[i]);
+    }
+    return values;
+  }
+
+
+  std::vector<std::string>
+  case_names()
+  {
+    std::vector<std::string> names;
+    for (const auto &entry : fs::directory_iterator(cases_dir))
+      if (fs::exists(entry.path() / "expected.csv"))
+        names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+
+  class SceneCase : public testing::TestWithParam<std::string>
+  {
+  };
+
+
+  TEST_P(SceneCase, GivesTheExpectedValues)
+  {
+    const Case        test_case = read_case(GetParam());
+    const std::string output    = fresh_output_dir(GetParam());
+    ASSERT_FALSE(test_case.rows.empty());
+
+    std::vector<std::string> arguments = test_case.arguments;
+    arguments.insert(arguments.end(),
+                     {"--output",
+                      output,
+                      (cases_dir / GetParam() / test_case.scene).string()});
+    const DriverResult result = run_driver(arguments, test_case.n_ranks);
+    ASSERT_EQ(result.exit_code, test_case.exit_code) << result.output;
+
+    const auto values = read_results(output);
+    for (const Row &row : test_case.rows)
+    {
+      const auto entry = values.find(row.name);
+      ASSERT_TRUE(entry != values.end()) << "no value " << row.name;
+      const double tolerance = row.abs_tol + row.rel_tol * std::abs(row.value);
+      EXPECT_NEAR(entry->second, row.value, tolerance) << row.name;
+    }
+  }
+
+
+  INSTANTIATE_TEST_SUITE_P(Scenes,
+                           SceneCase,
+                           testing::ValuesIn(case_names()),
+                           [](const testing::TestParamInfo<std::string> &info) {
+                             std::string name = info.param;
+                             std::replace_if(
+                               name.begin(),
+                               name.end(),
+                               [](const char c) {
+                                 return std::isalnum(c) == 0;
+                               },
+                               '_');
+                             return name;
+                           });
+
+
+  TEST(Scenes, EveryShippedSceneIsACase)
+  {
+    std::string all;
+    for (const std::string &name : case_names())
+      all += read_case(name).scene + "\n";
+    const fs::path shipped =
+      fs::path(NMM_SOURCE_DIR) / "applications" / "nmm" / "scenes";
+    for (const auto &entry : fs::directory_iterator(shipped))
+    {
+      const std::string extension = entry.path().extension().string();
+      if (extension == ".prm" || extension == ".json")
+      {
+        EXPECT_NE(all.find("/" + entry.path().filename().string()),
+                  std::string::npos)
+          << entry.path() << " has no expected.csv in tests/scenes";
+      }
+    }
+  }
+
+
+  TEST(Scenes, CheckWritesNothing)
+  {
+    const std::string  output = fresh_output_dir("check");
+    const DriverResult result =
+      run_driver({"--check",
+                  "--output",
+                  output,
+                  NMM_SOURCE_DIR "/applications/nmm/scenes/ring.prm"});
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    EXPECT_NE(result.output.find("manifold elements"), std::string::npos)
+      << result.output;
+    EXPECT_FALSE(fs::exists(output));
+  }
+
+
+  TEST(Scenes, WritesTheFilesTheSceneAsksFor)
+  {
+    const std::string output = fresh_output_dir("files");
+    const std::string scene =
+      NMM_SOURCE_DIR "/applications/nmm/scenes/ring.prm";
+    const auto exists = [&](const char *name) {
+      return fs::exists(fs::path(output) / name);
+    };
+    DriverResult result = run_driver({"-o", output, scene});
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+    for (const char *name : {"summary.csv",
+                             "probes.csv",
+                             "fields.vtu",
+                             "fields.pvd",
+                             "picture.png"})
+      EXPECT_TRUE(exists(name)) << name;
+
+    // Results of an earlier run must not survive a run that does not make them.
+    result = run_driver({"-o",
+                         output,
+                         "--set",
+                         "Output/Fields=false",
+                         "--set",
+                         "Output/Picture=false",
+                         "--set",
+                         "Probes/Names=inside",
+                         "--set",
+                         "Mathematical mesh/Cell size=0.5",
+                         scene});
+    // The sections of the probes no longer listed are now unknown.
+    EXPECT_EQ(result.exit_code, 2) << result.output;
+    EXPECT_TRUE(exists("picture.png"));
+    result = run_driver({"-o",
+                         output,
+                         "--set",
+                         "Output/Fields=false",
+                         "--set",
+                         "Output/Picture=false",
+                         "--set",
+                         "Mathematical mesh/Cell size=0.5",
+                         scene});
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+    EXPECT_TRUE(exists("summary.csv"));
+    for (const char *name : {"fields.vtu", "fields.pvd", "picture.png"})
+      EXPECT_FALSE(exists(name)) << name;
+    for (const auto &entry : fs::directory_iterator(output))
+      EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+  }
+
+
+  TEST(Scenes, SceneAsJsonGivesTheSameResult)
+  {
+    const std::string scene =
+      NMM_SOURCE_DIR "/applications/nmm/scenes/quarter-ring.prm";
+    const DriverResult json = run_driver({"--print-parameters=json", scene});
+    ASSERT_EQ(json.exit_code, 0) << json.output;
+    const std::string file_name = NMM_TEST_OUTPUT_DIR "/quarter-ring.json";
+    std::ofstream(file_name) << json.output;
+
+    const std::string              output = fresh_output_dir("json");
+    const std::vector<std::string> coarse = {"-o",
+                                             output,
+                                             "--set",
+                                             "Mathematical mesh/Cell size=0.3"};
+    std::vector<double>            errors;
+    for (const std::string &name : {scene, file_name})
+    {
+      std::vector<std::string> arguments = coarse;
+      arguments.push_back(name);
+      const DriverResult result = run_driver(arguments);
+      ASSERT_EQ(result.exit_code, 0) << result.output;
+      errors.push_back(read_results(output).at("error_displacement_l2"));
+    }
+    EXPECT_GT(errors[0], 0.);
+    EXPECT_DOUBLE_EQ(errors[0], errors[1]);
+  }
+
+
+  TEST(Scenes, ParameterReferenceIsUpToDate)
+  {
+    const DriverResult generated = run_driver({"--print-parameters=markdown"});
+    ASSERT_EQ(generated.exit_code, 0) << generated.output;
+    std::ifstream     file(NMM_SOURCE_DIR "/doc/parameters.md");
+    std::stringstream committed;
+    committed << file.rdbuf();
+    EXPECT_TRUE(committed.str() == generated.output)
+      << "doc/parameters.md does not match the code; regenerate it by\n"
+         "  build/release/bin/nmm --print-parameters=markdown "
+         "> doc/parameters.md";
+  }
+} // namespace

@@ -51,8 +51,22 @@ namespace StepNMM1
                         "0.25",
                         Patterns::Double(-1., 0.5),
                         "[-]");
+      prm.declare_entry("Pattern",
+                        "equilateral",
+                        Patterns::Selection("equilateral|right-angled"),
+                        "Of the regular mesh.");
+      prm.declare_entry(
+        "Aggregation threshold",
+        "0.25",
+        Patterns::Double(0., 1.),
+        "Least share of its cell that makes an element good [-].");
+      prm.declare_entry("Refined width",
+                        "0.3",
+                        positive,
+                        "Width of the zone of smaller triangles at the inner "
+                        "circle [m].");
       prm.declare_entry("Cell sizes",
-                        "0.23, 0.115, 0.0575, 0.0293, 0.01475, 0.0074",
+                        "0.23, 0.12, 0.0603, 0.0301, 0.01505, 0.0076",
                         Patterns::List(positive, 1),
                         "Edge lengths of the triangles [m].");
       prm.declare_entry("Offset",
@@ -107,16 +121,21 @@ namespace StepNMM1
     }
 
     Parameters        parameters;
-    const std::string ring    = prm.get("Ring");
-    parameters.shape          = ring == "quarter" ? RingShape::quarter
-                                : ring == "half"  ? RingShape::half
-                                                  : RingShape::full;
-    parameters.inner_radius   = prm.get_double("Inner radius");
-    parameters.outer_radius   = prm.get_double("Outer radius");
-    parameters.pressure       = prm.get_double("Pressure");
-    parameters.youngs_modulus = prm.get_double("Young's modulus");
-    parameters.poissons_ratio = prm.get_double("Poisson's ratio");
-    parameters.cell_sizes     = Utilities::string_to_double(
+    const std::string ring           = prm.get("Ring");
+    parameters.shape                 = ring == "quarter" ? RingShape::quarter
+                                       : ring == "half"  ? RingShape::half
+                                                         : RingShape::full;
+    parameters.inner_radius          = prm.get_double("Inner radius");
+    parameters.outer_radius          = prm.get_double("Outer radius");
+    parameters.pressure              = prm.get_double("Pressure");
+    parameters.youngs_modulus        = prm.get_double("Young's modulus");
+    parameters.poissons_ratio        = prm.get_double("Poisson's ratio");
+    parameters.pattern               = prm.get("Pattern") == "equilateral"
+                                         ? NMM::MeshPattern::equilateral
+                                         : NMM::MeshPattern::right_angled;
+    parameters.aggregation_threshold = prm.get_double("Aggregation threshold");
+    parameters.refined_width         = prm.get_double("Refined width");
+    parameters.cell_sizes            = Utilities::string_to_double(
       Utilities::split_string_list(prm.get("Cell sizes")));
     const std::vector<double> offset = Utilities::string_to_double(
       Utilities::split_string_list(prm.get("Offset")));
@@ -269,6 +288,17 @@ namespace StepNMM1
                   << seconds << "  ";
       std::cout << std::defaultfloat << '\n';
     }
+
+
+    std::string
+    describe(const std::string &method)
+    {
+      return method == "fitted"    ? "deal.II, fitted curved triangles"
+             : method == "uniform" ? "Manifold method, regular mesh that does "
+                                     "not fit"
+                                   : "Manifold method, mesh that does not fit, "
+                                     "refined near the inner circle";
+    }
   } // namespace
 
 
@@ -283,10 +313,7 @@ namespace StepNMM1
       {
         coarse = nullptr;
         std::cout << '\n'
-                  << (m.method == "manifold"
-                        ? "Manifold method, mesh not fitted"
-                        : "deal.II, fitted curved triangles")
-                  << ", degree " << m.degree << "\n"
+                  << describe(m.method) << ", degree " << m.degree << "\n"
                   << " unknowns     L2 u  order  L2 stress  order   hoop max  "
                      "recovered   total s    MB\n";
       }
@@ -305,7 +332,7 @@ namespace StepNMM1
       print_order(m.error_stress,
                   coarse == nullptr ? 0. : coarse->error_stress);
       std::cout << std::setw(11) << m.error_hoop << std::setw(11);
-      if (m.method == "manifold")
+      if (m.method != "fitted")
         std::cout << m.error_hoop_recovered;
       else
         std::cout << '-';
@@ -435,7 +462,8 @@ namespace StepNMM1
          "set xlabel 'r [m]'\nset ylabel 'hoop stress [Pa]'\n"
          "plot '"
       << prefix
-      << "hoop-p2-level-0.csv' skip 1 using 1:2 with lines lw 3 lc 'gray60' "
+      << "hoop-p2-uniform-level-0.csv' skip 1 using 1:2 with lines lw 3 lc "
+         "'gray60' "
          "title 'exact', \\\n"
          "  '' skip 1 using 1:3 with lines lc 'dark-red' title 'p = 2, "
          "coarsest mesh, direct', \\\n"
@@ -443,11 +471,13 @@ namespace StepNMM1
          "mesh, recovered', \\\n"
          "  '"
       << prefix
-      << "hoop-p2-level-1.csv' skip 1 using 1:3 with lines lc 'orange' title "
+      << "hoop-p2-uniform-level-1.csv' skip 1 using 1:3 with lines lc 'orange' "
+         "title "
          "'p = 2, half the cell size, direct', \\\n"
          "  '"
       << prefix
-      << "hoop-p1-level-1.csv' skip 1 using 1:3 with lines dt 3 lc 'black' "
+      << "hoop-p1-uniform-level-1.csv' skip 1 using 1:3 with lines dt 3 lc "
+         "'black' "
          "title 'p = 1, half the cell size, direct'\n"
          "set logscale xy\nset format '%.0e'\nset key bottom left\n"
          "set output '"
@@ -460,23 +490,25 @@ namespace StepNMM1
       << prefix
       << "study.csv'\n"
          "plot f skip 1 using 11:"
-      << only("manifold", 2, "7")
-      << " pt 7 lc 'blue' title 'displacement, manifold p = 2', \\\n"
+      << only("graded", 2, "7")
+      << " pt 7 lc 'blue' title 'displacement, manifold p = 2, refined "
+         "inside', \\\n"
          "  f skip 1 using 11:"
       << only("fitted", 2, "7")
       << " pt 6 dt 2 lc 'blue' title 'displacement, fitted p = 2 (deal.II)', "
          "\\\n"
          "  f skip 1 using 11:"
-      << only("manifold", 1, "7")
+      << only("uniform", 1, "7")
       << " pt 7 lc 'web-blue' title 'displacement, manifold p = 1', \\\n"
          "  f skip 1 using 11:"
-      << only("manifold", 2, "8")
-      << " pt 5 lc 'dark-red' title 'stress, manifold p = 2', \\\n"
+      << only("graded", 2, "8")
+      << " pt 5 lc 'dark-red' title 'stress, manifold p = 2, refined inside', "
+         "\\\n"
          "  f skip 1 using 11:"
       << only("fitted", 2, "8")
       << " pt 4 dt 2 lc 'dark-red' title 'stress, fitted p = 2 (deal.II)', \\\n"
          "  f skip 1 using 11:"
-      << only("manifold", 1, "8")
+      << only("uniform", 1, "8")
       << " pt 5 lc 'orange' title 'stress, manifold p = 1'\n";
     script.close();
     const std::string command = "gnuplot '" + prefix + "figures.gp'";

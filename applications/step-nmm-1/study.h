@@ -4,6 +4,8 @@
 // What surrounds the method in step-nmm-1: parameters, measurements, tables and
 // figures.
 
+#include <nmm/covers/aggregation.h>
+#include <nmm/covers/mathematical_mesh.h>
 #include <nmm/mechanics/static_elasticity.h>
 #include <nmm/mechanics/thick_ring.h>
 
@@ -33,6 +35,10 @@ namespace StepNMM1
 
     /// Edge lengths of the regular triangles [m].
     std::vector<double> cell_sizes;
+    NMM::MeshPattern    pattern  = NMM::MeshPattern::equilateral;
+    double aggregation_threshold = NMM::default_aggregation_threshold;
+    /// Width of the zone of smaller triangles at the inner circle [m].
+    double refined_width = 0.3;
     /// Where the mesh lies against the ring [m], [degrees].
     dealii::Tensor<1, 2> offset;
     double               rotation = 0.;
@@ -59,9 +65,11 @@ namespace StepNMM1
   struct Measurement
   {
     std::string  method;
-    unsigned int degree     = 2;
-    double       cell_size  = 0.;
-    unsigned int n_elements = 0, n_unknowns = 0, n_constrained = 0;
+    unsigned int degree    = 2;
+    double       cell_size = 0.;
+    /// Unknowns of the linear system; values that aggregation expresses through
+    /// them come on top.
+    unsigned int n_unknowns = 0, n_constrained = 0, n_elements = 0;
     /// Relative errors [-]: L2 of displacement and stress, largest of the hoop
     /// stress along the radius, direct and recovered.
     double error_u = 0., error_stress = 0.;

@@ -43,6 +43,7 @@ namespace NMM
                const PhysicalMesh               &physical_mesh,
                const std::vector<unsigned char> &touched)
           : mesh(mathematical_mesh)
+          , physical_pieces(physical_mesh.pieces())
           , touched(touched)
           , arrangement(physical_mesh.arrangement().arrangement)
         {
@@ -96,7 +97,12 @@ namespace NMM
         unsigned int
         curve_set_index(const Halfedge &halfedge);
 
+        /// An arc or circle that a circular halfedge lies on.
+        const CurvePiece &
+        circular_piece(const Halfedge &halfedge) const;
+
         const MathematicalMesh           &mesh;
+        const std::vector<CurvePiece>    &physical_pieces;
         const std::vector<unsigned char> &touched;
         Arrangement                       arrangement;
 
@@ -359,6 +365,16 @@ namespace NMM
           result.curve_sets.push_back(set);
         return position->second;
       }
+      const CurvePiece &
+      Cutter::circular_piece(const Halfedge &halfedge) const
+      {
+        for (const Label label : halfedge->curve().data())
+          if (label < mesh_edge_flag)
+            return physical_pieces[label];
+        Assert(false, ExcInternalError());
+        return physical_pieces[0];
+      }
+
 
 
       void
@@ -374,10 +390,9 @@ namespace NMM
         const auto &curve = halfedge->curve();
         if (curve.is_circular())
         {
-          const auto circle = curve.supporting_circle();
-          edge.center       = Point<2>(CGAL::to_double(circle.center().x()),
-                                 CGAL::to_double(circle.center().y()));
-          edge.radius = std::sqrt(CGAL::to_double(circle.squared_radius()));
+          const CurvePiece &circle = circular_piece(halfedge);
+          edge.center              = circle.center;
+          edge.radius              = circle.radius;
           const bool with_curve =
             curve.is_directed_right() ==
             (halfedge->direction() == CGAL::ARR_LEFT_TO_RIGHT);

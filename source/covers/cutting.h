@@ -13,13 +13,15 @@ namespace NMM
   namespace internal
   {
     /**
-     * Cells that a physical curve touches or comes within rounding of, flagged
-     * per cell. May flag a few cells too many (they cost time), never one too
-     * few.
+     * Triangles that a physical curve touches or comes within rounding of,
+     * flagged per triangle. May flag a few too many (they cost time), never one
+     * too few. @p triangles are corner numbers, @p vertices [m].
      */
     std::vector<unsigned char>
-    find_cells_near_curves(const MathematicalMesh &mathematical_mesh,
-                           const PhysicalMesh     &physical_mesh);
+    find_triangles_near_curves(
+      const std::vector<dealii::Point<2>>            &vertices,
+      const std::vector<std::array<unsigned int, 3>> &triangles,
+      const PhysicalMesh                             &physical_mesh);
 
     /**
      * What the exact cutter finds. Elements are referred to by *codes*: below

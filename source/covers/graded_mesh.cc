@@ -3,20 +3,13 @@
 #include <nmm/covers/point_location.h>
 #include <nmm/geometry/physical_mesh.h>
 
-#include <deal.II/grid/grid_in.h>
-
-#include <CGAL/Constrained_Delaunay_triangulation_2.h>
-#include <CGAL/Delaunay_mesh_face_base_2.h>
-#include <CGAL/Delaunay_mesh_vertex_base_2.h>
-#include <CGAL/Delaunay_mesher_2.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/lloyd_optimize_mesh_2.h>
+#include <deal.II/grid/tria_description.h>
 
 #include "cutting.h"
+#include "lattice.h"
 #include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <map>
+#include <array>
+#include <unordered_map>
 
 namespace NMM
 {
@@ -24,256 +17,295 @@ namespace NMM
 
   namespace
   {
-    using Kernel     = CGAL::Exact_predicates_inexact_constructions_kernel;
-    using VertexBase = CGAL::Delaunay_mesh_vertex_base_2<Kernel>;
-    using FaceBase   = CGAL::Delaunay_mesh_face_base_2<Kernel>;
-    using Delaunay   = CGAL::Constrained_Delaunay_triangulation_2<
-      Kernel,
-      CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
+    using internal::LatticeNode;
 
     /**
-     * Delaunay refinement splits a triangle until its longest edge is below a
-     * bound; mean edges of the result are this share of the bound (measured).
+     * Red-green refinement of lattice triangles. Nodes have integer coordinates
+     * on the lattice refined 2^n_levels times, so that midpoints are exact and
+     * found by number.
      */
-    constexpr double mean_over_bound = 0.67;
-
-    /// sin^2 of the smallest angle the refinement surely reaches (20.7 degrees).
-    constexpr double shape_bound = 0.125;
-
-
-    /// CGAL's concept MeshingCriteria_2 with our size field.
-    class Criteria
+    class RedGreenRefinement
     {
     public:
-      explicit Criteria(const SizeField &size)
-        : size(&size)
-      {
-      }
+      RedGreenRefinement(const internal::Lattice        &lattice,
+                         const std::vector<LatticeNode> &parallelograms,
+                         unsigned int                    n_levels);
 
-      /// How badly a triangle needs splitting: size first, then shape.
-      struct Quality
-      {
-        double size = 0., shape = 1.;
+      /// Halve the edges of triangles until no edge is longer than the size
+      /// field at the triangle's centre.
+      void
+      refine(const SizeField &size, double cell_size);
 
-        bool
-        operator<(const Quality &other) const
-        {
-          if (size > 1. || other.size > 1.)
-            return size > other.size;
-          return shape < other.shape;
-        }
-      };
+      /// Refine until neighbours differ by one level and at most one edge of a
+      /// triangle has a node in its middle.
+      void
+      balance();
 
-      class Is_bad
-      {
-      public:
-        explicit Is_bad(const SizeField &size)
-          : size(&size)
-        {
-        }
+      /// Triangles, those with a node in the middle of an edge halved.
+      std::vector<std::array<unsigned int, 3>>
+      close() const;
 
-        CGAL::Mesh_2::Face_badness
-        operator()(const Quality &quality) const
-        {
-          if (quality.size > 1.)
-            return CGAL::Mesh_2::IMPERATIVELY_BAD;
-          return quality.shape < shape_bound ? CGAL::Mesh_2::BAD
-                                             : CGAL::Mesh_2::NOT_BAD;
-        }
-
-        CGAL::Mesh_2::Face_badness
-        operator()(const Delaunay::Face_handle &face, Quality &quality) const
-        {
-          const auto &a              = face->vertex(0)->point(),
-                     &b              = face->vertex(1)->point(),
-                     &c              = face->vertex(2)->point();
-          std::array<double, 3> edge = {{CGAL::squared_distance(a, b),
-                                         CGAL::squared_distance(b, c),
-                                         CGAL::squared_distance(c, a)}};
-          std::sort(edge.begin(), edge.end());
-          const Point<2> center((a.x() + b.x() + c.x()) / 3.,
-                                (a.y() + b.y() + c.y()) / 3.);
-          quality.size = std::sqrt(edge[2]) * mean_over_bound / (*size)(center);
-          // twice the area over the two longer edges
-          const double area = CGAL::area(a, b, c);
-          quality.shape     = 4. * area * area / (edge[1] * edge[2]);
-          return (*this)(quality);
-        }
-
-      private:
-        const SizeField *size;
-      };
-
-      Is_bad
-      is_bad_object() const
-      {
-        return Is_bad(*size);
-      }
+      std::vector<Point<2>> vertices;
 
     private:
-      const SizeField *size;
+      struct Triangle
+      {
+        std::array<unsigned int, 3> corners;
+        unsigned int                level;
+      };
+
+      /// Vertex at a node, made if it is new.
+      unsigned int
+      vertex(const LatticeNode &node);
+
+      /// Node in the middle of two vertices.
+      LatticeNode
+      middle(unsigned int v, unsigned int w) const;
+
+      /// Vertex in the middle of two others, if there is one.
+      unsigned int
+      find_middle(unsigned int v, unsigned int w) const;
+
+      std::uint64_t
+      key(const LatticeNode &node) const
+      {
+        return (static_cast<std::uint64_t>(node[0]) << 32) +
+               static_cast<std::uint64_t>(node[1]);
+      }
+
+      void
+      split(const Triangle &triangle, std::vector<Triangle> &children);
+
+      bool
+      needs_balancing(const Triangle &triangle) const;
+
+      /// Split triangles, and their children, as long as @p condition holds.
+      template <typename Condition>
+      bool
+      split_while(const Condition &condition);
+
+      const internal::Lattice                        *lattice;
+      std::int64_t                                    scale;
+      std::vector<Triangle>                           triangles;
+      std::vector<LatticeNode>                        vertex_to_node;
+      std::unordered_map<std::uint64_t, unsigned int> node_to_vertex;
     };
 
 
-    double
-    distance_from_box(const LocalSize &box, const Point<2> &x)
+    RedGreenRefinement::RedGreenRefinement(
+      const internal::Lattice        &lattice,
+      const std::vector<LatticeNode> &parallelograms,
+      const unsigned int              n_levels)
+      : lattice(&lattice)
+      , scale(std::int64_t(1) << n_levels)
     {
-      Tensor<1, 2> d;
-      for (unsigned int i = 0; i < 2; ++i)
-        d[i] = std::max({box.lower[i] - x[i], 0., x[i] - box.upper[i]});
-      return d.norm();
-    }
-
-
-    /// A curve piece as an edge, so that one distance() serves both.
-    ElementEdge
-    to_edge(const CurvePiece &piece)
-    {
-      ElementEdge edge;
-      edge.start = piece.start;
-      edge.end   = piece.end;
-      if (piece.kind == CurvePiece::Kind::arc)
+      node_to_vertex.reserve(4 * parallelograms.size());
+      const auto at = [&](const std::int64_t i, const std::int64_t j) {
+        return vertex({{scale * i, scale * j}});
+      };
+      for (const auto &[i, j] : parallelograms)
       {
-        edge.center = piece.center;
-        edge.radius = std::copysign(piece.radius, swept_angle(piece));
+        const unsigned int v00 = at(i, j), v10 = at(i + 1, j),
+                           v01 = at(i, j + 1), v11 = at(i + 1, j + 1);
+        triangles.push_back({{{v00, v10, v01}}, 0});
+        triangles.push_back({{{v10, v11, v01}}, 0});
       }
-      return edge;
     }
 
 
-    double
-    distance(const CurvePiece &piece, const Point<2> &x)
+    unsigned int
+    RedGreenRefinement::vertex(const LatticeNode &node)
     {
-      return piece.kind == CurvePiece::Kind::circle
-               ? std::abs(x.distance(piece.center) - piece.radius)
-               : NMM::distance(to_edge(piece), x);
-    }
-
-
-    /// Cells that can touch the solid, as a new triangulation.
-    std::unique_ptr<Triangulation<2>>
-    without_outside(const MathematicalMesh &mesh,
-                    const PhysicalMesh     &physical_mesh)
-    {
-      const std::vector<unsigned char> near =
-        internal::find_cells_near_curves(mesh, physical_mesh);
-      std::vector<unsigned int> new_vertex(mesh.vertices().size(),
-                                           invalid_index);
-      std::vector<Point<2>>     vertices;
-      std::vector<CellData<2>>  cells;
-      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      const auto [position, is_new] =
+        node_to_vertex.emplace(key(node), vertices.size());
+      if (is_new)
       {
-        const auto &v = mesh.cell_vertices(c);
-        if (!near[c] && !is_in_solid(physical_mesh,
-                                     Point<2>((mesh.vertices()[v[0]] +
-                                               mesh.vertices()[v[1]] +
-                                               mesh.vertices()[v[2]]) /
-                                              3.)))
+        vertex_to_node.push_back(node);
+        // a coarse node has the same coordinates as without refinement
+        vertices.push_back(lattice->origin +
+                           (static_cast<double>(node[0]) / scale) * lattice->a +
+                           (static_cast<double>(node[1]) / scale) * lattice->b);
+      }
+      return position->second;
+    }
+
+
+    LatticeNode
+    RedGreenRefinement::middle(const unsigned int v, const unsigned int w) const
+    {
+      const LatticeNode &a = vertex_to_node[v], &b = vertex_to_node[w];
+      return {{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2}};
+    }
+
+
+    unsigned int
+    RedGreenRefinement::find_middle(const unsigned int v,
+                                    const unsigned int w) const
+    {
+      const LatticeNode &a = vertex_to_node[v], &b = vertex_to_node[w];
+      if ((a[0] + b[0]) % 2 != 0 || (a[1] + b[1]) % 2 != 0)
+        return invalid_index;
+      const auto found = node_to_vertex.find(key(middle(v, w)));
+      return found == node_to_vertex.end() ? invalid_index : found->second;
+    }
+
+
+    void
+    RedGreenRefinement::split(const Triangle        &triangle,
+                              std::vector<Triangle> &children)
+    {
+      const auto        &v     = triangle.corners;
+      const unsigned int m01   = vertex(middle(v[0], v[1])),
+                         m12   = vertex(middle(v[1], v[2])),
+                         m20   = vertex(middle(v[2], v[0]));
+      const unsigned int level = triangle.level + 1;
+      children.push_back({{{v[0], m01, m20}}, level});
+      children.push_back({{{m01, v[1], m12}}, level});
+      children.push_back({{{m20, m12, v[2]}}, level});
+      children.push_back({{{m01, m12, m20}}, level});
+    }
+
+
+    template <typename Condition>
+    bool
+    RedGreenRefinement::split_while(const Condition &condition)
+    {
+      bool                  changed = false;
+      std::vector<Triangle> result, stack;
+      result.reserve(triangles.size());
+      for (const Triangle &triangle : triangles)
+      {
+        stack.assign(1, triangle);
+        while (!stack.empty())
+        {
+          const Triangle t = stack.back();
+          stack.pop_back();
+          if (condition(t))
+          {
+            split(t, stack);
+            changed = true;
+          }
+          else
+            result.push_back(t);
+        }
+      }
+      triangles.swap(result);
+      return changed;
+    }
+
+
+    void
+    RedGreenRefinement::refine(const SizeField &size, const double cell_size)
+    {
+      split_while([&](const Triangle &t) {
+        const Point<2> center((vertices[t.corners[0]] + vertices[t.corners[1]] +
+                               vertices[t.corners[2]]) /
+                              3.);
+        const auto divisor = static_cast<double>(std::int64_t(1) << t.level);
+        // a rounded half of a half must not count as too long
+        return (std::int64_t(1) << t.level) < scale &&
+               cell_size / divisor > (1. + 1e-10) * size(center);
+      });
+    }
+
+
+    bool
+    RedGreenRefinement::needs_balancing(const Triangle &triangle) const
+    {
+      unsigned int n_halved = 0;
+      for (unsigned int i = 0; i < 3; ++i)
+      {
+        const unsigned int v = triangle.corners[i],
+                           w = triangle.corners[(i + 1) % 3];
+        const unsigned int m = find_middle(v, w);
+        if (m == invalid_index)
+          continue;
+        ++n_halved;
+        if (find_middle(v, m) != invalid_index ||
+            find_middle(m, w) != invalid_index)
+          return true;
+      }
+      return n_halved > 1;
+    }
+
+
+    void
+    RedGreenRefinement::balance()
+    {
+      while (split_while([&](const Triangle &t) { return needs_balancing(t); }))
+      {
+      }
+    }
+
+
+    std::vector<std::array<unsigned int, 3>>
+    RedGreenRefinement::close() const
+    {
+      std::vector<std::array<unsigned int, 3>> result;
+      result.reserve(triangles.size());
+      for (const Triangle &t : triangles)
+      {
+        bool is_halved = false;
+        for (unsigned int i = 0; i < 3 && !is_halved; ++i)
+        {
+          const unsigned int v = t.corners[i], w = t.corners[(i + 1) % 3],
+                             opposite = t.corners[(i + 2) % 3];
+          const unsigned int m        = find_middle(v, w);
+          if (m == invalid_index)
+            continue;
+          result.push_back({{v, m, opposite}});
+          result.push_back({{m, w, opposite}});
+          is_halved = true;
+        }
+        if (!is_halved)
+          result.push_back(t.corners);
+      }
+      return result;
+    }
+
+
+    /// Triangles that can touch the solid, with the vertices they use.
+    std::unique_ptr<Triangulation<2>>
+    make_triangulation(
+      const std::vector<Point<2>>                    &vertices,
+      const std::vector<std::array<unsigned int, 3>> &triangles,
+      const PhysicalMesh                             &physical_mesh,
+      const bool                                      all)
+    {
+      std::vector<unsigned char> near;
+      if (!all)
+        near = internal::find_triangles_near_curves(vertices,
+                                                    triangles,
+                                                    physical_mesh);
+      std::vector<unsigned int> new_vertex(vertices.size(), invalid_index);
+      std::vector<Point<2>>     used;
+      std::vector<CellData<2>>  cells;
+      for (std::size_t c = 0; c < triangles.size(); ++c)
+      {
+        const auto &v = triangles[c];
+        if (!all && !near[c] &&
+            !is_in_solid(physical_mesh,
+                         Point<2>(
+                           (vertices[v[0]] + vertices[v[1]] + vertices[v[2]]) /
+                           3.)))
           continue;
         CellData<2> cell(3);
         for (unsigned int i = 0; i < 3; ++i)
         {
           if (new_vertex[v[i]] == invalid_index)
           {
-            new_vertex[v[i]] = vertices.size();
-            vertices.push_back(mesh.vertices()[v[i]]);
+            new_vertex[v[i]] = used.size();
+            used.push_back(vertices[v[i]]);
           }
           cell.vertices[i] = new_vertex[v[i]];
         }
         cells.push_back(cell);
       }
       auto result = std::make_unique<Triangulation<2>>();
-      result->create_triangulation(vertices, cells, SubCellData());
-      return result;
-    }
-
-
-    std::unique_ptr<Triangulation<2>>
-    to_triangulation(const Delaunay &delaunay)
-    {
-      std::map<Delaunay::Vertex_handle, unsigned int> vertex_to_index;
-      std::vector<Point<2>>                           vertices;
-      std::vector<CellData<2>>                        cells;
-      for (const auto vertex : delaunay.finite_vertex_handles())
-      {
-        vertex_to_index[vertex] = vertices.size();
-        vertices.emplace_back(vertex->point().x(), vertex->point().y());
-      }
-      for (const auto face : delaunay.finite_face_handles())
-        if (face->is_in_domain())
-        {
-          CellData<2> cell(3);
-          for (unsigned int i = 0; i < 3; ++i)
-            cell.vertices[i] = vertex_to_index.at(face->vertex(i));
-          cells.push_back(cell);
-        }
-      auto result = std::make_unique<Triangulation<2>>();
-      result->create_triangulation(vertices, cells, SubCellData());
+      result->create_triangulation(used, cells, SubCellData());
       return result;
     }
   } // namespace
-
-
-  SizeField::SizeField(const PhysicalMesh  &physical_mesh,
-                       GradedMeshParameters parameters_)
-    : parameters(std::move(parameters_))
-  {
-    AssertThrow(std::isfinite(parameters.cell_size) &&
-                  parameters.cell_size > 0.,
-                InputError("the cell size " +
-                             std::to_string(parameters.cell_size) +
-                             " m is not positive",
-                           "Mathematical mesh/Cell size",
-                           "give the edge length of a triangle"));
-    for (const LocalSize &local : parameters.local_sizes)
-    {
-      AssertThrow(local.size > 0. && local.growth > 0. && local.growth <= 1.,
-                  InputError("a local size of " + std::to_string(local.size) +
-                               " m that grows by " +
-                               std::to_string(local.growth) + " per distance",
-                             "Mathematical mesh/Local sizes",
-                             "the size must be positive and the growth in "
-                             "(0, 1]"));
-      pieces_of_local_size.emplace_back();
-      if (local.kind != LocalSize::Kind::curve)
-        continue;
-      for (unsigned int i = 0; i < physical_mesh.pieces().size(); ++i)
-        if (physical_mesh.curves()[physical_mesh.piece_to_curve()[i]].name ==
-            local.curve)
-          pieces_of_local_size.back().push_back(physical_mesh.pieces()[i]);
-      AssertThrow(!pieces_of_local_size.back().empty(),
-                  InputError("there is no curve called '" + local.curve + "'",
-                             "Mathematical mesh/Local sizes",
-                             "name a curve of the geometry"));
-    }
-  }
-
-
-  double
-  SizeField::operator()(const Point<2> &x) const
-  {
-    double size = parameters.cell_size;
-    for (unsigned int i = 0; i < parameters.local_sizes.size(); ++i)
-    {
-      const LocalSize &local = parameters.local_sizes[i];
-      double           d     = 1e300;
-      switch (local.kind)
-      {
-        case LocalSize::Kind::point:
-          d = x.distance(local.point);
-          break;
-        case LocalSize::Kind::box:
-          d = distance_from_box(local, x);
-          break;
-        case LocalSize::Kind::curve:
-          for (const CurvePiece &piece : pieces_of_local_size[i])
-            d = std::min(d, distance(piece, x));
-          break;
-      }
-      size = std::min(size, local.size + local.growth * d);
-    }
-    return size;
-  }
 
 
   MathematicalMesh
@@ -281,60 +313,35 @@ namespace NMM
                    const GradedMeshParameters &parameters,
                    const unsigned int          degree)
   {
-    const SizeField       size(physical_mesh, parameters);
-    const BoundingBox<2> &box = physical_mesh.bounding_box();
-    // rounding must not leave a point of the solid uncovered
-    const double margin =
-      1e-3 *
-      std::max({parameters.cell_size, box.side_length(0), box.side_length(1)});
+    const internal::Lattice lattice =
+      internal::make_lattice(physical_mesh.bounding_box(), parameters);
+    const SizeField size(physical_mesh, parameters);
 
-    Delaunay                             delaunay;
-    const std::array<Kernel::Point_2, 4> corners = {
-      {Kernel::Point_2(box.lower_bound(0) - margin,
-                       box.lower_bound(1) - margin),
-       Kernel::Point_2(box.upper_bound(0) + margin,
-                       box.lower_bound(1) - margin),
-       Kernel::Point_2(box.upper_bound(0) + margin,
-                       box.upper_bound(1) + margin),
-       Kernel::Point_2(box.lower_bound(0) - margin,
-                       box.upper_bound(1) + margin)}};
-    for (unsigned int i = 0; i < 4; ++i)
-      delaunay.insert_constraint(corners[i], corners[(i + 1) % 4]);
-
-    CGAL::Delaunay_mesher_2<Delaunay, Criteria> mesher(delaunay,
-                                                       Criteria(size));
-    mesher.refine_mesh();
-    CGAL::lloyd_optimize_mesh_2(delaunay,
-                                CGAL::parameters::max_iteration_number = 10);
-
-    const MathematicalMesh all(to_triangulation(delaunay), 1);
-    return MathematicalMesh(without_outside(all, physical_mesh), degree);
-  }
-
-
-  MathematicalMesh
-  read_gmsh_mesh(const std::string &file_name, const unsigned int degree)
-  {
-    std::ifstream file(file_name);
-    AssertThrow(file,
-                InputError("the mesh file cannot be read",
-                           file_name,
-                           "check its name and permissions"));
-    auto      triangulation = std::make_unique<Triangulation<2>>();
-    GridIn<2> reader(*triangulation);
-    try
+    double smallest = parameters.cell_size;
+    for (const LocalSize &local : parameters.local_sizes)
+      smallest = std::min(smallest, local.size);
+    unsigned int n_levels = 0;
+    while (parameters.cell_size / (1u << n_levels) > (1. + 1e-10) * smallest)
     {
-      reader.read_msh(file);
+      ++n_levels;
+      AssertThrow(n_levels <= 20,
+                  InputError("a local size of " + std::to_string(smallest) +
+                               " m is more than a million times smaller "
+                               "than the cell size",
+                             "Mathematical mesh/Local sizes",
+                             "choose them closer to each other"));
     }
-    catch (const std::exception &exception)
-    {
-      AssertThrow(false,
-                  InputError("deal.II cannot read the mesh file (" +
-                               std::string(exception.what()) + ")",
-                             file_name,
-                             "save it as gmsh format 2 or 4, ASCII, with "
-                             "triangles only"));
-    }
-    return MathematicalMesh(std::move(triangulation), degree);
+
+    RedGreenRefinement refinement(
+      lattice,
+      internal::find_needed_parallelograms(physical_mesh, lattice, parameters),
+      n_levels);
+    refinement.refine(size, parameters.cell_size);
+    refinement.balance();
+    return MathematicalMesh(make_triangulation(refinement.vertices,
+                                               refinement.close(),
+                                               physical_mesh,
+                                               parameters.whole_box),
+                            degree);
   }
 } // namespace NMM

@@ -277,7 +277,9 @@ namespace NMM
     data->mathematical_mesh = &mathematical_mesh;
     data->physical_mesh     = &physical_mesh;
     const std::vector<unsigned char> touched =
-      internal::find_cells_near_curves(mathematical_mesh, physical_mesh);
+      internal::find_triangles_near_curves(mathematical_mesh.vertices(),
+                                           mathematical_mesh.cells(),
+                                           physical_mesh);
     const internal::Cutting cutting =
       internal::cut(mathematical_mesh, physical_mesh, touched);
     data->n_cells_cut_exactly =

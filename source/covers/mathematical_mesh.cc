@@ -260,6 +260,13 @@ namespace NMM
   }
 
 
+  const std::vector<std::array<unsigned int, 3>> &
+  MathematicalMesh::cells() const
+  {
+    return data->cell_vertices;
+  }
+
+
   const unsigned int *
   MathematicalMesh::cell_covers(const unsigned int cell) const
   {

@@ -31,14 +31,19 @@ namespace NMM
                                     bg::index::rstar<16>>;
 
 
-      /// Edge length that most cells have, from the mean area [m].
+      /// Edge length that most triangles have, from the mean area [m].
       double
-      typical_size(const MathematicalMesh &mesh)
+      typical_size(const std::vector<Point<2>>                    &vertices,
+                   const std::vector<std::array<unsigned int, 3>> &triangles)
       {
         double area = 0.;
-        for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-          area += mesh.cell_area(c);
-        return std::sqrt(2. * area / mesh.n_cells());
+        for (const auto &v : triangles)
+        {
+          const Tensor<1, 2> a = vertices[v[1]] - vertices[v[0]],
+                             b = vertices[v[2]] - vertices[v[0]];
+          area += 0.5 * (a[0] * b[1] - a[1] * b[0]);
+        }
+        return std::sqrt(2. * area / triangles.size());
       }
 
 
@@ -111,9 +116,13 @@ namespace NMM
 
 
     std::vector<unsigned char>
-    find_cells_near_curves(const MathematicalMesh &mathematical_mesh,
-                           const PhysicalMesh     &physical_mesh)
+    find_triangles_near_curves(
+      const std::vector<Point<2>>                    &vertices,
+      const std::vector<std::array<unsigned int, 3>> &triangles,
+      const PhysicalMesh                             &physical_mesh)
     {
+      if (triangles.empty())
+        return {};
       const BoundingBox<2> &box   = physical_mesh.bounding_box();
       double                scale = 0.;
       for (unsigned int d = 0; d < 2; ++d)
@@ -122,7 +131,7 @@ namespace NMM
 
       const std::vector<Chunk> chunks =
         make_chunks(physical_mesh,
-                    2. * typical_size(mathematical_mesh),
+                    2. * typical_size(vertices, triangles),
                     1e-10 * scale);
       std::vector<std::pair<BoostBox, unsigned int>> boxes;
       boxes.reserve(chunks.size());
@@ -136,11 +145,10 @@ namespace NMM
       }
       const Tree tree(boxes);
 
-      std::vector<unsigned char> near(mathematical_mesh.n_cells(), 0);
-      const auto                &vertices = mathematical_mesh.vertices();
-      for (unsigned int c = 0; c < mathematical_mesh.n_cells(); ++c)
+      std::vector<unsigned char> near(triangles.size(), 0);
+      for (std::size_t c = 0; c < triangles.size(); ++c)
       {
-        const auto                   &v = mathematical_mesh.cell_vertices(c);
+        const auto                   &v        = triangles[c];
         const std::array<Point<2>, 3> triangle = {
           {vertices[v[0]], vertices[v[1]], vertices[v[2]]}};
         const auto [x0, x1] =

@@ -37,6 +37,7 @@ namespace NMM
       /// Free covers of the patch's elements.
       const std::vector<unsigned int> &
       samples() const;
+      const std::vector<unsigned int> & elements() const {return patch_elements;}
 
     private:
       void

@@ -5,7 +5,7 @@
 #include <mechanics/recovery_patch.h>
 
 namespace NMM
-{
+{ using dealii::Point;
   namespace
   {
     constexpr unsigned int n_max = 10;
@@ -43,16 +43,16 @@ namespace NMM
       }
 
       void
-      add(const double x, const double y, const dealii::Tensor<1, 2> value)
+      add(const double x, const double y, const dealii::Tensor<1, 2> value,double w)
       {
         double m[n_max];
         monomials(x, y, m);
         for (unsigned int i = 0; i < n; ++i)
         {
           for (unsigned int j = 0; j <= i; ++j)
-            matrix[i][j] += m[i] * m[j];
-          rhs[0][i] += m[i] * value[0];
-          rhs[1][i] += m[i] * value[1];
+            matrix[i][j] += w*m[i] * m[j];
+          rhs[0][i] += w*m[i] * value[0];
+          rhs[1][i] += w*m[i] * value[1];
         }
       }
 
@@ -171,6 +171,10 @@ namespace NMM
         {
           if (ring > 0 && !patches.widen())
             break;
+          static const int OPT_MINR=getenv("MINR")?atoi(getenv("MINR")):0, OPT_INT=getenv("MINRI")?atoi(getenv("MINRI")):0; static const int OPT_EX=getenv("EX")?atoi(getenv("EX")):0; static const double OPT_W=getenv("WOUT")?atof(getenv("WOUT")):1., OPT_WD=getenv("WD")?atof(getenv("WD")):0;
+          static std::vector<char> whole; if(ring==0&&whole.size()!=covers.n_covers()){whole.assign(covers.n_covers(),0); for(unsigned q=0;q<mesh.n_elements();++q) if(mesh.is_whole(q)) for(unsigned k:covers.covers(q)) whole[k]=1;}
+          static bool bnd; if(ring==0){bnd=false; for(unsigned k:patches.samples()) if(!whole[k]) bnd=true; if(patches.samples().size()<(degree==2?19:7)) bnd=true;}
+          if(bnd && (int)ring<OPT_MINR) continue; if(!bnd&&(int)ring<OPT_INT) continue;
           if (patches.samples().size() < n)
             continue;
           LeastSquares fit(n);
@@ -178,8 +182,10 @@ namespace NMM
           {
             const dealii::Tensor<1, 2> d =
               (covers.node(k) - polynomial.center) / polynomial.scale;
-            fit.add(d[0], d[1], field.nodal_value(k));
+            if(OPT_EX&&!whole[k]) continue; double w=whole[k]?1:OPT_W; w/=1+OPT_WD*d.norm_square(); fit.add(d[0], d[1], field.nodal_value(k),w);
           }
+          static const double OPT_IN=getenv("WIN")?atof(getenv("WIN")):0; static const int OPT_ME=getenv("ME")?atoi(getenv("ME")):1;
+          if(OPT_IN>0) for(unsigned pe:patches.elements()) if(!mesh.is_whole(pe)) for(auto&ed:mesh.edges(pe)) { for(int mid=0;mid<=OPT_ME;++mid){ Point<2> x=mid?Point<2>(0.5*(ed.start+ed.end)):ed.start; if(mid&&ed.is_arc()){auto dd=x-ed.center; x=ed.center+dd/dd.norm()*std::abs(ed.radius);} dealii::Tensor<1,2> d=(x-polynomial.center)/polynomial.scale; fit.add(d[0],d[1],field.displacement(pe,mathematical_mesh.real_to_reference(mesh.cell(pe),x)),OPT_IN/(1+OPT_WD*d.norm_square())); } }
           if (!fit.factorize() || fit.amplification() > max_amplification)
             continue;
           fit.solve(polynomial.coefficients);

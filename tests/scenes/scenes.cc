@@ -11,7 +11,8 @@
 
 // Each folder beside this file is a case: expected.csv says in comment lines which
 // scene is run and how ("# scene:", "# arguments:", "# ranks:", "# exit code:"), and
-// has the rows name, value, abs_tol, rel_tol, source of the value. A name is a row
+// has the rows name, value, abs_tol, rel_tol, source of the value. Arguments are
+// separated by vertical bars. A name is a row
 // of summary.csv or "probes/<probe>/<point>/<column>" of probes.csv. A value v
 // passes if |v - expected| <= abs_tol + rel_tol * |expected|.
 namespace
@@ -64,7 +65,7 @@ namespace
     {
       const auto directive = [&](const std::string &key) {
         return line.rfind("# " + key + ":", 0) == 0
-                 ? split(line.substr(key.size() + 3), ';')
+                 ? split(line.substr(key.size() + 3), '|')
                  : std::vector<std::string>();
       };
       if (const auto scene = directive("scene"); !scene.empty())
@@ -198,6 +199,45 @@ namespace
           << entry.path() << " has no expected.csv in tests/scenes";
       }
     }
+  }
+
+
+  TEST(Scenes, FloatingBlockIsNamed)
+  {
+    const std::string  output = fresh_output_dir("floating");
+    const DriverResult result =
+      run_driver({"--output",
+                  output,
+                  (cases_dir / "floating-block" / "scene.prm").string()});
+    EXPECT_EQ(result.exit_code, 3) << result.output;
+    for (const char *word : {"Block 1", "floats", "rock"})
+      EXPECT_NE(result.output.find(word), std::string::npos) << result.output;
+    // What is known is there: which block is which.
+    for (const char *name : {"summary.csv", "fields.vtu", "picture.png"})
+      EXPECT_TRUE(fs::exists(fs::path(output) / name)) << name;
+  }
+
+
+  TEST(Scenes, TheDocumentedFirstSceneRuns)
+  {
+    std::ifstream     file(NMM_SOURCE_DIR "/doc/scene-format.md");
+    std::stringstream page;
+    page << file.rdbuf();
+    const std::string fence = "```\nsubsection Geometry";
+    const auto        start = page.str().find(fence);
+    ASSERT_NE(start, std::string::npos);
+    const auto end = page.str().find("```", start + 3);
+    ASSERT_NE(end, std::string::npos);
+    const std::string file_name = NMM_TEST_OUTPUT_DIR "/documented.prm";
+    std::ofstream(file_name) << page.str().substr(start + 4, end - start - 4);
+
+    const std::string  output = fresh_output_dir("documented");
+    const DriverResult result = run_driver({"--output", output, file_name});
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+    // A square metre less the bore.
+    EXPECT_NEAR(read_results(output).at("area"),
+                1. - std::acos(-1.) * 0.04,
+                1e-11);
   }
 
 

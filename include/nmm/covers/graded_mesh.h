@@ -40,10 +40,9 @@ namespace NMM
   };
 
 
-  struct GradedMeshParameters
+  /// A regular mesh, whose cell size holds far from all local sizes.
+  struct GradedMeshParameters : RegularMeshParameters
   {
-    /// Edge length far from all local sizes [m].
-    double                 cell_size = 0.;
     std::vector<LocalSize> local_sizes;
   };
 
@@ -69,10 +68,15 @@ namespace NMM
 
 
   /**
-   * A conforming triangulation over the solid's bounding box whose edge lengths
-   * follow the size field: CGAL's Delaunay refinement (Rineau & Yvinec, angles at
-   * least 20.7 degrees), smoothed by Lloyd's iteration. Cells that lie outside
-   * the solid are dropped. It does not fit the solid's curves: cutting does that.
+   * The regular mesh, refined where the size field is smaller than its cells: a
+   * triangle is divided into four of half the size until its edges are no
+   * longer than the size field at its centre (red), neighbours are kept within one
+   * level, and where a neighbour's node remains in the middle of an edge the
+   * triangle is halved (green; Bank, Sherman & Weiser 1983). So most cells
+   * stay as well shaped as those of the regular mesh, and no angle is less than half of
+   * theirs. Cells that lie outside the solid are dropped. The mesh does not fit
+   * the solid's curves: cutting does that.
+   * @throws InputError for sizes out of range or an unknown curve.
    */
   MathematicalMesh
   make_graded_mesh(const PhysicalMesh         &physical_mesh,

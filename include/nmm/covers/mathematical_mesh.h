@@ -93,6 +93,10 @@ namespace NMM
     const std::array<unsigned int, 3> &
     cell_vertices(unsigned int cell) const;
 
+    /// Corner vertices of all cells.
+    const std::vector<std::array<unsigned int, 3>> &
+    cells() const;
+
     /// Mathematical covers in the order of the finite element's dofs; pointer to
     /// n_covers_per_cell() entries.
     const unsigned int *

@@ -1,0 +1,104 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/covers/graded_mesh.h>
+#include <nmm/covers/point_location.h>
+#include <nmm/geometry/physical_mesh.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace NMM
+{
+  using namespace dealii;
+
+  namespace
+  {
+    double
+    distance_from_box(const LocalSize &box, const Point<2> &x)
+    {
+      Tensor<1, 2> d;
+      for (unsigned int i = 0; i < 2; ++i)
+        d[i] = std::max({box.lower[i] - x[i], 0., x[i] - box.upper[i]});
+      return d.norm();
+    }
+
+
+    /// A curve piece as an edge, so that one distance() serves both.
+    ElementEdge
+    to_edge(const CurvePiece &piece)
+    {
+      ElementEdge edge;
+      edge.start = piece.start;
+      edge.end   = piece.end;
+      if (piece.kind == CurvePiece::Kind::arc)
+      {
+        edge.center = piece.center;
+        edge.radius = std::copysign(piece.radius, swept_angle(piece));
+      }
+      return edge;
+    }
+
+
+    double
+    distance(const CurvePiece &piece, const Point<2> &x)
+    {
+      return piece.kind == CurvePiece::Kind::circle
+               ? std::abs(x.distance(piece.center) - piece.radius)
+               : NMM::distance(to_edge(piece), x);
+    }
+  } // namespace
+
+
+  SizeField::SizeField(const PhysicalMesh  &physical_mesh,
+                       GradedMeshParameters parameters_)
+    : parameters(std::move(parameters_))
+  {
+    for (const LocalSize &local : parameters.local_sizes)
+    {
+      AssertThrow(local.size > 0. && local.growth > 0. && local.growth <= 1.,
+                  InputError("a local size of " + std::to_string(local.size) +
+                               " m that grows by " +
+                               std::to_string(local.growth) + " per distance",
+                             "Mathematical mesh/Local sizes",
+                             "the size must be positive and the growth in "
+                             "(0, 1]"));
+      pieces_of_local_size.emplace_back();
+      if (local.kind != LocalSize::Kind::curve)
+        continue;
+      for (unsigned int i = 0; i < physical_mesh.pieces().size(); ++i)
+        if (physical_mesh.curves()[physical_mesh.piece_to_curve()[i]].name ==
+            local.curve)
+          pieces_of_local_size.back().push_back(physical_mesh.pieces()[i]);
+      AssertThrow(!pieces_of_local_size.back().empty(),
+                  InputError("there is no curve called '" + local.curve + "'",
+                             "Mathematical mesh/Local sizes",
+                             "name a curve of the geometry"));
+    }
+  }
+
+
+  double
+  SizeField::operator()(const Point<2> &x) const
+  {
+    double size = parameters.cell_size;
+    for (unsigned int i = 0; i < parameters.local_sizes.size(); ++i)
+    {
+      const LocalSize &local = parameters.local_sizes[i];
+      double           d     = 1e300;
+      switch (local.kind)
+      {
+        case LocalSize::Kind::point:
+          d = x.distance(local.point);
+          break;
+        case LocalSize::Kind::box:
+          d = distance_from_box(local, x);
+          break;
+        case LocalSize::Kind::curve:
+          for (const CurvePiece &piece : pieces_of_local_size[i])
+            d = std::min(d, distance(piece, x));
+          break;
+      }
+      size = std::min(size, local.size + local.growth * d);
+    }
+    return size;
+  }
+} // namespace NMM

@@ -17,7 +17,12 @@ namespace NMM
     make_lattice(const BoundingBox<2>        &box,
                  const RegularMeshParameters &parameters)
     {
-      const double h         = parameters.cell_size;
+      const double h = parameters.cell_size;
+      AssertThrow(std::isfinite(h) && h > 0.,
+                  InputError("the cell size " + std::to_string(h) +
+                               " m is not positive",
+                             "Mathematical mesh/Cell size",
+                             "give the edge length of a triangle"));
       const double angle     = parameters.rotation * numbers::PI / 180.;
       const bool equilateral = (parameters.pattern == MeshPattern::equilateral);
 

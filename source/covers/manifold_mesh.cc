@@ -365,8 +365,7 @@ namespace NMM
       sum += 0.5 * (a[0] * b[1] - a[1] * b[0]);
       if (edge.is_arc())
       {
-        const double sweep =
-          swept_angle(edge.center, edge.start, edge.end, edge.radius > 0.);
+        const double sweep = swept_angle(edge);
         sum += 0.5 * edge.radius * edge.radius * (sweep - std::sin(sweep));
       }
     }

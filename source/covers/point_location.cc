@@ -66,6 +66,24 @@ namespace NMM
   }
 
 
+  double
+  swept_angle(const ElementEdge &edge)
+  {
+    if (!edge.is_arc())
+      return 0.;
+    const Tensor<1, 2> chord  = edge.end - edge.start;
+    const double       length = chord.norm();
+    if (length == 0.)
+      return 0.;
+    // middle of the chord minus the centre, differences first
+    const Tensor<1, 2> middle =
+      0.5 * ((edge.start - edge.center) + (edge.end - edge.center));
+    const double half =
+      std::atan2(0.5 * length, std::abs(cross(chord, middle)) / length);
+    return std::copysign(2. * half, edge.radius);
+  }
+
+
   bool
   is_in_solid(const PhysicalMesh &physical_mesh, const Point<2> &x)
   {
@@ -124,8 +142,7 @@ namespace NMM
   {
     if (edge.is_arc())
     {
-      const double sweep =
-        swept_angle(edge.center, edge.start, edge.end, edge.radius > 0.);
+      const double sweep = swept_angle(edge);
       const double to_x =
         swept_angle(edge.center, edge.start, x, edge.radius > 0.);
       if (std::abs(to_x) <= std::abs(sweep))

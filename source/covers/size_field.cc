@@ -22,28 +22,30 @@ namespace NMM
     }
 
 
-    /// A curve piece as an edge, so that one distance() serves both.
-    ElementEdge
-    to_edge(const CurvePiece &piece)
-    {
-      ElementEdge edge;
-      edge.start = piece.start;
-      edge.end   = piece.end;
-      if (piece.kind == CurvePiece::Kind::arc)
-      {
-        edge.center = piece.center;
-        edge.radius = std::copysign(piece.radius, swept_angle(piece));
-      }
-      return edge;
-    }
-
-
+    /// An arc as two edges of less than half a circle each, or a segment as
+    /// one, so that one distance() serves all.
     double
     distance(const CurvePiece &piece, const Point<2> &x)
     {
-      return piece.kind == CurvePiece::Kind::circle
-               ? std::abs(x.distance(piece.center) - piece.radius)
-               : NMM::distance(to_edge(piece), x);
+      if (piece.kind == CurvePiece::Kind::circle)
+        return std::abs(x.distance(piece.center) - piece.radius);
+      ElementEdge edge;
+      edge.start = piece.start;
+      edge.end   = piece.end;
+      if (piece.kind == CurvePiece::Kind::segment)
+        return NMM::distance(edge, x);
+
+      const double sweep = swept_angle(piece);
+      const double middle =
+        angle_about(piece.center, piece.start) + 0.5 * sweep;
+      edge.center = piece.center;
+      edge.radius = std::copysign(piece.radius, sweep);
+      edge.end = piece.center + piece.radius * Tensor<1, 2>({std::cos(middle),
+                                                             std::sin(middle)});
+      ElementEdge second = edge;
+      second.start       = edge.end;
+      second.end         = piece.end;
+      return std::min(NMM::distance(edge, x), NMM::distance(second, x));
     }
   } // namespace
 

@@ -52,8 +52,7 @@ namespace NMM
         chords.push_back(edge);
         return;
       }
-      const double sweep =
-        swept_angle(edge.center, edge.start, edge.end, edge.radius > 0.);
+      const double sweep = swept_angle(edge);
       const double first = angle_about(edge.center, edge.start);
       const auto   n =
         static_cast<unsigned int>(std::ceil(std::abs(sweep) / largest_arc));

@@ -58,7 +58,7 @@ namespace NMM
 
     /**
      * An exact coordinate (a + b sqrt(c)) as the nearest double or a neighbour of
-     * it (relative error at most 4 ulp, however close two curves are: CGAL's
+     * it (relative error at most 8 epsilon, however close two curves are: CGAL's
      * default of 1e-5 for lazy numbers would move the corners of slivers).
      */
     double

@@ -419,7 +419,7 @@ namespace NMM
     for (const std::string &candidate : candidates)
     {
       const unsigned int distance = edit_distance(word, candidate);
-      if (3 * distance <= std::max(word.size(), candidate.size()))
+      if (3 * distance <= std::max(word.size(), candidate.size()) + 1)
         ranked.emplace_back(distance, candidate);
     }
     if (ranked.empty())

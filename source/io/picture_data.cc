@@ -57,8 +57,7 @@ namespace NMM
                                         (edge.end - edge.start));
         return line;
       }
-      const double sweep =
-        swept_angle(edge.center, edge.start, edge.end, edge.radius > 0.);
+      const double sweep = swept_angle(edge);
       const double first = angle_about(edge.center, edge.start);
       const auto   n =
         std::max(4u, static_cast<unsigned int>(std::abs(sweep) / 0.02));

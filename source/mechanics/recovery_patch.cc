@@ -27,8 +27,8 @@ namespace NMM
     RecoveryPatches::RecoveryPatches(const CoverSystem &covers,
                                      const Aggregation &aggregation)
       : covers(&covers)
-      , aggregation(&aggregation)
       , both_sides(covers.n_covers(), false)
+      , is_sample(covers.n_covers(), false)
       , cover_elements_begin(covers.n_covers() + 1, 0)
       , element_mark(covers.manifold_mesh().n_elements(), 0)
       , sample_mark(covers.n_covers(), 0)
@@ -49,6 +49,12 @@ namespace NMM
       for (unsigned int e = 0; e < n_elements; ++e)
         for (unsigned int i = 0; i < n_corners; ++i)
           cover_elements[next[covers.covers(e)[i]]++] = e;
+
+      for (unsigned int e = 0; e < n_elements; ++e)
+        if (mesh.is_whole(e))
+          for (const unsigned int k : covers.covers(e))
+            is_sample[k] =
+              aggregation.is_free.empty() || aggregation.is_free[k];
 
       for (unsigned int e = 0; e < n_elements; ++e)
         for (const ElementEdge &edge : mesh.edges(e))
@@ -79,11 +85,13 @@ namespace NMM
         return;
       element_mark[element] = patch_number;
       patch_elements.push_back(element);
+      if (!covers->manifold_mesh().is_whole(element))
+        patch_cut_elements.push_back(element);
       for (const unsigned int k : covers->covers(element))
         if (sample_mark[k] != patch_number)
         {
           sample_mark[k] = patch_number;
-          if (aggregation->is_free.empty() || aggregation->is_free[k])
+          if (is_sample[k])
             patch_samples.push_back(k);
         }
     }
@@ -94,6 +102,7 @@ namespace NMM
     {
       ++patch_number;
       patch_elements.clear();
+      patch_cut_elements.clear();
       patch_samples.clear();
       ring_begin         = 0;
       corner_mark[cover] = patch_number;
@@ -129,6 +138,13 @@ namespace NMM
     RecoveryPatches::samples() const
     {
       return patch_samples;
+    }
+
+
+    const std::vector<unsigned int> &
+    RecoveryPatches::cut_elements() const
+    {
+      return patch_cut_elements;
     }
   } // namespace internal
 } // namespace NMM

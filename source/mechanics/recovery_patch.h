@@ -15,12 +15,16 @@ namespace NMM
      * is fitted to: the cover's elements, then ring by ring those that share a
      * corner cover with them. Rings do not go through covers that see both
      * sides of a joint, so a patch stays on one side.
+     *
+     * Samples are the nodes of free covers that a whole element uses. Other
+     * nodes may lie outside the solid, where the displacement is only continued;
+     * elements that are cut are to be sampled inside instead.
      */
     class RecoveryPatches
     {
     public:
-      explicit RecoveryPatches(const CoverSystem &covers,
-                               const Aggregation &aggregation);
+      RecoveryPatches(const CoverSystem &covers,
+                      const Aggregation &aggregation);
 
       /// Does the support of this corner cover hold both sides of a joint?
       bool
@@ -34,25 +38,28 @@ namespace NMM
       bool
       widen();
 
-      /// Free covers of the patch's elements.
+      /// Covers whose nodes are samples.
       const std::vector<unsigned int> &
       samples() const;
-      const std::vector<unsigned int> & elements() const {return patch_elements;}
+
+      /// Elements of the patch that are cut.
+      const std::vector<unsigned int> &
+      cut_elements() const;
 
     private:
       void
       add_element(unsigned int element);
 
       const CoverSystem        *covers;
-      const Aggregation        *aggregation;
-      std::vector<bool>         both_sides;
+      std::vector<bool>         both_sides, is_sample;
       std::vector<unsigned int> cover_elements_begin, cover_elements;
 
       /// The patch being made: marks hold its number.
       unsigned int              patch_number = 0;
       std::vector<unsigned int> element_mark, sample_mark, corner_mark;
-      std::vector<unsigned int> patch_elements, patch_samples;
-      std::size_t               ring_begin = 0;
+      std::vector<unsigned int> patch_elements, patch_cut_elements,
+        patch_samples;
+      std::size_t ring_begin = 0;
     };
   } // namespace internal
 } // namespace NMM

@@ -1,5 +1,7 @@
 #include "element_frame.h"
 
+#include <nmm/covers/point_location.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -38,23 +40,10 @@ namespace NMM
       {
         // (1 - cos phi) / sin phi = tan(phi / 2)
         return edge.start + 0.5 * (edge.end - edge.start) +
-               (0.5 * std::tan(0.5 * arc_half_angle(edge))) *
+               (0.5 * std::tan(0.5 * (0.5 * std::abs(swept_angle(edge))))) *
                  bulge_direction(edge);
       }
     } // namespace
-
-
-
-    double
-    arc_half_angle(const ElementEdge &edge)
-    {
-      const dealii::Tensor<1, 2> bulge  = bulge_direction(edge);
-      const double               length = bulge.norm();
-      // the middle of the chord minus the centre, differences first
-      const dealii::Tensor<1, 2> height =
-        0.5 * ((edge.start - edge.center) + (edge.end - edge.center));
-      return std::atan2(0.5 * length, height * bulge / length);
-    }
 
 
 
@@ -127,11 +116,11 @@ namespace NMM
         mapped.is_arc = edge.is_arc() && edge.start != edge.end;
         if (mapped.is_arc)
         {
-          const double                      phi       = arc_half_angle(edge);
-          const double                      sine      = std::sin(phi);
-          const double                      half      = std::sin(0.5 * phi);
-          const double                      tangent   = std::tan(0.5 * phi);
-          const dealii::Tensor<1, 2>        bulge     = bulge_direction(edge);
+          const double               phi  = (0.5 * std::abs(swept_angle(edge)));
+          const double               sine = std::sin(phi);
+          const double               half = std::sin(0.5 * phi);
+          const double               tangent          = std::tan(0.5 * phi);
+          const dealii::Tensor<1, 2> bulge            = bulge_direction(edge);
           const std::array<DoubleDouble, 2> direction = {
             {DoubleDouble{bulge[0], 0.}, DoubleDouble{bulge[1], 0.}}};
           mapped.half_angle        = phi;

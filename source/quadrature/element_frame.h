@@ -46,16 +46,6 @@ namespace NMM
 
 
     /**
-     * Half of the angle that an arc spans, from
-     * @f$\tan\varphi=(|d|/2)/h@f$ with the chord d and the centre's distance h
-     * from it; asin(|d|/2R) would lose half of the digits near the half circle.
-     * In [0, pi/2 + round-off].
-     */
-    double
-    arc_half_angle(const ElementEdge &edge);
-
-
-    /**
      * The scaled frame of one element: @f$s=A(x-c)@f$ with s in [-1,1]^2. The
      * first axis runs along the longest distance in the element, so that a
      * sliver of any aspect looks like a well-shaped piece; A and c are doubles

@@ -1,3 +1,4 @@
+#include <nmm/covers/point_location.h>
 #include <nmm/quadrature/element_quadrature.h>
 #include <nmm/quadrature/element_rule_builder.h>
 
@@ -63,7 +64,7 @@ namespace NMM
     // with the bulge away from the centre: to the right of a counter-clockwise
     // arc, whose outward normal is radial, to the left of a clockwise one,
     // whose normal looks at the centre.
-    const double               phi    = internal::arc_half_angle(edge);
+    const double               phi    = 0.5 * std::abs(swept_angle(edge));
     const double               sine   = std::sin(phi);
     const double               sign   = edge.radius > 0. ? 1. : -1.;
     const dealii::Tensor<1, 2> bulge  = sign * right;

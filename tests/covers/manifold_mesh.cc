@@ -121,6 +121,27 @@ TEST(ManifoldMesh, AreaOfARingWithTrueArcs)
 }
 
 
+TEST(ManifoldMesh, BoundariesOfElementsCloseExactly)
+{
+  // bit for bit: quadrature sorts corners and must see each only once
+  const Cut cut(ring(), skew(0.05));
+  for (unsigned int e = 0; e < cut.manifold.n_elements(); ++e)
+  {
+    const auto   edges     = cut.manifold.edges(e);
+    unsigned int loop_from = 0;
+    for (unsigned int i = 0; i < edges.size(); ++i)
+    {
+      const bool closes = (edges[i].end == edges[loop_from].start);
+      if (!closes)
+        ASSERT_EQ(edges[i].end, edges[i + 1].start) << "element " << e;
+      else
+        loop_from = i + 1;
+    }
+    EXPECT_EQ(loop_from, edges.size());
+  }
+}
+
+
 TEST(ManifoldMesh, CrackTipDoesNotDivideItsCell)
 {
   Geometry geometry = make_box(1., 1.);

@@ -9,8 +9,8 @@ using Coordinate = BaseTraits::Point_2::CoordNT;
 
 namespace
 {
-  // At most 4 units in the last place, each at most epsilon.
-  constexpr double tolerance = 4. * std::numeric_limits<double>::epsilon();
+  // What to_double() promises.
+  constexpr double tolerance = 8. * std::numeric_limits<double>::epsilon();
 } // namespace
 
 

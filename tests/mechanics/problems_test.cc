@@ -196,8 +196,9 @@ TEST(Problems, TwoLayerRing)
               (i == j ? mean + deviation : 0.) - 2. * deviation * n[i] * n[j];
         return sigma;
       });
-    // the homogeneous ring at this mesh size has 3e-6 and 6e-4
-    EXPECT_LT(errors.displacement, 1e-5);
+    // the homogeneous ring at this mesh size has 3e-6 and 6e-4; here the
+    // displacement goes down to a stiff layer, and its norm with it
+    EXPECT_LT(errors.displacement, 2e-5);
     EXPECT_LT(errors.stress, 2e-3);
   }
 }

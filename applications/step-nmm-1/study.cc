@@ -438,79 +438,49 @@ namespace StepNMM1
   }
 
 
+  namespace
+  {
+    /// PREFIX stands for the path and the beginning of the files' names.
+    const char *const figures_script = R"(set datafile separator ','
+set terminal pngcairo size 1000,750 font 'DejaVu Sans,13'
+set grid
+set output 'PREFIXhoop.png'
+set title 'Hoop stress along the radius (paper, Fig. 7)'
+set xlabel 'r [m]'
+set ylabel 'hoop stress [Pa]'
+p1 = 'PREFIXhoop-p1-uniform-level-0.csv'
+p2 = 'PREFIXhoop-p2-uniform-level-0.csv'
+plot p2 skip 1 using 1:2 with lines lw 4 lc 'gray70' title 'exact', \
+     p1 skip 1 using 1:3 with lines dt 2 lc 'black' title 'p = 1, coarsest mesh, direct', \
+     p2 skip 1 using 1:3 with points pt 6 lc 'dark-red' title 'p = 2, coarsest mesh, direct', \
+     p2 skip 1 using 1:4 with lines lw 2 lc 'blue' title 'p = 2, coarsest mesh, recovered'
+set logscale xy
+set format '%.0e'
+set key bottom left
+set output 'PREFIXerror-against-time.png'
+set title 'Error against time from the curves to the solution, one core'
+set xlabel 'seconds'
+set ylabel 'relative L2 error'
+f = 'PREFIXstudy.csv'
+set style data linespoints
+plot f skip 1 using 11:(strcol(1) eq 'uniform' && $2 == 1 ? $7 : NaN) pt 7 lc 'skyblue' title 'displacement, manifold, p = 1', \
+     f skip 1 using 11:(strcol(1) eq 'graded' ? $7 : NaN) pt 7 lc 'blue' title 'displacement, manifold, p = 2, refined inside', \
+     f skip 1 using 11:(strcol(1) eq 'fitted' ? $7 : NaN) pt 6 dt 2 lc 'blue' title 'displacement, fitted, p = 2 (deal.II)', \
+     f skip 1 using 11:(strcol(1) eq 'uniform' && $2 == 1 ? $8 : NaN) pt 5 lc 'orange' title 'stress, manifold, p = 1', \
+     f skip 1 using 11:(strcol(1) eq 'graded' ? $8 : NaN) pt 5 lc 'dark-red' title 'stress, manifold, p = 2, refined inside', \
+     f skip 1 using 11:(strcol(1) eq 'fitted' ? $8 : NaN) pt 4 dt 2 lc 'dark-red' title 'stress, fitted, p = 2 (deal.II)'
+)";
+  } // namespace
+
+
   void
   draw_figures(const Parameters &parameters)
   {
     const std::string prefix = parameters.output_directory + "/step-nmm-1-";
-    std::ofstream     script(prefix + "figures.gp");
-    const auto        only = [&](const std::string &method,
-                          const unsigned int degree,
-                          const std::string &column) {
-      return "(strcol(1) eq '" + method +
-             "' && $2 == " + std::to_string(degree) + " ? $" + column +
-             " : NaN)";
-    };
-    script
-      << "set datafile separator ','\n"
-         "set terminal pngcairo size 1000,750 font 'DejaVu Sans,13'\n"
-         "set grid\n"
-         "set style data linespoints\n"
-         "set output '"
-      << prefix
-      << "hoop.png'\n"
-         "set title 'Hoop stress along the radius (paper, Fig. 7)'\n"
-         "set xlabel 'r [m]'\nset ylabel 'hoop stress [Pa]'\n"
-         "plot '"
-      << prefix
-      << "hoop-p2-uniform-level-0.csv' skip 1 using 1:2 with lines lw 3 lc "
-         "'gray60' "
-         "title 'exact', \\\n"
-         "  '' skip 1 using 1:3 with lines lc 'dark-red' title 'p = 2, "
-         "coarsest mesh, direct', \\\n"
-         "  '' skip 1 using 1:4 with lines lc 'blue' title 'p = 2, coarsest "
-         "mesh, recovered', \\\n"
-         "  '"
-      << prefix
-      << "hoop-p2-uniform-level-1.csv' skip 1 using 1:3 with lines lc 'orange' "
-         "title "
-         "'p = 2, half the cell size, direct', \\\n"
-         "  '"
-      << prefix
-      << "hoop-p1-uniform-level-1.csv' skip 1 using 1:3 with lines dt 3 lc "
-         "'black' "
-         "title 'p = 1, half the cell size, direct'\n"
-         "set logscale xy\nset format '%.0e'\nset key bottom left\n"
-         "set output '"
-      << prefix
-      << "error-against-time.png'\n"
-         "set title 'Error against time, from the curves to the solution, one "
-         "core'\n"
-         "set xlabel 'seconds'\nset ylabel 'relative L2 error'\n"
-         "f = '"
-      << prefix
-      << "study.csv'\n"
-         "plot f skip 1 using 11:"
-      << only("graded", 2, "7")
-      << " pt 7 lc 'blue' title 'displacement, manifold p = 2, refined "
-         "inside', \\\n"
-         "  f skip 1 using 11:"
-      << only("fitted", 2, "7")
-      << " pt 6 dt 2 lc 'blue' title 'displacement, fitted p = 2 (deal.II)', "
-         "\\\n"
-         "  f skip 1 using 11:"
-      << only("uniform", 1, "7")
-      << " pt 7 lc 'web-blue' title 'displacement, manifold p = 1', \\\n"
-         "  f skip 1 using 11:"
-      << only("graded", 2, "8")
-      << " pt 5 lc 'dark-red' title 'stress, manifold p = 2, refined inside', "
-         "\\\n"
-         "  f skip 1 using 11:"
-      << only("fitted", 2, "8")
-      << " pt 4 dt 2 lc 'dark-red' title 'stress, fitted p = 2 (deal.II)', \\\n"
-         "  f skip 1 using 11:"
-      << only("uniform", 1, "8")
-      << " pt 5 lc 'orange' title 'stress, manifold p = 1'\n";
-    script.close();
+    {
+      std::ofstream script(prefix + "figures.gp");
+      script << Utilities::replace_in_string(figures_script, "PREFIX", prefix);
+    }
     const std::string command = "gnuplot '" + prefix + "figures.gp'";
     if (std::system(command.c_str()) == 0)
       std::cout << "Figures: " << prefix << "hoop.png, " << prefix

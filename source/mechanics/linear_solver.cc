@@ -91,6 +91,24 @@ namespace NMM
         ml.set("coarse: max size", 500);
         ml.set("coarse: type", "Amesos-KLU");
 
+        if (getenv("T"))
+          ml.set("aggregation: threshold", atof(getenv("T")));
+        if (getenv("SW"))
+          ml.set("smoother: sweeps", atoi(getenv("SW")));
+        if (getenv("SM"))
+          ml.set("smoother: type", std::string(getenv("SM")));
+        if (getenv("CA"))
+          ml.set("smoother: Chebyshev alpha", atof(getenv("CA")));
+        if (getenv("CY"))
+          ml.set("prec type", std::string(getenv("CY")));
+        if (getenv("OUT"))
+          ml.set("ML output", 10);
+        if (getenv("MAXC"))
+          ml.set("coarse: max size", atoi(getenv("MAXC")));
+        if (getenv("EIG"))
+          ml.set("eigen-analysis: type", std::string(getenv("EIG")));
+        if (getenv("AT"))
+          ml.set("aggregation: type", std::string(getenv("AT")));
         dealii::TrilinosWrappers::PreconditionAMG preconditioner;
         preconditioner.initialize(matrix, ml);
 

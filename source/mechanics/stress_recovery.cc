@@ -181,8 +181,7 @@ namespace NMM
       if (!edge.is_arc())
         return dealii::Point<2>(0.5 * (edge.start + edge.end));
       const double angle =
-        angle_about(edge.center, edge.start) +
-        0.5 * swept_angle(edge);
+        angle_about(edge.center, edge.start) + 0.5 * swept_angle(edge);
       return edge.center +
              std::abs(edge.radius) *
                dealii::Tensor<1, 2>({std::cos(angle), std::sin(angle)});

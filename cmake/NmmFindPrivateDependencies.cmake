@@ -23,3 +23,8 @@ target_include_directories(
 # Exact numbers are counted references: atomic counting would cost a tenth of the
 # time of a cut, and no two threads share one.
 target_compile_definitions(nmm_cgal INTERFACE CGAL_HAS_NO_THREADS)
+
+# For source files that include CGAL: its interval arithmetic switches the
+# rounding mode, which the compiler must be told; and g++ 12 sees uninitialized
+# values in its inlined kernels where there are none.
+set(NMM_CGAL_FLAGS -frounding-math -Wno-maybe-uninitialized)

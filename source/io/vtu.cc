@@ -1,3 +1,4 @@
+#include <nmm/base/compat.h>
 #include <nmm/io/vtu.h>
 
 #include <deal.II/base/data_out_base.h>
@@ -119,8 +120,7 @@ namespace NMM
       dealii::Utilities::MPI::n_mpi_processes(communicator);
 
     dealii::DataOutBase::VtkFlags flags;
-    flags.compression_level =
-      dealii::DataOutBase::VtkFlags::ZlibCompressionLevel::best_speed;
+    Compat::set_fast_compression(flags);
     flags.write_higher_order_cells = true;
 
     const auto piece_name = [&](const unsigned int r) {

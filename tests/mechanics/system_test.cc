@@ -74,6 +74,60 @@ TEST(System, IsSymmetric)
 }
 
 
+// A further constraint, on one component and with a value: that of the exact
+// solution, which must stay exact.
+TEST(System, InhomogeneousConstraintMPI)
+{
+  Geometry geometry;
+  add_box(geometry, {0., 0.}, {1., 1.});
+  Model      model(std::move(geometry), mesh_parameters(0.2, {}, 8.), 2);
+  const auto exact = [](const Point<2> &x) {
+    return Tensor<1, 2>({0.1 + 0.02 * x[1], 0.3 - 0.05 * x[0] + 0.01 * x[1]});
+  };
+  // of the element in the middle, which no aggregation touches
+  const unsigned int cover =
+    model.covers.covers(model.manifold_mesh.find_element({0.5, 0.5}))[3];
+  dealii::AffineConstraints<double> further(
+    model.covers.locally_relevant_dofs(2));
+  if (model.covers.locally_relevant_covers().is_element(cover))
+  {
+    further.add_line(2 * cover + 1);
+    further.set_inhomogeneity(2 * cover + 1,
+                              exact(model.covers.node(cover))[1]);
+  }
+  further.close();
+  model.constraints.merge(further);
+
+  model.problem.materials           = {material()};
+  model.problem.boundary_conditions = {
+    condition(BoundaryCondition::Type::displacement,
+              "left",
+              vector_function(exact)),
+    condition(BoundaryCondition::Type::displacement,
+              "right",
+              vector_function(exact)),
+    condition(BoundaryCondition::Type::displacement,
+              "bottom",
+              vector_function(exact)),
+    condition(BoundaryCondition::Type::displacement,
+              "top",
+              vector_function(exact))};
+  model.solve();
+  const PlaneElasticity e =
+    model.problem.materials[0].plane_elasticity(PlaneState::plane_stress);
+  const ErrorNorms errors =
+    compute_errors(*model.field, exact, [&](const Point<2> &) {
+      Tensor<2, 2> g;
+      g[0][1] = 0.02;
+      g[1][0] = -0.05;
+      g[1][1] = 0.01;
+      return e.stress(g);
+    });
+  EXPECT_LT(errors.displacement, 1e-10);
+  EXPECT_LT(errors.stress, 1e-8);
+}
+
+
 TEST(System, RanksAgreeMPI)
 {
   const auto parallel = jointed_box(MPI_COMM_WORLD);

@@ -26,7 +26,7 @@ namespace NMM
     std::vector<Edge>                        edges;
     std::vector<Point<2>>                    cover_nodes;
 
-    /// Local covers on each local edge, in no particular order.
+    /// See edge_to_local_covers().
     std::vector<std::array<unsigned int, 3>> edge_to_local_covers;
 
     Data(std::unique_ptr<Triangulation<2>> tria, const unsigned int degree)

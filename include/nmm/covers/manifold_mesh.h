@@ -49,6 +49,9 @@ namespace NMM
    * that neighbours have near numbers (reverse Cuthill-McKee on the element
    * graph).
    *
+   * Not for two threads at once: CGAL's exact numbers are counted without locks
+   * here, and the copy of the physical mesh's arrangement shares them.
+   *
    * Lifetime: both meshes must outlive this object.
    */
   class ManifoldMesh

@@ -102,15 +102,16 @@ namespace NMM
     const unsigned int *
     cell_covers(unsigned int cell) const;
 
-    /// Edge numbers; edge i of a cell is opposite to no vertex in particular:
-    /// it joins corners i and (i+1)%3, as deal.II's line i.
+    /// Edge numbers, in the order of deal.II's lines: edge i of a cell joins its
+    /// corners i and (i+1)%3.
     const std::array<unsigned int, 3> &
     cell_edges(unsigned int cell) const;
 
     const std::vector<Edge> &
     edges() const;
 
-    /// Local covers (finite element dofs) on local edge @p edge: n_covers_on_edge() many.
+    /// Weight functions (finite element dofs) on each edge of a cell: those of
+    /// its two corners, then the mid-side one (degree 2; else invalid_index).
     const std::vector<std::array<unsigned int, 3>> &
     edge_to_local_covers() const;
 

@@ -87,15 +87,12 @@ namespace NMM
   } // namespace
 
 
-  Aggregation
-  aggregate(CoverSystem &covers, const double threshold)
+  std::vector<unsigned int>
+  find_roots(const ManifoldMesh &manifold_mesh, const double threshold)
   {
-    const ManifoldMesh     &manifold_mesh = covers.manifold_mesh();
-    const MathematicalMesh &mesh          = manifold_mesh.mathematical_mesh();
-    const unsigned int      n_elements    = manifold_mesh.n_elements();
-
-    Aggregation result;
-    result.element_to_root.assign(n_elements, invalid_index);
+    const MathematicalMesh   &mesh       = manifold_mesh.mathematical_mesh();
+    const unsigned int        n_elements = manifold_mesh.n_elements();
+    std::vector<unsigned int> element_to_root(n_elements, invalid_index);
 
     // only bad elements and their good neighbours take part in the search
     std::vector<unsigned int> first_layer;
@@ -104,24 +101,54 @@ namespace NMM
       if (manifold_mesh.is_whole(e) ||
           manifold_mesh.area(e) >=
             threshold * mesh.cell_area(manifold_mesh.cell(e)))
-        result.element_to_root[e] = e;
+        element_to_root[e] = e;
       else
         bad.push_back(e);
     for (const unsigned int e : bad)
       for (const ManifoldMesh::Link &link : manifold_mesh.joined(e))
-        if (result.element_to_root[link.neighbor] == link.neighbor)
+        if (element_to_root[link.neighbor] == link.neighbor)
           first_layer.push_back(link.neighbor);
-    spread_roots(manifold_mesh, first_layer, result.element_to_root);
+    spread_roots(manifold_mesh, first_layer, element_to_root);
 
     // what is left has no good element
     std::vector<unsigned int>  roots;
     std::vector<unsigned char> seen(bad.empty() ? 0 : n_elements, 0);
     for (const unsigned int e : bad)
-      if (result.element_to_root[e] == invalid_index && !seen[e])
+      if (element_to_root[e] == invalid_index && !seen[e])
         roots.push_back(largest_joined(manifold_mesh, e, seen));
     for (const unsigned int root : roots)
-      result.element_to_root[root] = root;
-    spread_roots(manifold_mesh, roots, result.element_to_root);
+      element_to_root[root] = root;
+    spread_roots(manifold_mesh, roots, element_to_root);
+    return element_to_root;
+  }
+
+
+  GhostPenalty
+  make_ghost_penalty(const ManifoldMesh &mesh, const double threshold)
+  {
+    GhostPenalty result;
+    result.element_to_root = find_roots(mesh, threshold);
+    for (unsigned int e = 0; e < mesh.n_elements(); ++e)
+      if (result.element_to_root[e] != e)
+        for (const ManifoldMesh::Link &link : mesh.joined(e))
+          result.pairs.emplace_back(std::min(e, link.neighbor),
+                                    std::max(e, link.neighbor));
+    std::sort(result.pairs.begin(), result.pairs.end());
+    result.pairs.erase(std::unique(result.pairs.begin(), result.pairs.end()),
+                       result.pairs.end());
+    return result;
+  }
+
+
+  Aggregation
+  aggregate(CoverSystem &covers, const double threshold)
+  {
+    const ManifoldMesh     &manifold_mesh = covers.manifold_mesh();
+    const MathematicalMesh &mesh          = manifold_mesh.mathematical_mesh();
+    const unsigned int      n_elements    = manifold_mesh.n_elements();
+
+    Aggregation result;
+    result.element_to_root = find_roots(manifold_mesh, threshold);
 
     // covers
     result.is_free.assign(covers.n_covers(), false);
@@ -131,10 +158,11 @@ namespace NMM
           result.is_free[k] = true;
 
     std::vector<std::pair<unsigned int, unsigned int>> candidates;
-    for (const unsigned int e : bad)
-      for (const unsigned int k : covers.covers(e))
-        if (!result.is_free[k])
-          candidates.emplace_back(k, result.element_to_root[e]);
+    for (unsigned int e = 0; e < n_elements; ++e)
+      if (result.element_to_root[e] != e)
+        for (const unsigned int k : covers.covers(e))
+          if (!result.is_free[k])
+            candidates.emplace_back(k, result.element_to_root[e]);
     std::sort(candidates.begin(), candidates.end());
     for (std::size_t i = 0; i < candidates.size();)
     {

@@ -144,7 +144,11 @@ namespace NMM
         return report;
 
       if (report.direct)
-        solve_by_mumps(matrix, rhs, solution);
+      {
+        DirectSolver solver;
+        solver.factorize(matrix);
+        solver.solve(rhs, solution);
+      }
       else
         report.n_iterations = solve_iterative(
           matrix, rhs, covers, constraints, parameters, solution);

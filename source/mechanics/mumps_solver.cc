@@ -20,14 +20,14 @@ namespace NMM
       class Mumps
       {
       public:
-        explicit Mumps(const MPI_Comm communicator)
+        Mumps(const MPI_Comm communicator, const bool is_symmetric)
           : data()
         {
           data.comm_fortran = MPI_Comm_c2f(communicator);
           data.par          = 1; // the host computes too
           // Symmetric, not "positive definite": a matrix that is indefinite by
           // rounding is then reported by its residual instead of an error.
-          data.sym = 2;
+          data.sym = is_symmetric ? 2 : 0;
           run(-1, "initialization");
           for (int i = 1; i <= 4; ++i)
             control(i) = i < 4 ? -1 : 0; // no output
@@ -72,19 +72,20 @@ namespace NMM
       };
 
 
-      /// The upper triangle as coordinates from 1 and values.
+      /// Coordinates from 1 and values; of a symmetric matrix the upper
+      /// triangle.
       struct Triplets
       {
         std::vector<MUMPS_INT> rows, columns;
         std::vector<double>    values;
 
-        explicit Triplets(const Epetra_CrsMatrix &matrix)
+        /// Call action(row, column, value) for each entry that is kept.
+        template <typename Action>
+        static void
+        for_each_entry(const Epetra_CrsMatrix &matrix,
+                       const bool              upper_only,
+                       const Action           &action)
         {
-          const std::size_t n_expected =
-            matrix.NumMyNonzeros() / 2 + matrix.NumMyRows();
-          rows.reserve(n_expected);
-          columns.reserve(n_expected);
-          values.reserve(n_expected);
           const int *column_numbers = matrix.ColMap().MyGlobalElements();
           for (int r = 0; r < matrix.NumMyRows(); ++r)
           {
@@ -94,33 +95,80 @@ namespace NMM
             const int row = matrix.RowMap().GID(r);
             matrix.ExtractMyRowView(r, n, row_values, indices);
             for (int i = 0; i < n; ++i)
-              if (column_numbers[indices[i]] >= row)
-              {
-                rows.push_back(row + 1);
-                columns.push_back(column_numbers[indices[i]] + 1);
-                values.push_back(row_values[i]);
-              }
+              if (!upper_only || column_numbers[indices[i]] >= row)
+                action(row, column_numbers[indices[i]], row_values[i]);
           }
+        }
+
+        void
+        set_pattern(const Epetra_CrsMatrix &matrix, const bool upper_only)
+        {
+          rows.clear();
+          columns.clear();
+          const std::size_t n_expected =
+            upper_only ? matrix.NumMyNonzeros() / 2 + matrix.NumMyRows()
+                       : matrix.NumMyNonzeros();
+          rows.reserve(n_expected);
+          columns.reserve(n_expected);
+          for_each_entry(matrix,
+                         upper_only,
+                         [&](const int row, const int column, double) {
+                           rows.push_back(row + 1);
+                           columns.push_back(column + 1);
+                         });
+          values.resize(rows.size());
+        }
+
+        void
+        set_values(const Epetra_CrsMatrix &matrix, const bool upper_only)
+        {
+          std::size_t i = 0;
+          for_each_entry(matrix, upper_only, [&](int, int, const double value) {
+            Assert(i < values.size(), dealii::ExcInternalError());
+            values[i++] = value;
+          });
+          AssertDimension(i, values.size());
         }
       };
     } // namespace
 
 
-    void
-    solve_by_mumps(const dealii::TrilinosWrappers::SparseMatrix &matrix,
-                   const dealii::TrilinosWrappers::MPI::Vector  &rhs,
-                   dealii::TrilinosWrappers::MPI::Vector        &solution)
+    struct DirectSolver::Data
     {
-      const MPI_Comm     communicator = matrix.get_mpi_communicator();
-      const unsigned int n_ranks =
-        dealii::Utilities::MPI::n_mpi_processes(communicator);
-      const bool is_host =
-        dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+      bool                   is_symmetric;
+      std::unique_ptr<Mumps> mumps;
+      Triplets               triplets;
+      unsigned int           n = 0;
+      MPI_Comm               communicator;
+      unsigned int           n_ranks;
+    };
 
-      Triplets triplets(matrix.trilinos_matrix());
-      Mumps    mumps(communicator);
-      mumps.data.n = matrix.m();
-      if (n_ranks > 1)
+
+    DirectSolver::DirectSolver(const Symmetry symmetry)
+      : data(std::make_unique<Data>())
+    {
+      data->is_symmetric = symmetry == Symmetry::symmetric;
+    }
+
+
+    DirectSolver::~DirectSolver() = default;
+
+
+    void
+    DirectSolver::analyze(const dealii::TrilinosWrappers::SparseMatrix &matrix)
+    {
+      data->communicator = matrix.get_mpi_communicator();
+      data->n_ranks =
+        dealii::Utilities::MPI::n_mpi_processes(data->communicator);
+      data->n = matrix.m();
+      data->mumps =
+        std::make_unique<Mumps>(data->communicator, data->is_symmetric);
+      data->triplets.set_pattern(matrix.trilinos_matrix(), data->is_symmetric);
+
+      Mumps    &mumps    = *data->mumps;
+      Triplets &triplets = data->triplets;
+      mumps.data.n       = data->n;
+      if (data->n_ranks > 1)
       {
         mumps.control(18)  = 3; // distributed entries
         mumps.data.nnz_loc = triplets.values.size();
@@ -138,29 +186,51 @@ namespace NMM
       // Approximate minimum degree orders in a fifth of the time of what MUMPS
       // chooses by itself; its larger fill tells only on large systems.
       constexpr unsigned int large = 150000;
-      mumps.control(7)             = matrix.m() < large ? 0 : 7;
+      mumps.control(7)             = data->n < large ? 0 : 7;
       // The diagonal is that of a stiffness matrix: no permutation for larger
       // pivots is looked for, and no compression of 2x2 pivots.
       mumps.control(6)  = 0;
       mumps.control(12) = 1;
       mumps.control(14) = 30; // percent of memory to spare
       mumps.run(1, "analysis");
-      mumps.run(2, "factorization");
+    }
 
+
+    void
+    DirectSolver::factorize(
+      const dealii::TrilinosWrappers::SparseMatrix &matrix)
+    {
+      if (data->mumps == nullptr)
+        analyze(matrix);
+      AssertDimension(matrix.m(), data->n);
+      data->triplets.set_values(matrix.trilinos_matrix(), data->is_symmetric);
+      data->mumps->run(2, "factorization");
+    }
+
+
+    void
+    DirectSolver::solve(const dealii::TrilinosWrappers::MPI::Vector &rhs,
+                        dealii::TrilinosWrappers::MPI::Vector       &solution)
+    {
+      Mumps &mumps = *data->mumps;
       // right-hand side and solution are on the host
       const int n_local = rhs.locally_owned_size();
-      if (n_ranks == 1)
+      if (data->n_ranks == 1)
       {
-        std::copy(rhs.begin(), rhs.end(), solution.begin());
+        if (&rhs != &solution)
+          std::copy(rhs.begin(), rhs.end(), solution.begin());
         mumps.data.rhs = &*solution.begin();
         mumps.run(3, "solution");
         return;
       }
+      const MPI_Comm communicator = data->communicator;
+      const bool     is_host =
+        dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
       const std::vector<int> counts =
         dealii::Utilities::MPI::all_gather(communicator, n_local);
-      std::vector<int> offsets(n_ranks, 0);
+      std::vector<int> offsets(data->n_ranks, 0);
       std::partial_sum(counts.begin(), counts.end() - 1, offsets.begin() + 1);
-      std::vector<double>       global(is_host ? matrix.m() : 1);
+      std::vector<double>       global(is_host ? data->n : 1);
       const std::vector<double> local(rhs.begin(), rhs.end());
       std::vector<double>       local_solution(n_local);
       MPI_Gatherv(local.data(),

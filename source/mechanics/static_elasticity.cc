@@ -4,6 +4,7 @@
 #include <mechanics/boundary_terms.h>
 #include <mechanics/curve_conditions.h>
 #include <mechanics/floating_blocks.h>
+#include <mechanics/ghost_terms.h>
 #include <mechanics/linear_solver.h>
 #include <mechanics/local_system.h>
 #include <mechanics/point_terms.h>
@@ -41,17 +42,20 @@ namespace NMM
     }
 
 
-    std::array<unsigned int, internal::LocalSystem::max_covers>
-    covers_of_pair(const CoverSystem &covers,
-                   const unsigned int element,
-                   const unsigned int neighbor)
+    /// Call action(pair) for each pair of the ghost penalty whose first element
+    /// is owned.
+    template <typename Action>
+    void
+    for_each_ghost_pair(const CoverSystem  &covers,
+                        const GhostPenalty *ghost_penalty,
+                        const Action       &action)
     {
-      std::array<unsigned int, internal::LocalSystem::max_covers> result{};
-      unsigned int                                                n = 0;
-      for (const unsigned int e : {element, neighbor})
-        for (const unsigned int k : covers.covers(e))
-          result[n++] = k;
-      return result;
+      if (ghost_penalty == nullptr)
+        return;
+      const auto [first, last] = covers.locally_owned_elements();
+      for (const auto &pair : ghost_penalty->pairs)
+        if (pair.first >= first && pair.first < last)
+          action(pair);
     }
   } // namespace
 
@@ -60,11 +64,13 @@ namespace NMM
     const CoverSystem                       &covers,
     const QuadratureCollection              &quadrature,
     const dealii::AffineConstraints<double> &constraints,
-    const ElasticityProblem                 &problem)
+    const ElasticityProblem                 &problem,
+    const GhostPenalty                      *ghost_penalty)
     : covers(&covers)
     , quadrature(&quadrature)
     , constraints(&constraints)
     , problem(&problem)
+    , ghost_penalty(ghost_penalty)
   {
     problem.check(covers.manifold_mesh().physical_mesh());
     // points outside the solid show here
@@ -92,15 +98,20 @@ namespace NMM
                    const auto pair = covers_of_pair(*covers, e, edge.neighbor);
                    block_system.couple({pair.data(), 2 * n_per_cell});
                  });
+    for_each_ghost_pair(*covers,
+                        ghost_penalty,
+                        [&](const std::pair<unsigned int, unsigned int> &pair) {
+                          const auto both =
+                            covers_of_pair(*covers, pair.first, pair.second);
+                          block_system.couple({both.data(), 2 * n_per_cell});
+                        });
     block_system.build();
 
     section.reset();
     section = time_section(timer, "assembly");
     const VolumeTerms volume_terms(*covers, *quadrature, *problem);
-    TraceConstants    trace_constants(*covers,
-                                   *quadrature,
-                                   *constraints,
-                                   conditions);
+    TraceConstants    trace_constants(
+      *covers, *quadrature, *constraints, conditions, ghost_penalty);
     EdgeTerms   edge_terms(*covers, *problem, conditions, trace_constants);
     LocalSystem local;
     const auto [first, last] = covers->locally_owned_elements();
@@ -129,6 +140,18 @@ namespace NMM
                                     local.matrix,
                                     local.rhs);
                  });
+    const GhostTerms ghost_terms(*covers, *problem);
+    for_each_ghost_pair(*covers,
+                        ghost_penalty,
+                        [&](const std::pair<unsigned int, unsigned int> &pair) {
+                          const auto both =
+                            covers_of_pair(*covers, pair.first, pair.second);
+                          local.reset(2 * n_per_cell);
+                          ghost_terms.add_stiffness(pair, local);
+                          block_system.add({both.data(), 2 * n_per_cell},
+                                           local.matrix,
+                                           local.rhs);
+                        });
     section.reset();
     section = time_section(timer, "to Trilinos");
     block_system.finish(matrix, rhs);

@@ -22,11 +22,13 @@ namespace NMM
       const CoverSystem                       &covers,
       const QuadratureCollection              &quadrature,
       const dealii::AffineConstraints<double> &constraints,
-      const CurveConditions                   &conditions)
+      const CurveConditions                   &conditions,
+      const GhostPenalty                      *ghost_penalty)
       : covers(&covers)
       , quadrature(&quadrature)
       , constraints(&constraints)
       , conditions(&conditions)
+      , ghost_penalty(ghost_penalty)
       , degree(covers.manifold_mesh().mathematical_mesh().degree())
       , known(covers.manifold_mesh().n_elements(), -1.)
     {
@@ -164,6 +166,11 @@ namespace NMM
     unsigned int
     TraceConstants::find_root(const unsigned int element) const
     {
+      if (ghost_penalty != nullptr)
+      {
+        const unsigned int root = ghost_penalty->element_to_root[element];
+        return root == element ? invalid_index : root;
+      }
       // the covers that one constrained cover hangs on all belong to the root
       std::vector<unsigned int> needed;
       for (const unsigned int k : covers->covers(element))

@@ -1,6 +1,7 @@
 #ifndef nmm_source_mechanics_trace_constant_h
 #define nmm_source_mechanics_trace_constant_h
 
+#include <nmm/covers/aggregation.h>
 #include <nmm/covers/cover_system.h>
 #include <nmm/quadrature/element_quadrature.h>
 
@@ -33,7 +34,8 @@ namespace NMM
      * unknowns to a root element R, the polynomial's energy on R bounds its
      * trace on Gamma as well, and the smaller of Lambda_E and 2 Lambda_R (with
      * R's area and E's boundary; 2 because some covers of E may be free) is
-     * taken, which is of order 1/h.
+     * taken, which is of order 1/h. The ghost penalty bounds the energy on R and
+     * the difference of the polynomials, and the same is taken.
      */
     class TraceConstants
     {
@@ -41,7 +43,8 @@ namespace NMM
       TraceConstants(const CoverSystem                       &covers,
                      const QuadratureCollection              &quadrature,
                      const dealii::AffineConstraints<double> &constraints,
-                     const CurveConditions                   &conditions);
+                     const CurveConditions                   &conditions,
+                     const GhostPenalty *ghost_penalty = nullptr);
 
       /// Lambda [1/m], infinite for an element without area.
       double
@@ -72,7 +75,7 @@ namespace NMM
       constant(const Moments &moments, const BoundaryPoints &boundary) const;
 
       /// The element to whose polynomial covers of @p element are constrained,
-      /// or invalid_index.
+      /// or that the ghost penalty ties it to, or invalid_index.
       unsigned int
       find_root(unsigned int element) const;
 
@@ -80,6 +83,7 @@ namespace NMM
       const QuadratureCollection              *quadrature;
       const dealii::AffineConstraints<double> *constraints;
       const CurveConditions                   *conditions;
+      const GhostPenalty                      *ghost_penalty;
       unsigned int                             degree;
       std::vector<double>                      known;
     };

@@ -150,12 +150,28 @@ namespace NMM
             const unsigned int           degree,
             const Stabilization stabilization = Stabilization::aggregation,
             const MPI_Comm      communicator  = MPI_COMM_WORLD)
+        : Model(
+            std::move(geometry),
+            [&](const PhysicalMesh &mesh) {
+              return make_regular_mesh(mesh, mesh_parameters, degree);
+            },
+            stabilization,
+            communicator)
+      {
+      }
+
+      /// With any mathematical mesh.
+      Model(Geometry geometry,
+            const std::function<MathematicalMesh(const PhysicalMesh &)>
+                               &make_mesh,
+            const Stabilization stabilization = Stabilization::aggregation,
+            const MPI_Comm      communicator  = MPI_COMM_WORLD)
         : physical_mesh(std::move(geometry))
-        , mathematical_mesh(
-            make_regular_mesh(physical_mesh, mesh_parameters, degree))
+        , mathematical_mesh(make_mesh(physical_mesh))
         , manifold_mesh(mathematical_mesh, physical_mesh)
         , covers(manifold_mesh, communicator)
       {
+        const unsigned int degree = mathematical_mesh.degree();
         if (stabilization == Stabilization::aggregation)
         {
           aggregation = aggregate(covers);
@@ -163,6 +179,9 @@ namespace NMM
         }
         else
           constraints.close();
+        if (stabilization == Stabilization::ghost_penalty)
+          ghost_penalty =
+            std::make_unique<GhostPenalty>(make_ghost_penalty(manifold_mesh));
         quadrature = std::make_unique<QuadratureCollection>(
           manifold_mesh,
           2 * degree,
@@ -176,7 +195,8 @@ namespace NMM
         system = std::make_unique<StaticElasticity>(covers,
                                                     *quadrature,
                                                     constraints,
-                                                    problem);
+                                                    problem,
+                                                    ghost_penalty.get());
         system->assemble();
         const LinearSolverReport report = system->solve(parameters);
         field = std::make_unique<DisplacementField>(covers,
@@ -217,6 +237,7 @@ namespace NMM
       CoverSystem                           covers;
       Aggregation                           aggregation;
       dealii::AffineConstraints<double>     constraints;
+      std::unique_ptr<GhostPenalty>         ghost_penalty;
       std::unique_ptr<QuadratureCollection> quadrature;
       ElasticityProblem                     problem;
       std::unique_ptr<StaticElasticity>     system;

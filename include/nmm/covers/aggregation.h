@@ -16,23 +16,34 @@ namespace NMM
     /// Nothing: the plain method of the paper.
     none,
     /// Express them through a well-supported neighbour by polynomial extension.
-    aggregation
+    aggregation,
+    /// Penalize the difference of neighbours' polynomials, see GhostPenalty.
+    ghost_penalty
   };
+
+
+  /// Least share of its cell's area [-] that makes an element *good*.
+  constexpr double default_aggregation_threshold = 0.25;
+
+  /**
+   * The *root* of each element: itself if its area is at least @p threshold
+   * times its cell's, else the nearest such element of the same connected set
+   * (breadth-first search over ManifoldMesh::joined()). A connected set without
+   * any good element takes its largest element as root.
+   */
+  std::vector<unsigned int>
+  find_roots(const ManifoldMesh &mesh, double threshold);
 
 
   /**
    * Cover aggregation (Badia, Verdugo & Martin, arXiv 1709.09122, for physical
    * covers instead of cells).
    *
-   * An element is *good* if its area is at least `threshold` times its cell's.
-   * A cover that no good element uses is constrained to the polynomial of a
-   * *root* element, the nearest good one of the same connected set of elements
-   * (breadth-first search over ManifoldMesh::joined()), evaluated at the
-   * cover's node:
+   * A cover that no root element uses is constrained to the polynomial of a
+   * root, see find_roots(), evaluated at the cover's node:
    * @f[ u_k = \sum_j w_j^{root}(x_k)\,u_{root,j} @f]
    * Polynomials of the element's degree are kept exactly, nothing couples
-   * across a joint, and the covers of roots are never constrained themselves. A
-   * connected set without any good element takes its largest element as root.
+   * across a joint, and the covers of roots are never constrained themselves.
    */
   struct Aggregation
   {
@@ -43,9 +54,6 @@ namespace NMM
     /// Is the cover free, i.e. not constrained?
     std::vector<bool> is_free;
   };
-
-  /// Least share of its cell's area [-] that makes an element good.
-  constexpr double default_aggregation_threshold = 0.25;
 
   /**
    * Find roots. Extends the relevant covers of @p covers by those of the roots
@@ -60,6 +68,33 @@ namespace NMM
   make_constraints(const CoverSystem &covers,
                    const Aggregation &aggregation,
                    unsigned int       n_components);
+
+
+  /**
+   * Ghost penalty (Burman 2010), the alternative to aggregation: all covers stay
+   * unknowns, and where an element has too little area, the energy of the
+   * difference between its polynomial and its neighbour's, each continued over
+   * both cells, is added to the system (the "direct" form of Preuss 2018 and
+   * Lehrenfeld & Olshanskii, arXiv 1803.05817, with the strain energy instead of
+   * the L2 norm, so that there is no length to choose and stretched cells are
+   * no special case):
+   * @f[ s(u,v) = \gamma \sum_{(E,F)} \int_{T_E\cup T_F}
+   *     C\,\varepsilon(u_E-u_F):\varepsilon(v_E-v_F)\,dA @f]
+   * Quadratics are kept exactly: their continuations are equal. E and F are
+   * joined, so nothing couples across a joint.
+   */
+  struct GhostPenalty
+  {
+    /// Pairs (E, F), E < F, of joined elements of which at least one is no root.
+    std::vector<std::pair<unsigned int, unsigned int>> pairs;
+    /// See find_roots().
+    std::vector<unsigned int> element_to_root;
+  };
+
+  /// Pairs for all ranks.
+  GhostPenalty
+  make_ghost_penalty(const ManifoldMesh &mesh,
+                     double threshold = default_aggregation_threshold);
 } // namespace NMM
 
 #endif

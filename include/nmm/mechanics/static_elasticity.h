@@ -1,6 +1,7 @@
 #ifndef nmm_mechanics_static_elasticity_h
 #define nmm_mechanics_static_elasticity_h
 
+#include <nmm/covers/aggregation.h>
 #include <nmm/covers/cover_system.h>
 #include <nmm/mechanics/elasticity_problem.h>
 #include <nmm/quadrature/element_quadrature.h>
@@ -60,7 +61,8 @@ namespace NMM
    * domains coincide, that is both sides.
    *
    * All terms are per unit thickness. Constrained unknowns (aggregated covers)
-   * are eliminated; their rows keep a diagonal entry.
+   * are eliminated; their rows keep a diagonal entry. With a ghost penalty its
+   * terms are added.
    *
    * Lifetime: all arguments of the constructor must outlive this object.
    */
@@ -72,7 +74,8 @@ namespace NMM
     StaticElasticity(const CoverSystem                       &covers,
                      const QuadratureCollection              &quadrature,
                      const dealii::AffineConstraints<double> &constraints,
-                     const ElasticityProblem                 &problem);
+                     const ElasticityProblem                 &problem,
+                     const GhostPenalty *ghost_penalty = nullptr);
 
     /**
      * Sparsity, matrix and right-hand side. With @p timer, in sections
@@ -103,6 +106,7 @@ namespace NMM
     const QuadratureCollection              *quadrature;
     const dealii::AffineConstraints<double> *constraints;
     const ElasticityProblem                 *problem;
+    const GhostPenalty                      *ghost_penalty;
 
     dealii::TrilinosWrappers::SparseMatrix matrix;
     dealii::TrilinosWrappers::MPI::Vector  rhs;

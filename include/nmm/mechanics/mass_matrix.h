@@ -1,0 +1,36 @@
+#ifndef nmm_mechanics_mass_matrix_h
+#define nmm_mechanics_mass_matrix_h
+
+#include <nmm/covers/aggregation.h>
+#include <nmm/covers/cover_system.h>
+#include <nmm/mechanics/elasticity_problem.h>
+#include <nmm/quadrature/element_quadrature.h>
+
+#include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
+namespace NMM
+{
+  /**
+   * The consistent mass matrix (8),
+   * @f[ M_{ij} = \int \rho\,w_i w_j\,dA\;I @f]
+   * [kg per unit thickness], two unknowns per cover, with the density of each
+   * region's material. Covers with little support are treated as in the
+   * stiffness matrix: constrained unknowns are eliminated (their rows keep a
+   * diagonal entry), and @p ghost_penalty, if not null, adds
+   * gamma rho int (u_E - u_F) . (v_E - v_F). Otherwise the matrix would be as
+   * ill-conditioned as slivers are thin, and explicit or implicit steps alike
+   * would divide by the masses of slivers.
+   *
+   * @p quadrature must be exact for degree 2p.
+   */
+  void
+  assemble_mass_matrix(const CoverSystem                       &covers,
+                       const QuadratureCollection              &quadrature,
+                       const dealii::AffineConstraints<double> &constraints,
+                       const ElasticityProblem                 &problem,
+                       const GhostPenalty                      *ghost_penalty,
+                       dealii::TrilinosWrappers::SparseMatrix  &matrix);
+} // namespace NMM
+
+#endif

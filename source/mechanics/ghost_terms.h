@@ -1,0 +1,72 @@
+#ifndef nmm_source_mechanics_ghost_terms_h
+#define nmm_source_mechanics_ghost_terms_h
+
+#include <nmm/covers/aggregation.h>
+#include <nmm/covers/cover_system.h>
+#include <nmm/mechanics/elasticity_problem.h>
+
+#include <deal.II/base/quadrature.h>
+
+#include <mechanics/local_system.h>
+#include <vector>
+
+namespace NMM
+{
+  namespace internal
+  {
+    /**
+     * The terms of the ghost penalty, see GhostPenalty, for a pair of joined
+     * elements: covers of the first, then of the second (those they share stand
+     * twice).
+     */
+    class GhostTerms
+    {
+    public:
+      /// The factor gamma [-] on the energy of the difference. Below 0.1 the
+      /// condition number grows, above 1 the error.
+      static constexpr double factor = 0.01;
+
+      GhostTerms(const CoverSystem &covers, const ElasticityProblem &problem);
+
+      void
+      add_stiffness(const std::pair<unsigned int, unsigned int> &pair,
+                    LocalSystem                                 &system) const;
+
+      /// gamma rho int (u_E - u_F) . (v_E - v_F)
+      void
+      add_mass(const std::pair<unsigned int, unsigned int> &pair,
+               LocalSystem                                 &system) const;
+
+    private:
+      /// Call action(gradients or values of both elements' covers, the second's
+      /// with negative sign, weight [m^2]) for points of both cells.
+      template <typename Action>
+      void
+      for_each_point(const std::pair<unsigned int, unsigned int> &pair,
+                     const Action                                &action) const;
+
+      const CoverSystem           *covers;
+      unsigned int                 degree, n_per_cell;
+      dealii::Quadrature<2>        rule;
+      std::vector<PlaneElasticity> region_to_elasticity;
+      std::vector<double>          region_to_density;
+    };
+
+
+    /// The covers of two elements, one's after the other's.
+    inline std::array<unsigned int, LocalSystem::max_covers>
+    covers_of_pair(const CoverSystem &covers,
+                   const unsigned int element,
+                   const unsigned int neighbor)
+    {
+      std::array<unsigned int, LocalSystem::max_covers> result{};
+      unsigned int                                      n = 0;
+      for (const unsigned int e : {element, neighbor})
+        for (const unsigned int k : covers.covers(e))
+          result[n++] = k;
+      return result;
+    }
+  } // namespace internal
+} // namespace NMM
+
+#endif

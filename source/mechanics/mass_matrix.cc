@@ -1,0 +1,108 @@
+#include <nmm/mechanics/mass_matrix.h>
+
+#include <mechanics/block_system.h>
+#include <mechanics/ghost_terms.h>
+#include <mechanics/local_system.h>
+
+namespace NMM
+{
+  namespace
+  {
+    /// int w_i w_j over the part of the reference cell that a rule is made for.
+    struct ReferenceMass
+    {
+      double products[WeightFunctions::max_per_cell]
+                     [WeightFunctions::max_per_cell];
+
+      void
+      integrate(const unsigned int degree, const dealii::Quadrature<2> &rule)
+      {
+        const unsigned int n = WeightFunctions::n_per_cell(degree);
+        for (unsigned int i = 0; i < n; ++i)
+          std::fill_n(products[i], n, 0.);
+        double w[WeightFunctions::max_per_cell];
+        for (unsigned int q = 0; q < rule.size(); ++q)
+        {
+          WeightFunctions::values(degree, rule.point(q), w);
+          for (unsigned int i = 0; i < n; ++i)
+            for (unsigned int j = 0; j < n; ++j)
+              products[i][j] += rule.weight(q) * w[i] * w[j];
+        }
+      }
+    };
+  } // namespace
+
+
+  void
+  assemble_mass_matrix(const CoverSystem                       &covers,
+                       const QuadratureCollection              &quadrature,
+                       const dealii::AffineConstraints<double> &constraints,
+                       const ElasticityProblem                 &problem,
+                       const GhostPenalty                      *ghost_penalty,
+                       dealii::TrilinosWrappers::SparseMatrix  &matrix)
+  {
+    using namespace internal;
+    const ManifoldMesh     &mesh              = covers.manifold_mesh();
+    const MathematicalMesh &mathematical_mesh = mesh.mathematical_mesh();
+    const unsigned int      n      = mathematical_mesh.n_covers_per_cell();
+    const unsigned int      degree = mathematical_mesh.degree();
+    const auto [first, last]       = covers.locally_owned_elements();
+    const std::vector<unsigned int> region_to_material =
+      problem.region_to_material(mesh.physical_mesh());
+
+    // ghost pairs belong to the rank that owns their first element
+    std::vector<std::pair<unsigned int, unsigned int>> pairs;
+    if (ghost_penalty != nullptr)
+      for (const auto &pair : ghost_penalty->pairs)
+        if (pair.first >= first && pair.first < last)
+          pairs.push_back(pair);
+
+    BlockSystem block_system(covers, constraints);
+    for (const auto &[e, f] : pairs)
+      block_system.couple({covers_of_pair(covers, e, f).data(), 2 * n});
+    block_system.build();
+
+    LocalSystem   local;
+    ReferenceMass whole, cut;
+    bool          has_whole = false;
+    for (unsigned int e = first; e < last; ++e)
+    {
+      const ReferenceMass *mass = &whole;
+      if (!mesh.is_whole(e))
+      {
+        cut.integrate(degree, quadrature.rule(e));
+        mass = &cut;
+      }
+      else if (!has_whole)
+      {
+        whole.integrate(degree, quadrature.rule(e));
+        has_whole = true;
+      }
+      const double density =
+        problem.materials[region_to_material[mesh.region(e)]].density * 2. *
+        mathematical_mesh.cell_area(mesh.cell(e));
+      local.reset(n);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          for (unsigned int c = 0; c < 2; ++c)
+            local.row(i, c)[2 * j + c] = density * mass->products[i][j];
+      block_system.add(covers.covers(e), local.matrix, local.rhs);
+    }
+    if (!pairs.empty())
+    {
+      const GhostTerms ghost_terms(covers, problem);
+      for (const auto &pair : pairs)
+      {
+        local.reset(2 * n);
+        ghost_terms.add_mass(pair, local);
+        block_system.add(
+          {covers_of_pair(covers, pair.first, pair.second).data(), 2 * n},
+          local.matrix,
+          local.rhs);
+      }
+    }
+
+    dealii::TrilinosWrappers::MPI::Vector rhs;
+    block_system.finish(matrix, rhs);
+  }
+} // namespace NMM

@@ -1,0 +1,138 @@
+#ifndef nmm_tests_support_hard_cases_hard_cases_h
+#define nmm_tests_support_hard_cases_hard_cases_h
+
+#include <nmm/covers/aggregation.h>
+
+#include <mechanics/model.h>
+#include <string>
+#include <vector>
+
+namespace NMM
+{
+  /**
+   * The cases that cut methods are known to suffer from. Every function builds
+   * and solves one of them and returns what it measured; the program
+   * nmm-hard-cases prints them all, the tests assert bounds at a smaller size.
+   */
+  namespace HardCases
+  {
+    using namespace Test;
+
+    /// One solved system.
+    struct Result
+    {
+      std::string   variant;
+      Stabilization stabilization = Stabilization::aggregation;
+      unsigned int  n_unknowns    = 0;
+      /// Smallest area of an element over that of its cell [-].
+      double smallest_fraction = 1.;
+      /// Condition numbers after diagonal scaling [-], 0 if not asked for.
+      double stiffness_condition = 0., mass_condition = 0.;
+      /// Conjugate gradients with ML to 1e-10, 0 if not asked for.
+      unsigned int cg_iterations = 0;
+      /// Relative errors in L2 and in the energy norm [-].
+      double displacement_error = 0., energy_error = 0.;
+      /// Why there are no numbers; empty if there are.
+      std::string failure;
+    };
+
+    /// What is asked for besides the errors.
+    struct Measure
+    {
+      bool condition     = true;
+      bool cg_iterations = false;
+    };
+
+    /// A smooth displacement with what follows from it.
+    class SmoothField
+    {
+    public:
+      virtual ~SmoothField() = default;
+      virtual Tensor<1, 2>
+      displacement(const Point<2> &x) const = 0;
+      virtual Tensor<2, 2>
+      gradient(const Point<2> &x) const = 0;
+      /// f = -div sigma.
+      virtual Tensor<1, 2>
+      body_force(const Point<2> &x, const PlaneElasticity &e) const = 0;
+    };
+
+    /// u_c = a_c sin(k_c . x + phi_c).
+    std::shared_ptr<const SmoothField>
+    make_wave_field();
+
+    /// Free of traction on the line through @p origin along @p tangent (unit):
+    /// u = eta^2 (t sin(2 xi) + n cos(2 xi)), eta the distance from it.
+    std::shared_ptr<const SmoothField>
+    make_free_surface_field(const Point<2>     &origin,
+                            const Tensor<1, 2> &tangent);
+
+    /// A random polynomial of @p degree: exact on any cut.
+    std::shared_ptr<const SmoothField>
+    make_polynomial_field(unsigned int seed, unsigned int degree);
+
+    /// Make @p model's problem have the solution @p field: body force,
+    /// displacements on @p held, tractions on @p loaded curves. One material.
+    void
+    prescribe(Model                                    &model,
+              const std::shared_ptr<const SmoothField> &field,
+              const Material                           &material,
+              PlaneState                                plane_state,
+              const std::vector<std::string>           &held,
+              const std::vector<std::string>           &loaded);
+
+    /// Solve and measure against @p field.
+    Result
+    measure(Model             &model,
+            const SmoothField &field,
+            const std::string &variant,
+            Stabilization      stabilization,
+            const Measure     &what);
+
+    /// How the cut side of the sliver sweep is held.
+    enum class Side
+    {
+      free,
+      loaded,
+      fixed
+    };
+
+    const std::string &
+    to_string(Side side);
+
+    const std::string &
+    to_string(Stabilization stabilization);
+
+    /**
+     * Case 1: the unit square on a mesh of right-angled triangles that fits it
+     * but for the upper side, which lies epsilon h above a mesh line at its
+     * left end and rises by @p angle [degrees] to the right. epsilon = angle =
+     * 0 is the uncut mesh. @p polynomial_degree > 0: patch test.
+     */
+    Result
+    sliver(double         epsilon,
+           double         angle,
+           Side           side,
+           Stabilization  stabilization,
+           unsigned int   n_cells_per_side,
+           unsigned int   polynomial_degree,
+           const Measure &what);
+
+    /// Case 2: the unit disk at a random place (seeded) on a mesh of
+    /// equilateral triangles, its left half held, its right half loaded.
+    Result
+    moved_disk(unsigned int   seed,
+               double         cell_size,
+               Stabilization  stabilization,
+               unsigned int   polynomial_degree,
+               const Measure &what);
+
+    /// The uncut companion of the disk: the hexagon of about equal area on the
+    /// lattice of the same triangles, its left half held, its right half
+    /// loaded.
+    Result
+    fitted_hexagon(double cell_size, const Measure &what);
+  } // namespace HardCases
+} // namespace NMM
+
+#endif

@@ -123,6 +123,7 @@ namespace NMM
           {
             case BoundaryCondition::Type::traction:
             case BoundaryCondition::Type::pressure:
+            case BoundaryCondition::Type::follower_pressure:
               add_load(condition, cell, rule, system);
               break;
             case BoundaryCondition::Type::displacement:
@@ -151,7 +152,7 @@ namespace NMM
       {
         const dealii::Point<2> x = mesh.reference_to_real(cell, rule.points[q]);
         dealii::Tensor<1, 2>   t;
-        if (condition.type == BoundaryCondition::Type::pressure)
+        if (condition.type != BoundaryCondition::Type::traction)
           t = -condition.value->value(x) * rule.normals[q];
         else
           for (unsigned int c = 0; c < 2; ++c)

@@ -22,8 +22,14 @@ namespace NMM
     {
       /// Force per area t(x) [Pa], two components.
       traction,
-      /// Pressure p(x) [Pa], positive when it pushes: t = -p n.
+      /// Pressure p(x) [Pa], positive when it pushes: t = -p n, with the normal
+      /// and per area of the reference configuration, so that the force keeps its
+      /// direction.
       pressure,
+      /// Pressure p(X) [Pa] that turns with the surface and acts on its current
+      /// area: t dA = -p cof(F) N dA. In small-displacement analyses the same
+      /// as `pressure`.
+      follower_pressure,
       /// Prescribed displacement [m] of the components in `components`.
       displacement,
       /// Prescribed displacement along the outward normal [m]; the tangential

@@ -17,6 +17,20 @@ namespace NMM
     plane_strain
   };
 
+  /// How stress follows from deformation in `finite` kinematics; `small` and
+  /// `incremental` take the linear law whatever is named here.
+  enum class MaterialLaw
+  {
+    /// Stress is linear in strain; in `finite` kinematics the second
+    /// Piola-Kirchhoff stress in Green-Lagrange strain: the next one.
+    linear,
+    /// W = lambda/2 (tr E)^2 + mu E : E. For large rotations with moderate
+    /// strains; it gives way under strong compression.
+    st_venant_kirchhoff,
+    /// W = mu/2 (J^(-2/3) I_1 - 3) + K/2 (J - 1)^2. For large strains.
+    neo_hookean
+  };
+
   /**
    * The two constants of plane isotropic elasticity,
    * @f[ \sigma = \lambda\,\mathrm{tr}(\varepsilon)\,I + 2\mu\,\varepsilon, @f]
@@ -39,7 +53,7 @@ namespace NMM
     largest_eigenvalue() const;
   };
 
-  /// An isotropic, linearly elastic material. Units are any consistent set; SI
+  /// An isotropic, elastic material. Units are any consistent set; SI
   /// is written here.
   struct Material
   {
@@ -49,8 +63,10 @@ namespace NMM
     /// nu [-], in (-1, 0.5).
     double poissons_ratio = std::numeric_limits<double>::signaling_NaN();
     /// rho [kg/m^3], >= 0.
-    double density = 0.;
-    /// sigma_0 of the paper's eq. (9), tension positive [Pa].
+    double      density = 0.;
+    MaterialLaw law     = MaterialLaw::linear;
+    /// sigma_0 of the paper's eq. (9), tension positive [Pa]; in `finite`
+    /// kinematics the second Piola-Kirchhoff stress at rest.
     dealii::SymmetricTensor<2, 2> initial_stress;
 
     /// @throws InputError naming the material, the parameter and its value.

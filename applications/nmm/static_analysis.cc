@@ -4,6 +4,7 @@
 #include <nmm/covers/point_location.h>
 #include <nmm/io/picture.h>
 #include <nmm/io/vtu.h>
+#include <nmm/mechanics/condition_number.h>
 #include <nmm/mechanics/error_norms.h>
 
 #include <algorithm>
@@ -50,15 +51,7 @@ StaticAnalysis::build()
   }
   {
     Stage stage(progress, "covers");
-    covers = std::make_unique<CoverSystem>(*manifold_mesh, communicator);
-    // With threshold 0 every element is well supported and no cover is
-    // constrained.
-    aggregation =
-      aggregate(*covers,
-                parameters.covers.stabilization == Stabilization::aggregation
-                  ? parameters.covers.threshold
-                  : 0.);
-    constraints = make_constraints(*covers, aggregation, 2);
+    make_covers();
   }
   {
     Stage stage(progress, "quadrature");
@@ -70,11 +63,27 @@ StaticAnalysis::build()
     quadrature = std::make_unique<QuadratureCollection>(
       *manifold_mesh, degree, degree, covers->locally_owned_elements());
   }
-  elasticity = std::make_unique<StaticElasticity>(*covers,
-                                                  *quadrature,
-                                                  constraints,
-                                                  problem);
+  elasticity = std::make_unique<StaticElasticity>(
+    *covers, *quadrature, constraints, problem, ghost_penalty.get());
   add_counts();
+}
+
+
+void
+StaticAnalysis::make_covers()
+{
+  const CoverParameters &parameters = scene.parameters().covers;
+  covers = std::make_unique<CoverSystem>(*manifold_mesh, communicator);
+  // With threshold 0 every element is well supported and no cover is
+  // constrained.
+  aggregation = aggregate(*covers,
+                          parameters.stabilization == Stabilization::aggregation
+                            ? parameters.threshold
+                            : 0.);
+  constraints = make_constraints(*covers, aggregation, 2);
+  if (parameters.stabilization == Stabilization::ghost_penalty)
+    ghost_penalty = std::make_unique<GhostPenalty>(
+      make_ghost_penalty(*manifold_mesh, parameters.threshold));
 }
 
 
@@ -167,6 +176,8 @@ StaticAnalysis::solve()
     summary.add("solver_iterations", report.n_iterations);
     summary.add("solver_relative_residual", report.relative_residual);
   }
+  if (scene.parameters().solver.estimate_condition)
+    estimate_condition();
   {
     Stage stage(progress, "stress recovery");
     field     = std::make_unique<DisplacementField>(*covers,
@@ -176,6 +187,37 @@ StaticAnalysis::solve()
     evaluator = std::make_unique<FieldEvaluator>(*field, *recovery, problem);
   }
   is_solved = true;
+}
+
+
+void
+StaticAnalysis::estimate_condition()
+{
+  Stage                 stage(progress, "condition number");
+  const ConditionNumber condition =
+    estimate_condition_number(elasticity->system_matrix(),
+                              *covers,
+                              constraints);
+  summary.add("condition_number", condition.value());
+  const bool has_place = condition.weakest_cover != invalid_index;
+  if (has_place)
+  {
+    const Point<2> &place = covers->node(condition.weakest_cover);
+    const auto     &unit  = scene.parameters().output.length_unit;
+    summary.add("condition_place_x", place[0], unit);
+    summary.add("condition_place_y", place[1], unit);
+  }
+  std::ostringstream text;
+  text << condition.value();
+  stage.remark(text.str());
+  if (!(condition.value() <= scene.parameters().solver.condition_limit))
+    progress.message(
+      "  warning: the condition number " + text.str() + " is above the limit" +
+      (has_place ? "; the matrix is weakest near " +
+                     to_string(covers->node(condition.weakest_cover))
+                 : "; the matrix is singular to rounding") +
+      ": look for slivers without stabilization, parts that hardly anything "
+      "holds, long thin parts, or large contrasts of stiffness");
 }
 
 

@@ -70,6 +70,7 @@ private:
   std::unique_ptr<NMM::CoverSystem>          covers;
   NMM::Aggregation                           aggregation;
   dealii::AffineConstraints<double>          constraints;
+  std::unique_ptr<NMM::GhostPenalty>         ghost_penalty;
   std::unique_ptr<NMM::QuadratureCollection> quadrature;
   NMM::ElasticityProblem                     problem;
   std::optional<NMM::ThickRing>              exact_solution;
@@ -83,7 +84,15 @@ private:
   add_counts();
 
   void
+  make_covers();
+
+  void
   make_exact_solution();
+
+  /// Condition number and its place into the summary; a warning above the
+  /// limit.
+  void
+  estimate_condition();
 
   void
   add_errors();

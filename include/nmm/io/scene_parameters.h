@@ -81,7 +81,7 @@ namespace NMM
   struct CoverParameters
   {
     Stabilization stabilization = Stabilization::aggregation;
-    /// Least share of its cell's area that makes an element good [-].
+    /// Least element_support() that makes an element good [-].
     double threshold = default_aggregation_threshold;
 
     static void

@@ -71,6 +71,19 @@ namespace NMM
     std::shared_ptr<const SmoothField>
     make_polynomial_field(unsigned int seed, unsigned int degree);
 
+    /// Without divergence: u = sum_m d_m sin(k_m . x + phi_m), d_m normal to k_m.
+    std::shared_ptr<const SmoothField>
+    make_solenoidal_field();
+
+    /**
+     * A cantilever of depth 1, 0 < x < @p length, -1/2 < y < 1/2, under a
+     * parabolic shear load at its end, plane stress: stresses sigma_x = P (L -
+     * x) y / I, tau = -P (1/4 - y^2) / (2 I), a cubic displacement (Timoshenko
+     * & Goodier, art. 21); P such that the end sinks by 1.
+     */
+    std::shared_ptr<const SmoothField>
+    make_beam_field(double length, const Material &material);
+
     /// Make @p model's problem have the solution @p field: body force,
     /// displacements on @p held, tractions on @p loaded curves. One material.
     void
@@ -118,6 +131,10 @@ namespace NMM
            unsigned int   polynomial_degree,
            const Measure &what);
 
+    /// The unit disk, its halves called left and right.
+    Geometry
+    make_disk();
+
     /// Case 2: the unit disk at a random place (seeded) on a mesh of
     /// equilateral triangles, its left half held, its right half loaded.
     Result
@@ -132,6 +149,70 @@ namespace NMM
     /// loaded.
     Result
     fitted_hexagon(double cell_size, const Measure &what);
+
+    /// Where a joint meets the mesh.
+    enum class Track
+    {
+      along_mesh_lines,
+      along_diagonals,
+      through_nodes
+    };
+
+    const std::string &
+    to_string(Track track);
+
+    struct Coincidence
+    {
+      unsigned int                       n_elements = 0;
+      std::vector<Tensor<1, 2>>          displacements;
+      std::vector<SymmetricTensor<2, 2>> stresses;
+    };
+
+    /// Case 4: the unit square with a joint on @p track, moved upwards by @p
+    /// n_ulp floating point numbers; displacements and stresses at 81 places.
+    Coincidence
+    joint_on_mesh(Track         track,
+                  JointState    state,
+                  unsigned int  n_ulp,
+                  Stabilization stabilization);
+
+    /// Largest difference of displacements and stresses over their largest
+    /// value [-].
+    double
+    difference(const Coincidence &a, const Coincidence &b);
+
+    /// Case 6: the disk with a divergence-free displacement in plane strain.
+    Result
+    nearly_incompressible(double         poissons_ratio,
+                          double         cell_size,
+                          Stabilization  stabilization,
+                          const Measure &what);
+
+    /// Case 6: a cantilever of depth 1.
+    Result
+    slender_beam(double         length,
+                 double         cell_size,
+                 Stabilization  stabilization,
+                 const Measure &what);
+
+    struct Network
+    {
+      unsigned int seed = 0, n_regions = 0, n_elements = 0;
+      /// |sum of element areas - 1|.
+      double area_error = 0.;
+      Result solved;
+    };
+
+    /**
+     * Case 7: the unit square with up to @p n_joints_max closed joints and
+     * interfaces whose ends lie on a grid of 33 x 33 points, as do the nodes of
+     * the mesh (cells of 4 x 4): crossings in nodes, joints along edges and
+     * along each other abound. Quadratic patch test.
+     */
+    Network
+    random_network(unsigned int  seed,
+                   unsigned int  n_joints_max,
+                   Stabilization stabilization);
   } // namespace HardCases
 } // namespace NMM
 

@@ -218,7 +218,10 @@ namespace NMM
       class PolynomialField : public SmoothField
       {
       public:
-        PolynomialField(const unsigned int seed, const unsigned int degree)
+        PolynomialField(const unsigned int seed,
+                        const unsigned int degree,
+                        const Point<2>    &center)
+          : center(center)
         {
           std::mt19937 generator(seed);
           field = random_field(generator, degree);
@@ -227,13 +230,13 @@ namespace NMM
         Tensor<1, 2>
         displacement(const Point<2> &x) const override
         {
-          return field.displacement(x);
+          return field.displacement(Point<2>(x - center));
         }
 
         Tensor<2, 2>
         gradient(const Point<2> &x) const override
         {
-          return field.gradient(x);
+          return field.gradient(Point<2>(x - center));
         }
 
         Tensor<1, 2>
@@ -243,6 +246,7 @@ namespace NMM
         }
 
       private:
+        Point<2>       center;
         QuadraticField field;
       };
     } // namespace
@@ -277,9 +281,11 @@ namespace NMM
 
 
     std::shared_ptr<const SmoothField>
-    make_polynomial_field(const unsigned int seed, const unsigned int degree)
+    make_polynomial_field(const unsigned int seed,
+                          const unsigned int degree,
+                          const Point<2>    &center)
     {
-      return std::make_shared<PolynomialField>(seed, degree);
+      return std::make_shared<PolynomialField>(seed, degree, center);
     }
   } // namespace HardCases
 } // namespace NMM

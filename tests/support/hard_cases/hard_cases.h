@@ -67,9 +67,11 @@ namespace NMM
     make_free_surface_field(const Point<2>     &origin,
                             const Tensor<1, 2> &tangent);
 
-    /// A random polynomial of @p degree: exact on any cut.
+    /// A random polynomial of @p degree about @p center: exact on any cut.
     std::shared_ptr<const SmoothField>
-    make_polynomial_field(unsigned int seed, unsigned int degree);
+    make_polynomial_field(unsigned int    seed,
+                          unsigned int    degree,
+                          const Point<2> &center = Point<2>());
 
     /// Without divergence: u = sum_m d_m sin(k_m . x + phi_m), d_m normal to k_m.
     std::shared_ptr<const SmoothField>
@@ -150,6 +152,50 @@ namespace NMM
     Result
     fitted_hexagon(double cell_size, const Measure &what);
 
+    /**
+     * Case 3: a column of depth 1 between smooth walls under its own weight and
+     * a pressure, with a layer of @p thickness h between two closed joints whose
+     * stiffness is @p contrast times that of the rest. Quadratic in each layer,
+     * hence exact.
+     */
+    Result
+    thin_layer(double         thickness,
+               double         contrast,
+               Stabilization  stabilization,
+               const Measure &what);
+
+    /// Case 3: two closed joints that cross at 1 degree. Quadratic patch test.
+    Result
+    sharp_wedges(double         cell_size,
+                 Stabilization  stabilization,
+                 const Measure &what);
+
+    /// A square, a triangle or a disk of @p size h.
+    enum class Shape
+    {
+      square,
+      triangle,
+      disk
+    };
+
+    const std::string &
+    to_string(Shape shape);
+
+    /**
+     * Case 5: a block of @p size h, turned by 20 degrees, alone (held on its
+     * boundary, or on a side and loaded on the others) or tied into a frame
+     * whose boundary is held. Linear patch test about the block's centre: a
+     * random constant stress, or a rigid rotation, for which the energy
+     * error is absolute, over that of a unit strain.
+     */
+    Result
+    small_block(Shape          shape,
+                double         size,
+                bool           in_frame,
+                bool           rigid,
+                Stabilization  stabilization,
+                const Measure &what);
+
     /// Where a joint meets the mesh.
     enum class Track
     {
@@ -213,6 +259,22 @@ namespace NMM
     random_network(unsigned int  seed,
                    unsigned int  n_joints_max,
                    Stabilization stabilization);
+
+    /// What aggregation costs on the quarter ring.
+    struct Cost
+    {
+      unsigned int n_unknowns = 0, n_fitted_unknowns = 0;
+      /// Finding roots and making constraints; sparsity pattern, assembly and
+      /// hand-over to Trilinos [s].
+      double aggregation_seconds = 0., assembly_seconds = 0.;
+      /// Conjugate gradients with ML to 1e-11: mesh that does not fit with
+      /// aggregation and with ghost penalty, and a fitted polar mesh.
+      unsigned int cg_iterations = 0, ghost_cg_iterations = 0,
+                   fitted_cg_iterations = 0;
+    };
+
+    Cost
+    cost_on_ring(double cell_size);
   } // namespace HardCases
 } // namespace NMM
 

@@ -61,11 +61,8 @@ namespace NMM
                                               degree,
                                               degree,
                                               owned);
-        const PlaneElasticity e = model.problem.materials[0].plane_elasticity(
-          model.problem.plane_state);
-        const auto energy = [&](const Tensor<2, 2> &g) {
-          return e.stress(g) * symmetrize(g);
-        };
+        const auto                 region_to_material =
+          model.problem.region_to_material(model.physical_mesh);
         double error = 0., norm = 0.;
         for (unsigned int element = owned.first; element < owned.second;
              ++element)

@@ -2,11 +2,8 @@
 
 #include <nmm/base/exceptions.h>
 
-#include <CGAL/Arr_observer.h>
-
-#include "../geometry/arrangement.h"
+#include "exact_curves.h"
 #include <algorithm>
-#include <map>
 #include <unordered_map>
 
 namespace NMM
@@ -17,37 +14,27 @@ namespace NMM
 
     namespace
     {
-      /// A face that a mesh edge splits stays in its region on both sides.
-      class RegionKeeper : public CGAL::Arr_observer<Arrangement>
-      {
-      public:
-        RegionKeeper(Arrangement &arrangement)
-          : CGAL::Arr_observer<Arrangement>(arrangement)
-        {
-        }
-
-        void
-        after_split_face(Arrangement::Face_handle old_face,
-                         Arrangement::Face_handle new_face,
-                         bool) override
-        {
-          new_face->set_data(old_face->data());
-        }
-      };
-
-
+      /// Cuts one part of the mathematical mesh.
       class Cutter
       {
       public:
         Cutter(const MathematicalMesh           &mathematical_mesh,
                const PhysicalMesh               &physical_mesh,
-               const std::vector<unsigned char> &touched)
+               const PhysicalEdges              &physical_edges,
+               const std::vector<unsigned int>  &region_to_part,
+               const PartToCut                  &part,
+               const std::vector<unsigned char> &touched,
+               Cutting                          &result)
           : mesh(mathematical_mesh)
           , physical_pieces(physical_mesh.pieces())
+          , physical_edges(physical_edges)
+          , region_to_part(region_to_part)
+          , part(part)
           , touched(touched)
-          , arrangement(physical_mesh.arrangement().arrangement)
+          , result(result)
         {
-          insert_mesh_edges();
+          arrange();
+          label_regions();
           label_cells();
           spread_cells();
           flood_untouched_cells();
@@ -55,14 +42,14 @@ namespace NMM
           read_edges_and_links();
         }
 
-        Cutting result;
-
       private:
         using Halfedge = Arrangement::Halfedge_handle;
         using Face     = Arrangement::Face_handle;
 
         void
-        insert_mesh_edges();
+        arrange();
+        void
+        label_regions();
         void
         label_cells();
         void
@@ -78,13 +65,22 @@ namespace NMM
         void
         read_edge(const Halfedge &halfedge);
 
+        /// Walk from the faces in @p stack across edges for which
+        /// @p is_crossed(halfedge) holds; @p visit(from, to) says whether to go
+        /// on from there.
+        template <typename IsCrossed, typename Visit>
+        void
+        spread(std::vector<Face> stack,
+               const IsCrossed  &is_crossed,
+               const Visit      &visit);
+
         /// Mesh edge a halfedge lies on, or invalid_index.
         static unsigned int
         mesh_edge(const Halfedge &halfedge);
 
-        /// Has it a physical curve on it?
-        static bool
-        is_physical(const Halfedge &halfedge);
+        /// Edge of the physical mesh a halfedge lies on, or invalid_index.
+        static unsigned int
+        physical_edge(const Halfedge &halfedge);
 
         /// Cell to the left of a halfedge that lies on @p mesh_edge.
         unsigned int
@@ -97,58 +93,130 @@ namespace NMM
         unsigned int
         curve_set_index(const Halfedge &halfedge);
 
-        /// An arc or circle that a circular halfedge lies on.
-        const CurvePiece &
-        circular_piece(const Halfedge &halfedge) const;
+        /// Number of a vertex. It is converted to doubles once: a second
+        /// conversion of a lazy number can differ in the last place, and loops
+        /// must close exactly.
+        unsigned int
+        vertex(const Arrangement::Vertex_handle &vertex);
 
         const MathematicalMesh           &mesh;
         const std::vector<CurvePiece>    &physical_pieces;
+        const PhysicalEdges              &physical_edges;
+        const std::vector<unsigned int>  &region_to_part;
+        const PartToCut                  &part;
         const std::vector<unsigned char> &touched;
+        Cutting                          &result;
         Arrangement                       arrangement;
 
-        /// A vertex as doubles, converted once: a second conversion of a lazy
-        /// number can differ in the last place, and loops must close exactly.
-        Point<2>
-        point(const Arrangement::Vertex_handle &vertex);
-
-        std::map<std::vector<unsigned int>, unsigned int> curve_set_to_index;
-        std::unordered_map<const Arrangement::Vertex *, Point<2>>
-          vertex_to_point;
+        std::unordered_map<const Arrangement::Vertex *, unsigned int>
+          vertex_to_index;
       };
 
 
       void
-      Cutter::insert_mesh_edges()
+      Cutter::arrange()
       {
-        std::vector<unsigned char> wanted(mesh.edges().size(), 0);
-        for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+        std::vector<unsigned int> wanted;
+        for (unsigned int c = part.cells.first; c < part.cells.second; ++c)
           if (touched[c])
-            for (const unsigned int e : mesh.cell_edges(c))
-              wanted[e] = 1;
+            wanted.insert(wanted.end(),
+                          mesh.cell_edges(c).begin(),
+                          mesh.cell_edges(c).end());
+        std::sort(wanted.begin(), wanted.end());
+        wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
 
-        std::vector<Kernel::Point_2> exact_vertex(mesh.vertices().size());
-        std::vector<unsigned char>   is_made(mesh.vertices().size(), 0);
-        const auto                   exact = [&](const unsigned int v) {
-          if (!is_made[v])
-          {
-            exact_vertex[v] =
+        std::unordered_map<unsigned int, Kernel::Point_2> exact_vertex;
+        const auto exact = [&](const unsigned int v) {
+          const auto [position, is_new] =
+            exact_vertex.emplace(v, Kernel::Point_2());
+          if (is_new)
+            position->second =
               Kernel::Point_2(mesh.vertices()[v][0], mesh.vertices()[v][1]);
-            is_made[v] = 1;
-          }
-          return exact_vertex[v];
+          return position->second;
         };
 
         std::vector<Traits::X_monotone_curve_2> curves;
-        for (unsigned int e = 0; e < wanted.size(); ++e)
-          if (wanted[e])
-          {
-            const auto &v = mesh.edges()[e].vertices;
-            curves.emplace_back(BaseTraits::X_monotone_curve_2(exact(v[0]),
-                                                               exact(v[1])),
-                                mesh_edge_flag + e);
-          }
-        const RegionKeeper keeper(arrangement);
+        curves.reserve(part.edges.size() + wanted.size());
+        for (const unsigned int e : part.edges)
+          curves.push_back(physical_edges.exact_curves().curves[e]);
+        for (const unsigned int e : wanted)
+        {
+          const auto &v = mesh.edges()[e].vertices;
+          curves.emplace_back(BaseTraits::X_monotone_curve_2(exact(v[0]),
+                                                             exact(v[1])),
+                              mesh_edge_flag + e);
+        }
         CGAL::insert(arrangement, curves.begin(), curves.end());
+      }
+
+
+      template <typename IsCrossed, typename Visit>
+      void
+      Cutter::spread(std::vector<Face> stack,
+                     const IsCrossed  &is_crossed,
+                     const Visit      &visit)
+      {
+        const auto visit_loop = [&](Arrangement::Ccb_halfedge_circulator start,
+                                    const Face                          &face) {
+          auto he = start;
+          do
+          {
+            const Face other = he->twin()->face();
+            if (other != face && is_crossed(he) && visit(face, other))
+              stack.push_back(other);
+          } while (++he != start);
+        };
+        while (!stack.empty())
+        {
+          const Face face = stack.back();
+          stack.pop_back();
+          for (auto loop = face->outer_ccbs_begin();
+               loop != face->outer_ccbs_end();
+               ++loop)
+            visit_loop(*loop, face);
+          for (auto loop = face->inner_ccbs_begin();
+               loop != face->inner_ccbs_end();
+               ++loop)
+            visit_loop(*loop, face);
+        }
+      }
+
+
+      /// Regions on this part: those beside physical edges, and from there
+      /// across mathematical edges. Faces of other parts' regions keep none.
+      void
+      Cutter::label_regions()
+      {
+        std::vector<Face> stack;
+        for (auto he = arrangement.halfedges_begin();
+             he != arrangement.halfedges_end();
+             ++he)
+        {
+          const unsigned int e = physical_edge(he);
+          if (e == invalid_index)
+            continue;
+          const bool is_left = he->direction() == CGAL::ARR_LEFT_TO_RIGHT;
+          const unsigned int region =
+            physical_edges.edges()[e].regions[is_left ? 0 : 1];
+          FaceData data = he->face()->data();
+          if (region == invalid_index || data.region != invalid_index ||
+              (!region_to_part.empty() && region_to_part[region] != part.part))
+            continue;
+          data.region = region;
+          he->face()->set_data(data);
+          stack.push_back(he->face());
+        }
+        spread(
+          std::move(stack),
+          [](const Halfedge &he) { return physical_edge(he) == invalid_index; },
+          [](const Face &from, const Face &to) {
+            FaceData data = to->data();
+            if (data.region != invalid_index)
+              return false;
+            data.region = from->data().region;
+            to->set_data(data);
+            return true;
+          });
       }
 
 
@@ -162,13 +230,13 @@ namespace NMM
       }
 
 
-      bool
-      Cutter::is_physical(const Halfedge &halfedge)
+      unsigned int
+      Cutter::physical_edge(const Halfedge &halfedge)
       {
         for (const Label label : halfedge->curve().data())
-          if (label < mesh_edge_flag)
-            return true;
-        return false;
+          if (is_physical_edge(label))
+            return label - physical_edge_flag;
+        return invalid_index;
       }
 
 
@@ -189,16 +257,6 @@ namespace NMM
       void
       Cutter::label_cells()
       {
-        result.cell_region.assign(mesh.n_cells(), invalid_index);
-        for (auto face = arrangement.faces_begin();
-             face != arrangement.faces_end();
-             ++face)
-        {
-          FaceData data = face->data();
-          data.cell = data.element = invalid_index;
-          face->set_data(data);
-        }
-
         for (auto he = arrangement.halfedges_begin();
              he != arrangement.halfedges_end();
              ++he)
@@ -239,35 +297,17 @@ namespace NMM
           if (face->data().cell != invalid_index && touched[face->data().cell])
             stack.push_back(face);
 
-        const auto visit_loop = [&](Arrangement::Ccb_halfedge_circulator start,
-                                    const unsigned int                   c) {
-          auto he = start;
-          do
-          {
-            const Face other = he->twin()->face();
-            FaceData   data  = other->data();
-            if (data.cell == invalid_index && mesh_edge(he) == invalid_index)
-            {
-              data.cell = c;
-              other->set_data(data);
-              stack.push_back(other);
-            }
-          } while (++he != start);
-        };
-        while (!stack.empty())
-        {
-          const Face face = stack.back();
-          stack.pop_back();
-          const unsigned int c = face->data().cell;
-          for (auto loop = face->outer_ccbs_begin();
-               loop != face->outer_ccbs_end();
-               ++loop)
-            visit_loop(*loop, c);
-          for (auto loop = face->inner_ccbs_begin();
-               loop != face->inner_ccbs_end();
-               ++loop)
-            visit_loop(*loop, c);
-        }
+        spread(
+          std::move(stack),
+          [](const Halfedge &he) { return mesh_edge(he) == invalid_index; },
+          [](const Face &from, const Face &to) {
+            FaceData data = to->data();
+            if (data.cell != invalid_index)
+              return false;
+            data.cell = from->data().cell;
+            to->set_data(data);
+            return true;
+          });
 
         for (auto face = arrangement.faces_begin();
              face != arrangement.faces_end();
@@ -288,7 +328,7 @@ namespace NMM
       Cutter::flood_untouched_cells()
       {
         std::vector<unsigned int> stack;
-        for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+        for (unsigned int c = part.cells.first; c < part.cells.second; ++c)
           if (result.cell_region[c] != invalid_index)
             stack.push_back(c);
         while (!stack.empty())
@@ -338,13 +378,13 @@ namespace NMM
       }
 
 
-      Point<2>
-      Cutter::point(const Arrangement::Vertex_handle &vertex)
+      unsigned int
+      Cutter::vertex(const Arrangement::Vertex_handle &vertex)
       {
         const auto [position, is_new] =
-          vertex_to_point.emplace(&*vertex, Point<2>());
+          vertex_to_index.emplace(&*vertex, result.vertices.size());
         if (is_new)
-          position->second = to_double(vertex->point());
+          result.vertices.push_back(to_double(vertex->point()));
         return position->second;
       }
 
@@ -354,54 +394,37 @@ namespace NMM
       {
         std::vector<unsigned int> set;
         for (const Label label : halfedge->curve().data())
-          if (label < mesh_edge_flag)
+          if (is_piece(label))
             set.push_back(label);
         if (set.empty())
           return invalid_index;
         std::sort(set.begin(), set.end());
         const auto [position, is_new] =
-          curve_set_to_index.emplace(set, result.curve_sets.size());
+          result.curve_set_to_index.emplace(set, result.curve_sets.size());
         if (is_new)
           result.curve_sets.push_back(set);
         return position->second;
       }
-      const CurvePiece &
-      Cutter::circular_piece(const Halfedge &halfedge) const
-      {
-        for (const Label label : halfedge->curve().data())
-          if (label < mesh_edge_flag)
-            return physical_pieces[label];
-        Assert(false, ExcInternalError());
-        return physical_pieces[0];
-      }
-
 
 
       void
       Cutter::read_edge(const Halfedge &halfedge)
       {
-        ElementEdge edge;
-        edge.start     = point(halfedge->source());
-        edge.end       = point(halfedge->target());
+        const Cutting::EdgeOrigin origin = {vertex(halfedge->source()),
+                                            vertex(halfedge->target()),
+                                            physical_edge(halfedge)};
+        ElementEdge               edge;
+        edge.start     = result.vertices[origin.start];
+        edge.end       = result.vertices[origin.end];
         edge.curve_set = curve_set_index(halfedge);
         edge.neighbor  = left_element(halfedge->twin());
         edge.mesh_edge = mesh_edge(halfedge);
-
-        const auto &curve = halfedge->curve();
-        if (curve.is_circular())
-        {
-          const CurvePiece &circle = circular_piece(halfedge);
-          edge.center              = circle.center;
-          edge.radius              = circle.radius;
-          const bool with_curve =
-            curve.is_directed_right() ==
-            (halfedge->direction() == CGAL::ARR_LEFT_TO_RIGHT);
-          const bool curve_is_ccw =
-            curve.orientation() == CGAL::COUNTERCLOCKWISE;
-          if (with_curve != curve_is_ccw)
-            edge.radius = -edge.radius;
-        }
+        set_circle(halfedge->curve(),
+                   halfedge->direction() == CGAL::ARR_LEFT_TO_RIGHT,
+                   physical_pieces,
+                   edge);
         result.edges.push_back(edge);
+        result.origins.push_back(origin);
       }
 
 
@@ -448,7 +471,7 @@ namespace NMM
              ++edge)
         {
           const unsigned int e = mesh_edge(edge);
-          if (e == invalid_index || is_physical(edge))
+          if (e == invalid_index || physical_edge(edge) != invalid_index)
             continue;
           const unsigned int a = left_element(edge),
                              b = left_element(edge->twin());
@@ -459,12 +482,22 @@ namespace NMM
     } // namespace
 
 
-    Cutting
+    void
     cut(const MathematicalMesh           &mathematical_mesh,
         const PhysicalMesh               &physical_mesh,
-        const std::vector<unsigned char> &touched)
+        const PhysicalEdges              &physical_edges,
+        const std::vector<unsigned int>  &region_to_part,
+        const PartToCut                  &part,
+        const std::vector<unsigned char> &touched,
+        Cutting                          &cutting)
     {
-      return Cutter(mathematical_mesh, physical_mesh, touched).result;
+      Cutter(mathematical_mesh,
+             physical_mesh,
+             physical_edges,
+             region_to_part,
+             part,
+             touched,
+             cutting);
     }
   } // namespace internal
 } // namespace NMM

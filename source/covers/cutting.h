@@ -5,23 +5,36 @@
 
 #include <nmm/covers/manifold_mesh.h>
 
+#include "physical_edges.h"
 #include <array>
+#include <map>
 #include <vector>
 
 namespace NMM
 {
   namespace internal
   {
+    using Triangle = std::array<unsigned int, 3>;
+
     /**
      * Triangles that a physical curve touches or comes within rounding of,
      * flagged per triangle. May flag a few too many (they cost time), never one
      * too few. @p triangles are corner numbers, @p vertices [m].
      */
     std::vector<unsigned char>
-    find_triangles_near_curves(
-      const std::vector<dealii::Point<2>>            &vertices,
-      const std::vector<std::array<unsigned int, 3>> &triangles,
-      const PhysicalMesh                             &physical_mesh);
+    find_triangles_near_curves(const std::vector<dealii::Point<2>> &vertices,
+                               const std::vector<Triangle>         &triangles,
+                               const PhysicalMesh &physical_mesh);
+
+    /**
+     * The same for some triangles and some edges: rounding is that of
+     * coordinates of up to @p scale [m].
+     */
+    std::vector<unsigned char>
+    find_triangles_near_edges(const std::vector<dealii::Point<2>> &vertices,
+                              dealii::ArrayView<const Triangle>    triangles,
+                              const std::vector<ElementEdge>      &edges,
+                              double                               scale);
 
     /**
      * What the exact cutter finds. Elements are referred to by *codes*: below
@@ -40,6 +53,15 @@ namespace NMM
         unsigned int first_edge, end_edge;
       };
 
+      /// Where an edge comes from.
+      struct EdgeOrigin
+      {
+        /// Ends, as indices into vertices.
+        unsigned int start, end;
+        /// Index for PhysicalEdges::edges(), or invalid_index.
+        unsigned int physical_edge;
+      };
+
       /// A piece of a mathematical edge that no physical curve blocks, between
       /// two elements (codes).
       struct Link
@@ -50,21 +72,57 @@ namespace NMM
 
       std::vector<Element>                   elements;
       std::vector<ElementEdge>               edges;
+      std::vector<EdgeOrigin>                origins;
+      std::vector<dealii::Point<2>>          vertices;
       std::vector<Link>                      links;
       std::vector<std::vector<unsigned int>> curve_sets;
       /// Region of each untouched cell; invalid_index outside the solid.
       std::vector<unsigned int> cell_region;
+
+      std::map<std::vector<unsigned int>, unsigned int> curve_set_to_index;
+    };
+
+    /// What one part of the mathematical mesh is cut with.
+    struct PartToCut
+    {
+      unsigned int part;
+      /// Its cells, first and past-the-end.
+      std::pair<unsigned int, unsigned int> cells;
+      /// Physical edges that bound or lie in the part's regions, each once.
+      std::vector<unsigned int> edges;
     };
 
     /**
-     * Insert the edges of @p touched cells into the exact arrangement of the
-     * physical mesh and read off elements, their edges and how they are joined.
-     * @throws InputError where the solid sticks out of the mathematical mesh.
+     * Arrange the edges of @p touched cells of a part with its physical edges
+     * exactly, read off elements, their edges and how they are joined, and
+     * append them to @p cutting, whose cell_region has the size of the mesh.
+     * Cost: O(n log n) in the number of physical edges and touched cells of the
+     * part, plus O(1) for each of its cells.
+     * @throws InputError where the part's regions stick out of it.
      */
-    Cutting
+    void
     cut(const MathematicalMesh           &mathematical_mesh,
         const PhysicalMesh               &physical_mesh,
-        const std::vector<unsigned char> &touched);
+        const PhysicalEdges              &physical_edges,
+        const std::vector<unsigned int>  &region_to_part,
+        const PartToCut                  &part,
+        const std::vector<unsigned char> &touched,
+        Cutting                          &cutting);
+
+    /**
+     * Along physical edges between regions on different parts, divide the edges
+     * of the elements on each side where those of the other side end, so that
+     * both sides have the same edges, with the same doubles as ends, and tell
+     * them their neighbours. Ends that are a few ulp apart become one.
+     */
+    void
+    match_parts(const PhysicalEdges             &physical_edges,
+                const std::vector<unsigned int> &region_to_part,
+                Cutting                         &cutting);
+
+    /// Area that closed loops of edges enclose [m^2], never negative.
+    double
+    enclosed_area(dealii::ArrayView<const ElementEdge> edges);
   } // namespace internal
 } // namespace NMM
 

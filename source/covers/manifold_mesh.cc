@@ -270,18 +270,122 @@ namespace NMM
   }
 
 
-  ManifoldMesh::ManifoldMesh(const MathematicalMesh &mathematical_mesh,
-                             const PhysicalMesh     &physical_mesh)
+  namespace
+  {
+    /// The parts that have regions, each with its physical edges.
+    std::vector<internal::PartToCut>
+    find_parts(const MathematicalMesh          &mesh,
+               const internal::PhysicalEdges   &physical_edges,
+               const std::vector<unsigned int> &region_to_part,
+               const unsigned int               n_regions)
+    {
+      const auto part_of = [&](const unsigned int region) {
+        return region_to_part.empty() ? 0u : region_to_part[region];
+      };
+      std::vector<internal::PartToCut> parts(mesh.n_parts());
+      for (unsigned int p = 0; p < parts.size(); ++p)
+      {
+        parts[p].part  = p;
+        parts[p].cells = mesh.part_cells(p);
+      }
+      for (unsigned int r = 0; r < n_regions; ++r)
+        for (const unsigned int e : physical_edges.region_edges(r))
+        {
+          // an edge between two regions of a part is taken once
+          const unsigned int left = physical_edges.edges()[e].regions[0];
+          if (left == r || left == invalid_index || part_of(left) != part_of(r))
+            parts[part_of(r)].edges.push_back(e);
+        }
+      parts.erase(std::remove_if(parts.begin(),
+                                 parts.end(),
+                                 [](const internal::PartToCut &part) {
+                                   return part.edges.empty();
+                                 }),
+                  parts.end());
+      return parts;
+    }
+
+
+    double
+    largest_coordinate(const BoundingBox<2> &box)
+    {
+      double largest = 0.;
+      for (unsigned int d = 0; d < 2; ++d)
+        largest = std::max({largest,
+                            std::abs(box.lower_bound(d)),
+                            std::abs(box.upper_bound(d))});
+      return largest;
+    }
+
+
+    /// Flags the cells of a part that its curves come near.
+    void
+    mark_touched_cells(const MathematicalMesh        &mesh,
+                       const internal::PhysicalEdges &physical_edges,
+                       const internal::PartToCut     &part,
+                       const double                   scale,
+                       std::vector<unsigned char>    &touched)
+    {
+      std::vector<ElementEdge> shapes;
+      shapes.reserve(part.edges.size());
+      for (const unsigned int e : part.edges)
+        shapes.push_back(physical_edges.edges()[e].shape);
+      const auto [first, end] = part.cells;
+      const std::vector<unsigned char> near =
+        internal::find_triangles_near_edges(
+          mesh.vertices(),
+          ArrayView<const internal::Triangle>(mesh.cells().data() + first,
+                                              end - first),
+          shapes,
+          scale);
+      std::copy(near.begin(), near.end(), touched.begin() + first);
+    }
+  } // namespace
+
+
+  ManifoldMesh::ManifoldMesh(const MathematicalMesh          &mathematical_mesh,
+                             const PhysicalMesh              &physical_mesh,
+                             const std::vector<unsigned int> &region_to_part)
     : data(std::make_unique<Data>())
   {
+    const unsigned int n_regions = physical_mesh.regions().size();
+    AssertThrow(region_to_part.empty() || region_to_part.size() == n_regions,
+                InputError("mesh parts are given for " +
+                             std::to_string(region_to_part.size()) + " of " +
+                             std::to_string(n_regions) + " regions",
+                           "",
+                           "give one for each region"));
+    for (const unsigned int part : region_to_part)
+      AssertThrow(part < mathematical_mesh.n_parts(),
+                  InputError("the mathematical mesh has no part " +
+                               std::to_string(part),
+                             "",
+                             "give a number below " +
+                               std::to_string(mathematical_mesh.n_parts())));
+
     data->mathematical_mesh = &mathematical_mesh;
     data->physical_mesh     = &physical_mesh;
-    const std::vector<unsigned char> touched =
-      internal::find_triangles_near_curves(mathematical_mesh.vertices(),
-                                           mathematical_mesh.cells(),
-                                           physical_mesh);
-    const internal::Cutting cutting =
-      internal::cut(mathematical_mesh, physical_mesh, touched);
+    const internal::PhysicalEdges physical_edges(physical_mesh);
+    const double scale = largest_coordinate(physical_mesh.bounding_box());
+
+    std::vector<unsigned char> touched(mathematical_mesh.n_cells(), 0);
+    internal::Cutting          cutting;
+    cutting.cell_region.assign(mathematical_mesh.n_cells(), invalid_index);
+    for (const internal::PartToCut &part : find_parts(
+           mathematical_mesh, physical_edges, region_to_part, n_regions))
+    {
+      mark_touched_cells(
+        mathematical_mesh, physical_edges, part, scale, touched);
+      internal::cut(mathematical_mesh,
+                    physical_mesh,
+                    physical_edges,
+                    region_to_part,
+                    part,
+                    touched,
+                    cutting);
+    }
+    if (mathematical_mesh.n_parts() > 1 && !region_to_part.empty())
+      internal::match_parts(physical_edges, region_to_part, cutting);
     data->n_cells_cut_exactly =
       std::count(touched.begin(), touched.end(), static_cast<unsigned char>(1));
 
@@ -354,12 +458,18 @@ namespace NMM
   {
     if (is_whole(element))
       return data->mathematical_mesh->cell_area(cell(element));
+    return internal::enclosed_area(edges(element));
+  }
+
+
+  double
+  internal::enclosed_area(const ArrayView<const ElementEdge> edges)
+  {
     // Green's theorem about the first corner: triangles, plus the circular
     // segments between arcs and their chords
-    const auto     view   = edges(element);
-    const Point<2> origin = view[0].start;
+    const Point<2> origin = edges[0].start;
     double         sum    = 0.;
-    for (const ElementEdge &edge : view)
+    for (const ElementEdge &edge : edges)
     {
       const Tensor<1, 2> a = edge.start - origin, b = edge.end - origin;
       sum += 0.5 * (a[0] * b[1] - a[1] * b[0]);
@@ -453,9 +563,11 @@ namespace NMM
          it != data->cell_tree->qend();
          ++it)
     {
-      const unsigned int c     = it->second;
-      const Point<2>     xi    = mesh.real_to_reference(c, x);
-      const double       slack = 2. * tolerance / std::sqrt(mesh.cell_area(c));
+      const unsigned int c  = it->second;
+      const Point<2>     xi = mesh.real_to_reference(c, x);
+      // the tolerance over the cell's smallest height
+      const double slack =
+        tolerance * mesh.cell_diameter(c) / mesh.cell_area(c);
       if (xi[0] < -slack || xi[1] < -slack || xi[0] + xi[1] > 1. + slack)
         continue;
       for (const unsigned int e : cell_elements(c))

@@ -4,6 +4,7 @@
 #include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/fe/mapping_fe.h>
 #include <deal.II/grid/reference_cell.h>
+#include <deal.II/grid/tria_description.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +26,9 @@ namespace NMM
     std::vector<unsigned int>                cell_covers;
     std::vector<Edge>                        edges;
     std::vector<Point<2>>                    cover_nodes;
+
+    /// First cell of each part, and the number of cells.
+    std::vector<unsigned int> part_to_first_cell;
 
     /// See edge_to_local_covers().
     std::vector<std::array<unsigned int, 3>> edge_to_local_covers;
@@ -162,6 +166,7 @@ namespace NMM
     data->dof_handler.distribute_dofs(data->fe);
     data->fill_cells();
     data->fill_edges();
+    data->part_to_first_cell = {0, n_cells()};
   }
 
 
@@ -242,6 +247,31 @@ namespace NMM
   MathematicalMesh::n_covers_per_cell() const
   {
     return data->fe.n_dofs_per_cell();
+  }
+
+
+  unsigned int
+  MathematicalMesh::n_parts() const
+  {
+    return data->part_to_first_cell.size() - 1;
+  }
+
+
+  unsigned int
+  MathematicalMesh::cell_part(const unsigned int cell) const
+  {
+    AssertIndexRange(cell, n_cells());
+    const auto &first = data->part_to_first_cell;
+    return std::upper_bound(first.begin(), first.end(), cell) - first.begin() -
+           1;
+  }
+
+
+  std::pair<unsigned int, unsigned int>
+  MathematicalMesh::part_cells(const unsigned int part) const
+  {
+    AssertIndexRange(part, n_parts());
+    return {data->part_to_first_cell[part], data->part_to_first_cell[part + 1]};
   }
 
 
@@ -369,5 +399,58 @@ namespace NMM
         std::max(diameter,
                  data->vertices[v[i]].distance(data->vertices[v[(i + 1) % 3]]));
     return diameter;
+  }
+
+
+  MathematicalMesh
+  combine_meshes(const std::vector<MeshPart> &parts, const unsigned int degree)
+  {
+    std::vector<Point<2>>     vertices;
+    std::vector<CellData<2>>  cells;
+    std::vector<unsigned int> part_to_first_cell(1, 0);
+    for (const MeshPart &part : parts)
+    {
+      AssertThrow(!part.cells.empty(),
+                  InputError("part " +
+                               std::to_string(part_to_first_cell.size() - 1) +
+                               " of the mathematical mesh has no cells",
+                             "",
+                             "leave it out"));
+      // deal.II wants no vertices without a cell
+      std::vector<unsigned int> to_combined(part.vertices.size(),
+                                            invalid_index);
+      for (const auto &corners : part.cells)
+      {
+        CellData<2> cell(3);
+        for (unsigned int i = 0; i < 3; ++i)
+        {
+          unsigned int &v = to_combined[corners[i]];
+          if (v == invalid_index)
+          {
+            v = vertices.size();
+            vertices.push_back(part.vertices[corners[i]]);
+          }
+          cell.vertices[i] = v;
+        }
+        cells.push_back(std::move(cell));
+      }
+      part_to_first_cell.push_back(cells.size());
+    }
+    AssertThrow(!cells.empty(),
+                InputError("the mathematical mesh has no cells",
+                           "",
+                           "give at least one part"));
+    auto triangulation = std::make_unique<Triangulation<2>>();
+    triangulation->create_triangulation(vertices, cells, SubCellData());
+    MathematicalMesh mesh(std::move(triangulation), degree);
+    mesh.data->part_to_first_cell = std::move(part_to_first_cell);
+    return mesh;
+  }
+
+
+  MeshPart
+  make_mesh_part(const MathematicalMesh &mesh)
+  {
+    return {mesh.vertices(), mesh.cells()};
   }
 } // namespace NMM

@@ -31,19 +31,22 @@ namespace NMM
                                     bg::index::rstar<16>>;
 
 
-      /// Edge length that most triangles have, from the mean area [m].
+      /// Edge length that most triangles have [m].
       double
-      typical_size(const std::vector<Point<2>>                    &vertices,
-                   const std::vector<std::array<unsigned int, 3>> &triangles)
+      typical_size(const std::vector<Point<2>>    &vertices,
+                   const ArrayView<const Triangle> triangles)
       {
-        double area = 0.;
+        double area = 0., length = 0.;
         for (const auto &v : triangles)
         {
           const Tensor<1, 2> a = vertices[v[1]] - vertices[v[0]],
                              b = vertices[v[2]] - vertices[v[0]];
           area += 0.5 * (a[0] * b[1] - a[1] * b[0]);
+          length += std::max(a.norm(), b.norm());
         }
-        return std::sqrt(2. * area / triangles.size());
+        // thin triangles are as long as the length says
+        return std::max(std::sqrt(2. * area / triangles.size()),
+                        length / triangles.size());
       }
 
 
@@ -82,6 +85,42 @@ namespace NMM
       }
 
 
+      std::vector<Chunk>
+      make_chunks(const std::vector<ElementEdge> &edges,
+                  const double                    spacing,
+                  const double                    margin)
+      {
+        std::vector<Chunk> chunks;
+        for (const ElementEdge &edge : edges)
+        {
+          const double sweep  = swept_angle(edge);
+          const double length = edge.is_arc() ? std::abs(sweep * edge.radius)
+                                              : edge.start.distance(edge.end);
+          const auto   n      = static_cast<unsigned int>(
+            std::max(1., std::ceil(length / spacing)));
+          const double sagitta =
+            std::abs(edge.radius) * (1. - std::cos(0.5 * sweep / n));
+          const double first =
+            edge.is_arc() ? angle_about(edge.center, edge.start) : 0.;
+          Point<2> previous = edge.start;
+          for (unsigned int k = 1; k <= n; ++k)
+          {
+            const double   t = static_cast<double>(k) / n;
+            const Point<2> x =
+              k == n ? edge.end
+              : !edge.is_arc()
+                ? edge.start + t * (edge.end - edge.start)
+                : edge.center + std::abs(edge.radius) *
+                                  Tensor<1, 2>({std::cos(first + t * sweep),
+                                                std::sin(first + t * sweep)});
+            chunks.push_back({previous, x, sagitta + margin});
+            previous = x;
+          }
+        }
+        return chunks;
+      }
+
+
       /**
        * Separating axes: a triangle and a segment are further apart than
        * @p width if their projections on the normal of some edge of either are.
@@ -115,11 +154,59 @@ namespace NMM
     } // namespace
 
 
+    namespace
+    {
+      /// Rounding in coordinates of this size is far below it [m].
+      double
+      rounding_margin(const double scale)
+      {
+        return 1e-10 * scale;
+      }
+
+
+      std::vector<unsigned char>
+      find_triangles_near(const std::vector<Point<2>>    &vertices,
+                          const ArrayView<const Triangle> triangles,
+                          const std::vector<Chunk>       &chunks)
+      {
+        std::vector<std::pair<BoostBox, unsigned int>> boxes;
+        boxes.reserve(chunks.size());
+        for (unsigned int i = 0; i < chunks.size(); ++i)
+        {
+          const auto &[a, b, w] = chunks[i];
+          boxes.emplace_back(
+            BoostBox({std::min(a[0], b[0]) - w, std::min(a[1], b[1]) - w},
+                     {std::max(a[0], b[0]) + w, std::max(a[1], b[1]) + w}),
+            i);
+        }
+        const Tree tree(boxes);
+
+        std::vector<unsigned char> near(triangles.size(), 0);
+        for (std::size_t c = 0; c < triangles.size(); ++c)
+        {
+          const auto                   &v        = triangles[c];
+          const std::array<Point<2>, 3> triangle = {
+            {vertices[v[0]], vertices[v[1]], vertices[v[2]]}};
+          const auto [x0, x1] =
+            std::minmax({triangle[0][0], triangle[1][0], triangle[2][0]});
+          const auto [y0, y1] =
+            std::minmax({triangle[0][1], triangle[1][1], triangle[2][1]});
+          const auto candidates =
+            bg::index::intersects(BoostBox({x0, y0}, {x1, y1})) &&
+            bg::index::satisfies([&](const auto &value) {
+              return !are_apart(triangle, chunks[value.second]);
+            });
+          near[c] = (tree.qbegin(candidates) != tree.qend());
+        }
+        return near;
+      }
+    } // namespace
+
+
     std::vector<unsigned char>
-    find_triangles_near_curves(
-      const std::vector<Point<2>>                    &vertices,
-      const std::vector<std::array<unsigned int, 3>> &triangles,
-      const PhysicalMesh                             &physical_mesh)
+    find_triangles_near_curves(const std::vector<Point<2>> &vertices,
+                               const std::vector<Triangle> &triangles,
+                               const PhysicalMesh          &physical_mesh)
     {
       if (triangles.empty())
         return {};
@@ -128,41 +215,29 @@ namespace NMM
       for (unsigned int d = 0; d < 2; ++d)
         scale = std::max(
           {scale, std::abs(box.lower_bound(d)), std::abs(box.upper_bound(d))});
+      const ArrayView<const Triangle> view(triangles.data(), triangles.size());
+      return find_triangles_near(vertices,
+                                 view,
+                                 make_chunks(physical_mesh,
+                                             2. * typical_size(vertices, view),
+                                             rounding_margin(scale)));
+    }
 
-      const std::vector<Chunk> chunks =
-        make_chunks(physical_mesh,
-                    2. * typical_size(vertices, triangles),
-                    1e-10 * scale);
-      std::vector<std::pair<BoostBox, unsigned int>> boxes;
-      boxes.reserve(chunks.size());
-      for (unsigned int i = 0; i < chunks.size(); ++i)
-      {
-        const auto &[a, b, w] = chunks[i];
-        boxes.emplace_back(
-          BoostBox({std::min(a[0], b[0]) - w, std::min(a[1], b[1]) - w},
-                   {std::max(a[0], b[0]) + w, std::max(a[1], b[1]) + w}),
-          i);
-      }
-      const Tree tree(boxes);
 
-      std::vector<unsigned char> near(triangles.size(), 0);
-      for (std::size_t c = 0; c < triangles.size(); ++c)
-      {
-        const auto                   &v        = triangles[c];
-        const std::array<Point<2>, 3> triangle = {
-          {vertices[v[0]], vertices[v[1]], vertices[v[2]]}};
-        const auto [x0, x1] =
-          std::minmax({triangle[0][0], triangle[1][0], triangle[2][0]});
-        const auto [y0, y1] =
-          std::minmax({triangle[0][1], triangle[1][1], triangle[2][1]});
-        const auto candidates =
-          bg::index::intersects(BoostBox({x0, y0}, {x1, y1})) &&
-          bg::index::satisfies([&](const auto &value) {
-            return !are_apart(triangle, chunks[value.second]);
-          });
-        near[c] = (tree.qbegin(candidates) != tree.qend());
-      }
-      return near;
+    std::vector<unsigned char>
+    find_triangles_near_edges(const std::vector<Point<2>>    &vertices,
+                              const ArrayView<const Triangle> triangles,
+                              const std::vector<ElementEdge> &edges,
+                              const double                    scale)
+    {
+      if (triangles.size() == 0)
+        return {};
+      return find_triangles_near(vertices,
+                                 triangles,
+                                 make_chunks(edges,
+                                             2. * typical_size(vertices,
+                                                               triangles),
+                                             rounding_margin(scale)));
     }
   } // namespace internal
 } // namespace NMM

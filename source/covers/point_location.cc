@@ -41,7 +41,11 @@ namespace NMM
     {
       if (x.distance_square(center) >= radius * radius)
         return false;
-      const double side = cross(end - start, x - start);
+      double side = cross(end - start, x - start);
+      // on the chord: as a bit to the right and, less so, above, which is what
+      // ray_crosses() decides for
+      if (side == 0.)
+        side = end[1] != start[1] ? start[1] - end[1] : end[0] - start[0];
       return counter_clockwise ? side < 0. : side > 0.;
     }
 

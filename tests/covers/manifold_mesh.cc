@@ -335,6 +335,23 @@ TEST(ManifoldMesh, FindElement)
 }
 
 
+TEST(ManifoldMesh, FindElementOnTheChordsOfArcs)
+{
+  // a disk inside a cell is bounded by two half circles: its centre lies on
+  // the chord of both
+  Geometry geometry = make_box(1., 1.);
+  geometry.add_circle(Point<2>(0.4, 0.6), 0.01, "disk", CurveRole::joint);
+  const Cut  cut(std::move(geometry), skew(0.2));
+  const auto region = [&](const double x) {
+    return cut.manifold.region(cut.manifold.find_element(Point<2>(x, 0.6)));
+  };
+  for (const double d : {-0.009, -0.003, 0., 0.003, 0.009})
+    EXPECT_EQ(region(0.4 + d), region(0.4001)) << d;
+  for (const double d : {-0.011, 0.011})
+    EXPECT_NE(region(0.4 + d), region(0.4001)) << d;
+}
+
+
 TEST(Triangulate, CoversTheElementWithCurvedTriangles)
 {
   const Cut cut(ring(), skew(0.4));

@@ -49,6 +49,13 @@ namespace NMM
    * that neighbours have near numbers (reverse Cuthill-McKee on the element
    * graph).
    *
+   * If the mathematical mesh has several parts, each region of the physical mesh
+   * has its elements in the cells of one part, and each part is cut by itself
+   * with the curves of its regions only, at a cost in proportion to them. Along
+   * curves between regions on different parts the elements of both sides have
+   * the same edges: those are divided wherever a mesh edge of either part
+   * meets the curve.
+   *
    * Not for two threads at once: CGAL's exact numbers are counted without locks
    * here, and the copy of the physical mesh's arrangement shares them.
    *
@@ -57,9 +64,15 @@ namespace NMM
   class ManifoldMesh
   {
   public:
-    /// @throws InputError if the mathematical mesh does not cover the solid.
-    ManifoldMesh(const MathematicalMesh &mathematical_mesh,
-                 const PhysicalMesh     &physical_mesh);
+    /**
+     * @p region_to_part: part of the mathematical mesh for each region of the
+     * physical mesh; empty: all on part 0.
+     * @throws InputError if the mathematical mesh does not cover the solid (a
+     * part not its regions), or if region_to_part does not fit the meshes.
+     */
+    ManifoldMesh(const MathematicalMesh          &mathematical_mesh,
+                 const PhysicalMesh              &physical_mesh,
+                 const std::vector<unsigned int> &region_to_part = {});
 
     const MathematicalMesh &
     mathematical_mesh() const;

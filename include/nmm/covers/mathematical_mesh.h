@@ -14,10 +14,20 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace NMM
 {
+  /// Triangles that will be a part of a mathematical mesh.
+  struct MeshPart
+  {
+    std::vector<dealii::Point<2>> vertices;
+    /// Corner vertices, counter-clockwise.
+    std::vector<std::array<unsigned int, 3>> cells;
+  };
+
+
   /**
    * The mathematical mesh: a deal.II simplex triangulation that need only cover
    * the solid, with the scalar finite element whose shape functions are the
@@ -25,6 +35,10 @@ namespace NMM
    * y^2; degree 1 is the first-order method). One scalar dof is one
    * *mathematical cover*: the hexagon around a corner node or the quadrilateral
    * around a mid-side node.
+   *
+   * A mesh can consist of several *parts* (combine_meshes()) that share no
+   * vertex and may overlap in space: each is the mathematical mesh of regions of
+   * its own. Cells, covers and edges are numbered through, part after part.
    *
    * Beside the deal.II objects it keeps flat tables of vertices, cells, edges
    * and covers, because walking deal.II iterators per element and step would
@@ -86,6 +100,17 @@ namespace NMM
     unsigned int
     n_covers_per_cell() const;
 
+    /// Parts; 1 unless made by combine_meshes().
+    unsigned int
+    n_parts() const;
+
+    unsigned int
+    cell_part(unsigned int cell) const;
+
+    /// Cells of a part, first and past-the-end.
+    std::pair<unsigned int, unsigned int>
+    part_cells(unsigned int part) const;
+
     const std::vector<dealii::Point<2>> &
     vertices() const;
 
@@ -140,9 +165,26 @@ namespace NMM
     cell_diameter(unsigned int cell) const;
 
   private:
+    friend MathematicalMesh
+    combine_meshes(const std::vector<MeshPart> &parts, unsigned int degree);
+
     struct Data;
     std::unique_ptr<Data> data;
   };
+
+
+  /**
+   * One mathematical mesh of several parts, in the order given: a deal.II
+   * triangulation of as many disconnected pieces. Parts may overlap.
+   * @throws InputError for no parts, a part without cells, or what the
+   * constructor does not accept.
+   */
+  MathematicalMesh
+  combine_meshes(const std::vector<MeshPart> &parts, unsigned int degree);
+
+  /// The cells of a mesh, for example to combine them with others.
+  MeshPart
+  make_mesh_part(const MathematicalMesh &mesh);
 
 
   /// How a regular mesh is made of triangles.

@@ -1,0 +1,346 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/covers/element_support.h>
+#include <nmm/covers/own_meshes.h>
+
+#include "cutting.h"
+#include "fitted_mesh.h"
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <map>
+#include <sstream>
+
+namespace NMM
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// How a region's elements fill a mesh's cells.
+    struct Filling
+    {
+      /// Largest share of an element in its cell [-].
+      double best = 0.;
+      /// Longest edge of that element's cell [m].
+      double cell_size = 0.;
+    };
+
+
+    void
+    take_better(Filling                &filling,
+                const double            share,
+                const MathematicalMesh &mesh,
+                const unsigned int      cell)
+    {
+      if (share > filling.best || filling.cell_size == 0.)
+        filling = {share, mesh.cell_diameter(cell)};
+    }
+
+
+    std::vector<Filling>
+    measure(const ManifoldMesh &manifold_mesh)
+    {
+      const MathematicalMesh &mesh = manifold_mesh.mathematical_mesh();
+      std::vector<Filling>    fillings(
+        manifold_mesh.physical_mesh().regions().size());
+      for (unsigned int e = 0; e < manifold_mesh.n_elements(); ++e)
+      {
+        const unsigned int cell = manifold_mesh.cell(e);
+        take_better(fillings[manifold_mesh.region(e)],
+                    element_support(manifold_mesh, e),
+                    mesh,
+                    cell);
+      }
+      return fillings;
+    }
+
+
+    /// What kind of mesh a region has got.
+    enum class Outcome
+    {
+      main_mesh,
+      single_triangle,
+      row,
+      rectangles,
+      badly_filled
+    };
+
+
+    struct FittedMesh
+    {
+      MeshPart mesh;
+      Outcome  outcome = Outcome::main_mesh;
+      Filling  filling;
+    };
+
+
+    /// Finds meshes for regions one after the other.
+    class Fitter
+    {
+    public:
+      Fitter(const PhysicalMesh      &physical_mesh,
+             const OwnMeshParameters &parameters)
+        : physical_mesh(physical_mesh)
+        , parameters(parameters)
+        , edges(physical_mesh)
+        , region_to_part(physical_mesh.regions().size(), invalid_index)
+      {
+      }
+
+      /// A mesh for @p region, whose elements fill the main mesh like this.
+      FittedMesh
+      fit(unsigned int region, const Filling &on_main_mesh);
+
+    private:
+      /// How the region fills cells of @p mesh, by cutting it alone.
+      Filling
+      measure(unsigned int                 region,
+              const internal::RegionShape &shape,
+              const MeshPart              &mesh);
+
+      const PhysicalMesh           &physical_mesh;
+      const OwnMeshParameters      &parameters;
+      const internal::PhysicalEdges edges;
+      /// Nothing but the region at hand is on part 0.
+      std::vector<unsigned int> region_to_part;
+    };
+
+
+    Filling
+    Fitter::measure(const unsigned int           region,
+                    const internal::RegionShape &shape,
+                    const MeshPart              &mesh)
+    {
+      const double area = physical_mesh.regions()[region].area;
+      const double mean = area / internal::mesh_area(mesh);
+      // What is convex is connected in each cell, and some cell is filled at
+      // least as well as all together.
+      const bool is_convex = area >= 0.999 * shape.inner_hull_area;
+      Filling    filling;
+      if (mesh.cells.size() == 1 ||
+          (is_convex && mean >= 1.01 * parameters.filling))
+      {
+        filling.best  = mean;
+        const auto &v = mesh.cells[0];
+        for (unsigned int i = 0; i < 3; ++i)
+          filling.cell_size = std::max(filling.cell_size,
+                                       mesh.vertices[v[i]].distance(
+                                         mesh.vertices[v[(i + 1) % 3]]));
+        return filling;
+      }
+
+      const MathematicalMesh mathematical_mesh = combine_meshes({mesh}, 1);
+      internal::PartToCut    part;
+      part.part         = 0;
+      part.cells        = {0, mathematical_mesh.n_cells()};
+      const auto around = edges.region_edges(region);
+      part.edges.assign(around.begin(), around.end());
+      std::vector<ElementEdge> shapes;
+      for (const unsigned int e : part.edges)
+        shapes.push_back(edges.edges()[e].shape);
+      const auto                      &cells = mathematical_mesh.cells();
+      const std::vector<unsigned char> touched =
+        internal::find_triangles_near_edges(
+          mathematical_mesh.vertices(),
+          ArrayView<const internal::Triangle>(cells.data(), cells.size()),
+          shapes,
+          shape.scale);
+      internal::Cutting cutting;
+      cutting.cell_region.assign(cells.size(), invalid_index);
+      region_to_part[region] = 0;
+      internal::cut(mathematical_mesh,
+                    physical_mesh,
+                    edges,
+                    region_to_part,
+                    part,
+                    touched,
+                    cutting);
+      region_to_part[region] = invalid_index;
+
+      for (const auto &element : cutting.elements)
+        take_better(filling,
+                    internal::enclosed_area(ArrayView<const ElementEdge>(
+                      cutting.edges.data() + element.first_edge,
+                      element.end_edge - element.first_edge)) /
+                      mathematical_mesh.cell_area(element.cell),
+                    mathematical_mesh,
+                    element.cell);
+      for (unsigned int c = 0; c < cells.size(); ++c)
+        if (cutting.cell_region[c] != invalid_index)
+          take_better(filling, 1., mathematical_mesh, c);
+      return filling;
+    }
+
+
+    FittedMesh
+    Fitter::fit(const unsigned int region, const Filling &on_main_mesh)
+    {
+      const internal::RegionShape shape(edges, region);
+      const double                h = on_main_mesh.cell_size;
+      FittedMesh                  best;
+      const auto try_mesh = [&](MeshPart &&mesh, const Outcome outcome) {
+        const Filling filling = measure(region, shape, mesh);
+        if (filling.best > best.filling.best)
+          best = {std::move(mesh), outcome, filling};
+        return best.filling.best >= parameters.filling;
+      };
+
+      if (shape.sides[0] <= h && try_mesh(internal::make_single_triangle(shape),
+                                          Outcome::single_triangle))
+        return best;
+
+      std::array<unsigned int, 2> n;
+      for (unsigned int d = 0; d < 2; ++d)
+        n[d] = static_cast<unsigned int>(
+          std::clamp(std::ceil(shape.sides[d] / h),
+                     1.,
+                     static_cast<double>(parameters.n_cells_at_most)));
+      unsigned int first_level = 0;
+      if (n[1] > 1 && !parameters.every_region)
+      {
+        // cells of the main mesh's size have been tried
+        first_level = 1;
+        for (unsigned int &count : n)
+          count *= 2;
+      }
+      for (unsigned int level = first_level; level <= parameters.n_halvings;
+           ++level)
+      {
+        const bool too_many  = 2. * n[0] * n[1] > parameters.n_cells_at_most;
+        const bool too_small = shape.sides[1] < 40. * shape.rounding * n[1];
+        if (level > 0 && (too_many || too_small))
+          break;
+        if (try_mesh(internal::make_rectangles(shape, n),
+                     n[1] == 1 ? Outcome::row : Outcome::rectangles))
+          return best;
+        for (unsigned int &count : n)
+          count *= 2;
+      }
+
+      if (!parameters.every_region &&
+          best.filling.best <= 2. * on_main_mesh.best)
+        return {};
+      best.outcome = Outcome::badly_filled;
+      return best;
+    }
+
+
+    /// Regions with the same kind of mesh, for one notice.
+    struct Group
+    {
+      unsigned int n_regions = 0, n_cells = 0;
+      unsigned int worst         = invalid_index;
+      double       worst_filling = 1e300;
+    };
+
+
+    /// "The region around (x, y) (area ...) has ..." or "12 regions have ...".
+    std::string
+    describe(const Outcome               outcome,
+             const Group                &group,
+             const PhysicalMesh::Region &region,
+             const OwnMeshParameters    &parameters)
+    {
+      const bool         one = group.n_regions == 1;
+      std::ostringstream example, text;
+      example << std::setprecision(3) << "the region around "
+              << to_string(region.inside) << " (area " << region.area
+              << " m^2)";
+      text << std::setprecision(3)
+           << (one ? example.str()
+                   : std::to_string(group.n_regions) + " regions");
+      if (outcome == Outcome::main_mesh || outcome == Outcome::badly_filled)
+        text << (one ? " fills" : " fill")
+             << " no triangle of any mesh tried to the threshold of "
+             << parameters.filling << " and "
+             << (outcome == Outcome::main_mesh
+                   ? (one ? "stays on" : "stay on")
+                   : (one ? "has the best of these instead of"
+                          : "have the best of these instead of"))
+             << " the main mathematical mesh; the system is less well "
+                "conditioned for that";
+      else
+        text << (one ? " has" : " have each")
+             << " a mathematical mesh of the region's own size: "
+             << (outcome == Outcome::single_triangle ? "one triangle"
+                 : outcome == Outcome::row ? "one row of halved rectangles"
+                                           : "halved rectangles");
+      text << " (";
+      if (group.n_cells > 0)
+        text << group.n_cells << (group.n_cells == 1 ? " cell, " : " cells, ");
+      text << "filled to " << 100. * group.worst_filling << " %"
+           << (one ? ")" : " or more)");
+      if (!one)
+        text << ", the least so " << example.str();
+      return text.str();
+    }
+
+
+    MathematicalMesh
+    combine(const MathematicalMesh &main_mesh, std::vector<MeshPart> &parts)
+    {
+      parts[0] = make_mesh_part(main_mesh);
+      return combine_meshes(parts, main_mesh.degree());
+    }
+  } // namespace
+
+
+  OwnMeshes
+  make_own_meshes(std::unique_ptr<MathematicalMesh> main_mesh,
+                  const PhysicalMesh               &physical_mesh,
+                  const OwnMeshParameters          &parameters)
+  {
+    Assert(main_mesh->n_parts() == 1, ExcInternalError());
+    OwnMeshes result;
+    result.manifold_mesh =
+      std::make_unique<ManifoldMesh>(*main_mesh, physical_mesh);
+    result.mathematical_mesh            = std::move(main_mesh);
+    const std::vector<Filling> fillings = measure(*result.manifold_mesh);
+    std::vector<unsigned int>  needy;
+    for (unsigned int r = 0; r < fillings.size(); ++r)
+      if (parameters.every_region || fillings[r].best < parameters.threshold)
+        needy.push_back(r);
+    if (needy.empty())
+      return result;
+
+    Fitter                   fitter(physical_mesh, parameters);
+    std::vector<MeshPart>    parts(1);
+    std::map<Outcome, Group> groups;
+    result.region_to_part.assign(fillings.size(), 0);
+    for (const unsigned int r : needy)
+    {
+      FittedMesh fitted = fitter.fit(r, fillings[r]);
+      Group     &group  = groups[fitted.outcome];
+      ++group.n_regions;
+      group.n_cells += fitted.mesh.cells.size();
+      const double filling =
+        fitted.mesh.cells.empty() ? fillings[r].best : fitted.filling.best;
+      if (filling < group.worst_filling)
+      {
+        group.worst         = r;
+        group.worst_filling = filling;
+      }
+      if (fitted.mesh.cells.empty())
+        continue;
+      result.region_to_part[r] = parts.size();
+      parts.push_back(std::move(fitted.mesh));
+    }
+    for (const auto &[outcome, group] : groups)
+      result.notices.push_back(describe(
+        outcome, group, physical_mesh.regions()[group.worst], parameters));
+    if (parts.size() == 1)
+    {
+      result.region_to_part.clear();
+      return result;
+    }
+
+    auto combined = std::make_unique<MathematicalMesh>(
+      combine(*result.mathematical_mesh, parts));
+    result.manifold_mesh =
+      std::make_unique<ManifoldMesh>(*combined,
+                                     physical_mesh,
+                                     result.region_to_part);
+    result.mathematical_mesh = std::move(combined);
+    return result;
+  }
+} // namespace NMM

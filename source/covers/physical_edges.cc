@@ -1,0 +1,134 @@
+#include "physical_edges.h"
+
+#include <nmm/covers/manifold_mesh.h>
+
+#include "exact_curves.h"
+#include <numeric>
+#include <unordered_map>
+
+namespace NMM
+{
+  namespace internal
+  {
+    using namespace dealii;
+
+    void
+    set_circle(const Traits::X_monotone_curve_2 &curve,
+               const bool                        left_to_right,
+               const std::vector<CurvePiece>    &pieces,
+               ElementEdge                      &edge)
+    {
+      if (!curve.is_circular())
+        return;
+      const CurvePiece *circle = nullptr;
+      for (const Label label : curve.data())
+        if (is_piece(label))
+          circle = &pieces[label];
+      Assert(circle != nullptr, ExcInternalError());
+      const bool with_curve = curve.is_directed_right() == left_to_right;
+      const bool curve_is_counter_clockwise =
+        curve.orientation() == CGAL::COUNTERCLOCKWISE;
+      edge.center = circle->center;
+      edge.radius = with_curve == curve_is_counter_clockwise ? circle->radius
+                                                             : -circle->radius;
+    }
+
+
+    PhysicalEdges::PhysicalEdges(const PhysicalMesh &physical_mesh)
+      : curves(std::make_unique<ExactCurves>())
+    {
+      const Arrangement &arrangement = physical_mesh.arrangement().arrangement;
+      const std::size_t  n_edges     = arrangement.number_of_edges();
+      Assert(physical_mesh.pieces().size() < physical_edge_flag &&
+               n_edges < physical_edge_flag,
+             ExcInternalError());
+      all_edges.reserve(n_edges);
+      curves->curves.reserve(n_edges);
+
+      // an end shared by several edges is converted once, so that it is the
+      // same double everywhere
+      std::unordered_map<const void *, Point<2>> vertex_to_point;
+      const auto point = [&](const Arrangement::Vertex_const_handle &vertex) {
+        const auto [position, is_new] =
+          vertex_to_point.emplace(&*vertex, Point<2>());
+        if (is_new)
+          position->second = to_double(vertex->point());
+        return position->second;
+      };
+
+      for (auto e = arrangement.edges_begin(); e != arrangement.edges_end();
+           ++e)
+      {
+        Arrangement::Halfedge_const_handle halfedge = e;
+        if (halfedge->direction() != CGAL::ARR_LEFT_TO_RIGHT)
+          halfedge = halfedge->twin();
+        Edge edge;
+        edge.regions = {{halfedge->face()->data().region,
+                         halfedge->twin()->face()->data().region}};
+        if (edge.regions[0] == invalid_index &&
+            edge.regions[1] == invalid_index)
+          continue;
+        edge.shape.start = point(halfedge->source());
+        edge.shape.end   = point(halfedge->target());
+        set_circle(halfedge->curve(), true, physical_mesh.pieces(), edge.shape);
+        Traits::X_monotone_curve_2 curve = halfedge->curve();
+        curve.data().insert(physical_edge_flag +
+                            static_cast<Label>(all_edges.size()));
+        curves->curves.push_back(std::move(curve));
+        all_edges.push_back(edge);
+      }
+
+      const auto for_each_side = [&](const auto &action) {
+        for (unsigned int e = 0; e < all_edges.size(); ++e)
+        {
+          const auto [left, right] = all_edges[e].regions;
+          if (left != invalid_index)
+            action(left, e);
+          if (right != invalid_index && right != left)
+            action(right, e);
+        }
+      };
+      first_of_region.assign(physical_mesh.regions().size() + 1, 0);
+      for_each_side([&](const unsigned int region, const unsigned int) {
+        ++first_of_region[region + 1];
+      });
+      std::partial_sum(first_of_region.begin(),
+                       first_of_region.end(),
+                       first_of_region.begin());
+      edges_of_regions.resize(first_of_region.back());
+      std::vector<unsigned int> next(first_of_region.begin(),
+                                     first_of_region.end() - 1);
+      for_each_side([&](const unsigned int region, const unsigned int e) {
+        edges_of_regions[next[region]++] = e;
+      });
+    }
+
+
+    PhysicalEdges::~PhysicalEdges() = default;
+
+
+    const std::vector<PhysicalEdges::Edge> &
+    PhysicalEdges::edges() const
+    {
+      return all_edges;
+    }
+
+
+    ArrayView<const unsigned int>
+    PhysicalEdges::region_edges(const unsigned int region) const
+    {
+      AssertIndexRange(region + 1, first_of_region.size());
+      return ArrayView<const unsigned int>(edges_of_regions.data() +
+                                             first_of_region[region],
+                                           first_of_region[region + 1] -
+                                             first_of_region[region]);
+    }
+
+
+    const ExactCurves &
+    PhysicalEdges::exact_curves() const
+    {
+      return *curves;
+    }
+  } // namespace internal
+} // namespace NMM

@@ -1,0 +1,59 @@
+#ifndef nmm_source_covers_physical_edges_h
+#define nmm_source_covers_physical_edges_h
+
+// Private: the edges of the physical mesh's arrangement, free of CGAL types.
+
+#include <nmm/covers/manifold_mesh.h>
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace NMM
+{
+  namespace internal
+  {
+    /// The exact curves; see source/covers/exact_curves.h.
+    struct ExactCurves;
+
+    /**
+     * The edges of the physical mesh that bound a region or lie in one, numbered
+     * through, and found by region. All cutting starts from them: what is made
+     * of a region costs in proportion to that region.
+     * Cost: one walk over the arrangement.
+     */
+    class PhysicalEdges
+    {
+    public:
+      struct Edge
+      {
+        /// Regions to the left and right of the edge run from its left to its
+        /// right end (upwards if vertical), invalid_index outside the solid.
+        std::array<unsigned int, 2> regions;
+        /// The edge in doubles, from its left to its right end; without
+        /// neighbour, mesh edge and curve set.
+        ElementEdge shape;
+      };
+
+      explicit PhysicalEdges(const PhysicalMesh &physical_mesh);
+      ~PhysicalEdges();
+
+      const std::vector<Edge> &
+      edges() const;
+
+      /// Edges that bound the region or lie in it, each once.
+      dealii::ArrayView<const unsigned int>
+      region_edges(unsigned int region) const;
+
+      const ExactCurves &
+      exact_curves() const;
+
+    private:
+      std::vector<Edge>            all_edges;
+      std::vector<unsigned int>    edges_of_regions, first_of_region;
+      std::unique_ptr<ExactCurves> curves;
+    };
+  } // namespace internal
+} // namespace NMM
+
+#endif

@@ -1,0 +1,338 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/covers/cover_system.h>
+#include <nmm/covers/own_meshes.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/numbers.h>
+
+#include "matching.h"
+#include "support/random_scenes.h"
+#include <gtest/gtest.h>
+
+using namespace dealii;
+using namespace NMM;
+using namespace NMM::Testing;
+
+namespace
+{
+  constexpr double pi = numbers::PI;
+
+  struct Model
+  {
+    PhysicalMesh physical;
+    OwnMeshes    own;
+
+    Model(Geometry                     geometry,
+          const RegularMeshParameters &parameters,
+          const OwnMeshParameters     &own_parameters = {})
+      : physical(std::move(geometry))
+      , own(make_own_meshes(std::make_unique<MathematicalMesh>(
+                              make_regular_mesh(physical, parameters, 2)),
+                            physical,
+                            own_parameters))
+    {
+    }
+
+    unsigned int
+    region_at(const Point<2> &x) const
+    {
+      const unsigned int e = own.manifold_mesh->find_element(x);
+      return e == invalid_index ? e : own.manifold_mesh->region(e);
+    }
+
+    /// Largest share of an element of the region in its cell.
+    double
+    best_filling(const unsigned int region) const
+    {
+      double best = 0.;
+      for (unsigned int e = 0; e < own.manifold_mesh->n_elements(); ++e)
+        if (own.manifold_mesh->region(e) == region)
+          best = std::max(best,
+                          own.manifold_mesh->area(e) /
+                            own.mathematical_mesh->cell_area(
+                              own.manifold_mesh->cell(e)));
+      return best;
+    }
+
+    /// Cells that hold elements of the region.
+    unsigned int
+    n_cells(const unsigned int region) const
+    {
+      unsigned int n = 0;
+      for (unsigned int c = 0; c < own.mathematical_mesh->n_cells(); ++c)
+        for (const unsigned int e : own.manifold_mesh->cell_elements(c))
+          if (own.manifold_mesh->region(e) == region)
+          {
+            ++n;
+            break;
+          }
+      return n;
+    }
+  };
+
+  RegularMeshParameters
+  skew(const double cell_size)
+  {
+    RegularMeshParameters parameters;
+    parameters.cell_size = cell_size;
+    parameters.offset    = Tensor<1, 2>({0.0123, 0.0321});
+    parameters.rotation  = 13.;
+    return parameters;
+  }
+
+  void
+  add_square(Geometry          &geometry,
+             const Point<2>    &center,
+             const double       size,
+             const double       angle,
+             const std::string &name,
+             const CurveRole    role)
+  {
+    std::vector<Point<2>> corners;
+    for (unsigned int i = 0; i < 4; ++i)
+    {
+      const double a = angle + (0.25 + 0.5 * i) * pi;
+      corners.push_back(center + std::sqrt(0.5) * size *
+                                   Tensor<1, 2>({std::cos(a), std::sin(a)}));
+    }
+    geometry.add_polygon(corners, name, role);
+  }
+} // namespace
+
+
+TEST(OwnMeshes, NothingHappensWhereNothingIsNeeded)
+{
+  Geometry geometry = make_box(1., 1.);
+  geometry.add_polyline({Point<2>(0.37, 0.), Point<2>(0.52, 1.)},
+                        "joint",
+                        CurveRole::joint);
+  const PhysicalMesh physical(std::move(geometry));
+  auto               main_mesh = std::make_unique<MathematicalMesh>(
+    make_regular_mesh(physical, skew(0.1), 2));
+  const MathematicalMesh *address = main_mesh.get();
+  const OwnMeshes         own = make_own_meshes(std::move(main_mesh), physical);
+  EXPECT_EQ(own.mathematical_mesh.get(), address);
+  EXPECT_EQ(&own.manifold_mesh->mathematical_mesh(), address);
+  EXPECT_TRUE(own.region_to_part.empty());
+  EXPECT_TRUE(own.notices.empty());
+}
+
+
+TEST(OwnMeshes, ThinLayerBetweenTwoJoints)
+{
+  const double h = 0.1;
+  for (const double thickness : {1e-3 * h, 1e-6 * h, 1e-9 * h})
+    for (const double slope : {0., 0.3, 1.})
+    {
+      SCOPED_TRACE(thickness);
+      SCOPED_TRACE(slope);
+      Geometry     geometry = make_box(1., 1.);
+      const double y        = 0.4321 - 0.4 * slope;
+      const double up       = thickness * std::sqrt(1. + slope * slope);
+      geometry.add_polyline({Point<2>(0., y), Point<2>(1., y + slope)},
+                            "lower",
+                            CurveRole::joint);
+      geometry.add_polyline({Point<2>(0., y + up),
+                             Point<2>(1., y + up + slope)},
+                            "upper",
+                            CurveRole::joint);
+      const Model model(std::move(geometry), skew(h));
+      ASSERT_EQ(model.own.region_to_part.size(), 3u);
+      unsigned int layer = invalid_index;
+      for (unsigned int r = 0; r < 3; ++r)
+        if (model.own.region_to_part[r] != 0)
+          layer = r;
+      ASSERT_NE(layer, invalid_index);
+      const double area = model.physical.regions()[layer].area;
+      EXPECT_GT(model.best_filling(layer), 0.25);
+      // h is the longest edge of a cell
+      EXPECT_LE(model.n_cells(layer), 2. * std::ceil(1.5 / h));
+      const std::vector<double> areas = region_areas(*model.own.manifold_mesh);
+      for (unsigned int r = 0; r < 3; ++r)
+        EXPECT_NEAR(areas[r], model.physical.regions()[r].area, 1e-14);
+      // coordinates of size 1 are rounded: so is the thickness
+      EXPECT_NEAR(areas[layer] / area, 1., 1e-12 + 1e-14 / thickness);
+      // two joints, from both sides, and what is of them in the box
+      const double part = std::min(1., (1. - y) / std::max(slope, 1e-3)) -
+                          std::max(0., -y / std::max(slope, 1e-3));
+      EXPECT_NEAR(expect_matching_edges(*model.own.manifold_mesh),
+                  4. * part * std::sqrt(1. + slope * slope),
+                  4. * thickness + 1e-12);
+      EXPECT_EQ(n_connected_sets(*model.own.manifold_mesh), 3u);
+      ASSERT_EQ(model.own.notices.size(), 1u);
+      EXPECT_NE(model.own.notices[0].find("one row of halved rectangles"),
+                std::string::npos)
+        << model.own.notices[0];
+      EXPECT_EQ(model.region_at(model.physical.regions()[layer].inside), layer);
+
+      // the affine map keeps its accuracy: a point of the layer comes back
+      for (unsigned int e = 0; e < model.own.manifold_mesh->n_elements(); ++e)
+        if (model.own.manifold_mesh->region(e) == layer)
+        {
+          const MathematicalMesh &mesh = *model.own.mathematical_mesh;
+          const unsigned int      c    = model.own.manifold_mesh->cell(e);
+          const Tensor<2, 2> unit = invert(mesh.jacobian(c)) * mesh.jacobian(c);
+          EXPECT_NEAR((unit - unit_symmetric_tensor<2>()).norm(), 0., 1e-6);
+        }
+    }
+}
+
+
+TEST(OwnMeshes, TinyBlockOfItsOwnOrCutByJoints)
+{
+  const double h = 0.2;
+  for (const double size : {1e-1, 1e-2, 1e-4, 1e-6})
+    for (const CurveRole role : {CurveRole::joint, CurveRole::boundary})
+    {
+      SCOPED_TRACE(size);
+      Geometry geometry = make_box(1., 1.);
+      // its own closed domain lies in a hole of the frame
+      const Point<2> center(0.4321, 0.5678);
+      if (role == CurveRole::boundary)
+        add_square(
+          geometry, center, 1.5 * size * h, 0.3, "hole", CurveRole::hole);
+      add_square(geometry, center, size * h, 0.3, "block", role);
+      const Model        model(std::move(geometry), skew(h));
+      const unsigned int block = model.region_at(center);
+      ASSERT_NE(block, invalid_index);
+      ASSERT_EQ(model.own.region_to_part.size(), 2u);
+      EXPECT_EQ(model.own.region_to_part[block], 1u);
+      EXPECT_EQ(model.own.region_to_part[1 - block], 0u);
+      // one triangle, twelve unknowns
+      EXPECT_EQ(model.own.mathematical_mesh->part_cells(1).second -
+                  model.own.mathematical_mesh->part_cells(1).first,
+                1u);
+      // a square fills at most half of a triangle
+      EXPECT_GT(model.best_filling(block), 0.4);
+      EXPECT_LT(model.best_filling(block), 0.5);
+      const std::vector<double> areas = region_areas(*model.own.manifold_mesh);
+      EXPECT_NEAR(areas[block] / (size * size * h * h),
+                  1.,
+                  1e-12 + 1e-15 / (size * h));
+      EXPECT_NEAR(expect_matching_edges(*model.own.manifold_mesh),
+                  role == CurveRole::joint ? 8. * size * h : 0.,
+                  1e-14);
+      const CoverSystem covers(*model.own.manifold_mesh, MPI_COMM_SELF);
+      for (unsigned int e = 0; e < model.own.manifold_mesh->n_elements(); ++e)
+      {
+        if (model.own.manifold_mesh->region(e) != block)
+          continue;
+        for (const unsigned int k : covers.covers(e))
+          EXPECT_LT(covers.node(k).distance(center), 3. * size * h);
+      }
+    }
+}
+
+
+TEST(OwnMeshes, DiskShapedTinyInclusion)
+{
+  const double radius   = 0.003;
+  Geometry     geometry = make_box(1., 1.);
+  geometry.add_circle(Point<2>(0.4, 0.6), radius, "disk", CurveRole::interface);
+  const Model        model(std::move(geometry), skew(0.2));
+  const unsigned int disk = model.region_at(Point<2>(0.4, 0.6));
+  EXPECT_EQ(model.n_cells(disk), 1u);
+  // an equilateral triangle around a circle is filled to 0.6046, made larger
+  // by a factor 1.08 to 0.5184
+  EXPECT_NEAR(model.best_filling(disk), pi / std::sqrt(27.) / 1.1664, 0.005);
+  EXPECT_NEAR(region_areas(*model.own.manifold_mesh)[disk] /
+                (pi * radius * radius),
+              1.,
+              1e-12);
+  EXPECT_NEAR(expect_matching_edges(*model.own.manifold_mesh),
+              4. * pi * radius,
+              1e-14);
+}
+
+
+TEST(OwnMeshes, BentLayerIsHalvedUntilItIsFilled)
+{
+  // a shell of a tenth of a cell
+  Geometry geometry = make_box(1., 1.);
+  geometry.add_circle(Point<2>(0.5, 0.5), 0.3, "inner", CurveRole::interface);
+  geometry.add_circle(Point<2>(0.5, 0.5), 0.31, "outer", CurveRole::interface);
+  const Model        model(std::move(geometry), skew(0.1));
+  const unsigned int shell = model.region_at(Point<2>(0.805, 0.5));
+  ASSERT_EQ(model.own.region_to_part.size(), 3u);
+  EXPECT_NE(model.own.region_to_part[shell], 0u);
+  EXPECT_GE(model.best_filling(shell), 0.25);
+  EXPECT_NEAR(region_areas(*model.own.manifold_mesh)[shell],
+              pi * (0.31 * 0.31 - 0.09),
+              1e-13);
+  // cells inside and outside of the shell are left out
+  const auto [first, end] = model.own.mathematical_mesh->part_cells(1);
+  EXPECT_LT(end - first, 2 * model.n_cells(shell));
+}
+
+
+TEST(OwnMeshes, SayWhatCannotBeFilled)
+{
+  Geometry geometry = make_box(1., 1.);
+  geometry.add_circle(Point<2>(0.5, 0.5), 0.3, "inner", CurveRole::interface);
+  geometry.add_circle(Point<2>(0.5, 0.5),
+                      0.30001,
+                      "outer",
+                      CurveRole::interface);
+  const Model model(std::move(geometry), skew(0.1));
+  ASSERT_EQ(model.own.notices.size(), 1u);
+  EXPECT_NE(model.own.notices[0].find("threshold"), std::string::npos)
+    << model.own.notices[0];
+  EXPECT_NEAR(
+    region_areas(
+      *model.own.manifold_mesh)[model.region_at(Point<2>(0.800005, 0.5))],
+    pi * (0.30001 * 0.30001 - 0.09),
+    1e-13);
+}
+
+
+TEST(OwnMeshes, RandomNetworks)
+{
+  unsigned int n_own = 0;
+  for (unsigned int seed = 0; seed < 30; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random   random(seed);
+    Geometry geometry = make_box(1., 1.);
+    add_random_joints(geometry, random, 20, seed % 3 == 0);
+    OwnMeshParameters parameters;
+    parameters.every_region = seed % 5 == 0;
+    const Model               model(std::move(geometry),
+                      random_mesh(random, 0.25, seed % 4 == 0),
+                      parameters);
+    const std::vector<double> areas = region_areas(*model.own.manifold_mesh);
+    for (unsigned int r = 0; r < areas.size(); ++r)
+    {
+      EXPECT_NEAR(areas[r], model.physical.regions()[r].area, 1e-13);
+      // joints make convex regions only: all can be filled well
+      EXPECT_GE(model.best_filling(r), 0.25)
+        << "region at " << model.physical.regions()[r].inside;
+    }
+    expect_matching_edges(*model.own.manifold_mesh);
+    EXPECT_EQ(n_connected_sets(*model.own.manifold_mesh), areas.size());
+    n_own += model.own.mathematical_mesh->n_parts() - 1;
+  }
+  EXPECT_GT(n_own, 200u);
+}
+
+
+TEST(OwnMeshes, AreTheSameOnAllRanksMPI)
+{
+  Random   random(7);
+  Geometry geometry = make_box(1., 1.);
+  add_random_joints(geometry, random, 20, false);
+  const Model model(std::move(geometry), skew(0.3));
+  EXPECT_GT(model.own.mathematical_mesh->n_parts(), 5u);
+  const CoverSystem covers(*model.own.manifold_mesh, MPI_COMM_WORLD);
+  // numbers that change with any coordinate, element or cover
+  std::vector<double> numbers = {static_cast<double>(
+                                   model.own.manifold_mesh->n_elements()),
+                                 static_cast<double>(covers.n_covers())};
+  for (const Point<2> &x : model.own.mathematical_mesh->vertices())
+    numbers.push_back(x[0] + pi * x[1]);
+  for (unsigned int e = 0; e < model.own.manifold_mesh->n_elements(); ++e)
+    for (const ElementEdge &edge : model.own.manifold_mesh->edges(e))
+      numbers.push_back(edge.start[0] + pi * edge.start[1] + edge.neighbor);
+  const auto all = Utilities::MPI::all_gather(MPI_COMM_WORLD, numbers);
+  for (const std::vector<double> &others : all)
+    EXPECT_EQ(others, numbers);
+}

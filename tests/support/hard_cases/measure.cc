@@ -67,6 +67,14 @@ namespace NMM
         for (unsigned int element = owned.first; element < owned.second;
              ++element)
         {
+          const PlaneElasticity e =
+            model.problem
+              .materials[region_to_material[model.manifold_mesh.region(
+                element)]]
+              .plane_elasticity(model.problem.plane_state);
+          const auto energy = [&](const Tensor<2, 2> &g) {
+            return e.stress(g) * symmetrize(g);
+          };
           const unsigned int cell = model.manifold_mesh.cell(element);
           const double       det = 2. * model.mathematical_mesh.cell_area(cell);
           const auto        &rule = quadrature.rule(element);

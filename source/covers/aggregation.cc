@@ -21,8 +21,14 @@ namespace NMM
     }
 
 
-    /// Gives every element that is joined to a rooted one a root, layer by
-    /// layer; among the roots of the previous layer the nearest.
+    /// Polynomials are continued over so many layers of elements at most: their
+    /// values grow with the square of the distance, and energies with its
+    /// fourth power.
+    constexpr unsigned int max_layers = 3;
+
+
+    /// Gives elements that are joined to a rooted one a root, layer by layer;
+    /// among the roots of the previous layer the nearest.
     void
     spread_roots(const ManifoldMesh       &manifold_mesh,
                  std::vector<unsigned int> layer,
@@ -30,7 +36,7 @@ namespace NMM
     {
       std::vector<unsigned int> &element_to_root = roots.element_to_root;
       const MathematicalMesh    &mesh = manifold_mesh.mathematical_mesh();
-      while (!layer.empty())
+      for (unsigned int i = 0; i < max_layers && !layer.empty(); ++i)
       {
         // (element, parent)
         std::vector<std::pair<unsigned int, unsigned int>> found;
@@ -63,32 +69,6 @@ namespace NMM
         }
       }
     }
-
-
-    /// The largest element of the connected set that @p start is in.
-    unsigned int
-    largest_joined(const ManifoldMesh         &mesh,
-                   const unsigned int          start,
-                   std::vector<unsigned char> &seen)
-    {
-      std::vector<unsigned int> stack(1, start);
-      unsigned int              largest = start;
-      seen[start]                       = 1;
-      while (!stack.empty())
-      {
-        const unsigned int e = stack.back();
-        stack.pop_back();
-        if (mesh.area(e) > mesh.area(largest))
-          largest = e;
-        for (const ManifoldMesh::Link &link : mesh.joined(e))
-          if (!seen[link.neighbor])
-          {
-            seen[link.neighbor] = 1;
-            stack.push_back(link.neighbor);
-          }
-      }
-      return largest;
-    }
   } // namespace
 
 
@@ -101,30 +81,32 @@ namespace NMM
     std::vector<unsigned int> &element_to_root = result.element_to_root;
 
     // only bad elements and their good neighbours take part in the search
-    std::vector<unsigned int> first_layer;
-    std::vector<unsigned int> bad;
+    std::vector<std::pair<double, unsigned int>> bad;
     for (unsigned int e = 0; e < n_elements; ++e)
-      if (manifold_mesh.is_whole(e) ||
-          element_support(manifold_mesh, e) >= threshold)
+    {
+      const double support =
+        manifold_mesh.is_whole(e) ? 1. : element_support(manifold_mesh, e);
+      if (support >= threshold)
         element_to_root[e] = e;
       else
-        bad.push_back(e);
+        bad.emplace_back(-support, e);
+    }
     result.element_to_parent = element_to_root;
-    for (const unsigned int e : bad)
+    std::vector<unsigned int> first_layer;
+    for (const auto &[support, e] : bad)
       for (const ManifoldMesh::Link &link : manifold_mesh.joined(e))
         if (element_to_root[link.neighbor] == link.neighbor)
           first_layer.push_back(link.neighbor);
     spread_roots(manifold_mesh, first_layer, result);
 
-    // what is left has no good element
-    std::vector<unsigned int>  roots;
-    std::vector<unsigned char> seen(bad.empty() ? 0 : n_elements, 0);
-    for (const unsigned int e : bad)
-      if (element_to_root[e] == invalid_index && !seen[e])
-        roots.push_back(largest_joined(manifold_mesh, e, seen));
-    for (const unsigned int root : roots)
-      element_to_root[root] = result.element_to_parent[root] = root;
-    spread_roots(manifold_mesh, roots, result);
+    // what is left is far from any good element: the best of it first
+    std::sort(bad.begin(), bad.end());
+    for (const auto &[support, e] : bad)
+      if (element_to_root[e] == invalid_index)
+      {
+        element_to_root[e] = result.element_to_parent[e] = e;
+        spread_roots(manifold_mesh, {e}, result);
+      }
     return result;
   }
 

@@ -247,6 +247,8 @@ namespace NMM
       /// |sum of element areas - 1|.
       double area_error = 0.;
       Result solved;
+      /// On regions with meshes of their own.
+      std::vector<std::string> notices;
     };
 
     /**

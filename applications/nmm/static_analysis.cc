@@ -1,6 +1,7 @@
 #include "static_analysis.h"
 
 #include <nmm/base/exceptions.h>
+#include <nmm/covers/own_meshes.h>
 #include <nmm/covers/point_location.h>
 #include <nmm/io/picture.h>
 #include <nmm/io/vtu.h>
@@ -45,8 +46,7 @@ StaticAnalysis::build()
   }
   {
     Stage stage(progress, "cutting");
-    manifold_mesh =
-      std::make_unique<ManifoldMesh>(*mathematical_mesh, *physical_mesh);
+    cut();
     probes = std::make_unique<ProbePoints>(*manifold_mesh, parameters.probes);
   }
   {
@@ -66,6 +66,23 @@ StaticAnalysis::build()
   elasticity = std::make_unique<StaticElasticity>(
     *covers, *quadrature, constraints, problem, ghost_penalty.get());
   add_counts();
+}
+
+
+void
+StaticAnalysis::cut()
+{
+  using Choice                  = CoverParameters::OwnMeshes;
+  const CoverParameters &covers = scene.parameters().covers;
+  OwnMeshParameters      parameters;
+  parameters.threshold =
+    covers.own_meshes == Choice::never ? 0. : covers.threshold;
+  parameters.every_region = covers.own_meshes == Choice::every_region;
+  OwnMeshes meshes =
+    make_own_meshes(std::move(mathematical_mesh), *physical_mesh, parameters);
+  mathematical_mesh = std::move(meshes.mathematical_mesh);
+  manifold_mesh     = std::move(meshes.manifold_mesh);
+  own_mesh_notices  = std::move(meshes.notices);
 }
 
 
@@ -104,6 +121,7 @@ StaticAnalysis::add_counts()
   summary.add("degree", mathematical_mesh->degree());
   summary.add("blocks", physical_mesh->n_blocks());
   summary.add("regions", physical_mesh->regions().size());
+  summary.add("own_meshes", mathematical_mesh->n_parts() - 1);
   summary.add("cells", mathematical_mesh->n_cells());
   summary.add("cells_cut_exactly", manifold_mesh->n_cells_cut_exactly());
   summary.add("mathematical_covers",
@@ -120,7 +138,8 @@ StaticAnalysis::add_counts()
   summary.add("quadrature_fallbacks",
               MPI::sum(quadrature->n_fallbacks(), communicator));
   summary.add("cleaning_actions", cleaning_actions.size());
-  summary.add("notices", physical_mesh->notices().size());
+  summary.add("notices",
+              physical_mesh->notices().size() + own_mesh_notices.size());
 }
 
 
@@ -130,6 +149,8 @@ StaticAnalysis::print_report()
   for (const CleaningAction &action : cleaning_actions)
     progress.message("  cleaned: " + action.description());
   for (const std::string &notice : physical_mesh->notices())
+    progress.message("  notice: " + notice);
+  for (const std::string &notice : own_mesh_notices)
     progress.message("  notice: " + notice);
 
   const auto count = [&](const std::string &name) {

@@ -64,6 +64,7 @@ private:
 
   // Each object refers to those above it.
   std::vector<NMM::CleaningAction>           cleaning_actions;
+  std::vector<std::string>                   own_mesh_notices;
   std::unique_ptr<NMM::PhysicalMesh>         physical_mesh;
   std::unique_ptr<NMM::MathematicalMesh>     mathematical_mesh;
   std::unique_ptr<NMM::ManifoldMesh>         manifold_mesh;
@@ -82,6 +83,9 @@ private:
 
   void
   add_counts();
+
+  void
+  cut();
 
   void
   make_covers();

@@ -35,6 +35,12 @@ namespace NMM
       {"ghost penalty", Stabilization::ghost_penalty},
       {"none", Stabilization::none}};
 
+    const std::vector<std::pair<std::string, CoverParameters::OwnMeshes>>
+      own_mesh_choices = {
+        {"where needed", CoverParameters::OwnMeshes::where_needed},
+        {"every region", CoverParameters::OwnMeshes::every_region},
+        {"never", CoverParameters::OwnMeshes::never}};
+
     const std::vector<std::pair<std::string, LinearSolverParameters::Type>>
       solver_types = {{"automatic", LinearSolverParameters::Type::automatic},
                       {"direct", LinearSolverParameters::Type::direct},
@@ -283,6 +289,15 @@ namespace NMM
                       "An element is well supported if it sees at least this "
                       "share of the energy of any linear strain of its cell "
                       "[-]; 0: all are.");
+    prm.declare_entry(
+      "Own meshes",
+      "where needed",
+      selection(own_mesh_choices),
+      "Regions with a mathematical mesh of their own size and "
+      "shape. where needed: those smaller or thinner than the "
+      "cells, none of whose elements is well supported; every "
+      "region: each, down to a single six-node triangle; never: "
+      "all are on one mesh.");
   }
 
 
@@ -291,6 +306,7 @@ namespace NMM
   {
     stabilization = get_selection(prm, "Stabilization", stabilizations);
     threshold     = prm.get_double("Threshold");
+    own_meshes    = get_selection(prm, "Own meshes", own_mesh_choices);
   }
 
 

@@ -83,6 +83,15 @@ namespace NMM
     Stabilization stabilization = Stabilization::aggregation;
     /// Least element_support() that makes an element good [-].
     double threshold = default_aggregation_threshold;
+    /// Which regions get mathematical meshes of their own, see
+    /// make_own_meshes().
+    enum class OwnMeshes
+    {
+      where_needed,
+      every_region,
+      never
+    };
+    OwnMeshes own_meshes = OwnMeshes::where_needed;
 
     static void
     declare(dealii::ParameterHandler &prm);

@@ -1,9 +1,11 @@
 #include "static_analysis.h"
 
 #include <nmm/base/exceptions.h>
+#include <nmm/covers/own_meshes.h>
 #include <nmm/covers/point_location.h>
 #include <nmm/io/picture.h>
 #include <nmm/io/vtu.h>
+#include <nmm/mechanics/condition_number.h>
 #include <nmm/mechanics/error_norms.h>
 
 #include <algorithm>
@@ -44,21 +46,12 @@ StaticAnalysis::build()
   }
   {
     Stage stage(progress, "cutting");
-    manifold_mesh =
-      std::make_unique<ManifoldMesh>(*mathematical_mesh, *physical_mesh);
+    cut();
     probes = std::make_unique<ProbePoints>(*manifold_mesh, parameters.probes);
   }
   {
     Stage stage(progress, "covers");
-    covers = std::make_unique<CoverSystem>(*manifold_mesh, communicator);
-    // With threshold 0 every element is well supported and no cover is
-    // constrained.
-    aggregation =
-      aggregate(*covers,
-                parameters.covers.stabilization == Stabilization::aggregation
-                  ? parameters.covers.threshold
-                  : 0.);
-    constraints = make_constraints(*covers, aggregation, 2);
+    make_covers();
   }
   {
     Stage stage(progress, "quadrature");
@@ -70,11 +63,44 @@ StaticAnalysis::build()
     quadrature = std::make_unique<QuadratureCollection>(
       *manifold_mesh, degree, degree, covers->locally_owned_elements());
   }
-  elasticity = std::make_unique<StaticElasticity>(*covers,
-                                                  *quadrature,
-                                                  constraints,
-                                                  problem);
+  elasticity = std::make_unique<StaticElasticity>(
+    *covers, *quadrature, constraints, problem, ghost_penalty.get());
   add_counts();
+}
+
+
+void
+StaticAnalysis::cut()
+{
+  using Choice                  = CoverParameters::OwnMeshes;
+  const CoverParameters &covers = scene.parameters().covers;
+  OwnMeshParameters      parameters;
+  parameters.threshold =
+    covers.own_meshes == Choice::never ? 0. : covers.threshold;
+  parameters.every_region = covers.own_meshes == Choice::every_region;
+  OwnMeshes meshes =
+    make_own_meshes(std::move(mathematical_mesh), *physical_mesh, parameters);
+  mathematical_mesh = std::move(meshes.mathematical_mesh);
+  manifold_mesh     = std::move(meshes.manifold_mesh);
+  own_mesh_notices  = std::move(meshes.notices);
+}
+
+
+void
+StaticAnalysis::make_covers()
+{
+  const CoverParameters &parameters = scene.parameters().covers;
+  covers = std::make_unique<CoverSystem>(*manifold_mesh, communicator);
+  // With threshold 0 every element is well supported and no cover is
+  // constrained.
+  aggregation = aggregate(*covers,
+                          parameters.stabilization == Stabilization::aggregation
+                            ? parameters.threshold
+                            : 0.);
+  constraints = make_constraints(*covers, aggregation, 2);
+  if (parameters.stabilization == Stabilization::ghost_penalty)
+    ghost_penalty = std::make_unique<GhostPenalty>(
+      make_ghost_penalty(*manifold_mesh, parameters.threshold));
 }
 
 
@@ -95,6 +121,7 @@ StaticAnalysis::add_counts()
   summary.add("degree", mathematical_mesh->degree());
   summary.add("blocks", physical_mesh->n_blocks());
   summary.add("regions", physical_mesh->regions().size());
+  summary.add("own_meshes", mathematical_mesh->n_parts() - 1);
   summary.add("cells", mathematical_mesh->n_cells());
   summary.add("cells_cut_exactly", manifold_mesh->n_cells_cut_exactly());
   summary.add("mathematical_covers",
@@ -111,7 +138,8 @@ StaticAnalysis::add_counts()
   summary.add("quadrature_fallbacks",
               MPI::sum(quadrature->n_fallbacks(), communicator));
   summary.add("cleaning_actions", cleaning_actions.size());
-  summary.add("notices", physical_mesh->notices().size());
+  summary.add("notices",
+              physical_mesh->notices().size() + own_mesh_notices.size());
 }
 
 
@@ -121,6 +149,8 @@ StaticAnalysis::print_report()
   for (const CleaningAction &action : cleaning_actions)
     progress.message("  cleaned: " + action.description());
   for (const std::string &notice : physical_mesh->notices())
+    progress.message("  notice: " + notice);
+  for (const std::string &notice : own_mesh_notices)
     progress.message("  notice: " + notice);
 
   const auto count = [&](const std::string &name) {
@@ -167,6 +197,8 @@ StaticAnalysis::solve()
     summary.add("solver_iterations", report.n_iterations);
     summary.add("solver_relative_residual", report.relative_residual);
   }
+  if (scene.parameters().solver.estimate_condition)
+    estimate_condition();
   {
     Stage stage(progress, "stress recovery");
     field     = std::make_unique<DisplacementField>(*covers,
@@ -176,6 +208,37 @@ StaticAnalysis::solve()
     evaluator = std::make_unique<FieldEvaluator>(*field, *recovery, problem);
   }
   is_solved = true;
+}
+
+
+void
+StaticAnalysis::estimate_condition()
+{
+  Stage                 stage(progress, "condition number");
+  const ConditionNumber condition =
+    estimate_condition_number(elasticity->system_matrix(),
+                              *covers,
+                              constraints);
+  summary.add("condition_number", condition.value());
+  const bool has_place = condition.weakest_cover != invalid_index;
+  if (has_place)
+  {
+    const Point<2> &place = covers->node(condition.weakest_cover);
+    const auto     &unit  = scene.parameters().output.length_unit;
+    summary.add("condition_place_x", place[0], unit);
+    summary.add("condition_place_y", place[1], unit);
+  }
+  std::ostringstream text;
+  text << condition.value();
+  stage.remark(text.str());
+  if (!(condition.value() <= scene.parameters().solver.condition_limit))
+    progress.message(
+      "  warning: the condition number " + text.str() + " is above the limit" +
+      (has_place ? "; the matrix is weakest near " +
+                     to_string(covers->node(condition.weakest_cover))
+                 : "; the matrix is singular to rounding") +
+      ": look for slivers without stabilization, parts that hardly anything "
+      "holds, long thin parts, or large contrasts of stiffness");
 }
 
 

@@ -64,12 +64,14 @@ private:
 
   // Each object refers to those above it.
   std::vector<NMM::CleaningAction>           cleaning_actions;
+  std::vector<std::string>                   own_mesh_notices;
   std::unique_ptr<NMM::PhysicalMesh>         physical_mesh;
   std::unique_ptr<NMM::MathematicalMesh>     mathematical_mesh;
   std::unique_ptr<NMM::ManifoldMesh>         manifold_mesh;
   std::unique_ptr<NMM::CoverSystem>          covers;
   NMM::Aggregation                           aggregation;
   dealii::AffineConstraints<double>          constraints;
+  std::unique_ptr<NMM::GhostPenalty>         ghost_penalty;
   std::unique_ptr<NMM::QuadratureCollection> quadrature;
   NMM::ElasticityProblem                     problem;
   std::optional<NMM::ThickRing>              exact_solution;
@@ -83,7 +85,18 @@ private:
   add_counts();
 
   void
+  cut();
+
+  void
+  make_covers();
+
+  void
   make_exact_solution();
+
+  /// Condition number and its place into the summary; a warning above the
+  /// limit.
+  void
+  estimate_condition();
 
   void
   add_errors();

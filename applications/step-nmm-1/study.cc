@@ -55,11 +55,11 @@ namespace StepNMM1
                         "equilateral",
                         Patterns::Selection("equilateral|right-angled"),
                         "Of the regular mesh.");
-      prm.declare_entry(
-        "Aggregation threshold",
-        "0.25",
-        Patterns::Double(0., 1.),
-        "Least share of its cell that makes an element good [-].");
+      prm.declare_entry("Aggregation threshold",
+                        Patterns::Tools::to_string(
+                          NMM::default_aggregation_threshold),
+                        Patterns::Double(0., 1.),
+                        "Least support that makes an element good [-].");
       prm.declare_entry("Refined width",
                         "0.3",
                         positive,

@@ -1,6 +1,7 @@
 #include <nmm/base/compat.h>
 #include <nmm/base/exceptions.h>
 #include <nmm/covers/aggregation.h>
+#include <nmm/covers/element_support.h>
 
 #include <algorithm>
 
@@ -20,21 +21,29 @@ namespace NMM
     }
 
 
-    /// Gives every element that is joined to a rooted one a root, layer by
-    /// layer; among the roots of the previous layer the nearest.
+    /// Polynomials are continued over so many layers of elements at most: their
+    /// values grow with the square of the distance, and energies with its
+    /// fourth power.
+    constexpr unsigned int max_layers = 3;
+
+
+    /// Gives elements that are joined to a rooted one a root, layer by layer;
+    /// among the roots of the previous layer the nearest.
     void
-    spread_roots(const ManifoldMesh        &manifold_mesh,
-                 std::vector<unsigned int>  layer,
-                 std::vector<unsigned int> &element_to_root)
+    spread_roots(const ManifoldMesh       &manifold_mesh,
+                 std::vector<unsigned int> layer,
+                 ElementRoots             &roots)
     {
-      const MathematicalMesh &mesh = manifold_mesh.mathematical_mesh();
-      while (!layer.empty())
+      std::vector<unsigned int> &element_to_root = roots.element_to_root;
+      const MathematicalMesh    &mesh = manifold_mesh.mathematical_mesh();
+      for (unsigned int i = 0; i < max_layers && !layer.empty(); ++i)
       {
+        // (element, parent)
         std::vector<std::pair<unsigned int, unsigned int>> found;
         for (const unsigned int e : layer)
           for (const ManifoldMesh::Link &link : manifold_mesh.joined(e))
             if (element_to_root[link.neighbor] == invalid_index)
-              found.emplace_back(link.neighbor, element_to_root[e]);
+              found.emplace_back(link.neighbor, e);
         std::sort(found.begin(), found.end());
 
         layer.clear();
@@ -45,97 +54,76 @@ namespace NMM
           double             best = 1e300;
           for (; i < found.size() && found[i].first == e; ++i)
           {
-            const double d = here.distance(
-              centroid(mesh, manifold_mesh.cell(found[i].second)));
+            const unsigned int root = element_to_root[found[i].second];
+            const double       d =
+              here.distance(centroid(mesh, manifold_mesh.cell(root)));
             // candidates are sorted: ties go to the lower number
             if (d < best * (1. - 1e-10))
             {
-              best               = d;
-              element_to_root[e] = found[i].second;
+              best                       = d;
+              element_to_root[e]         = root;
+              roots.element_to_parent[e] = found[i].second;
             }
           }
           layer.push_back(e);
         }
       }
     }
-
-
-    /// The largest element of the connected set that @p start is in.
-    unsigned int
-    largest_joined(const ManifoldMesh         &mesh,
-                   const unsigned int          start,
-                   std::vector<unsigned char> &seen)
-    {
-      std::vector<unsigned int> stack(1, start);
-      unsigned int              largest = start;
-      seen[start]                       = 1;
-      while (!stack.empty())
-      {
-        const unsigned int e = stack.back();
-        stack.pop_back();
-        if (mesh.area(e) > mesh.area(largest))
-          largest = e;
-        for (const ManifoldMesh::Link &link : mesh.joined(e))
-          if (!seen[link.neighbor])
-          {
-            seen[link.neighbor] = 1;
-            stack.push_back(link.neighbor);
-          }
-      }
-      return largest;
-    }
   } // namespace
 
 
-  std::vector<unsigned int>
+  ElementRoots
   find_roots(const ManifoldMesh &manifold_mesh, const double threshold)
   {
-    const MathematicalMesh   &mesh       = manifold_mesh.mathematical_mesh();
-    const unsigned int        n_elements = manifold_mesh.n_elements();
-    std::vector<unsigned int> element_to_root(n_elements, invalid_index);
+    const unsigned int n_elements = manifold_mesh.n_elements();
+    ElementRoots       result;
+    result.element_to_root.assign(n_elements, invalid_index);
+    std::vector<unsigned int> &element_to_root = result.element_to_root;
 
     // only bad elements and their good neighbours take part in the search
-    std::vector<unsigned int> first_layer;
-    std::vector<unsigned int> bad;
+    std::vector<std::pair<double, unsigned int>> bad;
     for (unsigned int e = 0; e < n_elements; ++e)
-      if (manifold_mesh.is_whole(e) ||
-          manifold_mesh.area(e) >=
-            threshold * mesh.cell_area(manifold_mesh.cell(e)))
+    {
+      const double support =
+        manifold_mesh.is_whole(e) ? 1. : element_support(manifold_mesh, e);
+      if (support >= threshold)
         element_to_root[e] = e;
       else
-        bad.push_back(e);
-    for (const unsigned int e : bad)
+        bad.emplace_back(-support, e);
+    }
+    result.element_to_parent = element_to_root;
+    std::vector<unsigned int> first_layer;
+    for (const auto &[support, e] : bad)
       for (const ManifoldMesh::Link &link : manifold_mesh.joined(e))
         if (element_to_root[link.neighbor] == link.neighbor)
           first_layer.push_back(link.neighbor);
-    spread_roots(manifold_mesh, first_layer, element_to_root);
+    spread_roots(manifold_mesh, first_layer, result);
 
-    // what is left has no good element
-    std::vector<unsigned int>  roots;
-    std::vector<unsigned char> seen(bad.empty() ? 0 : n_elements, 0);
-    for (const unsigned int e : bad)
-      if (element_to_root[e] == invalid_index && !seen[e])
-        roots.push_back(largest_joined(manifold_mesh, e, seen));
-    for (const unsigned int root : roots)
-      element_to_root[root] = root;
-    spread_roots(manifold_mesh, roots, element_to_root);
-    return element_to_root;
+    // what is left is far from any good element: the best of it first
+    std::sort(bad.begin(), bad.end());
+    for (const auto &[support, e] : bad)
+      if (element_to_root[e] == invalid_index)
+      {
+        element_to_root[e] = result.element_to_parent[e] = e;
+        spread_roots(manifold_mesh, {e}, result);
+      }
+    return result;
   }
 
 
   GhostPenalty
   make_ghost_penalty(const ManifoldMesh &mesh, const double threshold)
   {
+    ElementRoots roots = find_roots(mesh, threshold);
     GhostPenalty result;
-    result.element_to_root = find_roots(mesh, threshold);
     for (unsigned int e = 0; e < mesh.n_elements(); ++e)
-      if (result.element_to_root[e] != e)
-        for (const ManifoldMesh::Link &link : mesh.joined(e))
-          result.pairs.emplace_back(std::min(e, link.neighbor),
-                                    std::max(e, link.neighbor));
+    {
+      const unsigned int parent = roots.element_to_parent[e];
+      if (parent != e)
+        result.pairs.emplace_back(std::min(e, parent), std::max(e, parent));
+    }
     std::sort(result.pairs.begin(), result.pairs.end());
-    result.pairs.erase(std::unique(result.pairs.begin(), result.pairs.end()),
-                       result.pairs.end());
+    result.element_to_root = std::move(roots.element_to_root);
     return result;
   }
 
@@ -148,7 +136,8 @@ namespace NMM
     const unsigned int      n_elements    = manifold_mesh.n_elements();
 
     Aggregation result;
-    result.element_to_root = find_roots(manifold_mesh, threshold);
+    result.element_to_root =
+      find_roots(manifold_mesh, threshold).element_to_root;
 
     // covers
     result.is_free.assign(covers.n_covers(), false);
@@ -157,29 +146,44 @@ namespace NMM
         for (const unsigned int k : covers.covers(e))
           result.is_free[k] = true;
 
-    std::vector<std::pair<unsigned int, unsigned int>> candidates;
+    // the root of a cover's largest element, or of the one whose root is nearer
+    struct Candidate
+    {
+      unsigned int cover, root;
+      double       area, distance;
+    };
+    std::vector<Candidate> candidates;
     for (unsigned int e = 0; e < n_elements; ++e)
       if (result.element_to_root[e] != e)
+      {
+        const unsigned int root   = result.element_to_root[e];
+        const double       area   = manifold_mesh.area(e);
+        const Point<2>     middle = centroid(mesh, manifold_mesh.cell(root));
         for (const unsigned int k : covers.covers(e))
           if (!result.is_free[k])
-            candidates.emplace_back(k, result.element_to_root[e]);
-    std::sort(candidates.begin(), candidates.end());
+            candidates.push_back(
+              {k, root, area, covers.node(k).distance(middle)});
+      }
+    // elements ascend within a cover: what is equal to rounding goes to the
+    // lower number
+    std::stable_sort(candidates.begin(),
+                     candidates.end(),
+                     [](const Candidate &a, const Candidate &b) {
+                       return a.cover < b.cover;
+                     });
+    const auto is_better = [](const Candidate &a, const Candidate &b) {
+      constexpr double more = 1. + 1e-10;
+      if (a.area > more * b.area || b.area > more * a.area)
+        return a.area > b.area;
+      return more * a.distance < b.distance;
+    };
     for (std::size_t i = 0; i < candidates.size();)
     {
-      const unsigned int                    k             = candidates[i].first;
-      std::pair<unsigned int, unsigned int> best          = candidates[i];
-      double                                best_distance = 1e300;
-      for (; i < candidates.size() && candidates[i].first == k; ++i)
-      {
-        const double d = covers.node(k).distance(
-          centroid(mesh, manifold_mesh.cell(candidates[i].second)));
-        if (d < best_distance * (1. - 1e-10))
-        {
-          best_distance = d;
-          best          = candidates[i];
-        }
-      }
-      result.cover_to_root.push_back(best);
+      Candidate best = candidates[i];
+      for (; i < candidates.size() && candidates[i].cover == best.cover; ++i)
+        if (is_better(candidates[i], best))
+          best = candidates[i];
+      result.cover_to_root.emplace_back(best.cover, best.root);
     }
 
     // values this rank needs

@@ -1,4 +1,5 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/covers/element_support.h>
 #include <nmm/covers/own_meshes.h>
 
 #include "cutting.h"
@@ -46,9 +47,7 @@ namespace NMM
       {
         const unsigned int cell = manifold_mesh.cell(e);
         take_better(fillings[manifold_mesh.region(e)],
-                    manifold_mesh.is_whole(e)
-                      ? 1.
-                      : manifold_mesh.area(e) / mesh.cell_area(cell),
+                    element_support(manifold_mesh, e),
                     mesh,
                     cell);
       }
@@ -119,7 +118,7 @@ namespace NMM
       const bool is_convex = area >= 0.999 * shape.inner_hull_area;
       Filling    filling;
       if (mesh.cells.size() == 1 ||
-          (is_convex && mean >= 1.01 * parameters.threshold))
+          (is_convex && mean >= 1.01 * parameters.filling))
       {
         filling.best  = mean;
         const auto &v = mesh.cells[0];
@@ -183,7 +182,7 @@ namespace NMM
         const Filling filling = measure(region, shape, mesh);
         if (filling.best > best.filling.best)
           best = {std::move(mesh), outcome, filling};
-        return best.filling.best >= parameters.threshold;
+        return best.filling.best >= parameters.filling;
       };
 
       if (shape.sides[0] <= h && try_mesh(internal::make_single_triangle(shape),
@@ -253,7 +252,7 @@ namespace NMM
       if (outcome == Outcome::main_mesh || outcome == Outcome::badly_filled)
         text << (one ? " fills" : " fill")
              << " no triangle of any mesh tried to the threshold of "
-             << parameters.threshold << " and "
+             << parameters.filling << " and "
              << (outcome == Outcome::main_mesh
                    ? (one ? "stays on" : "stay on")
                    : (one ? "has the best of these instead of"

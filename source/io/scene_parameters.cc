@@ -32,7 +32,14 @@ namespace NMM
 
     const std::vector<std::pair<std::string, Stabilization>> stabilizations = {
       {"aggregation", Stabilization::aggregation},
+      {"ghost penalty", Stabilization::ghost_penalty},
       {"none", Stabilization::none}};
+
+    const std::vector<std::pair<std::string, CoverParameters::OwnMeshes>>
+      own_mesh_choices = {
+        {"where needed", CoverParameters::OwnMeshes::where_needed},
+        {"every region", CoverParameters::OwnMeshes::every_region},
+        {"never", CoverParameters::OwnMeshes::never}};
 
     const std::vector<std::pair<std::string, LinearSolverParameters::Type>>
       solver_types = {{"automatic", LinearSolverParameters::Type::automatic},
@@ -272,13 +279,25 @@ namespace NMM
                       "aggregation: they follow the polynomial of the nearest "
                       "well-supported element of the same block, so accuracy "
                       "and conditioning do not depend on how the mesh is cut; "
+                      "ghost penalty: the difference between the polynomials "
+                      "of such elements and their neighbours' costs energy; "
                       "none: the plain method.");
     prm.declare_entry("Threshold",
                       dealii::Patterns::Tools::to_string(
                         default_aggregation_threshold),
                       Patterns::Double(0, 1),
-                      "aggregation: an element is well supported if its area "
-                      "is at least this share of its cell's [-].");
+                      "An element is well supported if it sees at least this "
+                      "share of the energy of any linear strain of its cell "
+                      "[-]; 0: all are.");
+    prm.declare_entry(
+      "Own meshes",
+      "where needed",
+      selection(own_mesh_choices),
+      "Regions with a mathematical mesh of their own size and "
+      "shape. where needed: those smaller or thinner than the "
+      "cells, none of whose elements is well supported; every "
+      "region: each, down to a single six-node triangle; never: "
+      "all are on one mesh.");
   }
 
 
@@ -287,6 +306,7 @@ namespace NMM
   {
     stabilization = get_selection(prm, "Stabilization", stabilizations);
     threshold     = prm.get_double("Threshold");
+    own_meshes    = get_selection(prm, "Own meshes", own_mesh_choices);
   }
 
 
@@ -314,6 +334,17 @@ namespace NMM
                       Patterns::Integer(1),
                       "iterative: iterations after which it gives up (exit "
                       "code 3).");
+    prm.declare_entry("Condition number",
+                      "false",
+                      Patterns::Bool(),
+                      "Estimate the condition number of the matrix after "
+                      "diagonal scaling and the place where it is weakest; "
+                      "costs about two more solutions.");
+    prm.declare_entry("Condition number limit",
+                      dealii::Patterns::Tools::to_string(
+                        defaults.condition_limit),
+                      Patterns::Double(1),
+                      "A condition number above this is warned of [-].");
   }
 
 
@@ -321,10 +352,12 @@ namespace NMM
   SolverParameters::parse(ParameterHandler &prm)
   {
     LinearSolverParameters parameters;
-    parameters.type           = get_selection(prm, "Type", solver_types);
-    parameters.direct_limit   = prm.get_integer("Direct limit");
-    parameters.tolerance      = prm.get_double("Tolerance");
-    parameters.max_iterations = prm.get_integer("Maximum iterations");
+    parameters.type               = get_selection(prm, "Type", solver_types);
+    parameters.direct_limit       = prm.get_integer("Direct limit");
+    parameters.tolerance          = prm.get_double("Tolerance");
+    parameters.max_iterations     = prm.get_integer("Maximum iterations");
+    parameters.estimate_condition = prm.get_bool("Condition number");
+    parameters.condition_limit    = prm.get_double("Condition number limit");
     AssertThrow(parameters.tolerance > 0.,
                 InputError("the tolerance of the solver is 0",
                            "parameter 'Solver/Tolerance'",

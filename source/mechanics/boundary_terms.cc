@@ -239,7 +239,17 @@ namespace NMM
       const double share[2] = {
         std::isfinite(bound[0]) ? 1. / (1. + bound[0] / bound[1]) : 0.,
         std::isfinite(bound[1]) ? 1. / (1. + bound[1] / bound[0]) : 0.};
-      const double penalty = safety / (1. / bound[0] + 1. / bound[1]);
+      // What a small block is tied to has a small bound, as the block's
+      // boundary is short beside its elements; so as not to hold the block by
+      // that alone, no less than stiffness over size of the smaller cell.
+      const double softer = std::min(
+        region_to_elasticity[mesh.region(elements[0])].largest_eigenvalue(),
+        region_to_elasticity[mesh.region(elements[1])].largest_eigenvalue());
+      const double size =
+        std::min(mathematical_mesh.cell_diameter(mesh.cell(elements[0])),
+                 mathematical_mesh.cell_diameter(mesh.cell(elements[1])));
+      const double penalty =
+        std::max(safety / (1. / bound[0] + 1. / bound[1]), softer / size);
 
       const EdgeRule rule =
         make_edge_rule(edge,

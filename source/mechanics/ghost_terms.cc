@@ -80,8 +80,8 @@ namespace NMM
                   sign * (T[k][0] * reference[side][i][0] +
                           T[k][1] * reference[side][i][1]);
           }
-          const double lambda = factor * weight * elasticity.lambda,
-                       mu     = factor * weight * elasticity.mu;
+          const double lambda = stiffness_factor * weight * elasticity.lambda,
+                       mu     = stiffness_factor * weight * elasticity.mu;
           for (unsigned int i = 0; i < system.n_covers; ++i)
             for (unsigned int j = 0; j < system.n_covers; ++j)
             {
@@ -112,7 +112,7 @@ namespace NMM
                        WeightFunctions::values(degree, xi_1, w + n_per_cell);
                        for (unsigned int i = 0; i < n_per_cell; ++i)
                          w[n_per_cell + i] *= -1.;
-                       const double m = factor * weight * density;
+                       const double m = mass_factor * weight * density;
                        for (unsigned int i = 0; i < system.n_covers; ++i)
                          for (unsigned int j = 0; j < system.n_covers; ++j)
                            for (unsigned int k = 0; k < 2; ++k)

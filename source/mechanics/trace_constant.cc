@@ -203,6 +203,27 @@ namespace NMM
     }
 
 
+    bool
+    TraceConstants::has_polynomial_of(const unsigned int element,
+                                      const unsigned int root) const
+    {
+      const auto of_root    = covers->covers(root);
+      const auto is_of_root = [&](const unsigned int k) {
+        return std::find(of_root.begin(), of_root.end(), k) != of_root.end();
+      };
+      for (const unsigned int k : covers->covers(element))
+        if (!is_of_root(k))
+        {
+          if (!constraints->is_constrained(2 * k))
+            return false;
+          for (const auto &entry : *constraints->get_constraint_entries(2 * k))
+            if (!is_of_root(entry.first / 2))
+              return false;
+        }
+      return true;
+    }
+
+
     double
     TraceConstants::operator()(const unsigned int element)
     {
@@ -212,8 +233,12 @@ namespace NMM
         known[element]                = constant(moments(element), boundary);
         const unsigned int root       = find_root(element);
         if (root != invalid_index)
-          known[element] =
-            std::min(known[element], 2. * constant(moments(root), boundary));
+        {
+          const double of_root = constant(moments(root), boundary);
+          known[element]       = has_polynomial_of(element, root)
+                                   ? of_root
+                                   : std::min(known[element], 2. * of_root);
+        }
       }
       return known[element];
     }

@@ -32,10 +32,11 @@ namespace NMM
      *
      * A sliver has a large constant: 4 / thickness. Where aggregation ties its
      * unknowns to a root element R, the polynomial's energy on R bounds its
-     * trace on Gamma as well, and the smaller of Lambda_E and 2 Lambda_R (with
-     * R's area and E's boundary; 2 because some covers of E may be free) is
-     * taken, which is of order 1/h. The ghost penalty bounds the energy on R and
-     * the difference of the polynomials, and the same is taken.
+     * trace on Gamma as well, and Lambda_R (with R's area and E's boundary),
+     * which is of order 1/h, is taken if E's polynomial is R's, so that a
+     * sliver that vanishes changes nothing. Where E has free covers of its own,
+     * or the ghost penalty bounds only the difference of the polynomials, it is
+     * the smaller of Lambda_E and 2 Lambda_R.
      */
     class TraceConstants
     {
@@ -78,6 +79,10 @@ namespace NMM
       /// or that the ghost penalty ties it to, or invalid_index.
       unsigned int
       find_root(unsigned int element) const;
+
+      /// Is every cover of @p element one of @p root or constrained to those?
+      bool
+      has_polynomial_of(unsigned int element, unsigned int root) const;
 
       const CoverSystem                       *covers;
       const QuadratureCollection              *quadrature;

@@ -3,6 +3,7 @@
 
 #include <nmm/base/exceptions.h>
 #include <nmm/covers/aggregation.h>
+#include <nmm/covers/own_meshes.h>
 #include <nmm/mechanics/displacement_field.h>
 #include <nmm/mechanics/elasticity_problem.h>
 #include <nmm/mechanics/error_norms.h>
@@ -161,14 +162,17 @@ namespace NMM
       }
 
       /// With any mathematical mesh.
-      Model(Geometry geometry,
-            const std::function<MathematicalMesh(const PhysicalMesh &)>
-                               &make_mesh,
-            const Stabilization stabilization = Stabilization::aggregation,
-            const MPI_Comm      communicator  = MPI_COMM_WORLD)
+      Model(
+        Geometry                                                     geometry,
+        const std::function<MathematicalMesh(const PhysicalMesh &)> &make_mesh,
+        const Stabilization stabilization = Stabilization::aggregation,
+        const MPI_Comm      communicator  = MPI_COMM_WORLD)
         : physical_mesh(std::move(geometry))
-        , mathematical_mesh(make_mesh(physical_mesh))
-        , manifold_mesh(mathematical_mesh, physical_mesh)
+        , meshes(make_own_meshes(std::make_unique<MathematicalMesh>(
+                                   make_mesh(physical_mesh)),
+                                 physical_mesh))
+        , mathematical_mesh(*meshes.mathematical_mesh)
+        , manifold_mesh(*meshes.manifold_mesh)
         , covers(manifold_mesh, communicator)
       {
         const unsigned int degree = mathematical_mesh.degree();
@@ -192,11 +196,8 @@ namespace NMM
       LinearSolverReport
       solve(const LinearSolverParameters &parameters = {})
       {
-        system = std::make_unique<StaticElasticity>(covers,
-                                                    *quadrature,
-                                                    constraints,
-                                                    problem,
-                                                    ghost_penalty.get());
+        system = std::make_unique<StaticElasticity>(
+          covers, *quadrature, constraints, problem, ghost_penalty.get());
         system->assemble();
         const LinearSolverReport report = system->solve(parameters);
         field = std::make_unique<DisplacementField>(covers,
@@ -232,8 +233,9 @@ namespace NMM
       }
 
       PhysicalMesh                          physical_mesh;
-      MathematicalMesh                      mathematical_mesh;
-      ManifoldMesh                          manifold_mesh;
+      OwnMeshes                             meshes;
+      const MathematicalMesh               &mathematical_mesh;
+      const ManifoldMesh                   &manifold_mesh;
       CoverSystem                           covers;
       Aggregation                           aggregation;
       dealii::AffineConstraints<double>     constraints;

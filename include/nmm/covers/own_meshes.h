@@ -14,9 +14,12 @@ namespace NMM
   /// When a region gets a mathematical mesh of its own, and how good a one.
   struct OwnMeshParameters
   {
-    /// A region needs a mesh of its own if none of its elements has this share
-    /// of its cell's area [-]; its own mesh should give it such an element.
+    /// A region needs a mesh of its own if none of its elements has this
+    /// element_support() [-].
     double threshold = default_aggregation_threshold;
+    /// The share of its cell's area [-] that an element of a mesh of its own
+    /// should have.
+    double filling = 0.25;
     /// Give every region a mesh of its own, whether it needs it or not.
     bool every_region = false;
     /// How often the cells of a region's mesh are halved, at most, until one is

@@ -81,8 +81,17 @@ namespace NMM
   struct CoverParameters
   {
     Stabilization stabilization = Stabilization::aggregation;
-    /// Least share of its cell's area that makes an element good [-].
+    /// Least element_support() that makes an element good [-].
     double threshold = default_aggregation_threshold;
+    /// Which regions get mathematical meshes of their own, see
+    /// make_own_meshes().
+    enum class OwnMeshes
+    {
+      where_needed,
+      every_region,
+      never
+    };
+    OwnMeshes own_meshes = OwnMeshes::where_needed;
 
     static void
     declare(dealii::ParameterHandler &prm);

@@ -32,6 +32,11 @@ namespace NMM
     /// Relative residual of the iterative solver.
     double       tolerance      = 1e-11;
     unsigned int max_iterations = 1000;
+    /// For programs: is estimate_condition_number() wanted, and from which
+    /// value [-] on should they warn? With double precision about 16 minus the
+    /// number's exponent digits are left in the solution.
+    bool   estimate_condition = false;
+    double condition_limit    = 1e10;
   };
 
   struct LinearSolverReport

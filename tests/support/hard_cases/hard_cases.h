@@ -67,9 +67,24 @@ namespace NMM
     make_free_surface_field(const Point<2>     &origin,
                             const Tensor<1, 2> &tangent);
 
-    /// A random polynomial of @p degree: exact on any cut.
+    /// A random polynomial of @p degree about @p center: exact on any cut.
     std::shared_ptr<const SmoothField>
-    make_polynomial_field(unsigned int seed, unsigned int degree);
+    make_polynomial_field(unsigned int    seed,
+                          unsigned int    degree,
+                          const Point<2> &center = Point<2>());
+
+    /// Without divergence: u = sum_m d_m sin(k_m . x + phi_m), d_m normal to k_m.
+    std::shared_ptr<const SmoothField>
+    make_solenoidal_field();
+
+    /**
+     * A cantilever of depth 1, 0 < x < @p length, -1/2 < y < 1/2, under a
+     * parabolic shear load at its end, plane stress: stresses sigma_x = P (L -
+     * x) y / I, tau = -P (1/4 - y^2) / (2 I), a cubic displacement (Timoshenko
+     * & Goodier, art. 21); P such that the end sinks by 1.
+     */
+    std::shared_ptr<const SmoothField>
+    make_beam_field(double length, const Material &material);
 
     /// Make @p model's problem have the solution @p field: body force,
     /// displacements on @p held, tractions on @p loaded curves. One material.
@@ -118,6 +133,10 @@ namespace NMM
            unsigned int   polynomial_degree,
            const Measure &what);
 
+    /// The unit disk, its halves called left and right.
+    Geometry
+    make_disk();
+
     /// Case 2: the unit disk at a random place (seeded) on a mesh of
     /// equilateral triangles, its left half held, its right half loaded.
     Result
@@ -132,6 +151,132 @@ namespace NMM
     /// loaded.
     Result
     fitted_hexagon(double cell_size, const Measure &what);
+
+    /**
+     * Case 3: a column of depth 1 between smooth walls under its own weight and
+     * a pressure, with a layer of @p thickness h between two closed joints whose
+     * stiffness is @p contrast times that of the rest. Quadratic in each layer,
+     * hence exact.
+     */
+    Result
+    thin_layer(double         thickness,
+               double         contrast,
+               Stabilization  stabilization,
+               const Measure &what);
+
+    /// Case 3: two closed joints that cross at 1 degree. Quadratic patch test.
+    Result
+    sharp_wedges(double         cell_size,
+                 Stabilization  stabilization,
+                 const Measure &what);
+
+    /// A square, a triangle or a disk of @p size h.
+    enum class Shape
+    {
+      square,
+      triangle,
+      disk
+    };
+
+    const std::string &
+    to_string(Shape shape);
+
+    /**
+     * Case 5: a block of @p size h, turned by 20 degrees, alone (held on its
+     * boundary, or on a side and loaded on the others) or tied into a frame
+     * whose boundary is held. Linear patch test about the block's centre: a
+     * random constant stress, or a rigid rotation, for which the energy
+     * error is absolute, over that of a unit strain.
+     */
+    Result
+    small_block(Shape          shape,
+                double         size,
+                bool           in_frame,
+                bool           rigid,
+                Stabilization  stabilization,
+                const Measure &what);
+
+    /// Where a joint meets the mesh.
+    enum class Track
+    {
+      along_mesh_lines,
+      along_diagonals,
+      through_nodes
+    };
+
+    const std::string &
+    to_string(Track track);
+
+    struct Coincidence
+    {
+      unsigned int                       n_elements = 0;
+      std::vector<Tensor<1, 2>>          displacements;
+      std::vector<SymmetricTensor<2, 2>> stresses;
+    };
+
+    /// Case 4: the unit square with a joint on @p track, moved upwards by @p
+    /// n_ulp floating point numbers; displacements and stresses at 81 places.
+    Coincidence
+    joint_on_mesh(Track         track,
+                  JointState    state,
+                  unsigned int  n_ulp,
+                  Stabilization stabilization);
+
+    /// Largest difference of displacements and stresses over their largest
+    /// value [-].
+    double
+    difference(const Coincidence &a, const Coincidence &b);
+
+    /// Case 6: the disk with a divergence-free displacement in plane strain.
+    Result
+    nearly_incompressible(double         poissons_ratio,
+                          double         cell_size,
+                          Stabilization  stabilization,
+                          const Measure &what);
+
+    /// Case 6: a cantilever of depth 1.
+    Result
+    slender_beam(double         length,
+                 double         cell_size,
+                 Stabilization  stabilization,
+                 const Measure &what);
+
+    struct Network
+    {
+      unsigned int seed = 0, n_regions = 0, n_elements = 0;
+      /// |sum of element areas - 1|.
+      double area_error = 0.;
+      Result solved;
+      /// On regions with meshes of their own.
+      std::vector<std::string> notices;
+    };
+
+    /**
+     * Case 7: the unit square with up to @p n_joints_max closed joints and
+     * interfaces whose ends lie on a grid of 33 x 33 points, as do the nodes of
+     * the mesh (cells of 4 x 4): crossings in nodes, joints along edges and
+     * along each other abound. Quadratic patch test.
+     */
+    Network
+    random_network(unsigned int  seed,
+                   unsigned int  n_joints_max,
+                   Stabilization stabilization);
+
+    /// What aggregation costs on the quarter ring.
+    struct Cost
+    {
+      unsigned int n_unknowns = 0, n_fitted_unknowns = 0;
+      /// Finding roots and making constraints; sparsity pattern, assembly and
+      /// hand-over to Trilinos [s].
+      double aggregation_seconds = 0., assembly_seconds = 0.;
+      /// Conjugate gradients with ML to 1e-11: mesh that does not fit with
+      /// aggregation and with ghost penalty, and a fitted polar mesh.
+      unsigned int cg_iterations = 0, ghost_cg_iterations = 0,
+                   fitted_cg_iterations = 0;
+    };
+
+    Cost
+    cost_on_ring(double cell_size);
   } // namespace HardCases
 } // namespace NMM
 

@@ -26,8 +26,10 @@ namespace NMM
             if (piece.kind == CurvePiece::Kind::segment)
             {
               const Tensor<1, 2> along = piece.end - piece.start;
-              const double       t     = std::clamp(
-                ((x - piece.start) * along) / along.norm_square(), 0., 1.);
+              const double       t =
+                std::clamp(((x - piece.start) * along) / along.norm_square(),
+                           0.,
+                           1.);
               d = x.distance(piece.start + t * along);
             }
             else
@@ -41,9 +43,8 @@ namespace NMM
         // boundaries run counter-clockwise here
         if (nearest->kind == CurvePiece::Kind::segment)
         {
-          const Tensor<1, 2> along =
-            (nearest->end - nearest->start) /
-            (nearest->end - nearest->start).norm();
+          const Tensor<1, 2> along = (nearest->end - nearest->start) /
+                                     (nearest->end - nearest->start).norm();
           return Tensor<1, 2>({along[1], -along[0]});
         }
         return (x - nearest->center) / (x - nearest->center).norm();
@@ -60,26 +61,30 @@ namespace NMM
                                               degree,
                                               degree,
                                               owned);
-        const PlaneElasticity e = model.problem.materials[0].plane_elasticity(
-          model.problem.plane_state);
-        const auto energy = [&](const Tensor<2, 2> &g) {
-          return e.stress(g) * symmetrize(g);
-        };
+        const auto                 region_to_material =
+          model.problem.region_to_material(model.physical_mesh);
         double error = 0., norm = 0.;
         for (unsigned int element = owned.first; element < owned.second;
              ++element)
         {
+          const PlaneElasticity e =
+            model.problem
+              .materials[region_to_material[model.manifold_mesh.region(
+                element)]]
+              .plane_elasticity(model.problem.plane_state);
+          const auto energy = [&](const Tensor<2, 2> &g) {
+            return e.stress(g) * symmetrize(g);
+          };
           const unsigned int cell = model.manifold_mesh.cell(element);
-          const double det = 2. * model.mathematical_mesh.cell_area(cell);
-          const auto  &rule = quadrature.rule(element);
+          const double       det = 2. * model.mathematical_mesh.cell_area(cell);
+          const auto        &rule = quadrature.rule(element);
           for (unsigned int q = 0; q < rule.size(); ++q)
           {
-            const Tensor<2, 2> exact =
-              field.gradient(model.mathematical_mesh.reference_to_real(
-                cell, rule.point(q)));
-            error += det * rule.weight(q) *
-                     energy(model.field->gradient(element, rule.point(q)) -
-                            exact);
+            const Tensor<2, 2> exact = field.gradient(
+              model.mathematical_mesh.reference_to_real(cell, rule.point(q)));
+            error +=
+              det * rule.weight(q) *
+              energy(model.field->gradient(element, rule.point(q)) - exact);
             norm += det * rule.weight(q) * energy(exact);
           }
         }
@@ -117,19 +122,20 @@ namespace NMM
       model.problem.body_force  = vector_function(
         [=](const Point<2> &x) { return field->body_force(x, e); });
       for (const std::string &name : held)
-        model.problem.boundary_conditions.push_back(condition(
-          BoundaryCondition::Type::displacement,
-          name,
-          vector_function(
-            [=](const Point<2> &x) { return field->displacement(x); })));
+        model.problem.boundary_conditions.push_back(
+          condition(BoundaryCondition::Type::displacement,
+                    name,
+                    vector_function([=](const Point<2> &x) {
+                      return field->displacement(x);
+                    })));
       for (const std::string &name : loaded)
-        model.problem.boundary_conditions.push_back(condition(
-          BoundaryCondition::Type::traction,
-          name,
-          vector_function([=, &model](const Point<2> &x) {
-            return e.stress(field->gradient(x)) *
-                   normal_of_curve(model.physical_mesh, name, x);
-          })));
+        model.problem.boundary_conditions.push_back(
+          condition(BoundaryCondition::Type::traction,
+                    name,
+                    vector_function([=, &model](const Point<2> &x) {
+                      return e.stress(field->gradient(x)) *
+                             normal_of_curve(model.physical_mesh, name, x);
+                    })));
     }
 
 
@@ -143,28 +149,25 @@ namespace NMM
       Result result;
       result.variant       = variant;
       result.stabilization = stabilization;
-      result.n_unknowns    = 2 * (model.covers.n_covers() -
-                               model.aggregation.cover_to_root.size());
+      result.n_unknowns =
+        2 * (model.covers.n_covers() - model.aggregation.cover_to_root.size());
       for (unsigned int e = 0; e < model.manifold_mesh.n_elements(); ++e)
-        result.smallest_fraction = std::min(
-          result.smallest_fraction,
-          model.manifold_mesh.area(e) /
-            model.mathematical_mesh.cell_area(model.manifold_mesh.cell(e)));
+        result.smallest_fraction = std::min(result.smallest_fraction,
+                                            model.manifold_mesh.area(e) /
+                                              model.mathematical_mesh.cell_area(
+                                                model.manifold_mesh.cell(e)));
       for (Material &material : model.problem.materials)
         material.density = 1.;
       try
       {
         model.solve();
-        result.energy_error       = energy_error(model, field);
-        result.displacement_error = compute_errors(
-                                      *model.field,
-                                      [&](const Point<2> &x) {
-                                        return field.displacement(x);
-                                      },
-                                      [&](const Point<2> &) {
-                                        return SymmetricTensor<2, 2>();
-                                      })
-                                      .displacement;
+        result.energy_error = energy_error(model, field);
+        result.displacement_error =
+          compute_errors(
+            *model.field,
+            [&](const Point<2> &x) { return field.displacement(x); },
+            [&](const Point<2> &) { return SymmetricTensor<2, 2>(); })
+            .displacement;
         if (what.condition)
         {
           result.stiffness_condition =
@@ -177,7 +180,7 @@ namespace NMM
         if (what.cg_iterations)
         {
           LinearSolverParameters parameters;
-          parameters.type = LinearSolverParameters::Type::iterative;
+          parameters.type      = LinearSolverParameters::Type::iterative;
           parameters.tolerance = 1e-10;
           result.cg_iterations = model.system->solve(parameters).n_iterations;
         }

@@ -34,17 +34,18 @@ namespace NMM
     {
       // h is a power of two and the square's corner a node, so that mesh lines
       // and sides agree exactly
-      const double         h = 1. / n;
-      const double         height = 1. + epsilon * h;
-      const Tensor<1, 2>   tangent({std::cos(angle * dealii::numbers::PI / 180.),
-                                  std::sin(angle * dealii::numbers::PI / 180.)});
-      const double         rise = tangent[1] / tangent[0];
-      const Point<2>       corners[4] = {{0., 0.},
-                                         {1., 0.},
-                                         {1., height + rise},
-                                         {0., height}};
-      const char *const    names[4]   = {"bottom", "right", "top", "left"};
-      Geometry             geometry;
+      const double       h      = 1. / n;
+      const double       height = 1. + epsilon * h;
+      const Tensor<1, 2> tangent(
+        {std::cos(angle * dealii::numbers::PI / 180.),
+         std::sin(angle * dealii::numbers::PI / 180.)});
+      const double      rise       = tangent[1] / tangent[0];
+      const Point<2>    corners[4] = {{0., 0.},
+                                      {1., 0.},
+                                      {1., height + rise},
+                                      {0., height}};
+      const char *const names[4]   = {"bottom", "right", "top", "left"};
+      Geometry          geometry;
       for (unsigned int i = 0; i < 4; ++i)
         geometry.add(single_piece_curve(
           names[i], CurvePiece::segment(corners[i], corners[(i + 1) % 4])));
@@ -106,6 +107,21 @@ namespace NMM
     } // namespace
 
 
+    Geometry
+    make_disk()
+    {
+      Geometry geometry;
+      // the same end points for both halves
+      const Curve right = make_arc("right", -90., 90.);
+      geometry.add(right);
+      geometry.add(single_piece_curve("left",
+                                      CurvePiece::arc(right.pieces[0].end,
+                                                      {-1., 0.},
+                                                      right.pieces[0].start)));
+      return geometry;
+    }
+
+
     Result
     moved_disk(const unsigned int  seed,
                const double        cell_size,
@@ -118,15 +134,7 @@ namespace NMM
       const double x = random(generator), y = random(generator),
                    angle = random(generator);
 
-      Geometry geometry;
-      // the same end points for both halves
-      const Curve right = make_arc("right", -90., 90.);
-      geometry.add(right);
-      geometry.add(single_piece_curve("left",
-                                      CurvePiece::arc(right.pieces[0].end,
-                                                      {-1., 0.},
-                                                      right.pieces[0].start)));
-      Model model(std::move(geometry),
+      Model      model(make_disk(),
                   mesh_parameters(cell_size,
                                   Tensor<1, 2>({cell_size * x, cell_size * y}),
                                   60. * angle),
@@ -141,11 +149,8 @@ namespace NMM
                 PlaneState::plane_strain,
                 {"left"},
                 {"right"});
-      return measure(model,
-                     *field,
-                     "seed " + std::to_string(seed),
-                     stabilization,
-                     what);
+      return measure(
+        model, *field, "seed " + std::to_string(seed), stabilization, what);
     }
 
 
@@ -190,8 +195,8 @@ namespace NMM
 
       // all nodes on the sides are corners: collinear only up to rounding
       std::vector<Point<2>> outline;
-      const int direction[6][2] = {
-        {-1, 1}, {-1, 0}, {0, -1}, {1, -1}, {1, 0}, {0, 1}};
+      const int             direction[6][2] = {
+                    {-1, 1}, {-1, 0}, {0, -1}, {1, -1}, {1, 0}, {0, 1}};
       int i = n, j = 0;
       for (const auto &d : direction)
         for (int k = 0; k < n; ++k)
@@ -214,7 +219,7 @@ namespace NMM
             CurvePiece::segment(outline[k], outline[k + 1]));
         geometry.add(curve);
       }
-      Model model(std::move(geometry), [&](const PhysicalMesh &) {
+      Model      model(std::move(geometry), [&](const PhysicalMesh &) {
         dealii::Triangulation<2> triangulation;
         triangulation.create_triangulation(vertices,
                                            cells,

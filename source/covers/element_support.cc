@@ -1,0 +1,96 @@
+#include <nmm/covers/element_support.h>
+#include <nmm/covers/point_location.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+namespace NMM
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Moments of a polygon about the centroid of the reference triangle.
+    class Moments
+    {
+    public:
+      /// Add the part between the centroid and the edge a -> b.
+      void
+      add(const Tensor<1, 2> &a, const Tensor<1, 2> &b)
+      {
+        // triangle (0, a, b): area, and its exact moments
+        const double area = 0.5 * (a[0] * b[1] - a[1] * b[0]);
+        m += area;
+        first += area / 3. * (a + b);
+        for (unsigned int i = 0; i < 2; ++i)
+          for (unsigned int j = i; j < 2; ++j)
+            second(i, j) +=
+              area / 12. *
+              (2. * a[i] * a[j] + 2. * b[i] * b[j] + a[i] * b[j] + a[j] * b[i]);
+      }
+
+      /// In the orthonormal basis 1, sqrt(18) x, sqrt(24) (y + x / 2) of the
+      /// reference triangle, divided by its area.
+      Eigen::Matrix3d
+      normalized() const
+      {
+        const double    sx = std::sqrt(18.), sy = std::sqrt(24.);
+        const double    xx = second(0, 0), xy = second(0, 1), yy = second(1, 1);
+        Eigen::Matrix3d result;
+        result(0, 0) = m;
+        result(0, 1) = sx * first[0];
+        result(0, 2) = sy * (first[1] + 0.5 * first[0]);
+        result(1, 1) = sx * sx * xx;
+        result(1, 2) = sx * sy * (xy + 0.5 * xx);
+        result(2, 2) = sy * sy * (yy + xy + 0.25 * xx);
+        return 2. * Eigen::Matrix3d(result.selfadjointView<Eigen::Upper>());
+      }
+
+    private:
+      double          m = 0.;
+      Tensor<1, 2>    first;
+      Eigen::Matrix2d second = Eigen::Matrix2d::Zero();
+    };
+  } // namespace
+
+
+  double
+  element_support(const ManifoldMesh &manifold_mesh, const unsigned int element)
+  {
+    if (manifold_mesh.is_whole(element))
+      return 1.;
+    const MathematicalMesh &mesh = manifold_mesh.mathematical_mesh();
+    const unsigned int      cell = manifold_mesh.cell(element);
+    const Point<2>          centroid(1. / 3., 1. / 3.);
+
+    Moments moments;
+    for (const ElementEdge &edge : manifold_mesh.edges(element))
+    {
+      Tensor<1, 2> a = mesh.real_to_reference(cell, edge.start) - centroid;
+      if (edge.is_arc())
+      {
+        constexpr unsigned int n_chords = 8;
+        const double           radius   = std::abs(edge.radius);
+        const double           from     = angle_about(edge.center, edge.start);
+        const double           sweep    = swept_angle(edge);
+        for (unsigned int i = 1; i < n_chords; ++i)
+        {
+          const double       t = from + sweep * i / n_chords;
+          const Tensor<1, 2> b =
+            mesh.real_to_reference(
+              cell,
+              edge.center + radius * Tensor<1, 2>({std::cos(t), std::sin(t)})) -
+            centroid;
+          moments.add(a, b);
+          a = b;
+        }
+      }
+      moments.add(a, mesh.real_to_reference(cell, edge.end) - centroid);
+    }
+    const double smallest =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments.normalized(),
+                                                     Eigen::EigenvaluesOnly)
+        .eigenvalues()(0);
+    return std::max(smallest, 0.);
+  }
+} // namespace NMM

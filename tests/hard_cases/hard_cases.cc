@@ -149,6 +149,26 @@ TEST(HardCases, ThinLayer)
 }
 
 
+// Full order across a bonded interface, whatever the contrast: 3 and 2 but for
+// what two coarse meshes leave open.
+TEST(HardCases, BondedInclusion)
+{
+  for (const Stabilization stabilization : {aggregation, ghost})
+    for (const double contrast : {1e-6, 1e-3, 1e3, 1e6})
+    {
+      const Result coarse =
+                     bonded_inclusion(contrast, 0.2, stabilization, Measure()),
+                   fine =
+                     bonded_inclusion(contrast, 0.1, stabilization, Measure());
+      SCOPED_TRACE(fine.variant);
+      EXPECT_EQ(fine.failure, "");
+      EXPECT_GT(coarse.displacement_error / fine.displacement_error,
+                std::pow(2., 2.7));
+      EXPECT_GT(coarse.energy_error / fine.energy_error, std::pow(2., 1.7));
+    }
+}
+
+
 TEST(HardCases, SharpWedges)
 {
   for (const Stabilization stabilization : {aggregation, ghost})

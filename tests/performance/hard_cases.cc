@@ -240,6 +240,27 @@ namespace
 
 
   void
+  interfaces(Report &report)
+  {
+    report.section(
+      "Bonded interfaces",
+      "A disk with a round inclusion of another stiffness, bonded; the "
+      "interface "
+      "runs through the cells and the strain jumps across it. Full order, 3 in "
+      "L2 and 2 in the energy norm, whatever the contrast. (The energy norm is "
+      "dominated by the stiffer part.)");
+    report.header(single_header);
+    for (const Stabilization stabilization :
+         {Stabilization::aggregation, Stabilization::ghost_penalty})
+      for (const double contrast : {1e-6, 1e-3, 1e3, 1e6})
+        for (const double h : {0.2, 0.1, 0.05})
+          add_single(report,
+                     "inclusion",
+                     bonded_inclusion(contrast, h, stabilization, Measure()));
+  }
+
+
+  void
   limits(Report &report, const bool quick)
   {
     report.section(
@@ -373,6 +394,7 @@ namespace
     slivers(report, quick);
     disks(report, quick);
     layers(report);
+    interfaces(report);
     coincidences(report);
     small_blocks(report);
     limits(report, quick);

@@ -241,6 +241,19 @@ namespace NMM
                  Stabilization  stabilization,
                  const Measure &what);
 
+    /**
+     * A unit disk with a concentric inclusion of radius 1/2 whose stiffness is
+     * @p contrast times that of the rest, bonded, its rim displaced
+     * radially by 1 (right half) or loaded to that effect (left half): u_r = A r
+     * inside, B r + C / r outside. Strains jump at the interface, which runs
+     * through cells.
+     */
+    Result
+    bonded_inclusion(double         contrast,
+                     double         cell_size,
+                     Stabilization  stabilization,
+                     const Measure &what);
+
     struct Network
     {
       unsigned int seed = 0, n_regions = 0, n_elements = 0;

@@ -92,6 +92,15 @@ namespace NMM
     }
 
 
+    void
+    BlockSystem::ignore_inhomogeneities()
+    {
+      std::fill(expansion.inhomogeneity.begin(),
+                expansion.inhomogeneity.end(),
+                std::array<double, 2>{{0., 0.}});
+    }
+
+
     bool
     BlockSystem::has_constrained(
       const dealii::ArrayView<const unsigned int> covers) const
@@ -405,6 +414,42 @@ namespace NMM
     }
 
 
+    void
+    BlockSystem::add_rhs(const dealii::ArrayView<const unsigned int> covers,
+                         const double                               *rhs)
+    {
+      for (unsigned int i = 0; i < covers.size(); ++i)
+      {
+        const double      *f = rhs + 2 * i;
+        const unsigned int x = cover_to_expansion[covers[i]];
+        if (x == invalid_index)
+        {
+          const unsigned int r = cover_to_local[covers[i]];
+          right_hand_side[2 * r] += f[0];
+          right_hand_side[2 * r + 1] += f[1];
+          continue;
+        }
+        for (unsigned int t = expansion.begin[x]; t < expansion.begin[x + 1];
+             ++t)
+        {
+          const std::array<double, 4> &w = expansion.terms[t].block;
+          const unsigned int r = cover_to_local[expansion.terms[t].cover];
+          right_hand_side[2 * r] += w[0] * f[0] + w[2] * f[1];
+          right_hand_side[2 * r + 1] += w[1] * f[0] + w[3] * f[1];
+        }
+      }
+    }
+
+
+    void
+    BlockSystem::reset(const bool with_matrix)
+    {
+      if (with_matrix)
+        std::fill(values.begin(), values.end(), 0.);
+      std::fill(right_hand_side.begin(), right_hand_side.end(), 0.);
+    }
+
+
     /// T^T A T and T^T (f - A g) for u = T z + g.
     void
     BlockSystem::add_constrained(
@@ -416,21 +461,16 @@ namespace NMM
       expand(covers, local_covers);
       const unsigned int n = covers.size(), m = local_covers.size();
 
-      // rows of T, as terms whose covers are positions in local_covers
+      // rows of T
       static const std::array<double, 4> identity = {{1., 0., 0., 1.}};
-      struct Part
-      {
-        unsigned int  position;
-        const double *block;
-      };
-      std::vector<Part>         parts;
-      std::vector<unsigned int> parts_begin(1, 0);
-      const auto                position_of = [&](const unsigned int cover) {
+      parts.clear();
+      parts_begin.assign(1, 0);
+      local_inhomogeneity.assign(2 * n, 0.);
+      const auto position_of = [&](const unsigned int cover) {
         return static_cast<unsigned int>(
           std::find(local_covers.begin(), local_covers.end(), cover) -
           local_covers.begin());
       };
-      std::vector<double> inhomogeneity(2 * n, 0.);
       for (unsigned int i = 0; i < n; ++i)
       {
         const unsigned int x = cover_to_expansion[covers[i]];
@@ -442,15 +482,15 @@ namespace NMM
                ++t)
             parts.push_back({position_of(expansion.terms[t].cover),
                              expansion.terms[t].block.data()});
-          inhomogeneity[2 * i]     = expansion.inhomogeneity[x][0];
-          inhomogeneity[2 * i + 1] = expansion.inhomogeneity[x][1];
+          local_inhomogeneity[2 * i]     = expansion.inhomogeneity[x][0];
+          local_inhomogeneity[2 * i + 1] = expansion.inhomogeneity[x][1];
         }
         parts_begin.push_back(parts.size());
       }
 
       local_rhs.assign(2 * m, 0.);
       local_matrix.assign(4 * m * m, 0.);
-      std::vector<double> half(4 * n * m, 0.); // A T, (2n x 2m)
+      local_product.assign(4 * n * m, 0.); // A T, (2n x 2m)
       for (unsigned int i = 0; i < 2 * n; ++i)
         for (unsigned int j = 0; j < n; ++j)
         {
@@ -458,7 +498,8 @@ namespace NMM
           for (unsigned int t = parts_begin[j]; t < parts_begin[j + 1]; ++t)
           {
             const double *w = parts[t].block;
-            double       *h = half.data() + 2 * m * i + 2 * parts[t].position;
+            double       *h =
+              local_product.data() + 2 * m * i + 2 * parts[t].position;
             h[0] += a[0] * w[0] + a[1] * w[2];
             h[1] += a[0] * w[1] + a[1] * w[3];
           }
@@ -468,12 +509,12 @@ namespace NMM
         double f[2] = {rhs[2 * i], rhs[2 * i + 1]};
         for (unsigned int c = 0; c < 2; ++c)
           for (unsigned int j = 0; j < 2 * n; ++j)
-            f[c] -= matrix[2 * n * (2 * i + c) + j] * inhomogeneity[j];
+            f[c] -= matrix[2 * n * (2 * i + c) + j] * local_inhomogeneity[j];
         for (unsigned int t = parts_begin[i]; t < parts_begin[i + 1]; ++t)
         {
           const double      *w  = parts[t].block;
           const unsigned int p  = parts[t].position;
-          const double      *h0 = half.data() + 2 * m * (2 * i);
+          const double      *h0 = local_product.data() + 2 * m * (2 * i);
           const double      *h1 = h0 + 2 * m;
           double            *k0 = local_matrix.data() + 2 * m * (2 * p);
           double            *k1 = k0 + 2 * m;
@@ -494,7 +535,7 @@ namespace NMM
 
 
     void
-    BlockSystem::exchange_values()
+    BlockSystem::exchange_values(const bool with_matrix)
     {
       using namespace dealii::Utilities::MPI;
 
@@ -507,7 +548,7 @@ namespace NMM
           std::vector<double> &out = rank_to_values[rank];
           out.push_back(right_hand_side[2 * r]);
           out.push_back(right_hand_side[2 * r + 1]);
-          for (unsigned int j = 0; j < rows[i + 1]; ++j)
+          for (unsigned int j = 0; with_matrix && j < rows[i + 1]; ++j)
           {
             unsigned int  stride;
             const double *block =
@@ -526,7 +567,7 @@ namespace NMM
           const unsigned int r = cover_to_local[rows[i]];
           right_hand_side[2 * r] += *in++;
           right_hand_side[2 * r + 1] += *in++;
-          for (unsigned int j = 0; j < rows[i + 1]; ++j, in += 4)
+          for (unsigned int j = 0; with_matrix && j < rows[i + 1]; ++j, in += 4)
           {
             unsigned int stride;
             double      *block =

@@ -11,6 +11,8 @@
 #include <array>
 #include <vector>
 
+class Epetra_CrsMatrix;
+
 namespace NMM
 {
   namespace internal
@@ -23,7 +25,9 @@ namespace NMM
      * A contribution names covers and a dense local matrix. Covers with
      * constrained unknowns are replaced by what they are constrained to
      * (u_k = sum_r W_kr u_r + g_k); their own rows keep a diagonal entry only.
-     * The order of calls is couple()*, build(), add()*, finish().
+     * The order of calls is couple()*, build(), add()*, finish(). To assemble
+     * again with the same pattern: couple()*, build(), then any number of times
+     * reset(), add()*, transfer().
      *
      * Against deal.II's DynamicSparsityPattern + AffineConstraints +
      * TrilinosWrappers::SparseMatrix::add(), all work is per cover instead of
@@ -31,13 +35,18 @@ namespace NMM
      * final place in memory is, and nothing is looked up by global number.
      *
      * Rows of covers that other ranks own are collected here and sent to their
-     * owners, the pattern in build(), the values in finish().
+     * owners, the pattern in build(), the values in finish() or transfer().
      */
     class BlockSystem
     {
     public:
       BlockSystem(const CoverSystem                       &covers,
                   const dealii::AffineConstraints<double> &constraints);
+
+      /// From now on constraints are u_k = sum_r W_kr u_r: for unknowns that are
+      /// increments of a solution which satisfies the inhomogeneous ones.
+      void
+      ignore_inhomogeneities();
 
       /// All pairs of @p covers will be coupled. Owned elements are coupled
       /// already.
@@ -58,10 +67,31 @@ namespace NMM
           const double                         *matrix,
           const double                         *rhs);
 
-      /// Exchange with other ranks and hand over to Trilinos.
+      /// The same without a matrix; for constraints without inhomogeneities.
+      void
+      add_rhs(dealii::ArrayView<const unsigned int> covers, const double *rhs);
+
+      /// Exchange with other ranks, hand over to Trilinos and release the memory.
       void
       finish(dealii::TrilinosWrappers::SparseMatrix &matrix,
              dealii::TrilinosWrappers::MPI::Vector  &rhs);
+
+      /// Start anew with zero values, of the matrix only if @p with_matrix.
+      void
+      reset(bool with_matrix = true);
+
+      /**
+       * Exchange with other ranks and hand over to Trilinos. A @p matrix that
+       * is empty gets its pattern here; otherwise it must be one that an earlier
+       * call made, and only its values are written.
+       */
+      void
+      transfer(dealii::TrilinosWrappers::SparseMatrix &matrix,
+               dealii::TrilinosWrappers::MPI::Vector  &rhs);
+
+      /// The same for the right-hand side alone.
+      void
+      transfer_rhs(dealii::TrilinosWrappers::MPI::Vector &rhs);
 
     private:
       /// u_k += block * u_cover.
@@ -102,7 +132,16 @@ namespace NMM
       localize_columns();
 
       void
-      exchange_values();
+      exchange_values(bool with_matrix);
+
+      void
+      make_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix) const;
+
+      void
+      copy_values(const Epetra_CrsMatrix &matrix) const;
+
+      void
+      copy_rhs(dealii::TrilinosWrappers::MPI::Vector &rhs) const;
 
       void
       fix_empty_diagonals();
@@ -149,9 +188,19 @@ namespace NMM
       std::vector<std::pair<unsigned int, std::vector<unsigned int>>> sent,
         received;
 
+      /// A term of a constrained cover, or the identity of a free one, for the
+      /// free cover at a position in local_covers.
+      struct Part
+      {
+        unsigned int  position;
+        const double *block;
+      };
+
       /// Scratch of add_constrained().
-      std::vector<unsigned int> local_covers, local_position;
-      std::vector<double>       local_matrix, local_rhs;
+      std::vector<unsigned int> local_covers, parts_begin;
+      std::vector<Part>         parts;
+      std::vector<double>       local_matrix, local_rhs, local_product,
+        local_inhomogeneity;
     };
   } // namespace internal
 } // namespace NMM

@@ -22,18 +22,48 @@ namespace NMM
     } // namespace
 
 
+    void
+    BlockSystem::finish(dealii::TrilinosWrappers::SparseMatrix &matrix,
+                        dealii::TrilinosWrappers::MPI::Vector  &rhs)
+    {
+      matrix.clear();
+      transfer(matrix, rhs);
+      std::vector<double>().swap(values);
+      std::vector<unsigned int>().swap(columns);
+    }
+
+
+    void
+    BlockSystem::transfer(dealii::TrilinosWrappers::SparseMatrix &matrix,
+                          dealii::TrilinosWrappers::MPI::Vector  &rhs)
+    {
+      if (dealii::Utilities::MPI::n_mpi_processes(covers->communicator()) > 1)
+        exchange_values(true);
+      fix_empty_diagonals();
+      if (matrix.m() != 2 * covers->n_covers())
+        make_matrix(matrix);
+      copy_values(matrix.trilinos_matrix());
+      copy_rhs(rhs);
+    }
+
+
+    void
+    BlockSystem::transfer_rhs(dealii::TrilinosWrappers::MPI::Vector &rhs)
+    {
+      if (dealii::Utilities::MPI::n_mpi_processes(covers->communicator()) > 1)
+        exchange_values(false);
+      copy_rhs(rhs);
+    }
+
+
     /**
      * Straight into an Epetra matrix with known row lengths and local column
      * numbers: TrilinosWrappers::SparsityPattern would look up every column.
      */
     void
-    BlockSystem::finish(dealii::TrilinosWrappers::SparseMatrix &matrix,
-                        dealii::TrilinosWrappers::MPI::Vector  &rhs)
+    BlockSystem::make_matrix(
+      dealii::TrilinosWrappers::SparseMatrix &matrix) const
     {
-      if (dealii::Utilities::MPI::n_mpi_processes(covers->communicator()) > 1)
-        exchange_values();
-      fix_empty_diagonals();
-
       const dealii::IndexSet owned = covers->locally_owned_dofs(2);
       const Epetra_Map       row_map =
         owned.make_trilinos_map(covers->communicator(), false);
@@ -72,22 +102,34 @@ namespace NMM
       check(graph.FillComplete(row_map, row_map));
 
       Epetra_CrsMatrix trilinos_matrix(::Copy, graph);
-      for (unsigned int r = 0; r < 2 * n_owned; ++r)
-      {
-        int     n;
-        double *row;
-        check(trilinos_matrix.ExtractMyRowView(r, n, row));
-        AssertDimension(n, lengths[r]);
-        const double *from =
-          values.data() + 4 * row_begin[r / 2] + (r % 2) * lengths[r];
-        std::copy(from, from + n, row);
-      }
-      std::vector<double>().swap(values);
-      std::vector<unsigned int>().swap(columns);
       check(trilinos_matrix.FillComplete(row_map, row_map));
       matrix.reinit(trilinos_matrix);
+    }
 
-      rhs.reinit(owned, covers->communicator());
+
+    void
+    BlockSystem::copy_values(const Epetra_CrsMatrix &matrix) const
+    {
+      for (unsigned int r = 0; r < 2 * n_owned; ++r)
+      {
+        int       n;
+        double   *row;
+        const int length =
+          2 * static_cast<int>(row_begin[r / 2 + 1] - row_begin[r / 2]);
+        check(matrix.ExtractMyRowView(r, n, row));
+        AssertDimension(n, length);
+        const double *from =
+          values.data() + 4 * row_begin[r / 2] + (r % 2) * length;
+        std::copy(from, from + length, row);
+      }
+    }
+
+
+    void
+    BlockSystem::copy_rhs(dealii::TrilinosWrappers::MPI::Vector &rhs) const
+    {
+      if (rhs.size() != 2 * covers->n_covers())
+        rhs.reinit(covers->locally_owned_dofs(2), covers->communicator());
       std::copy(right_hand_side.begin(),
                 right_hand_side.begin() + 2 * n_owned,
                 rhs.begin());

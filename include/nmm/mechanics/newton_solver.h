@@ -1,0 +1,140 @@
+#ifndef nmm_mechanics_newton_solver_h
+#define nmm_mechanics_newton_solver_h
+
+#include <nmm/mechanics/hyperelasticity.h>
+
+#include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace NMM
+{
+  /// Equations r(u) = 0 as NewtonSolver sees them; statics at one load factor,
+  /// or a time step.
+  class NonlinearSystem
+  {
+  public:
+    using Vector = dealii::TrilinosWrappers::MPI::Vector;
+
+    virtual ~NonlinearSystem() = default;
+
+    /**
+     * Residual r(u) and K(u) = dr/du as @p tangent asks. @p u has the locally
+     * relevant unknowns. @p increment, if given, is the change of u in the last
+     * iteration: the tangent may use it to converge faster, as long as it is
+     * dr/du where the increment vanishes.
+     */
+    virtual Deformation
+    assemble(const Vector &u, Tangent tangent, const Vector *increment) = 0;
+
+    /// r(u) on owned unknowns, 0 for constrained ones.
+    virtual const Vector &
+    residual() const = 0;
+
+    virtual const dealii::TrilinosWrappers::SparseMatrix &
+    tangent() const = 0;
+
+    virtual bool
+    tangent_is_symmetric() const = 0;
+
+    /// Size of the forces that are in balance, what |r| is compared with [N/m].
+    virtual double
+    force_scale() const = 0;
+  };
+
+
+  struct NewtonParameters
+  {
+    /// |r| <= residual_tolerance * force_scale() ...
+    double residual_tolerance = 1e-9;
+    /// ... and |r . du| <= energy_tolerance * the largest |r . du| so far, du
+    /// being the last correction.
+    double       energy_tolerance = 1e-12;
+    unsigned int max_iterations   = 12;
+    /// Least share of a correction that the line search tries.
+    double min_line_search = 1. / 64.;
+    /// Pass the last increment to NonlinearSystem::assemble(): 20 instead of
+    /// 31 (follower load: 34) iterations for five steps of step-nmm-2.
+    bool use_increment = true;
+    /// Iterations that take Tangent::robust.
+    unsigned int n_robust_iterations = 3;
+    /// Corrections with the last factorization after convergence: what is left
+    /// comes down to rounding for the price of a residual and a substitution.
+    unsigned int n_refinements = 0;
+  };
+
+
+  struct NewtonReport
+  {
+    struct Iteration
+    {
+      /// |r| / force_scale() before the correction [-].
+      double relative_residual = 0.;
+      /// |r . du| before the correction du [J/m].
+      double energy = 0.;
+      /// Share of the correction that was taken.
+      double line_search = 1.;
+    };
+
+    bool converged = false;
+    /// Why not, for people.
+    std::string            reason;
+    std::vector<Iteration> iterations;
+    /// |r| / force_scale() in the end.
+    double       relative_residual  = 0.;
+    unsigned int n_line_search_cuts = 0;
+    /// Wall times [s]; assembly includes residuals alone.
+    double assembly_time = 0., factorization_time = 0., substitution_time = 0.;
+  };
+
+
+  /**
+   * Newton's method with line search. One *iteration* is one tangent, one
+   * factorization and one correction
+   * @f[ K\,\delta = r(u), \qquad u \leftarrow u - \eta\,\delta. @f]
+   *
+   * A full step (eta = 1) that bends a thin body raises |r| and the energy by
+   * orders of magnitude, because it stretches what it turns, and is still the
+   * best one; a test for decrease would forbid it. So eta is cut where
+   * the deformation is not admissible, and otherwise only once
+   * |r . delta| has begun to rise late in the iteration: then by halves until
+   * |r(u - eta delta) . delta| has decreased (Crisfield, Non-linear Finite Element
+   * Analysis 1, section 9.4), for which no potential is needed. From then on the tangent
+   * is the plain one.
+   *
+   * Expected failures (no convergence, inadmissible, singular) are results, with
+   * a reason; who calls cuts the step. The direct solver analyses the
+   * pattern once per object.
+   */
+  class NewtonSolver
+  {
+  public:
+    using Vector = NonlinearSystem::Vector;
+
+    explicit NewtonSolver(const NewtonParameters &parameters = {});
+    ~NewtonSolver();
+
+    /**
+     * From @p u, which has the locally relevant unknowns and satisfies the
+     * constraints, to the solution; without convergence u is undefined.
+     * Constraints of increments are those of @p constraints without
+     * inhomogeneities. @p increment is what the last assembly of the tangent
+     * may be told about how u was reached, or null.
+     */
+    NewtonReport
+    solve(NonlinearSystem                         &system,
+          const dealii::AffineConstraints<double> &constraints,
+          Vector                                  &u,
+          const Vector                            *increment = nullptr);
+
+  private:
+    struct Data;
+    std::unique_ptr<Data> data;
+  };
+} // namespace NMM
+
+#endif

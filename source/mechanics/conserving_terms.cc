@@ -1,0 +1,283 @@
+#include <algorithm>
+#include <cmath>
+#include <mechanics/conserving_terms.h>
+
+namespace NMM
+{
+  namespace internal
+  {
+    using dealii::SymmetricTensor;
+    using dealii::Tensor;
+
+    namespace
+    {
+      SymmetricTensor<2, 2>
+      green_strain(const Tensor<2, 2> &F)
+      {
+        // in terms of H = F - I, which keeps the digits of small strains
+        const double h00 = F[0][0] - 1., h11 = F[1][1] - 1.;
+        const double h01 = F[0][1], h10 = F[1][0];
+
+        SymmetricTensor<2, 2> E;
+        E[0][0] = h00 + 0.5 * (h00 * h00 + h10 * h10);
+        E[1][1] = h11 + 0.5 * (h01 * h01 + h11 * h11);
+        E[0][1] = 0.5 * (h01 + h10 + h00 * h01 + h10 * h11);
+        return E;
+      }
+
+
+      /// The symmetric positive root of C = I + 2 E (Cayley-Hamilton).
+      Tensor<2, 2>
+      right_stretch(const SymmetricTensor<2, 2> &E)
+      {
+        Tensor<2, 2> C = 2. * Tensor<2, 2>(E);
+        C[0][0] += 1.;
+        C[1][1] += 1.;
+        const double d = std::sqrt(dealii::determinant(C));
+        const double t = std::sqrt(dealii::trace(C) + 2. * d);
+        C[0][0] += d;
+        C[1][1] += d;
+        return C / t;
+      }
+    } // namespace
+
+
+    ConservingLaw::ConservingLaw(const Material  &material,
+                                 const PlaneState plane_state)
+      : law(material, plane_state)
+      , is_neo_hookean(material.law == MaterialLaw::neo_hookean)
+      , elasticity(material.plane_elasticity(plane_state))
+      , initial_stress(material.initial_stress)
+    {
+    }
+
+
+    /// S = U^-1 P and dS/dE = D at F = U, from A_iJkL = delta_ik S_JL
+    /// + U_iM U_kN D_MJNL.
+    Deformation
+    ConservingLaw::second_stress(const SymmetricTensor<2, 2> &E,
+                                 const bool                   with_tangent,
+                                 SymmetricTensor<2, 2>       &S,
+                                 double (&D)[4][4]) const
+    {
+      const Tensor<2, 2>        U       = right_stretch(E);
+      const Tensor<2, 2>        inverse = dealii::invert(U);
+      HyperelasticLaw::Response response;
+      if ((with_tangent
+             ? law.evaluate(U, response)
+             : law.evaluate_stress(U, response)) != Deformation::admissible)
+        return Deformation::inverted;
+      S = dealii::symmetrize(inverse * response.stress);
+      if (!with_tangent)
+        return Deformation::admissible;
+      for (unsigned int J = 0; J < 2; ++J)
+        for (unsigned int L = 0; L < 2; ++L)
+        {
+          Tensor<2, 2> B;
+          for (unsigned int i = 0; i < 2; ++i)
+            for (unsigned int k = 0; k < 2; ++k)
+              B[i][k] = response.tangent[2 * i + J][2 * k + L] -
+                        (i == k ? S[J][L] : 0.);
+          B = inverse * B * inverse;
+          for (unsigned int M = 0; M < 2; ++M)
+            for (unsigned int N = 0; N < 2; ++N)
+              D[2 * M + J][2 * N + L] = B[M][N];
+        }
+      return Deformation::admissible;
+    }
+
+
+    Deformation
+    ConservingLaw::discrete_gradient(const Tensor<2, 2>    &F_0,
+                                     const Tensor<2, 2>    &F_1,
+                                     const bool             with_tangent,
+                                     SymmetricTensor<2, 2> &S,
+                                     double (&D)[4][4]) const
+    {
+      constexpr double least_change = 1e-2;
+      constexpr double positions[3] = {0.11270166537925831,
+                                       0.5,
+                                       0.88729833462074169};
+      constexpr double weights[3]   = {5. / 18., 8. / 18., 5. / 18.};
+
+      if (!(dealii::determinant(F_0) > 0.) || !(dealii::determinant(F_1) > 0.))
+        return Deformation::inverted;
+      const SymmetricTensor<2, 2> E_0    = green_strain(F_0);
+      const SymmetricTensor<2, 2> change = green_strain(F_1) - E_0;
+      S                                  = 0.;
+      for (auto &row : D)
+        std::fill_n(row, 4, 0.);
+      for (unsigned int g = 0; g < 3; ++g)
+      {
+        SymmetricTensor<2, 2> S_g;
+        double                D_g[4][4];
+        if (second_stress(E_0 + positions[g] * change,
+                          with_tangent,
+                          S_g,
+                          D_g) != Deformation::admissible)
+          return Deformation::inverted;
+        S += weights[g] * S_g;
+        if (with_tangent)
+          for (unsigned int a = 0; a < 4; ++a)
+            for (unsigned int b = 0; b < 4; ++b)
+              D[a][b] += 2. * positions[g] * weights[g] * D_g[a][b];
+      }
+      const double square = change * change;
+      if (square < least_change * least_change)
+        return Deformation::admissible;
+
+      HyperelasticLaw::Response response_0, response_1;
+      if (law.evaluate_stress(F_0, response_0) != Deformation::admissible ||
+          law.evaluate_stress(F_1, response_1) != Deformation::admissible)
+        return Deformation::inverted;
+      const SymmetricTensor<2, 2> S_mean = S;
+      const double                factor =
+        (response_1.energy - response_0.energy - S_mean * change) / square;
+      S += factor * change;
+      if (!with_tangent)
+        return Deformation::admissible;
+
+      const SymmetricTensor<2, 2> S_1 =
+        dealii::symmetrize(dealii::invert(F_1) * response_1.stress);
+      // 2 d(factor)/dE_1
+      Tensor<2, 2> slope = 2. * (S_1 - S_mean) - 4. * factor * change;
+      for (unsigned int N = 0; N < 2; ++N)
+        for (unsigned int L = 0; L < 2; ++L)
+        {
+          for (unsigned int M = 0; M < 2; ++M)
+            for (unsigned int J = 0; J < 2; ++J)
+              slope[N][L] -= D[2 * M + J][2 * N + L] * change[M][J];
+          slope[N][L] /= square;
+        }
+      for (unsigned int M = 0; M < 2; ++M)
+        for (unsigned int J = 0; J < 2; ++J)
+          for (unsigned int N = 0; N < 2; ++N)
+            for (unsigned int L = 0; L < 2; ++L)
+              D[2 * M + J][2 * N + L] +=
+                change[M][J] * slope[N][L] +
+                factor *
+                  ((M == N && J == L ? 1. : 0.) + (M == L && J == N ? 1. : 0.));
+      return Deformation::admissible;
+    }
+
+
+    Deformation
+    ConservingLaw::evaluate(const Tensor<2, 2> &F_0,
+                            const Tensor<2, 2> &F_1,
+                            const bool          with_tangent,
+                            Tensor<2, 2>       &P,
+                            double (&A)[4][4]) const
+    {
+      const Tensor<2, 2>    F = 0.5 * (F_0 + F_1);
+      SymmetricTensor<2, 2> S;
+      double                D[4][4];
+      if (is_neo_hookean)
+      {
+        if (discrete_gradient(F_0, F_1, with_tangent, S, D) !=
+            Deformation::admissible)
+          return Deformation::inverted;
+      }
+      else
+      {
+        const SymmetricTensor<2, 2> E =
+          0.5 * (green_strain(F_0) + green_strain(F_1));
+        S                     = initial_stress + 2. * elasticity.mu * E;
+        const double pressure = elasticity.lambda * dealii::trace(E);
+        S[0][0] += pressure;
+        S[1][1] += pressure;
+      }
+      P = F * Tensor<2, 2>(S);
+      if (!with_tangent)
+        return Deformation::admissible;
+
+      const Tensor<2, 2> b = F * dealii::transpose(F_1);
+      for (unsigned int i = 0; i < 2; ++i)
+        for (unsigned int J = 0; J < 2; ++J)
+          for (unsigned int k = 0; k < 2; ++k)
+            for (unsigned int L = 0; L < 2; ++L)
+            {
+              double a = (i == k ? S[J][L] : 0.);
+              if (is_neo_hookean)
+              {
+                for (unsigned int M = 0; M < 2; ++M)
+                  for (unsigned int N = 0; N < 2; ++N)
+                    a += F[i][M] * D[2 * M + J][2 * N + L] * F_1[k][N];
+              }
+              else
+                a += elasticity.lambda * F[i][J] * F_1[k][L] +
+                     elasticity.mu *
+                       (F[i][L] * F_1[k][J] + (J == L ? b[i][k] : 0.));
+              A[2 * i + J][2 * k + L] = a;
+            }
+      return Deformation::admissible;
+    }
+
+
+    namespace
+    {
+      template <unsigned int n>
+      Deformation
+      add(const ConservingLaw       &law,
+          const ElementTables::View &table,
+          const LocalDisplacement   &begin,
+          const LocalDisplacement   &end,
+          const bool                 with_tangent,
+          LocalSystem               &local)
+      {
+        Tensor<2, 2> P;
+        double       A[4][4];
+        for (unsigned int q = 0; q < table.n_points; ++q)
+        {
+          const double(*g)[2] = table.gradients + q * n;
+          const double weight = table.weights[q];
+          if (law.evaluate(deformation_gradient(n, begin.values, g),
+                           deformation_gradient(n, end.values, g),
+                           with_tangent,
+                           P,
+                           A) != Deformation::admissible)
+            return Deformation::inverted;
+          P *= weight;
+          for (unsigned int i = 0; i < n; ++i)
+          {
+            local.rhs[2 * i] += P[0][0] * g[i][0] + P[0][1] * g[i][1];
+            local.rhs[2 * i + 1] += P[1][0] * g[i][0] + P[1][1] * g[i][1];
+          }
+          if (!with_tangent)
+            continue;
+          for (unsigned int i = 0; i < n; ++i)
+          {
+            const double g0 = weight * g[i][0], g1 = weight * g[i][1];
+            for (unsigned int c = 0; c < 2; ++c)
+            {
+              double M[4];
+              for (unsigned int b = 0; b < 4; ++b)
+                M[b] = g0 * A[2 * c][b] + g1 * A[2 * c + 1][b];
+              double *row = local.matrix + 2 * n * (2 * i + c);
+              for (unsigned int j = 0; j < n; ++j)
+              {
+                row[2 * j] += M[0] * g[j][0] + M[1] * g[j][1];
+                row[2 * j + 1] += M[2] * g[j][0] + M[3] * g[j][1];
+              }
+            }
+          }
+        }
+        return Deformation::admissible;
+      }
+    } // namespace
+
+
+    Deformation
+    add_conserving_terms(const ConservingLaw       &law,
+                         const unsigned int         n_per_cell,
+                         const ElementTables::View &table,
+                         const LocalDisplacement   &begin,
+                         const LocalDisplacement   &end,
+                         const bool                 with_tangent,
+                         LocalSystem               &local)
+    {
+      return n_per_cell == 3
+               ? add<3>(law, table, begin, end, with_tangent, local)
+               : add<6>(law, table, begin, end, with_tangent, local);
+    }
+  } // namespace internal
+} // namespace NMM

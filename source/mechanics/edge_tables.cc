@@ -1,0 +1,436 @@
+#include <algorithm>
+#include <cmath>
+#include <mechanics/edge_tables.h>
+#include <mechanics/point_terms.h>
+
+namespace NMM
+{
+  namespace internal
+  {
+    namespace
+    {
+      using Type = BoundaryCondition::Type;
+
+      /// Coercivity needs more than 1; see EdgeTerms.
+      constexpr double safety = 4.;
+
+      /// B of a condition, and B g at a point with outward normal @p n.
+      void
+      evaluate_condition(const BoundaryCondition       &condition,
+                         const dealii::Point<2>        &x,
+                         const dealii::Tensor<1, 2>    &n,
+                         dealii::SymmetricTensor<2, 2> &projection,
+                         dealii::Tensor<1, 2>          &prescribed)
+      {
+        projection = 0.;
+        prescribed = 0.;
+        if (condition.type == Type::normal_displacement)
+        {
+          projection[0][0] = n[0] * n[0];
+          projection[0][1] = n[0] * n[1];
+          projection[1][1] = n[1] * n[1];
+          if (condition.value != nullptr)
+            prescribed = condition.value->value(x) * n;
+          return;
+        }
+        for (unsigned int c = 0; c < 2; ++c)
+          if (condition.components[c])
+          {
+            projection[c][c] = 1.;
+            if (condition.value != nullptr)
+              prescribed[c] = condition.value->value(x, c);
+          }
+      }
+    } // namespace
+
+
+    EdgeTables::EdgeTables(const CoverSystem       &covers,
+                           const ElasticityProblem &problem,
+                           const CurveConditions   &curve_conditions,
+                           TraceConstants          &trace_constants)
+      : covers(&covers)
+      , problem(&problem)
+      , trace_constants(&trace_constants)
+      , degree(covers.manifold_mesh().mathematical_mesh().degree())
+      , n_per_cell(WeightFunctions::n_per_cell(degree))
+    {
+      const ManifoldMesh &mesh = covers.manifold_mesh();
+      for (const unsigned int m :
+           problem.region_to_material(mesh.physical_mesh()))
+        region_to_elasticity.push_back(
+          problem.materials[m].plane_elasticity(problem.plane_state));
+
+      const auto [first, last] = covers.locally_owned_elements();
+      for (unsigned int e = first; e < last; ++e)
+        add_conditions(e, curve_conditions);
+      for (unsigned int e = first; e < last; ++e)
+        for (const ElementEdge &edge : mesh.edges(e))
+          if (curve_conditions.is_tied(e, edge) && e < edge.neighbor)
+            add_tie(e, edge);
+    }
+
+
+    void
+    EdgeTables::add_conditions(const unsigned int     element,
+                               const CurveConditions &curve_conditions)
+    {
+      const ManifoldMesh &mesh = covers->manifold_mesh();
+      Site                weak{element, invalid_index, 0, 0}, follower = weak;
+      weak.first_point     = weak_points.size();
+      follower.first_point = follower_points.size();
+      for (const ElementEdge &edge : mesh.edges(element))
+      {
+        const std::vector<unsigned int> &on_edge =
+          curve_conditions.conditions(edge);
+        if (on_edge.empty())
+          continue;
+        const EdgeRule rule =
+          make_edge_rule(edge,
+                         cell_frame(mesh.mathematical_mesh(),
+                                    mesh.cell(element)),
+                         2 * degree);
+        for (const unsigned int c : on_edge)
+        {
+          const Type type = problem->boundary_conditions[c].type;
+          if (type == Type::follower_pressure)
+            add_follower(c, element, rule);
+          else if (type == Type::displacement ||
+                   type == Type::normal_displacement)
+            add_displacement(c, element, rule);
+        }
+      }
+      weak.last_point     = weak_points.size();
+      follower.last_point = follower_points.size();
+      if (weak.last_point > weak.first_point)
+        conditions.push_back(weak);
+      if (follower.last_point > follower.first_point)
+        followers.push_back(follower);
+    }
+
+
+    void
+    EdgeTables::set_side(WeakPoint              &point,
+                         const unsigned int      side,
+                         const unsigned int      element,
+                         const dealii::Point<2> &xi,
+                         const double            share) const
+    {
+      const ManifoldMesh        &mesh = covers->manifold_mesh();
+      const dealii::Tensor<2, 2> T    = dealii::transpose(
+        dealii::invert(mesh.mathematical_mesh().jacobian(mesh.cell(element))));
+      double w[WeightFunctions::max_per_cell];
+      double g[WeightFunctions::max_per_cell][2];
+      WeightFunctions::values(degree, xi, w);
+      WeightFunctions::gradients(degree, xi, g);
+      Side &s  = point.sides[side];
+      s.region = mesh.region(element);
+      s.share  = share;
+      for (unsigned int i = 0; i < n_per_cell; ++i)
+      {
+        for (unsigned int d = 0; d < 2; ++d)
+          s.gradients[i][d] = T[d][0] * g[i][0] + T[d][1] * g[i][1];
+        point.jump[side * n_per_cell + i] = side == 0 ? w[i] : -w[i];
+      }
+    }
+
+
+    void
+    EdgeTables::add_displacement(const unsigned int condition,
+                                 const unsigned int element,
+                                 const EdgeRule    &rule)
+    {
+      const ManifoldMesh &mesh = covers->manifold_mesh();
+      const double        bound =
+        region_to_elasticity[mesh.region(element)].largest_eigenvalue() *
+        (*trace_constants)(element);
+      // no area, hence no energy: the neighbours' conditions hold it
+      if (!std::isfinite(bound))
+        return;
+      for (unsigned int q = 0; q < rule.points.size(); ++q)
+      {
+        WeakPoint point;
+        point.condition      = condition;
+        point.n_sides        = 1;
+        point.weight         = rule.weights[q];
+        point.penalty        = safety * bound;
+        point.trace_constant = (*trace_constants)(element);
+        point.normal         = rule.normals[q];
+        evaluate_condition(problem->boundary_conditions[condition],
+                           mesh.mathematical_mesh().reference_to_real(
+                             mesh.cell(element), rule.points[q]),
+                           rule.normals[q],
+                           point.projection,
+                           point.prescribed);
+        set_side(point, 0, element, rule.points[q], 1.);
+        weak_points.push_back(point);
+      }
+    }
+
+
+    void
+    EdgeTables::add_follower(const unsigned int condition,
+                             const unsigned int element,
+                             const EdgeRule    &rule)
+    {
+      const BoundaryCondition &c = problem->boundary_conditions[condition];
+      if (c.value == nullptr)
+        return;
+      const ManifoldMesh        &mesh = covers->manifold_mesh();
+      const unsigned int         cell = mesh.cell(element);
+      const dealii::Tensor<2, 2> T    = dealii::transpose(
+        dealii::invert(mesh.mathematical_mesh().jacobian(cell)));
+      double g[WeightFunctions::max_per_cell][2];
+      for (unsigned int q = 0; q < rule.points.size(); ++q)
+      {
+        FollowerPoint point;
+        point.condition = condition;
+        point.weighted_pressure =
+          rule.weights[q] *
+          c.value->value(
+            mesh.mathematical_mesh().reference_to_real(cell, rule.points[q]));
+        WeightFunctions::values(degree, rule.points[q], point.values);
+        WeightFunctions::gradients(degree, rule.points[q], g);
+        point.tangent[0]             = -rule.normals[q][1];
+        point.tangent[1]             = rule.normals[q][0];
+        const dealii::Tensor<1, 2> t = dealii::transpose(T) * point.tangent;
+        for (unsigned int i = 0; i < n_per_cell; ++i)
+          point.tangential[i] = t[0] * g[i][0] + t[1] * g[i][1];
+        follower_points.push_back(point);
+      }
+    }
+
+
+    void
+    EdgeTables::add_tie(const unsigned int element, const ElementEdge &edge)
+    {
+      const ManifoldMesh     &mesh              = covers->manifold_mesh();
+      const MathematicalMesh &mathematical_mesh = mesh.mathematical_mesh();
+      const unsigned int      elements[2]       = {element, edge.neighbor};
+
+      double bound[2];
+      for (unsigned int side = 0; side < 2; ++side)
+        bound[side] = region_to_elasticity[mesh.region(elements[side])]
+                        .largest_eigenvalue() *
+                      (*trace_constants)(elements[side]);
+      if (!std::isfinite(bound[0]) && !std::isfinite(bound[1]))
+        return;
+      const double share[2] = {
+        std::isfinite(bound[0]) ? 1. / (1. + bound[0] / bound[1]) : 0.,
+        std::isfinite(bound[1]) ? 1. / (1. + bound[1] / bound[0]) : 0.};
+
+      const EdgeRule rule =
+        make_edge_rule(edge,
+                       cell_frame(mathematical_mesh, mesh.cell(element)),
+                       2 * degree);
+      Site site{element, edge.neighbor, 0, 0};
+      site.first_point = weak_points.size();
+      for (unsigned int q = 0; q < rule.points.size(); ++q)
+      {
+        WeakPoint point;
+        point.condition      = invalid_index;
+        point.n_sides        = 2;
+        point.weight         = rule.weights[q];
+        point.penalty        = safety / (1. / bound[0] + 1. / bound[1]);
+        point.trace_constant = std::max((*trace_constants)(elements[0]),
+                                        (*trace_constants)(elements[1]));
+        point.normal         = rule.normals[q];
+        point.projection     = dealii::unit_symmetric_tensor<2>();
+        const dealii::Point<2> x =
+          mathematical_mesh.reference_to_real(mesh.cell(element),
+                                              rule.points[q]);
+        for (unsigned int side = 0; side < 2; ++side)
+          set_side(
+            point,
+            side,
+            elements[side],
+            mathematical_mesh.real_to_reference(mesh.cell(elements[side]), x),
+            share[side]);
+        weak_points.push_back(point);
+      }
+      site.last_point = weak_points.size();
+      ties.push_back(site);
+    }
+
+
+    /// Sums forces per cover.
+    class DeadLoads::Collector
+    {
+    public:
+      explicit Collector(const unsigned int n_covers)
+        : cover_to_entry(n_covers, invalid_index)
+      {
+      }
+
+      void
+      add(const unsigned int          cover,
+          const double                weight,
+          const dealii::Tensor<1, 2> &force)
+      {
+        if (cover_to_entry[cover] == invalid_index)
+        {
+          cover_to_entry[cover] = load.covers.size();
+          load.covers.push_back(cover);
+          load.forces.insert(load.forces.end(), {0., 0.});
+        }
+        double *f = load.forces.data() + 2 * cover_to_entry[cover];
+        f[0] += weight * force[0];
+        f[1] += weight * force[1];
+      }
+
+      /// What has been collected; the next load starts.
+      Load
+      take()
+      {
+        for (const unsigned int k : load.covers)
+          cover_to_entry[k] = invalid_index;
+        Load result;
+        std::swap(result, load);
+        return result;
+      }
+
+    private:
+      std::vector<unsigned int> cover_to_entry;
+      Load                      load;
+    };
+
+
+    DeadLoads::DeadLoads(const CoverSystem          &covers,
+                         const QuadratureCollection &quadrature,
+                         const ElasticityProblem    &problem,
+                         const CurveConditions      &conditions)
+      : boundary_conditions(problem.boundary_conditions.size())
+      , point_forces(problem.point_forces.size())
+      , covers(&covers)
+      , problem(&problem)
+      , degree(covers.manifold_mesh().mathematical_mesh().degree())
+      , n_per_cell(WeightFunctions::n_per_cell(degree))
+    {
+      if (problem.body_force != nullptr || problem.gravity.norm() > 0.)
+        add_volume_loads(quadrature);
+      add_tractions(conditions);
+      add_point_forces();
+    }
+
+
+    void
+    DeadLoads::add_volume_loads(const QuadratureCollection &quadrature)
+    {
+      const ManifoldMesh     &mesh              = covers->manifold_mesh();
+      const MathematicalMesh &mathematical_mesh = mesh.mathematical_mesh();
+      const auto              region_to_material =
+        problem->region_to_material(mesh.physical_mesh());
+      const bool has_gravity = problem->gravity.norm() > 0.;
+
+      Collector gravity_load(has_gravity ? covers->n_covers() : 0),
+        other_load(problem->body_force != nullptr ? covers->n_covers() : 0);
+      double w[WeightFunctions::max_per_cell];
+      const auto [first, last] = covers->locally_owned_elements();
+      for (unsigned int e = first; e < last; ++e)
+      {
+        const unsigned int cell = mesh.cell(e);
+        const double       det =
+          dealii::determinant(mathematical_mesh.jacobian(cell));
+        const dealii::Tensor<1, 2> weight =
+          problem->materials[region_to_material[mesh.region(e)]].density *
+          problem->gravity;
+        const dealii::Quadrature<2> &rule = quadrature.rule(e);
+        for (unsigned int q = 0; q < rule.size(); ++q)
+        {
+          WeightFunctions::values(degree, rule.point(q), w);
+          dealii::Tensor<1, 2> f;
+          if (problem->body_force != nullptr)
+            for (unsigned int c = 0; c < 2; ++c)
+              f[c] = problem->body_force->value(
+                mathematical_mesh.reference_to_real(cell, rule.point(q)), c);
+          for (unsigned int i = 0; i < n_per_cell; ++i)
+          {
+            const unsigned int k      = covers->covers(e)[i];
+            const double       factor = det * rule.weight(q) * w[i];
+            if (has_gravity)
+              gravity_load.add(k, factor, weight);
+            if (problem->body_force != nullptr)
+              other_load.add(k, factor, f);
+          }
+        }
+      }
+      gravity    = gravity_load.take();
+      body_force = other_load.take();
+    }
+
+
+    void
+    DeadLoads::add_tractions(const CurveConditions &conditions)
+    {
+      const ManifoldMesh     &mesh              = covers->manifold_mesh();
+      const MathematicalMesh &mathematical_mesh = mesh.mathematical_mesh();
+      Collector               collector(covers->n_covers());
+      double                  w[WeightFunctions::max_per_cell];
+      const auto [first, last] = covers->locally_owned_elements();
+      for (unsigned int c = 0; c < problem->boundary_conditions.size(); ++c)
+      {
+        const BoundaryCondition &condition = problem->boundary_conditions[c];
+        if (condition.value == nullptr || (condition.type != Type::traction &&
+                                           condition.type != Type::pressure))
+          continue;
+        for (unsigned int e = first; e < last; ++e)
+          for (const ElementEdge &edge : mesh.edges(e))
+          {
+            const std::vector<unsigned int> &on_edge =
+              conditions.conditions(edge);
+            if (std::find(on_edge.begin(), on_edge.end(), c) == on_edge.end())
+              continue;
+            const unsigned int cell = mesh.cell(e);
+            const EdgeRule     rule =
+              make_edge_rule(edge,
+                             cell_frame(mathematical_mesh, cell),
+                             2 * degree);
+            for (unsigned int q = 0; q < rule.points.size(); ++q)
+            {
+              const dealii::Point<2> x =
+                mathematical_mesh.reference_to_real(cell, rule.points[q]);
+              dealii::Tensor<1, 2> t;
+              if (condition.type == Type::pressure)
+                t = -condition.value->value(x) * rule.normals[q];
+              else
+                for (unsigned int d = 0; d < 2; ++d)
+                  t[d] = condition.value->value(x, d);
+              WeightFunctions::values(degree, rule.points[q], w);
+              for (unsigned int i = 0; i < n_per_cell; ++i)
+                collector.add(covers->covers(e)[i], rule.weights[q] * w[i], t);
+            }
+          }
+        boundary_conditions[c] = collector.take();
+      }
+    }
+
+
+    void
+    DeadLoads::add_point_forces()
+    {
+      const ManifoldMesh     &mesh              = covers->manifold_mesh();
+      const MathematicalMesh &mathematical_mesh = mesh.mathematical_mesh();
+      if (problem->point_forces.empty())
+        return;
+      // the element of one force after the other, as PointTerms finds it
+      double w[WeightFunctions::max_per_cell];
+      const auto [first, last] = covers->locally_owned_elements();
+      Collector collector(covers->n_covers());
+      for (unsigned int f = 0; f < problem->point_forces.size(); ++f)
+      {
+        const PointForce &force = problem->point_forces[f];
+        ElasticityProblem single;
+        single.point_forces  = {force};
+        const unsigned int e = PointTerms(*covers, single).elements().front();
+        if (e < first || e >= last)
+          continue;
+        WeightFunctions::values(
+          degree,
+          mathematical_mesh.real_to_reference(mesh.cell(e), force.point),
+          w);
+        for (unsigned int i = 0; i < n_per_cell; ++i)
+          collector.add(covers->covers(e)[i], w[i], force.force);
+        point_forces[f] = collector.take();
+      }
+    }
+  } // namespace internal
+} // namespace NMM

@@ -1,0 +1,672 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/mechanics/finite_elasticity.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <mechanics/block_system.h>
+#include <mechanics/conserving_terms.h>
+#include <mechanics/curve_conditions.h>
+#include <mechanics/edge_tables.h>
+#include <mechanics/element_tables.h>
+#include <mechanics/finite_terms.h>
+#include <mechanics/floating_blocks.h>
+#include <mechanics/nodal_values.h>
+#include <mechanics/point_terms.h>
+#include <mechanics/trace_constant.h>
+
+namespace NMM
+{
+  using namespace internal;
+
+  struct FiniteElasticity::Data
+  {
+    Data(const CoverSystem                       &covers,
+         const QuadratureCollection              &quadrature,
+         const dealii::AffineConstraints<double> &constraints,
+         const ElasticityProblem                 &problem,
+         bool                                     may_float);
+
+    /// What one assembly needs to know.
+    struct Task
+    {
+      double  load_factor;
+      Tangent tangent;
+      bool    with_tangent, has_increment;
+      /// Volume terms between two states, see assemble_between().
+      bool is_between = false;
+    };
+
+    /// Amplitude of a condition times the load factor.
+    double
+    condition_factor(const unsigned int condition, const Task &task) const
+    {
+      return task.load_factor * (amplitudes.boundary_conditions.empty()
+                                   ? 1.
+                                   : amplitudes.boundary_conditions[condition]);
+    }
+
+    double
+    forces_at_small_strain() const;
+
+    void
+    make_pattern();
+
+    Deformation
+    add_elements(const Task &task);
+
+    Deformation
+    add_volume(unsigned int             element,
+               const Task              &task,
+               const LocalDisplacement &u,
+               LocalSystem             &local);
+
+    /// Everything at the displacements in `nodal`.
+    Deformation
+    assemble(const Task &task);
+
+    Deformation
+    add_weak_points(const EdgeTables::Site  &site,
+                    const Task              &task,
+                    const LocalDisplacement &u,
+                    LocalSystem             &local);
+
+    void
+    add_follower_points(const EdgeTables::Site  &site,
+                        const Task              &task,
+                        const LocalDisplacement &u,
+                        LocalSystem             &local);
+
+    void
+    add_fixed_points(unsigned int             element,
+                     const Task              &task,
+                     const LocalDisplacement &u,
+                     LocalSystem             &local);
+
+    Deformation
+    add_ties(const Task &task);
+
+    void
+    add_dead_loads(const Task &task);
+
+    /// Add the squares of what has come to the forces since the last call.
+    void
+    gauge(const LocalSystem &local, double *known)
+    {
+      for (unsigned int i = 0; i < 2 * n_per_cell; ++i)
+      {
+        const double change = local.rhs[i] - known[i];
+        force_square += change * change;
+        known[i] = local.rhs[i];
+      }
+    }
+
+    void
+    hand_over(dealii::ArrayView<const unsigned int> covers,
+              const Task                           &task,
+              const LocalSystem                    &local)
+    {
+      if (task.with_tangent)
+        block_system.add(covers, local.matrix, local.rhs);
+      else
+        block_system.add_rhs(covers, local.rhs);
+    }
+
+    const CoverSystem                       *covers;
+    const dealii::AffineConstraints<double> *constraints;
+    const ElasticityProblem                 *problem;
+    unsigned int                             degree, n_per_cell;
+    std::vector<HyperelasticLaw>             region_to_law;
+    std::vector<ConservingLaw>               region_to_conserving_law;
+    CurveConditions                          curve_conditions;
+    PointTerms                               points;
+    ElementTables                            tables;
+    std::unique_ptr<EdgeTables>              edges;
+    DeadLoads                                dead_loads;
+    BlockSystem                              block_system;
+    LoadAmplitudes                           amplitudes;
+
+    /// Per weak point, what its penalty is multiplied by.
+    std::vector<double> penalty_growth;
+    std::vector<double> nodal, nodal_increment, nodal_begin, nodal_end;
+
+    dealii::TrilinosWrappers::SparseMatrix matrix;
+    Vector                                 residual;
+    Energies                               energies;
+    double                                 force_square      = 0.;
+    double                                 force_scale       = 0.;
+    double                                 least_force_scale = 0.;
+    double                                 largest_jump      = 0.;
+  };
+
+
+  FiniteElasticity::Data::Data(
+    const CoverSystem                       &covers,
+    const QuadratureCollection              &quadrature,
+    const dealii::AffineConstraints<double> &constraints,
+    const ElasticityProblem                 &problem,
+    const bool                               may_float)
+    : covers(&covers)
+    , constraints(&constraints)
+    , problem(&problem)
+    , degree(covers.manifold_mesh().mathematical_mesh().degree())
+    , n_per_cell(WeightFunctions::n_per_cell(degree))
+    , curve_conditions((problem.check(covers.manifold_mesh().physical_mesh()),
+                        covers.manifold_mesh()),
+                       problem)
+    , points(covers, problem)
+    , tables(covers, quadrature)
+    , dead_loads(covers, quadrature, problem, curve_conditions)
+    , block_system(covers, constraints)
+  {
+    if (!may_float)
+      check_no_block_floats(covers, problem, curve_conditions, points);
+    for (const unsigned int m :
+         problem.region_to_material(covers.manifold_mesh().physical_mesh()))
+    {
+      region_to_law.emplace_back(problem.materials[m], problem.plane_state);
+      region_to_conserving_law.emplace_back(problem.materials[m],
+                                            problem.plane_state);
+    }
+    TraceConstants trace_constants(covers,
+                                   quadrature,
+                                   constraints,
+                                   curve_conditions);
+    edges = std::make_unique<EdgeTables>(covers,
+                                         problem,
+                                         curve_conditions,
+                                         trace_constants);
+    penalty_growth.assign(edges->weak_points.size(), 1.);
+    make_pattern();
+    least_force_scale = forces_at_small_strain();
+  }
+
+
+  /// Forces at a strain of 1e-6: relative to them, what F = I + grad u loses to
+  /// rounding is below tolerances, however small the load.
+  double
+  FiniteElasticity::Data::forces_at_small_strain() const
+  {
+    constexpr double    strain = 1e-6;
+    const ManifoldMesh &mesh   = covers->manifold_mesh();
+    double              square = 0.;
+    const auto [first, last]   = covers->locally_owned_elements();
+    for (unsigned int e = first; e < last; ++e)
+    {
+      const double stress =
+        strain *
+        region_to_law[mesh.region(e)].small_strain().largest_eigenvalue();
+      square += stress * stress * mesh.area(e);
+    }
+    return std::sqrt(
+      dealii::Utilities::MPI::sum(square, covers->communicator()));
+  }
+
+
+  void
+  FiniteElasticity::Data::make_pattern()
+  {
+    std::vector<unsigned int> both;
+    for (const EdgeTables::Site &tie : edges->ties)
+    {
+      both.clear();
+      for (const unsigned int e : {tie.element, tie.neighbor})
+        both.insert(both.end(),
+                    covers->covers(e).begin(),
+                    covers->covers(e).end());
+      block_system.couple({both.data(), both.size()});
+    }
+    block_system.ignore_inhomogeneities();
+    block_system.build();
+  }
+
+
+  Deformation
+  FiniteElasticity::Data::add_weak_points(const EdgeTables::Site  &site,
+                                          const Task              &task,
+                                          const LocalDisplacement &u,
+                                          LocalSystem             &local)
+  {
+    for (unsigned int q = site.first_point; q < site.last_point; ++q)
+    {
+      const EdgeTables::WeakPoint &point  = edges->weak_points[q];
+      double                       factor = 0.;
+      if (point.condition != invalid_index)
+      {
+        if (!amplitudes.released_conditions.empty() &&
+            amplitudes.released_conditions[point.condition])
+          continue;
+        factor = condition_factor(point.condition, task);
+      }
+      if (add_weak_point(point,
+                         region_to_law,
+                         n_per_cell,
+                         factor * point.prescribed,
+                         penalty_growth[q],
+                         u,
+                         task.tangent,
+                         local,
+                         energies.conditions,
+                         largest_jump) != Deformation::admissible)
+        return Deformation::inverted;
+    }
+    return Deformation::admissible;
+  }
+
+
+  void
+  FiniteElasticity::Data::add_fixed_points(const unsigned int       element,
+                                           const Task              &task,
+                                           const LocalDisplacement &u,
+                                           LocalSystem             &local)
+  {
+    for (unsigned int f = 0; f < problem->fixed_points.size(); ++f)
+      if (points.fixed_point_elements()[f] == element &&
+          (amplitudes.released_fixed_points.empty() ||
+           !amplitudes.released_fixed_points[f]))
+        energies.conditions +=
+          add_fixed_point(*covers,
+                          element,
+                          problem->fixed_points[f],
+                          points.stiffness(f),
+                          task.load_factor * (amplitudes.fixed_points.empty()
+                                                ? 1.
+                                                : amplitudes.fixed_points[f]),
+                          u,
+                          task.with_tangent,
+                          local);
+  }
+
+
+  void
+  FiniteElasticity::Data::add_follower_points(const EdgeTables::Site  &site,
+                                              const Task              &task,
+                                              const LocalDisplacement &u,
+                                              LocalSystem             &local)
+  {
+    for (unsigned int q = site.first_point; q < site.last_point; ++q)
+    {
+      const EdgeTables::FollowerPoint &point = edges->follower_points[q];
+      add_follower_point(point,
+                         n_per_cell,
+                         condition_factor(point.condition, task),
+                         u,
+                         task.with_tangent,
+                         local);
+    }
+  }
+
+
+  Deformation
+  FiniteElasticity::Data::add_volume(const unsigned int       element,
+                                     const Task              &task,
+                                     const LocalDisplacement &u,
+                                     LocalSystem             &local)
+  {
+    const auto         element_covers = covers->covers(element);
+    const unsigned int region         = covers->manifold_mesh().region(element);
+    LocalDisplacement  first, second;
+    if (task.is_between)
+    {
+      first.gather(element_covers, nodal_begin);
+      second.gather(element_covers, nodal_end);
+      return add_conserving_terms(region_to_conserving_law[region],
+                                  n_per_cell,
+                                  tables(element),
+                                  first,
+                                  second,
+                                  task.with_tangent,
+                                  local);
+    }
+    if (task.has_increment)
+      first.gather(element_covers, nodal_increment);
+    return add_volume_terms(region_to_law[region],
+                            n_per_cell,
+                            tables(element),
+                            u,
+                            task.has_increment ? &first : nullptr,
+                            task.with_tangent,
+                            local,
+                            energies.strain);
+  }
+
+
+  Deformation
+  FiniteElasticity::Data::add_elements(const Task &task)
+  {
+    LocalSystem       local;
+    LocalDisplacement u;
+    double            known[2 * LocalSystem::max_covers];
+    auto              condition = edges->conditions.begin();
+    auto              follower  = edges->followers.begin();
+    const auto [first, last]    = covers->locally_owned_elements();
+    for (unsigned int e = first; e < last; ++e)
+    {
+      const auto element_covers = covers->covers(e);
+      u.gather(element_covers, nodal);
+      local.reset(n_per_cell);
+      if (add_volume(e, task, u, local) != Deformation::admissible)
+        return Deformation::inverted;
+      std::fill_n(known, 2 * n_per_cell, 0.);
+      gauge(local, known);
+      if (condition != edges->conditions.end() && condition->element == e)
+        if (add_weak_points(*condition++, task, u, local) !=
+            Deformation::admissible)
+          return Deformation::inverted;
+      gauge(local, known);
+      if (follower != edges->followers.end() && follower->element == e)
+        add_follower_points(*follower++, task, u, local);
+      if (!problem->fixed_points.empty())
+        add_fixed_points(e, task, u, local);
+      gauge(local, known);
+      hand_over(element_covers, task, local);
+    }
+    return Deformation::admissible;
+  }
+
+
+  Deformation
+  FiniteElasticity::Data::add_ties(const Task &task)
+  {
+    LocalSystem       local;
+    LocalDisplacement u;
+    unsigned int      both[LocalSystem::max_covers];
+    for (const EdgeTables::Site &tie : edges->ties)
+    {
+      for (unsigned int side = 0; side < 2; ++side)
+      {
+        const auto side_covers =
+          covers->covers(side == 0 ? tie.element : tie.neighbor);
+        std::copy(side_covers.begin(),
+                  side_covers.end(),
+                  both + side * n_per_cell);
+        u.gather(side_covers, nodal, side * n_per_cell);
+      }
+      local.reset(2 * n_per_cell);
+      if (add_weak_points(tie, task, u, local) != Deformation::admissible)
+        return Deformation::inverted;
+      hand_over({both, 2 * n_per_cell}, task, local);
+    }
+    return Deformation::admissible;
+  }
+
+
+  void
+  FiniteElasticity::Data::add_dead_loads(const Task &task)
+  {
+    double     square = 0., work = 0.;
+    const auto add = [&](const DeadLoads::Load &load, const double factor) {
+      for (unsigned int i = 0; i < load.covers.size(); ++i)
+      {
+        const unsigned int k    = load.covers[i];
+        const double       f[2] = {-factor * load.forces[2 * i],
+                                   -factor * load.forces[2 * i + 1]};
+        block_system.add_rhs({&k, 1}, f);
+        square += f[0] * f[0] + f[1] * f[1];
+        work += f[0] * nodal[2 * k] + f[1] * nodal[2 * k + 1];
+      }
+    };
+    for (unsigned int c = 0; c < dead_loads.boundary_conditions.size(); ++c)
+      add(dead_loads.boundary_conditions[c], condition_factor(c, task));
+    for (unsigned int f = 0; f < dead_loads.point_forces.size(); ++f)
+      add(dead_loads.point_forces[f],
+          task.load_factor * (amplitudes.point_forces.empty()
+                                ? 1.
+                                : amplitudes.point_forces[f]));
+    add(dead_loads.gravity, task.load_factor * amplitudes.gravity);
+    add(dead_loads.body_force, task.load_factor * amplitudes.body_force);
+    energies.loads = work;
+    force_square += square;
+  }
+
+
+  Deformation
+  FiniteElasticity::Data::assemble(const Task &task)
+  {
+    block_system.reset(task.with_tangent);
+    energies          = Energies();
+    force_square      = 0.;
+    largest_jump      = 0.;
+    Deformation state = add_elements(task);
+    if (state == Deformation::admissible)
+      state = add_ties(task);
+    add_dead_loads(task);
+
+    // inverted somewhere is inverted for all
+    double sums[5] = {state == Deformation::inverted ? 1. : 0.,
+                      force_square,
+                      energies.strain,
+                      energies.conditions,
+                      energies.loads};
+    dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums, 5),
+                                covers->communicator(),
+                                dealii::ArrayView<double>(sums, 5));
+    if (sums[0] > 0.)
+      return Deformation::inverted;
+    force_scale         = std::hypot(std::sqrt(sums[1]), least_force_scale);
+    energies.strain     = sums[2];
+    energies.conditions = sums[3];
+    energies.loads      = sums[4];
+    largest_jump =
+      dealii::Utilities::MPI::max(largest_jump, covers->communicator());
+
+    if (task.with_tangent)
+      block_system.transfer(matrix, residual);
+    else
+      block_system.transfer_rhs(residual);
+    return Deformation::admissible;
+  }
+
+
+  FiniteElasticity::FiniteElasticity(
+    const CoverSystem                       &covers,
+    const QuadratureCollection              &quadrature,
+    const dealii::AffineConstraints<double> &constraints,
+    const ElasticityProblem                 &problem,
+    const bool                               may_float)
+    : data(std::make_unique<Data>(covers,
+                                  quadrature,
+                                  constraints,
+                                  problem,
+                                  may_float))
+  {
+  }
+
+
+  FiniteElasticity::~FiniteElasticity() = default;
+
+
+  Deformation
+  FiniteElasticity::assemble(const Vector &u,
+                             const double  load_factor,
+                             const Tangent tangent,
+                             const Vector *increment)
+  {
+    const bool with_tangent = tangent != Tangent::none;
+    read_nodal_values(*data->covers, u, data->nodal);
+    if (with_tangent && increment != nullptr)
+      read_nodal_values(*data->covers, *increment, data->nodal_increment);
+    const Data::Task task{load_factor,
+                          tangent,
+                          with_tangent,
+                          with_tangent && increment != nullptr};
+
+    return data->assemble(task);
+  }
+
+
+  Deformation
+  FiniteElasticity::assemble_between(const Vector &begin,
+                                     const Vector &end,
+                                     const double  load_factor,
+                                     const bool    with_tangent)
+  {
+    read_nodal_values(*data->covers, begin, data->nodal_begin);
+    read_nodal_values(*data->covers, end, data->nodal_end);
+    data->nodal.resize(data->nodal_begin.size());
+    for (unsigned int i = 0; i < data->nodal.size(); ++i)
+      data->nodal[i] = 0.5 * (data->nodal_begin[i] + data->nodal_end[i]);
+    Data::Task task{load_factor,
+                    with_tangent ? Tangent::consistent : Tangent::none,
+                    with_tangent,
+                    /* has_increment = */ false};
+    task.is_between = true;
+    return data->assemble(task);
+  }
+
+
+  void
+  FiniteElasticity::adapt_penalties(const Vector &u)
+  {
+    read_nodal_values(*data->covers, u, data->nodal);
+    LocalDisplacement local;
+    for (const auto *sites : {&data->edges->conditions, &data->edges->ties})
+      for (const EdgeTables::Site &site : *sites)
+      {
+        local.gather(data->covers->covers(site.element), data->nodal);
+        if (site.neighbor != invalid_index)
+          local.gather(data->covers->covers(site.neighbor),
+                       data->nodal,
+                       data->n_per_cell);
+        for (unsigned int q = site.first_point; q < site.last_point; ++q)
+        {
+          // nothing below 2, then faster than the moduli: those inside the
+          // element may have grown more than those on its edge
+          const double growth = growth_of_moduli(data->edges->weak_points[q],
+                                                 data->region_to_law,
+                                                 data->n_per_cell,
+                                                 local) /
+                                2.;
+          data->penalty_growth[q] =
+            std::max(data->penalty_growth[q], growth * growth * growth);
+        }
+      }
+  }
+
+
+  void
+  FiniteElasticity::set_amplitudes(const LoadAmplitudes &amplitudes)
+  {
+    const auto check = [](const std::size_t  given,
+                          const std::size_t  expected,
+                          const std::string &what) {
+      AssertThrow(given == 0 || given == expected,
+                  InputError(std::to_string(given) + " amplitudes",
+                             what,
+                             "give none or " + std::to_string(expected)));
+    };
+    const ElasticityProblem &problem      = *data->problem;
+    const std::size_t        n_conditions = problem.boundary_conditions.size();
+    check(amplitudes.boundary_conditions.size(),
+          n_conditions,
+          "the boundary conditions");
+    check(amplitudes.released_conditions.size(),
+          n_conditions,
+          "the released boundary conditions");
+    check(amplitudes.point_forces.size(),
+          problem.point_forces.size(),
+          "the point forces");
+    check(amplitudes.fixed_points.size(),
+          problem.fixed_points.size(),
+          "the fixed points");
+    check(amplitudes.released_fixed_points.size(),
+          problem.fixed_points.size(),
+          "the released fixed points");
+    data->amplitudes = amplitudes;
+  }
+
+
+  const FiniteElasticity::Vector &
+  FiniteElasticity::residual() const
+  {
+    return data->residual;
+  }
+
+
+  const dealii::TrilinosWrappers::SparseMatrix &
+  FiniteElasticity::tangent() const
+  {
+    return data->matrix;
+  }
+
+
+  bool
+  FiniteElasticity::tangent_is_symmetric() const
+  {
+    for (const BoundaryCondition &c : data->problem->boundary_conditions)
+      if (c.type == BoundaryCondition::Type::follower_pressure &&
+          c.value != nullptr)
+        return false;
+    return true;
+  }
+
+
+  const FiniteElasticity::Energies &
+  FiniteElasticity::energies() const
+  {
+    return data->energies;
+  }
+
+
+  double
+  FiniteElasticity::force_scale() const
+  {
+    return data->force_scale;
+  }
+
+
+  double
+  FiniteElasticity::largest_jump() const
+  {
+    return data->largest_jump;
+  }
+
+
+  FiniteElasticity::Vector
+  FiniteElasticity::initial_solution() const
+  {
+    Vector distributed(data->covers->locally_owned_dofs(2),
+                       data->covers->communicator());
+    data->constraints->distribute(distributed);
+    Vector result(data->covers->locally_owned_dofs(2),
+                  data->covers->locally_relevant_dofs(2),
+                  data->covers->communicator());
+    result = distributed;
+    return result;
+  }
+
+
+  const CoverSystem &
+  FiniteElasticity::cover_system() const
+  {
+    return *data->covers;
+  }
+
+
+  const ElasticityProblem &
+  FiniteElasticity::elasticity_problem() const
+  {
+    return *data->problem;
+  }
+
+
+  const dealii::AffineConstraints<double> &
+  FiniteElasticity::affine_constraints() const
+  {
+    return *data->constraints;
+  }
+
+
+  const HyperelasticLaw &
+  FiniteElasticity::law(const unsigned int region) const
+  {
+    return data->region_to_law[region];
+  }
+
+
+  unsigned int
+  FiniteElasticity::n_shared_tables() const
+  {
+    return data->tables.n_shared();
+  }
+} // namespace NMM

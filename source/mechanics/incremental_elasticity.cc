@@ -1,0 +1,561 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/mechanics/incremental_elasticity.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <mechanics/block_system.h>
+#include <mechanics/curve_conditions.h>
+#include <mechanics/edge_tables.h>
+#include <mechanics/element_tables.h>
+#include <mechanics/finite_terms.h>
+#include <mechanics/floating_blocks.h>
+#include <mechanics/mumps_solver.h>
+#include <mechanics/nodal_values.h>
+#include <mechanics/point_terms.h>
+#include <mechanics/trace_constant.h>
+
+namespace NMM
+{
+  using namespace internal;
+  using dealii::SymmetricTensor;
+  using dealii::Tensor;
+
+  namespace
+  {
+    /// lambda delta_iJ delta_kL + mu (delta_ik delta_JL + delta_iL delta_kJ)
+    struct Moduli
+    {
+      double A[4][4];
+
+      explicit Moduli(const PlaneElasticity &e)
+        : A()
+      {
+        for (unsigned int i = 0; i < 2; ++i)
+          for (unsigned int J = 0; J < 2; ++J)
+            for (unsigned int k = 0; k < 2; ++k)
+              for (unsigned int L = 0; L < 2; ++L)
+                A[2 * i + J][2 * k + L] = (i == J && k == L ? e.lambda : 0.) +
+                                          (i == k && J == L ? e.mu : 0.) +
+                                          (i == L && k == J ? e.mu : 0.);
+      }
+    };
+
+
+    /// R (sigma + C : sym h) R^T, R the rotation of I + h.
+    SymmetricTensor<2, 2>
+    updated_stress(const SymmetricTensor<2, 2> &stress,
+                   const PlaneElasticity       &elasticity,
+                   const Tensor<2, 2>          &h)
+    {
+      const SymmetricTensor<2, 2> s = stress + elasticity.stress(h);
+      const double                angle =
+        std::atan2(h[1][0] - h[0][1], 2. + h[0][0] + h[1][1]);
+      Tensor<2, 2> R;
+      R[0][0] = R[1][1] = std::cos(angle);
+      R[1][0]           = std::sin(angle);
+      R[0][1]           = -R[1][0];
+      return dealii::symmetrize(R * Tensor<2, 2>(s) * dealii::transpose(R));
+    }
+
+
+    /// Gradients on the current geometry: those on the reference times F^-1.
+    void
+    push_forward(const unsigned int  n,
+                 const Tensor<2, 2> &inverse,
+                 const double (*reference)[2],
+                 double (*current)[2])
+    {
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int d = 0; d < 2; ++d)
+          current[i][d] =
+            reference[i][0] * inverse[0][d] + reference[i][1] * inverse[1][d];
+    }
+
+
+    /// grad of sum_i v_i w_i
+    Tensor<2, 2>
+    gradient(const unsigned int n,
+             const double (*values)[2],
+             const double (*gradients)[2])
+    {
+      Tensor<2, 2> h;
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int c = 0; c < 2; ++c)
+          for (unsigned int d = 0; d < 2; ++d)
+            h[c][d] += values[i][c] * gradients[i][d];
+      return h;
+    }
+  } // namespace
+
+
+  struct IncrementalElasticity::Data
+  {
+    Data(const CoverSystem                       &covers,
+         const QuadratureCollection              &quadrature,
+         const dealii::AffineConstraints<double> &constraints,
+         const ElasticityProblem                 &problem);
+
+    /// Geometry at a weak point: gradients per side, normal times length ratio.
+    struct CurrentPoint
+    {
+      double       gradients[2][WeightFunctions::max_per_cell][2];
+      Tensor<1, 2> normal;
+      double       length_ratio;
+    };
+
+    /// False if a side is turned inside out.
+    bool
+    locate(const EdgeTables::WeakPoint &point,
+           const LocalDisplacement     &u,
+           CurrentPoint                &current) const;
+
+    bool
+    add_element(unsigned int             element,
+                const LocalDisplacement &u,
+                LocalSystem             &local) const;
+
+    bool
+    add_weak_points(const EdgeTables::Site  &site,
+                    double                   load_factor,
+                    const LocalDisplacement &u,
+                    LocalSystem             &local) const;
+
+    bool
+    assemble(double load_factor);
+
+    void
+    update_weak_stress(const EdgeTables::Site  &site,
+                       const LocalDisplacement &u,
+                       const LocalDisplacement &increment);
+
+    void
+    update_stress();
+
+    /// The covers of a tie, and their values.
+    dealii::ArrayView<const unsigned int>
+    gather(const EdgeTables::Site    &site,
+           const std::vector<double> &nodal,
+           LocalDisplacement         &u,
+           unsigned int (&both)[LocalSystem::max_covers]) const;
+
+    const CoverSystem                       *covers;
+    const dealii::AffineConstraints<double> *constraints;
+    const ElasticityProblem                 *problem;
+    unsigned int                             n_per_cell;
+    std::vector<PlaneElasticity>             region_to_elasticity;
+    std::vector<Moduli>                      region_to_moduli;
+    CurveConditions                          curve_conditions;
+    PointTerms                               points;
+    ElementTables                            tables;
+    std::unique_ptr<EdgeTables>              edges;
+    DeadLoads                                dead_loads;
+    BlockSystem                              block_system;
+    DirectSolver                             direct_solver;
+
+    /// Cauchy stress per volume point, and per side of each weak point [Pa].
+    std::vector<SymmetricTensor<2, 2>> stress, weak_stress;
+    std::vector<double>                nodal, nodal_increment;
+
+    dealii::TrilinosWrappers::SparseMatrix matrix;
+    Vector residual, correction, owned, solution;
+  };
+
+
+  IncrementalElasticity::Data::Data(
+    const CoverSystem                       &covers,
+    const QuadratureCollection              &quadrature,
+    const dealii::AffineConstraints<double> &constraints,
+    const ElasticityProblem                 &problem)
+    : covers(&covers)
+    , constraints(&constraints)
+    , problem(&problem)
+    , n_per_cell(covers.manifold_mesh().mathematical_mesh().n_covers_per_cell())
+    , curve_conditions((problem.check(covers.manifold_mesh().physical_mesh()),
+                        covers.manifold_mesh()),
+                       problem)
+    , points(covers, problem)
+    , tables(covers, quadrature)
+    , dead_loads(covers, quadrature, problem, curve_conditions)
+    , block_system(covers, constraints)
+  {
+    const ManifoldMesh &mesh = covers.manifold_mesh();
+    check_no_block_floats(covers, problem, curve_conditions, points);
+    const auto region_to_material =
+      problem.region_to_material(mesh.physical_mesh());
+    for (const unsigned int m : region_to_material)
+    {
+      region_to_elasticity.push_back(
+        problem.materials[m].plane_elasticity(problem.plane_state));
+      region_to_moduli.emplace_back(region_to_elasticity.back());
+    }
+    TraceConstants trace_constants(covers,
+                                   quadrature,
+                                   constraints,
+                                   curve_conditions);
+    edges = std::make_unique<EdgeTables>(covers,
+                                         problem,
+                                         curve_conditions,
+                                         trace_constants);
+    LocalDisplacement none;
+    nodal.assign(2 * covers.n_covers(), 0.);
+    unsigned int both[LocalSystem::max_covers];
+    for (const EdgeTables::Site &tie : edges->ties)
+      block_system.couple(gather(tie, nodal, none, both));
+    block_system.ignore_inhomogeneities();
+    block_system.build();
+
+    const auto [first, last] = covers.locally_owned_elements();
+    stress.reserve(tables.n_points());
+    for (unsigned int e = first; e < last; ++e)
+      stress.insert(
+        stress.end(),
+        tables(e).n_points,
+        problem.materials[region_to_material[mesh.region(e)]].initial_stress);
+    for (const EdgeTables::WeakPoint &point : edges->weak_points)
+      for (unsigned int s = 0; s < 2; ++s)
+        weak_stress.push_back(
+          problem
+            .materials[region_to_material
+                         [point.sides[std::min(s, point.n_sides - 1)].region]]
+            .initial_stress);
+
+    owned.reinit(covers.locally_owned_dofs(2), covers.communicator());
+    constraints.distribute(owned);
+    solution.reinit(covers.locally_owned_dofs(2),
+                    covers.locally_relevant_dofs(2),
+                    covers.communicator());
+    solution = owned;
+  }
+
+
+  dealii::ArrayView<const unsigned int>
+  IncrementalElasticity::Data::gather(
+    const EdgeTables::Site    &site,
+    const std::vector<double> &nodal,
+    LocalDisplacement         &u,
+    unsigned int (&both)[LocalSystem::max_covers]) const
+  {
+    unsigned int n = 0;
+    for (const unsigned int e : {site.element, site.neighbor})
+      if (e != invalid_index)
+      {
+        u.gather(covers->covers(e), nodal, n);
+        for (const unsigned int k : covers->covers(e))
+          both[n++] = k;
+      }
+    return {both, n};
+  }
+
+
+  bool
+  IncrementalElasticity::Data::add_element(const unsigned int       element,
+                                           const LocalDisplacement &u,
+                                           LocalSystem             &local) const
+  {
+    const Moduli &moduli =
+      region_to_moduli[covers->manifold_mesh().region(element)];
+    const ElementTables::View table = tables(element);
+    const unsigned int        first = tables.first_point(element);
+    double                    g[WeightFunctions::max_per_cell][2];
+    for (unsigned int q = 0; q < table.n_points; ++q)
+    {
+      const double(*reference)[2] = table.gradients + q * n_per_cell;
+      const Tensor<2, 2> F =
+        deformation_gradient(n_per_cell, u.values, reference);
+      const double J = dealii::determinant(F);
+      if (!(J > 0.))
+        return false;
+      push_forward(n_per_cell, dealii::invert(F), reference, g);
+      const double weight = J * table.weights[q];
+      add_stiffness(n_per_cell, weight, g, moduli.A, local);
+      const SymmetricTensor<2, 2> &s = stress[first + q];
+      for (unsigned int i = 0; i < n_per_cell; ++i)
+        for (unsigned int c = 0; c < 2; ++c)
+          local.rhs[2 * i + c] +=
+            weight * (s[c][0] * g[i][0] + s[c][1] * g[i][1]);
+    }
+    symmetrize(local);
+    return true;
+  }
+
+
+  bool
+  IncrementalElasticity::Data::locate(const EdgeTables::WeakPoint &point,
+                                      const LocalDisplacement     &u,
+                                      CurrentPoint &current) const
+  {
+    for (unsigned int s = 0; s < point.n_sides; ++s)
+    {
+      const Tensor<2, 2> F = deformation_gradient(n_per_cell,
+                                                  u.values + s * n_per_cell,
+                                                  point.sides[s].gradients);
+      const double       J = dealii::determinant(F);
+      if (!(J > 0.))
+        return false;
+      const Tensor<2, 2> inverse = dealii::invert(F);
+      push_forward(n_per_cell,
+                   inverse,
+                   point.sides[s].gradients,
+                   current.gradients[s]);
+      if (s == 0)
+      {
+        current.normal       = J * (dealii::transpose(inverse) * point.normal);
+        current.length_ratio = current.normal.norm();
+        current.normal /= current.length_ratio;
+      }
+    }
+    return true;
+  }
+
+
+  /// The terms of StaticElasticity on the current geometry.
+  bool
+  IncrementalElasticity::Data::add_weak_points(const EdgeTables::Site &site,
+                                               const double load_factor,
+                                               const LocalDisplacement &u,
+                                               LocalSystem &local) const
+  {
+    CurrentPoint current;
+    double       flux[LocalSystem::max_covers][2][2];
+    for (unsigned int q = site.first_point; q < site.last_point; ++q)
+    {
+      const EdgeTables::WeakPoint &point = edges->weak_points[q];
+      if (!locate(point, u, current))
+        return false;
+      const Tensor<1, 2> &n        = current.normal;
+      const unsigned int  n_covers = point.n_sides * n_per_cell;
+      Tensor<1, 2>        jump, traction;
+      for (unsigned int k = 0; k < n_covers; ++k)
+      {
+        const unsigned int      s    = k / n_per_cell;
+        const EdgeTables::Side &side = point.sides[s];
+        const PlaneElasticity  &e    = region_to_elasticity[side.region];
+        const double           *g    = current.gradients[s][k % n_per_cell];
+        const double            gn   = g[0] * n[0] + g[1] * n[1];
+        for (unsigned int a = 0; a < 2; ++a)
+        {
+          jump[a] += point.jump[k] * u.values[k][a];
+          for (unsigned int c = 0; c < 2; ++c)
+            flux[k][a][c] =
+              side.share * (e.lambda * n[a] * g[c] + e.mu * g[a] * n[c] +
+                            (a == c ? e.mu * gn : 0.));
+        }
+      }
+      for (unsigned int s = 0; s < point.n_sides; ++s)
+        traction += point.sides[s].share * (weak_stress[2 * q + s] * n);
+
+      const auto        &B      = point.projection;
+      const Tensor<1, 2> d      = B * jump - load_factor * point.prescribed;
+      const Tensor<1, 2> force  = point.penalty * d - B * traction;
+      const double       weight = point.weight * current.length_ratio;
+      double             projected[LocalSystem::max_covers][2][2];
+      for (unsigned int k = 0; k < n_covers; ++k)
+        for (unsigned int c = 0; c < 2; ++c)
+        {
+          local.rhs[2 * k + c] +=
+            weight * (point.jump[k] * force[c] - flux[k][0][c] * d[0] -
+                      flux[k][1][c] * d[1]);
+          for (unsigned int a = 0; a < 2; ++a)
+            projected[k][a][c] =
+              B[a][0] * flux[k][0][c] + B[a][1] * flux[k][1][c];
+        }
+      for (unsigned int k = 0; k < n_covers; ++k)
+        for (unsigned int c = 0; c < 2; ++c)
+        {
+          double *row = local.row(k, c);
+          for (unsigned int j = 0; j < n_covers; ++j)
+            for (unsigned int e = 0; e < 2; ++e)
+              row[2 * j + e] += weight * (-projected[k][e][c] * point.jump[j] -
+                                          point.jump[k] * projected[j][c][e] +
+                                          point.penalty * point.jump[k] *
+                                            point.jump[j] * B[c][e]);
+        }
+    }
+    return true;
+  }
+
+
+  /// False if an element is turned inside out.
+  bool
+  IncrementalElasticity::Data::assemble(const double load_factor)
+  {
+    LocalSystem       local;
+    LocalDisplacement u;
+    unsigned int      both[LocalSystem::max_covers];
+    auto              condition = edges->conditions.begin();
+    auto              follower  = edges->followers.begin();
+    const auto [first, last]    = covers->locally_owned_elements();
+    for (unsigned int e = first; e < last; ++e)
+    {
+      u.gather(covers->covers(e), nodal);
+      local.reset(n_per_cell);
+      if (!add_element(e, u, local))
+        return false;
+      if (condition != edges->conditions.end() && condition->element == e &&
+          !add_weak_points(*condition++, load_factor, u, local))
+        return false;
+      if (follower != edges->followers.end() && follower->element == e)
+      {
+        for (unsigned int q = follower->first_point; q < follower->last_point;
+             ++q)
+          add_follower_point(edges->follower_points[q],
+                             n_per_cell,
+                             load_factor,
+                             u,
+                             /* with_tangent = */ false,
+                             local);
+        ++follower;
+      }
+      for (unsigned int f = 0; f < problem->fixed_points.size(); ++f)
+        if (points.fixed_point_elements()[f] == e)
+          add_fixed_point(*covers,
+                          e,
+                          problem->fixed_points[f],
+                          points.stiffness(f),
+                          load_factor,
+                          u,
+                          /* with_tangent = */ true,
+                          local);
+      block_system.add(covers->covers(e), local.matrix, local.rhs);
+    }
+    for (const EdgeTables::Site &tie : edges->ties)
+    {
+      const auto tie_covers = gather(tie, nodal, u, both);
+      local.reset(2 * n_per_cell);
+      if (!add_weak_points(tie, load_factor, u, local))
+        return false;
+      block_system.add(tie_covers, local.matrix, local.rhs);
+    }
+    dead_loads.for_each_force(
+      [&](const unsigned int k, const Tensor<1, 2> &force) {
+        const double f[2] = {-load_factor * force[0], -load_factor * force[1]};
+        block_system.add_rhs({&k, 1}, f);
+      });
+    return true;
+  }
+
+
+  void
+  IncrementalElasticity::Data::update_weak_stress(
+    const EdgeTables::Site  &site,
+    const LocalDisplacement &u,
+    const LocalDisplacement &increment)
+  {
+    CurrentPoint current;
+    for (unsigned int q = site.first_point; q < site.last_point; ++q)
+    {
+      const EdgeTables::WeakPoint &point = edges->weak_points[q];
+      locate(point, u, current);
+      for (unsigned int s = 0; s < point.n_sides; ++s)
+      {
+        SymmetricTensor<2, 2> &sigma = weak_stress[2 * q + s];
+        sigma                        = updated_stress(sigma,
+                               region_to_elasticity[point.sides[s].region],
+                               gradient(n_per_cell,
+                                        increment.values + s * n_per_cell,
+                                        current.gradients[s]));
+      }
+    }
+  }
+
+
+  void
+  IncrementalElasticity::Data::update_stress()
+  {
+    LocalDisplacement u, increment;
+    unsigned int      both[LocalSystem::max_covers];
+    double            g[WeightFunctions::max_per_cell][2];
+    const auto [first, last] = covers->locally_owned_elements();
+    for (unsigned int e = first; e < last; ++e)
+    {
+      u.gather(covers->covers(e), nodal);
+      increment.gather(covers->covers(e), nodal_increment);
+      const ElementTables::View table = tables(e);
+      const PlaneElasticity    &elasticity =
+        region_to_elasticity[covers->manifold_mesh().region(e)];
+      for (unsigned int q = 0; q < table.n_points; ++q)
+      {
+        const double(*reference)[2] = table.gradients + q * n_per_cell;
+        push_forward(n_per_cell,
+                     dealii::invert(
+                       deformation_gradient(n_per_cell, u.values, reference)),
+                     reference,
+                     g);
+        SymmetricTensor<2, 2> &sigma = stress[tables.first_point(e) + q];
+        sigma                        = updated_stress(sigma,
+                               elasticity,
+                               gradient(n_per_cell, increment.values, g));
+      }
+    }
+    for (const auto *sites : {&edges->conditions, &edges->ties})
+      for (const EdgeTables::Site &site : *sites)
+      {
+        gather(site, nodal, u, both);
+        gather(site, nodal_increment, increment, both);
+        update_weak_stress(site, u, increment);
+      }
+  }
+
+
+  IncrementalElasticity::IncrementalElasticity(
+    const CoverSystem                       &covers,
+    const QuadratureCollection              &quadrature,
+    const dealii::AffineConstraints<double> &constraints,
+    const ElasticityProblem                 &problem)
+    : data(std::make_unique<Data>(covers, quadrature, constraints, problem))
+  {
+  }
+
+
+  IncrementalElasticity::~IncrementalElasticity() = default;
+
+
+  double
+  IncrementalElasticity::step(const double load_factor)
+  {
+    Data          &d            = *data;
+    const MPI_Comm communicator = d.covers->communicator();
+    read_nodal_values(*d.covers, d.solution, d.nodal);
+    d.block_system.reset();
+    const bool is_good = d.assemble(load_factor);
+    AssertThrow(dealii::Utilities::MPI::min(is_good ? 1 : 0, communicator) == 1,
+                NumericalFailure("An element is turned inside out",
+                                 "load factor " + std::to_string(load_factor),
+                                 "take smaller steps, or finite kinematics"));
+    d.block_system.transfer(d.matrix, d.residual);
+    d.direct_solver.factorize(d.matrix);
+    d.correction.reinit(d.residual);
+    d.direct_solver.solve(d.residual, d.correction);
+
+    d.owned -= d.correction;
+    d.constraints->distribute(d.owned);
+    const Vector before(d.solution);
+    d.solution = d.owned;
+    Vector increment(d.solution);
+    increment -= before;
+    read_nodal_values(*d.covers, increment, d.nodal_increment);
+    d.update_stress();
+
+    double largest = 0.;
+    for (const auto k : d.covers->locally_owned_covers())
+      largest = std::max(largest,
+                         std::hypot(d.nodal_increment[2 * k],
+                                    d.nodal_increment[2 * k + 1]));
+    return dealii::Utilities::MPI::max(largest, communicator);
+  }
+
+
+  const IncrementalElasticity::Vector &
+  IncrementalElasticity::solution() const
+  {
+    return data->solution;
+  }
+
+
+  const std::vector<SymmetricTensor<2, 2>> &
+  IncrementalElasticity::stresses() const
+  {
+    return data->stress;
+  }
+} // namespace NMM

@@ -1,0 +1,253 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/mechanics/newton_solver.h>
+
+#include <deal.II/base/timer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mechanics/mumps_solver.h>
+
+namespace NMM
+{
+  struct NewtonSolver::Data
+  {
+    NewtonParameters parameters;
+
+    /// Made for the first system and kept, with its analysis, for all of the same
+    /// size and symmetry.
+    std::unique_ptr<internal::DirectSolver> direct_solver;
+    bool                                    is_symmetric = false;
+    unsigned int                            n            = 0;
+
+    NonlinearSystem                         *system      = nullptr;
+    const dealii::AffineConstraints<double> *constraints = nullptr;
+    NewtonReport                            *report      = nullptr;
+    /// Owned unknowns.
+    Vector owned, correction;
+    bool   use_increment = true;
+
+    Deformation
+    assemble(const Vector &u, Tangent tangent, const Vector *increment);
+
+    void
+    factorize();
+
+    void
+    solve(const Vector &rhs, Vector &solution);
+
+    Deformation
+    line_search(Vector &u, NewtonReport::Iteration &iteration, bool is_late);
+
+    bool
+    iterate(Vector &u, const Vector *increment);
+
+    bool
+    has_converged(double largest_energy);
+
+    bool
+    refine(Vector &u);
+  };
+
+
+  NewtonSolver::NewtonSolver(const NewtonParameters &parameters)
+    : data(std::make_unique<Data>())
+  {
+    data->parameters = parameters;
+  }
+
+
+  NewtonSolver::~NewtonSolver() = default;
+
+
+  Deformation
+  NewtonSolver::Data::assemble(const Vector &u,
+                               const Tangent tangent,
+                               const Vector *increment)
+  {
+    dealii::Timer     timer;
+    const Deformation state = system->assemble(u, tangent, increment);
+    report->assembly_time += timer.wall_time();
+    if (state != Deformation::admissible)
+      return state;
+    const double norm         = system->residual().l2_norm();
+    report->relative_residual = norm > 0. ? norm / system->force_scale() : 0.;
+    return std::isfinite(report->relative_residual) ? state
+                                                    : Deformation::inverted;
+  }
+
+
+  void
+  NewtonSolver::Data::factorize()
+  {
+    dealii::Timer timer;
+    if (direct_solver == nullptr ||
+        is_symmetric != system->tangent_is_symmetric() ||
+        n != system->tangent().m())
+    {
+      is_symmetric  = system->tangent_is_symmetric();
+      n             = system->tangent().m();
+      direct_solver = std::make_unique<internal::DirectSolver>(
+        is_symmetric ? internal::DirectSolver::Symmetry::symmetric
+                     : internal::DirectSolver::Symmetry::unsymmetric);
+    }
+    direct_solver->factorize(system->tangent());
+    report->factorization_time += timer.wall_time();
+  }
+
+
+  void
+  NewtonSolver::Data::solve(const Vector &rhs, Vector &solution)
+  {
+    dealii::Timer timer;
+    solution.reinit(rhs, /* omit_zeroing_entries = */ true);
+    direct_solver->solve(rhs, solution);
+    report->substitution_time += timer.wall_time();
+  }
+
+
+  /// Choose eta, see the class; moves u and assembles its residual.
+  Deformation
+  NewtonSolver::Data::line_search(Vector                  &u,
+                                  NewtonReport::Iteration &iteration,
+                                  const bool               is_late)
+  {
+    const double slope    = std::abs(correction * system->residual());
+    const Vector before   = owned;
+    iteration.line_search = 1.;
+    while (true)
+    {
+      owned = before;
+      owned.add(-iteration.line_search, correction);
+      constraints->distribute(owned);
+      u                       = owned;
+      const Deformation state = assemble(u, Tangent::none, nullptr);
+      if (state == Deformation::admissible &&
+          (!is_late ||
+           std::abs(correction * system->residual()) <= 0.9 * slope))
+        return state;
+      if (iteration.line_search <= parameters.min_line_search)
+        return state;
+      iteration.line_search *= 0.5;
+      ++report->n_line_search_cuts;
+    }
+  }
+
+
+  /// One iteration; r(u) is assembled afterwards. False if it failed.
+  bool
+  NewtonSolver::Data::iterate(Vector &u, const Vector *increment)
+  {
+    constexpr unsigned int n_young = 4;
+
+    report->iterations.emplace_back();
+    const unsigned int       k         = report->iterations.size();
+    NewtonReport::Iteration &iteration = report->iterations.back();
+    if (assemble(u,
+                 k > parameters.n_robust_iterations ? Tangent::consistent
+                                                    : Tangent::robust,
+                 use_increment ? increment : nullptr) !=
+        Deformation::admissible)
+    {
+      report->reason =
+        "the deformation is not admissible (an element is "
+        "turned inside out)";
+      return false;
+    }
+    iteration.relative_residual = report->relative_residual;
+    try
+    {
+      factorize();
+    }
+    catch (const NumericalFailure &failure)
+    {
+      report->reason = failure.message();
+      return false;
+    }
+    solve(system->residual(), correction);
+    iteration.energy = std::abs(correction * system->residual());
+    if (!std::isfinite(iteration.energy))
+    {
+      report->reason = "the tangent is singular";
+      return false;
+    }
+
+    const bool is_late =
+      k > n_young && iteration.energy > report->iterations[k - 2].energy;
+    use_increment = use_increment && !is_late;
+    if (line_search(u, iteration, is_late) != Deformation::admissible)
+    {
+      report->reason =
+        "every share of the correction gives a deformation that "
+        "is not admissible";
+      return false;
+    }
+    return true;
+  }
+
+
+  bool
+  NewtonSolver::Data::has_converged(const double largest_energy)
+  {
+    return report->relative_residual <= parameters.residual_tolerance &&
+           std::abs(correction * system->residual()) <=
+             parameters.energy_tolerance * largest_energy;
+  }
+
+
+  /// See NewtonParameters::n_refinements. False if u becomes inadmissible.
+  bool
+  NewtonSolver::Data::refine(Vector &u)
+  {
+    for (unsigned int i = 0; i < parameters.n_refinements; ++i)
+    {
+      solve(system->residual(), correction);
+      owned -= correction;
+      constraints->distribute(owned);
+      u = owned;
+      if (assemble(u, Tangent::none, nullptr) != Deformation::admissible)
+      {
+        report->reason = "the deformation is not admissible";
+        return false;
+      }
+    }
+    return true;
+  }
+
+
+  NewtonReport
+  NewtonSolver::solve(NonlinearSystem                         &system,
+                      const dealii::AffineConstraints<double> &constraints,
+                      Vector                                  &u,
+                      const Vector                            *increment)
+  {
+    NewtonReport report;
+    data->system        = &system;
+    data->constraints   = &constraints;
+    data->report        = &report;
+    data->use_increment = data->parameters.use_increment;
+    data->owned.reinit(u.locally_owned_elements(), u.get_mpi_communicator());
+    data->owned = u;
+
+    Vector last_increment(u), before(u);
+    double largest_energy = 0.;
+    while (report.iterations.size() < data->parameters.max_iterations)
+    {
+      before = u;
+      if (!data->iterate(u, increment))
+        return report;
+      largest_energy =
+        std::max(largest_energy, report.iterations.back().energy);
+      if (data->has_converged(largest_energy))
+      {
+        report.converged = data->refine(u);
+        return report;
+      }
+      last_increment = u;
+      last_increment -= before;
+      increment = &last_increment;
+    }
+    report.reason = "no convergence in " +
+                    std::to_string(report.iterations.size()) + " iterations";
+    return report;
+  }
+} // namespace NMM

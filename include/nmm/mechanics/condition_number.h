@@ -39,7 +39,7 @@ namespace NMM
    * eigenvalue with products by the scaled matrix, the smallest with solves
    * (one direct factorization). Ends when the residual shows an eigenvalue
    * within @p tolerance [-] (relative) of the Ritz value: a sharp estimate from
-   * below. The start vector is fixed, and the same for any number of ranks.
+   * below. The start vector follows from the numbers of the unknowns alone.
    * Cost: a factorization and some 20 solves, and some 50 products.
    *
    * Reference: Parlett, The Symmetric Eigenvalue Problem, chap. 13.

@@ -335,7 +335,8 @@ namespace
       for (unsigned int seed = 1; seed <= n; ++seed)
       {
         const Network network = random_network(seed, 60, stabilization);
-        report.csv("network", network.solved);
+        if (!network.solved.failure.empty())
+          report.csv("network", network.solved);
         n_failures += !network.solved.failure.empty();
         n_regions += network.n_regions;
         area  = std::max(area, network.area_error);

@@ -94,7 +94,8 @@ namespace NMM
     Data(const CoverSystem                       &covers,
          const QuadratureCollection              &quadrature,
          const dealii::AffineConstraints<double> &constraints,
-         const ElasticityProblem                 &problem);
+         const ElasticityProblem                 &problem,
+         bool                                     may_float);
 
     /// Geometry at a weak point: gradients per side, normal times length ratio.
     struct CurrentPoint
@@ -166,7 +167,8 @@ namespace NMM
     const CoverSystem                       &covers,
     const QuadratureCollection              &quadrature,
     const dealii::AffineConstraints<double> &constraints,
-    const ElasticityProblem                 &problem)
+    const ElasticityProblem                 &problem,
+    const bool                               may_float)
     : covers(&covers)
     , constraints(&constraints)
     , problem(&problem)
@@ -180,7 +182,8 @@ namespace NMM
     , block_system(covers, constraints)
   {
     const ManifoldMesh &mesh = covers.manifold_mesh();
-    check_no_block_floats(covers, problem, curve_conditions, points);
+    if (!may_float)
+      check_no_block_floats(covers, problem, curve_conditions, points);
     const auto region_to_material =
       problem.region_to_material(mesh.physical_mesh());
     for (const unsigned int m : region_to_material)
@@ -502,8 +505,13 @@ namespace NMM
     const CoverSystem                       &covers,
     const QuadratureCollection              &quadrature,
     const dealii::AffineConstraints<double> &constraints,
-    const ElasticityProblem                 &problem)
-    : data(std::make_unique<Data>(covers, quadrature, constraints, problem))
+    const ElasticityProblem                 &problem,
+    const bool                               may_float)
+    : data(std::make_unique<Data>(covers,
+                                  quadrature,
+                                  constraints,
+                                  problem,
+                                  may_float))
   {
   }
 
@@ -513,6 +521,19 @@ namespace NMM
 
   double
   IncrementalElasticity::step(const double load_factor)
+  {
+    return step(load_factor,
+                [&](const Matrix &matrix, const Vector &rhs, Vector &solution) {
+                  data->direct_solver.factorize(matrix);
+                  data->direct_solver.solve(rhs, solution);
+                });
+  }
+
+
+  double
+  IncrementalElasticity::step(
+    const double load_factor,
+    const std::function<void(const Matrix &, const Vector &, Vector &)> &solve)
   {
     Data          &d            = *data;
     const MPI_Comm communicator = d.covers->communicator();
@@ -524,9 +545,8 @@ namespace NMM
                                  "load factor " + std::to_string(load_factor),
                                  "take smaller steps, or finite kinematics"));
     d.block_system.transfer(d.matrix, d.residual);
-    d.direct_solver.factorize(d.matrix);
     d.correction.reinit(d.residual);
-    d.direct_solver.solve(d.residual, d.correction);
+    solve(d.matrix, d.residual, d.correction);
 
     d.owned -= d.correction;
     d.constraints->distribute(d.owned);

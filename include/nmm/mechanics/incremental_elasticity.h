@@ -7,8 +7,10 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -44,11 +46,13 @@ namespace NMM
   public:
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
-    /// @throws InputError and NumericalFailure as StaticElasticity.
+    /// @throws InputError and NumericalFailure as StaticElasticity; of a block that
+    /// floats freely not if it @p may_float (dynamics).
     IncrementalElasticity(const CoverSystem                       &covers,
                           const QuadratureCollection              &quadrature,
                           const dealii::AffineConstraints<double> &constraints,
-                          const ElasticityProblem                 &problem);
+                          const ElasticityProblem                 &problem,
+                          bool may_float = false);
     ~IncrementalElasticity();
 
     /**
@@ -61,6 +65,17 @@ namespace NMM
      */
     double
     step(double load_factor);
+
+    using Matrix = dealii::TrilinosWrappers::SparseMatrix;
+
+    /// The same with equations of the caller's: @p solve is handed stiffness
+    /// and r = internal forces - loads at the beginning of the step and finds minus
+    /// the displacement of the step (dynamics adds inertia to both).
+    double
+    step(double                                         load_factor,
+         const std::function<void(const Matrix &stiffness,
+                                  const Vector &residual,
+                                  Vector       &correction)> &solve);
 
     /// Sum of all steps [m], locally relevant.
     const Vector &

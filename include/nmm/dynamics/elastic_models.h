@@ -1,0 +1,254 @@
+#ifndef nmm_dynamics_elastic_models_h
+#define nmm_dynamics_elastic_models_h
+
+#include <nmm/covers/aggregation.h>
+#include <nmm/dynamics/loading.h>
+#include <nmm/dynamics/mechanical_model.h>
+#include <nmm/mechanics/finite_elasticity.h>
+
+#include <functional>
+
+namespace NMM
+{
+  /**
+   * What bodies in `small` and `finite` kinematics share: consistent mass (8),
+   * loads in time, releases, base acceleration.
+   *
+   * Lifetime: the elasticity must outlive this object. Its amplitudes are this
+   * object's business from now on.
+   */
+  class ElasticModel : public MechanicalModel
+  {
+  public:
+    MPI_Comm
+    communicator() const override;
+
+    dealii::IndexSet
+    locally_owned() const override;
+
+    dealii::IndexSet
+    locally_relevant() const override;
+
+    const dealii::AffineConstraints<double> &
+    constraints() const override;
+
+    const Vector &
+    reference_positions() const override;
+
+    std::uint64_t
+    fingerprint() const override;
+
+    const Matrix &
+    mass() const override;
+
+    const Matrix &
+    tangent() const override;
+
+    double
+    force_scale() const override;
+
+    std::vector<double>
+    events() const override;
+
+    void
+    pass_events(double t) override;
+
+  protected:
+    /**
+     * @p mass_quadrature: exact for degree 2p.
+     * @throws InputError for a material without density, or a release of what is not
+     * there.
+     */
+    ElasticModel(FiniteElasticity           &elasticity,
+                 const QuadratureCollection &mass_quadrature,
+                 Loading                     loading,
+                 const GhostPenalty         *ghost_penalty);
+
+    /// Amplitudes at @p t with releases, without loads if not @p with_loads.
+    LoadAmplitudes
+    amplitudes_at(double t, bool with_loads = true) const;
+
+    /// Hand over to the elasticity; true if they differ from the last ones.
+    bool
+    set_amplitudes(const LoadAmplitudes &amplitudes);
+
+    /// Are loads a function of time beside releases?
+    bool
+    loads_change() const;
+
+    /// forces += scale * M a_g(t)
+    void
+    add_base_force(double t, double scale, Vector &forces) const;
+
+    FiniteElasticity *elasticity;
+    Loading           loading;
+    /// Number of passed events that changed something.
+    unsigned int n_passed = 0;
+    Vector       zero;
+
+  private:
+    void
+    check_loading() const;
+
+    Matrix         mass_matrix;
+    Vector         positions, mass_of_translation[2];
+    LoadAmplitudes current;
+    double         passed_until;
+  };
+
+
+  /// Total Lagrangian kinematics: FiniteElasticity in time.
+  class FiniteModel : public ElasticModel
+  {
+  public:
+    /// See ElasticModel.
+    FiniteModel(FiniteElasticity           &elasticity,
+                const QuadratureCollection &mass_quadrature,
+                Loading                     loading = {});
+
+    const Matrix &
+    stiffness_at_rest() override;
+
+    bool
+    is_linear() const override;
+
+    bool
+    tangent_is_symmetric() const override;
+
+    bool
+    tangent_between_is_symmetric() const override;
+
+    Deformation
+    assemble(const Vector &u,
+             double        t,
+             Tangent       tangent,
+             const Vector *increment = nullptr) override;
+
+    Deformation
+    assemble_between(const Vector &begin,
+                     const Vector &end,
+                     double        t,
+                     bool          with_tangent) override;
+
+    const Vector &
+    residual() const override;
+
+    Energies
+    energies() const override;
+
+    void
+    external_forces(const Vector &u, double t, Vector &forces) override;
+
+    double
+    work_of_supports(const Vector &u,
+                     double        t,
+                     double        t_0,
+                     double        t_1) override;
+
+  private:
+    double
+    energy_of_conditions(const Vector &u, const LoadAmplitudes &amplitudes);
+
+    Vector       sum, known_forces;
+    unsigned int known_at  = 0;
+    bool         has_known = false;
+    bool         has_follower;
+  };
+
+
+  /**
+   * Small displacements: FiniteElasticity linearized at u = 0,
+   * @f[ r(u,t) = K u - f(t), @f]
+   * with the geometric stiffness of initial stresses. Follower pressure keeps its
+   * direction. K contains the conditions; the energy of conditions
+   * therefore counts as strain energy u.K u / 2, and prescribed displacements as
+   * loads. K changes with releases only; f is assembled when amplitudes change.
+   */
+  class SmallModel : public ElasticModel
+  {
+  public:
+    /// See ElasticModel.
+    SmallModel(FiniteElasticity           &elasticity,
+               const QuadratureCollection &mass_quadrature,
+               Loading                     loading       = {},
+               const GhostPenalty         *ghost_penalty = nullptr);
+
+    const Matrix &
+    stiffness_at_rest() override;
+
+    bool
+    is_linear() const override;
+
+    bool
+    tangent_is_symmetric() const override;
+
+    bool
+    tangent_between_is_symmetric() const override;
+
+    Deformation
+    assemble(const Vector &u,
+             double        t,
+             Tangent       tangent,
+             const Vector *increment = nullptr) override;
+
+    Deformation
+    assemble_between(const Vector &begin,
+                     const Vector &end,
+                     double        t,
+                     bool          with_tangent) override;
+
+    const Vector &
+    residual() const override;
+
+    Energies
+    energies() const override;
+
+    void
+    external_forces(const Vector &u, double t, Vector &forces) override;
+
+    double
+    work_of_supports(const Vector &u,
+                     double        t,
+                     double        t_0,
+                     double        t_1) override;
+
+  private:
+    /// K and f for the time @p t.
+    void
+    update(double t);
+
+    /// Forces at the displacements in `owned`.
+    Deformation
+    assemble_owned(double t);
+
+    Vector       owned, forces, load;
+    unsigned int stiffness_at  = 0;
+    bool         has_stiffness = false, has_load = false;
+    double       strain_energy = 0.;
+  };
+
+
+  /// v(X) of the solid of a block (ManifoldMesh::block()) at X, interpolated at the
+  /// covers' nodes; owned unknowns.
+  MechanicalModel::Vector
+  interpolate_velocity(
+    const CoverSystem                                             &covers,
+    const dealii::AffineConstraints<double>                       &constraints,
+    const std::function<dealii::Tensor<1, 2>(const dealii::Point<2> &,
+                                             unsigned int block)> &velocity);
+
+
+  /// Rigid motion of a block: translation [m/s] plus a turn with the angular
+  /// velocity [rad/s], counter-clockwise, about a point.
+  struct RigidVelocity
+  {
+    dealii::Tensor<1, 2> translation;
+    double               angular_velocity = 0.;
+    dealii::Point<2>     center;
+
+    dealii::Tensor<1, 2>
+    operator()(const dealii::Point<2> &x) const;
+  };
+} // namespace NMM
+
+#endif

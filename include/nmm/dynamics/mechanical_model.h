@@ -1,0 +1,154 @@
+#ifndef nmm_dynamics_mechanical_model_h
+#define nmm_dynamics_mechanical_model_h
+
+#include <nmm/mechanics/hyperelasticity.h>
+
+#include <deal.II/base/index_set.h>
+#include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace NMM
+{
+  /**
+   * What time integration knows of a discretized body: unknowns u, the mass
+   * matrix M and forces r in
+   * @f[ M\ddot u + C\dot u + r(u,t) = 0,\qquad
+   *     r = \text{internal forces} - \text{loads}. @f]
+   * Unknowns come in pairs, u_{2k} and u_{2k+1} being the components [m] of what
+   * moves with the reference position X_k; a rigid motion is exact in them.
+   * Constrained unknowns follow from @p constraints(); equations hold for free ones.
+   *
+   * All quantities are per unit thickness. Functions are collective.
+   */
+  class MechanicalModel
+  {
+  public:
+    using Vector = dealii::TrilinosWrappers::MPI::Vector;
+    using Matrix = dealii::TrilinosWrappers::SparseMatrix;
+
+    virtual ~MechanicalModel() = default;
+
+    /// @name Layout
+    /// @{
+    virtual MPI_Comm
+    communicator() const = 0;
+
+    virtual dealii::IndexSet
+    locally_owned() const = 0;
+
+    virtual dealii::IndexSet
+    locally_relevant() const = 0;
+
+    /// Homogeneous for increments; inhomogeneities hold from the start.
+    virtual const dealii::AffineConstraints<double> &
+    constraints() const = 0;
+
+    /// X_k at the place of u_k [m]; owned unknowns.
+    virtual const Vector &
+    reference_positions() const = 0;
+
+    /// The same number for the same unknowns, elements and materials only, on any
+    /// number of ranks.
+    virtual std::uint64_t
+    fingerprint() const = 0;
+    /// @}
+
+    /// M [kg/m]; constrained unknowns have a diagonal entry that means nothing.
+    virtual const Matrix &
+    mass() const = 0;
+
+    /// dr/du at u = 0 without loads, for Rayleigh damping [Pa]. Overwrites
+    /// tangent().
+    virtual const Matrix &
+    stiffness_at_rest() = 0;
+
+    /// Is r linear in u, with one tangent between events?
+    virtual bool
+    is_linear() const = 0;
+
+    virtual bool
+    tangent_is_symmetric() const = 0;
+
+    /// The same for assemble_between().
+    virtual bool
+    tangent_between_is_symmetric() const = 0;
+
+    /// @name Forces at displacements with locally relevant unknowns
+    /// @{
+
+    /// r(u, t) and K = dr/du; see NonlinearSystem::assemble().
+    virtual Deformation
+    assemble(const Vector &u,
+             double        t,
+             Tangent       tangent,
+             const Vector *increment = nullptr) = 0;
+
+    /**
+     * Forces between two states with loads at the time @p t, such that internal
+     * forces times (@p end - @p begin) is the change of the strain
+     * energy and they exert no moment in the mean position. K is the derivative by
+     * the mean displacement at given @p begin.
+     */
+    virtual Deformation
+    assemble_between(const Vector &begin,
+                     const Vector &end,
+                     double        t,
+                     bool          with_tangent) = 0;
+
+    /// r of the last assembly [N/m]; owned unknowns, 0 for constrained ones.
+    virtual const Vector &
+    residual() const = 0;
+
+    virtual const Matrix &
+    tangent() const = 0;
+
+    /// Size of the forces in balance [N/m], of the last assembly.
+    virtual double
+    force_scale() const = 0;
+
+    struct Energies
+    {
+      /// Stored in the material [J/m].
+      double strain = 0.;
+      /// Of displacement conditions, ties and springs [J/m].
+      double conditions = 0.;
+    };
+
+    /// Of the last assemble(), not assemble_between().
+    virtual Energies
+    energies() const = 0;
+
+    /// Loads, those of a moving base included, at @p u and @p t into @p forces
+    /// (owned unknowns) [N/m]. Spoils residual().
+    virtual void
+    external_forces(const Vector &u, double t, Vector &forces) = 0;
+
+    /**
+     * Work that supports do [J/m] by moving from where they are at @p t_0 to where they
+     * are at @p t_1, with forces at @p u and the time @p t. 0 if nothing prescribed
+     * changes. Spoils residual().
+     */
+    virtual double
+    work_of_supports(const Vector &u, double t, double t_0, double t_1) = 0;
+    /// @}
+
+    /// @name Events: times at which forces jump, e.g. a support is taken away
+    /// @{
+
+    /// Ascending.
+    virtual std::vector<double>
+    events() const = 0;
+
+    /// From now on forces are those after the events up to and including @p t,
+    /// and before all later ones.
+    virtual void
+    pass_events(double t) = 0;
+    /// @}
+  };
+} // namespace NMM
+
+#endif

@@ -1,0 +1,106 @@
+#ifndef nmm_dynamics_step_control_h
+#define nmm_dynamics_step_control_h
+
+#include <nmm/dynamics/time_integrator.h>
+
+#include <functional>
+#include <limits>
+
+namespace NMM
+{
+  struct StepControlParameters
+  {
+    /// First step, and the only one if nothing below asks for others [s].
+    double initial_step = std::numeric_limits<double>::signaling_NaN();
+    /// No step is smaller, except the last one before an event or the end [s]; 0:
+    /// a millionth of the first.
+    double min_step = 0.;
+    /// [s]; 0: the first step.
+    double max_step = 0.;
+    /// Largest displacement of a cover in a step, as in the paper [m]; 0: any.
+    double max_displacement = 0.;
+    /// Largest StepReport::error [m]; 0: any.
+    double max_error = 0.;
+    /// Iterations of Newton's method below which steps may grow.
+    unsigned int few_iterations = 6;
+
+    /// @throws InputError naming the parameter and its value.
+    void
+    check() const;
+  };
+
+
+  /// What was done between two accepted states.
+  struct StepRecord
+  {
+    StepReport report;
+    /// Steps tried and given up before, and their iterations.
+    unsigned int n_cuts = 0, n_lost_iterations = 0;
+  };
+
+
+  /**
+   * Chooses steps: a step that fails, moves more or errs more than allowed is cut
+   * and tried again from the last good state; steps grow, by 1.5 at
+   * most, while Newton's method needs few iterations and bounds are far. Steps end
+   * at events and at the end of the run.
+   */
+  class StepControl
+  {
+  public:
+    explicit StepControl(const StepControlParameters &parameters);
+
+    /**
+     * One accepted step towards @p end [s]. False if the end is
+     * reached already.
+     * @throws NumericalFailure if a step would be smaller than allowed, with time,
+     * step and reason; the integrator is then in the last good state.
+     */
+    bool
+    advance(TimeIntegrator &integrator, double end, StepRecord &record) const;
+
+    /// Advance to @p end; @p after_step is called after each step and
+    /// stops the run by returning false.
+    void
+    run(TimeIntegrator                                &integrator,
+        double                                         end,
+        const std::function<bool(const StepRecord &)> &after_step = {}) const;
+
+  private:
+    double
+    next_target(const TimeIntegrator &integrator, double end) const;
+
+    StepControlParameters parameters;
+  };
+
+
+  struct RelaxationParameters
+  {
+    /// First step [s]; the lowest period is a good one.
+    double step = std::numeric_limits<double>::signaling_NaN();
+    /// Account::imbalance that counts as rest.
+    double       tolerance = 1e-8;
+    unsigned int max_steps = 1000;
+    /// Factor by which steps grow after each success.
+    double growth = 1.2;
+  };
+
+
+  struct RelaxationReport
+  {
+    unsigned int n_steps = 0, n_iterations = 0, n_stops = 0;
+    double       imbalance = 0.;
+  };
+
+
+  /**
+   * Dynamic relaxation to the static answer: the motion is stopped whenever the
+   * kinetic energy has passed a peak (kinetic damping, Cundall 1976), and
+   * steps grow. Loads must not depend on time, which goes on.
+   * @throws NumericalFailure if rest is not reached.
+   */
+  RelaxationReport
+  relax(TimeIntegrator &integrator, const RelaxationParameters &parameters);
+} // namespace NMM
+
+#endif

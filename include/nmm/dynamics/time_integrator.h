@@ -1,0 +1,164 @@
+#ifndef nmm_dynamics_time_integrator_h
+#define nmm_dynamics_time_integrator_h
+
+#include <nmm/dynamics/mechanical_model.h>
+#include <nmm/dynamics/time_scheme.h>
+#include <nmm/mechanics/newton_solver.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <memory>
+#include <string>
+
+namespace NMM
+{
+  /// Sums that the energy account keeps [J/m].
+  struct EnergySums
+  {
+    /// Kinetic + strain + conditions at the start.
+    double initial = 0.;
+    /// Done by loads, moving supports and, in a release, by what is taken away.
+    double external_work = 0.;
+    /// By Rayleigh and kinetic damping.
+    double dissipated = 0.;
+  };
+
+
+  /// All that a continuation needs. Vectors hold owned unknowns.
+  struct DynamicState
+  {
+    using Vector = MechanicalModel::Vector;
+
+    double       time = 0.;
+    unsigned int step = 0;
+    /// [m], [m/s], [m/s^2].
+    Vector u, v, a;
+    /// What MechanicalModel::pass_events() was called with last.
+    double events_passed = 0.;
+    /// Step that would be tried next, chosen by the step control; 0: none yet [s].
+    double     next_step = 0.;
+    double     kinetic   = 0.;
+    EnergySums sums;
+  };
+
+
+  /// Energies [J/m], linear momentum [kg/s] and angular momentum about the
+  /// origin [kg m/s], all per unit thickness.
+  struct Account
+  {
+    double kinetic = 0., strain = 0., conditions = 0., external_work = 0.,
+           dissipated = 0.;
+    /// kinetic + strain + conditions + dissipated - external_work - initial: what
+    /// the scheme adds (> 0) or takes away.
+    double               balance = 0.;
+    dealii::Tensor<1, 2> linear_momentum;
+    double               angular_momentum = 0.;
+    /// |r + C v| / force scale: 0 at rest in balance [-].
+    double imbalance = 0.;
+  };
+
+
+  /// A step that was tried.
+  struct StepReport
+  {
+    bool converged = false;
+    /// Why not, for people.
+    std::string  reason;
+    double       step         = 0.;
+    unsigned int n_iterations = 0;
+    /// Largest displacement of a cover in the step [m].
+    double max_displacement = 0.;
+    /**
+     * Estimate of the local error of u, |beta - 1/6| h^2 |a_1 - a_0| in the mean
+     * weighted with mass (Zienkiewicz & Xie, Earthq. Eng. Struct. Dyn. 20 (1991)
+     * 871, eq. (11); 1/12 for midpoint rules) [m].
+     */
+    double error = 0.;
+  };
+
+
+  /**
+   * Advances a MechanicalModel by one step at a time. A step is tried, and the state
+   * changes only when it is accepted.
+   *
+   * Linear models: one factorization for all steps of equal size, one
+   * solution per step. Others: NewtonSolver from
+   * @f$ u_0 + h v_0 + h^2 a_0 / 2 @f$.
+   *
+   * Lifetime: the model must outlive this object.
+   */
+  class TimeIntegrator
+  {
+  public:
+    using Vector = MechanicalModel::Vector;
+
+    /// Residuals of turned stiff bodies end near 1e-10 of force_scale().
+    static NewtonParameters
+    default_newton_parameters();
+
+    /// @throws InputError if the scheme's coefficients do not fit.
+    TimeIntegrator(
+      MechanicalModel        &model,
+      const TimeScheme       &scheme,
+      const RayleighDamping  &damping = {},
+      const NewtonParameters &newton  = default_newton_parameters());
+    ~TimeIntegrator();
+
+    /**
+     * Start at @p time with displacements and velocities of owned unknowns
+     * (constrained ones are set) and the accelerations that follow:
+     * M a = -C v - r(u, t). @throws NumericalFailure if u is not admissible.
+     */
+    void
+    initialize(const Vector &u, const Vector &v, double time = 0.);
+
+    /// At rest, undeformed.
+    void
+    initialize();
+
+    /// Continue from a state that state() returned: the same bits follow.
+    void
+    restore(const DynamicState &state);
+
+    /// Try a step of @p step [s]. Expected failures are results.
+    [[nodiscard]] StepReport
+    try_step(double step);
+
+    /// Take the step that was tried last. @pre It converged.
+    void
+    accept();
+
+    /// Pass the model's events up to @p until, the current time but for
+    /// rounding: forces jump, accelerations with them. What energy the conditions
+    /// taken away had counts as (negative) external work.
+    void
+    pass_events(double until);
+
+    /// Zero velocities; their energy counts as dissipated.
+    void
+    stop_motion();
+
+    const DynamicState &
+    state() const;
+
+    /// For the step control.
+    void
+    set_next_step(double step);
+
+    /// Of the current state.
+    const Account &
+    account() const;
+
+    MechanicalModel &
+    model() const;
+
+    const TimeScheme &
+    scheme() const;
+
+  private:
+    struct Data;
+    std::unique_ptr<Data> data;
+  };
+} // namespace NMM
+
+#endif

@@ -1,0 +1,263 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/dynamics/checkpoint.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <dynamics/hash.h>
+#include <fcntl.h>
+#include <fstream>
+#include <iterator>
+#include <libgen.h>
+#include <unistd.h>
+#include <vector>
+
+namespace NMM
+{
+  namespace
+  {
+    using Vector = DynamicState::Vector;
+    using Bytes  = std::vector<char>;
+
+    constexpr char          magic[8] = {'N', 'M', 'M', 'S', 'T', 'A', 'T', 'E'};
+    constexpr std::uint32_t version  = 1;
+
+    std::uint64_t
+    sum(const char *bytes, const std::size_t n)
+    {
+      internal::Hash hash;
+      hash.add_bytes(bytes, n);
+      return hash.value();
+    }
+
+
+    std::uint64_t
+    scheme_fingerprint(const TimeScheme &scheme)
+    {
+      internal::Hash hash;
+      for (const double x :
+           {scheme.beta, scheme.gamma, scheme.alpha_m, scheme.alpha_f})
+        hash.add(x);
+      hash.add(scheme.is_conserving);
+      return hash.value();
+    }
+
+
+    template <typename T>
+    void
+    put(Bytes &bytes, const T &value)
+    {
+      const char *begin = reinterpret_cast<const char *>(&value);
+      bytes.insert(bytes.end(), begin, begin + sizeof(T));
+    }
+
+
+    template <typename T>
+    T
+    get(const char *&position)
+    {
+      T value;
+      std::memcpy(&value, position, sizeof(T));
+      position += sizeof(T);
+      return value;
+    }
+
+
+    /// The scalars of a state, in the order of the file.
+    template <typename State, typename Action>
+    void
+    for_each_scalar(State &state, const Action &action)
+    {
+      action(state.time);
+      action(state.step);
+      action(state.events_passed);
+      action(state.next_step);
+      action(state.kinetic);
+      action(state.sums.initial);
+      action(state.sums.external_work);
+      action(state.sums.dissipated);
+    }
+
+
+    /// Pieces of all ranks in the order of unknowns, on rank 0.
+    void
+    append_global(const Vector &vector, Bytes &bytes)
+    {
+      const std::vector<double> local(vector.begin(), vector.end());
+      const auto                all =
+        dealii::Utilities::MPI::gather(vector.get_mpi_communicator(), local);
+      for (const auto &piece : all)
+        for (const double x : piece)
+          put(bytes, x);
+    }
+
+
+    [[noreturn]] void
+    refuse(const std::string &what,
+           const std::string &filename,
+           const std::string &remedy)
+    {
+      AssertThrow(false, InputError(what, filename, remedy));
+      std::abort();
+    }
+
+
+    /// Empty if all went well, else the reason.
+    std::string
+    replace_file(const std::string &filename, const Bytes &bytes)
+    {
+      const std::string temporary = filename + ".part";
+      const int         file =
+        ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+      if (file < 0)
+        return std::strerror(errno);
+      std::size_t written = 0;
+      while (written < bytes.size())
+      {
+        const ssize_t n =
+          ::write(file, bytes.data() + written, bytes.size() - written);
+        if (n < 0 && errno == EINTR)
+          continue;
+        if (n <= 0)
+        {
+          const std::string reason = std::strerror(errno);
+          ::close(file);
+          ::unlink(temporary.c_str());
+          return reason;
+        }
+        written += n;
+      }
+      // the contents must be on the disk before the name is
+      if (::fsync(file) != 0 || ::close(file) != 0 ||
+          std::rename(temporary.c_str(), filename.c_str()) != 0)
+        return std::strerror(errno);
+      std::string path      = filename;
+      const int   directory = ::open(::dirname(path.data()), O_RDONLY);
+      if (directory >= 0)
+      {
+        ::fsync(directory);
+        ::close(directory);
+      }
+      return "";
+    }
+
+
+    /// Reason why the file is none of ours, or empty.
+    std::string
+    find_fault(const Bytes &bytes)
+    {
+      constexpr std::size_t head =
+        sizeof(magic) + sizeof(version) + sizeof(std::uint64_t);
+      if (bytes.empty())
+        return "it is missing or empty";
+      if (bytes.size() < head ||
+          std::memcmp(bytes.data(), magic, sizeof(magic)) != 0)
+        return "it is no checkpoint";
+      const char *position = bytes.data() + sizeof(magic);
+      const auto  found    = get<std::uint32_t>(position);
+      if (found != version)
+        return "it is of version " + std::to_string(found) + ", not " +
+               std::to_string(version);
+      const auto length = get<std::uint64_t>(position);
+      if (bytes.size() != head + length)
+        return "it has " + std::to_string(bytes.size()) + " bytes instead of " +
+               std::to_string(head + length);
+      position = bytes.data() + bytes.size() - sizeof(std::uint64_t);
+      const std::size_t n_summed = position - bytes.data();
+      if (get<std::uint64_t>(position) != sum(bytes.data(), n_summed))
+        return "it is damaged: its check sum is wrong";
+      return "";
+    }
+  } // namespace
+
+
+  void
+  Checkpoint::write(const TimeIntegrator &integrator,
+                    const std::string    &filename)
+  {
+    const DynamicState    &state = integrator.state();
+    const MechanicalModel &model = integrator.model();
+    const std::uint64_t    mesh  = model.fingerprint();
+    Bytes                  bytes;
+    bytes.insert(bytes.end(), std::begin(magic), std::end(magic));
+    put(bytes, version);
+    const std::size_t length_position = bytes.size();
+    put(bytes, std::uint64_t());
+    put(bytes, mesh);
+    put(bytes, scheme_fingerprint(integrator.scheme()));
+    for_each_scalar(state, [&](const auto &value) { put(bytes, value); });
+    put(bytes, static_cast<std::uint64_t>(state.u.size()));
+    for (const Vector *vector : {&state.u, &state.v, &state.a})
+      append_global(*vector, bytes);
+    const std::uint64_t length =
+      bytes.size() - length_position; // with the sum instead of itself
+    std::memcpy(bytes.data() + length_position, &length, sizeof(length));
+    put(bytes, sum(bytes.data(), bytes.size()));
+
+    const MPI_Comm communicator = model.communicator();
+    std::string    reason;
+    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+      reason = replace_file(filename, bytes);
+    reason = dealii::Utilities::MPI::broadcast(communicator, reason);
+    if (!reason.empty())
+      refuse("The checkpoint cannot be written: " + reason,
+             filename,
+             "check folder, rights and space; the last one is still good");
+  }
+
+
+  void
+  Checkpoint::read(const std::string &filename, TimeIntegrator &integrator)
+  {
+    const MechanicalModel &model        = integrator.model();
+    const MPI_Comm         communicator = model.communicator();
+    Bytes                  bytes;
+    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+    {
+      std::ifstream in(filename, std::ios::binary);
+      bytes.assign(std::istreambuf_iterator<char>(in), {});
+    }
+    bytes = dealii::Utilities::MPI::broadcast(communicator, bytes);
+
+    const std::string fault = find_fault(bytes);
+    if (!fault.empty())
+      refuse("The checkpoint cannot be used: " + fault,
+             filename,
+             "take another one, or start anew");
+    const char *position =
+      bytes.data() + sizeof(magic) + sizeof(version) + sizeof(std::uint64_t);
+    if (get<std::uint64_t>(position) != model.fingerprint())
+      refuse("The checkpoint is of another mesh, geometry or material",
+             filename,
+             "continue with the scene it was written with");
+    if (get<std::uint64_t>(position) != scheme_fingerprint(integrator.scheme()))
+      refuse("The checkpoint is of another time integration scheme",
+             filename,
+             "continue with the scheme it was written with");
+
+    DynamicState state = integrator.state();
+    for_each_scalar(state, [&](auto &value) {
+      value = get<std::decay_t<decltype(value)>>(position);
+    });
+    const auto n = get<std::uint64_t>(position);
+    if (n != state.u.size() ||
+        position + (3 * n + 1) * sizeof(double) != bytes.data() + bytes.size())
+      refuse("The checkpoint has " + std::to_string(n) +
+               " unknowns instead of " + std::to_string(state.u.size()),
+             filename,
+             "continue with the scene it was written with");
+    for (Vector *vector : {&state.u, &state.v, &state.a})
+    {
+      for (const auto i : vector->locally_owned_elements())
+      {
+        const char *entry = position + i * sizeof(double);
+        (*vector)(i)      = get<double>(entry);
+      }
+      vector->compress(dealii::VectorOperation::insert);
+      position += n * sizeof(double);
+    }
+    integrator.restore(state);
+  }
+} // namespace NMM

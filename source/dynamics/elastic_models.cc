@@ -1,0 +1,329 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/dynamics/elastic_models.h>
+#include <nmm/mechanics/mass_matrix.h>
+
+#include <algorithm>
+#include <dynamics/hash.h>
+#include <limits>
+
+namespace NMM
+{
+  namespace
+  {
+    bool
+    equal(const LoadAmplitudes &a, const LoadAmplitudes &b)
+    {
+      return a.boundary_conditions == b.boundary_conditions &&
+             a.point_forces == b.point_forces &&
+             a.fixed_points == b.fixed_points && a.gravity == b.gravity &&
+             a.body_force == b.body_force &&
+             a.released_conditions == b.released_conditions &&
+             a.released_fixed_points == b.released_fixed_points;
+    }
+
+
+    bool
+    is_load(const BoundaryCondition &condition)
+    {
+      return condition.type != BoundaryCondition::Type::displacement &&
+             condition.type != BoundaryCondition::Type::normal_displacement;
+    }
+
+
+    void
+    remove_loads(const ElasticityProblem &problem, LoadAmplitudes &amplitudes)
+    {
+      if (amplitudes.boundary_conditions.empty())
+        amplitudes.boundary_conditions.assign(
+          problem.boundary_conditions.size(), 1.);
+      for (unsigned int c = 0; c < problem.boundary_conditions.size(); ++c)
+        if (is_load(problem.boundary_conditions[c]))
+          amplitudes.boundary_conditions[c] = 0.;
+      amplitudes.point_forces.assign(problem.point_forces.size(), 0.);
+      amplitudes.gravity = amplitudes.body_force = 0.;
+    }
+  } // namespace
+
+
+  ElasticModel::ElasticModel(FiniteElasticity           &elasticity,
+                             const QuadratureCollection &mass_quadrature,
+                             Loading                     loading_in,
+                             const GhostPenalty         *ghost_penalty)
+    : elasticity(&elasticity)
+    , loading(std::move(loading_in))
+    , passed_until(-std::numeric_limits<double>::max())
+  {
+    const CoverSystem       &covers  = elasticity.cover_system();
+    const ElasticityProblem &problem = elasticity.elasticity_problem();
+    for (const Material &material : problem.materials)
+      AssertThrow(material.density > 0.,
+                  InputError("The density is " +
+                               std::to_string(material.density),
+                             "material '" + material.name + "'",
+                             "dynamics needs a density above 0"));
+    check_loading();
+    assemble_mass_matrix(covers,
+                         mass_quadrature,
+                         elasticity.affine_constraints(),
+                         problem,
+                         ghost_penalty,
+                         mass_matrix);
+
+    zero = elasticity.initial_solution();
+    positions.reinit(locally_owned(), communicator());
+    for (const auto k : covers.locally_owned_covers())
+      for (unsigned int c = 0; c < 2; ++c)
+        positions(2 * k + c) = covers.node(k)[c];
+    positions.compress(dealii::VectorOperation::insert);
+    for (unsigned int c = 0; c < 2; ++c)
+    {
+      Vector translation(locally_owned(), communicator());
+      for (const auto k : covers.locally_owned_covers())
+        if (!constraints().is_constrained(2 * k + c))
+          translation(2 * k + c) = 1.;
+      translation.compress(dealii::VectorOperation::insert);
+      mass_of_translation[c].reinit(translation);
+      mass_matrix.vmult(mass_of_translation[c], translation);
+    }
+    elasticity.set_amplitudes(current);
+    set_amplitudes(amplitudes_at(0.));
+  }
+
+
+  void
+  ElasticModel::check_loading() const
+  {
+    const ElasticityProblem &problem = elasticity->elasticity_problem();
+    for (const Release &release : loading.releases)
+    {
+      const bool is_condition =
+        release.kind == Release::Kind::boundary_condition;
+      const std::size_t n = is_condition ? problem.boundary_conditions.size()
+                                         : problem.fixed_points.size();
+      AssertThrow(
+        release.index < n,
+        InputError(std::string("There is no ") +
+                     (is_condition ? "boundary condition " : "fixed point ") +
+                     std::to_string(release.index),
+                   "a release at " + std::to_string(release.time) + " s",
+                   "give an index below " + std::to_string(n)));
+      AssertThrow(!is_condition ||
+                    !is_load(problem.boundary_conditions[release.index]),
+                  InputError("A load cannot be released",
+                             "the boundary condition '" +
+                               problem.boundary_conditions[release.index].name +
+                               "'",
+                             "let its amplitude become 0"));
+    }
+  }
+
+
+  MPI_Comm
+  ElasticModel::communicator() const
+  {
+    return elasticity->cover_system().communicator();
+  }
+
+
+  dealii::IndexSet
+  ElasticModel::locally_owned() const
+  {
+    return elasticity->cover_system().locally_owned_dofs(2);
+  }
+
+
+  dealii::IndexSet
+  ElasticModel::locally_relevant() const
+  {
+    return elasticity->cover_system().locally_relevant_dofs(2);
+  }
+
+
+  const dealii::AffineConstraints<double> &
+  ElasticModel::constraints() const
+  {
+    return elasticity->affine_constraints();
+  }
+
+
+  const ElasticModel::Vector &
+  ElasticModel::reference_positions() const
+  {
+    return positions;
+  }
+
+
+  std::uint64_t
+  ElasticModel::fingerprint() const
+  {
+    const CoverSystem       &covers  = elasticity->cover_system();
+    const ManifoldMesh      &mesh    = covers.manifold_mesh();
+    const ElasticityProblem &problem = elasticity->elasticity_problem();
+    internal::Hash           hash;
+    hash.add(covers.n_covers());
+    hash.add(mesh.n_elements());
+    for (unsigned int e = 0; e < mesh.n_elements(); ++e)
+    {
+      for (const unsigned int k : covers.covers(e))
+        hash.add(k);
+      hash.add(mesh.region(e));
+      hash.add(mesh.area(e));
+    }
+    for (unsigned int k = 0; k < covers.n_covers(); ++k)
+      for (unsigned int c = 0; c < 2; ++c)
+        hash.add(covers.node(k)[c]);
+    for (const unsigned int m :
+         problem.region_to_material(mesh.physical_mesh()))
+    {
+      const Material &material = problem.materials[m];
+      for (const double value : {material.youngs_modulus,
+                                 material.poissons_ratio,
+                                 material.density,
+                                 material.initial_stress[0][0],
+                                 material.initial_stress[1][1],
+                                 material.initial_stress[0][1]})
+        hash.add(value);
+      hash.add(static_cast<unsigned int>(material.law));
+    }
+    hash.add(static_cast<unsigned int>(problem.plane_state));
+    return hash.value();
+  }
+
+
+  const ElasticModel::Matrix &
+  ElasticModel::mass() const
+  {
+    return mass_matrix;
+  }
+
+
+  const ElasticModel::Matrix &
+  ElasticModel::tangent() const
+  {
+    return elasticity->tangent();
+  }
+
+
+  double
+  ElasticModel::force_scale() const
+  {
+    return elasticity->force_scale();
+  }
+
+
+  std::vector<double>
+  ElasticModel::events() const
+  {
+    std::vector<double> times;
+    for (const Release &release : loading.releases)
+      times.push_back(release.time);
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    return times;
+  }
+
+
+  void
+  ElasticModel::pass_events(const double t)
+  {
+    passed_until = t;
+    n_passed     = 0;
+    for (const Release &release : loading.releases)
+      if (release.time <= t)
+        ++n_passed;
+  }
+
+
+  LoadAmplitudes
+  ElasticModel::amplitudes_at(const double t, const bool with_loads) const
+  {
+    LoadAmplitudes amplitudes;
+    if (loading.amplitudes)
+      amplitudes = loading.amplitudes(t);
+    const ElasticityProblem &problem = elasticity->elasticity_problem();
+    for (const Release &release : loading.releases)
+      if (release.time <= passed_until)
+      {
+        const bool is_condition =
+          release.kind == Release::Kind::boundary_condition;
+        std::vector<bool> &released = is_condition
+                                        ? amplitudes.released_conditions
+                                        : amplitudes.released_fixed_points;
+        released.resize(is_condition ? problem.boundary_conditions.size()
+                                     : problem.fixed_points.size(),
+                        false);
+        released[release.index] = true;
+      }
+    if (!with_loads)
+      remove_loads(problem, amplitudes);
+    return amplitudes;
+  }
+
+
+  bool
+  ElasticModel::set_amplitudes(const LoadAmplitudes &amplitudes)
+  {
+    if (equal(amplitudes, current))
+      return false;
+    elasticity->set_amplitudes(amplitudes);
+    current = amplitudes;
+    return true;
+  }
+
+
+  bool
+  ElasticModel::loads_change() const
+  {
+    return static_cast<bool>(loading.amplitudes);
+  }
+
+
+  void
+  ElasticModel::add_base_force(const double t,
+                               const double scale,
+                               Vector      &forces) const
+  {
+    if (!loading.base_acceleration)
+      return;
+    const dealii::Tensor<1, 2> a = loading.base_acceleration(t);
+    for (unsigned int c = 0; c < 2; ++c)
+      if (a[c] != 0.)
+        forces.add(scale * a[c], mass_of_translation[c]);
+  }
+
+
+  ElasticModel::Vector
+  interpolate_velocity(
+    const CoverSystem                                             &covers,
+    const dealii::AffineConstraints<double>                       &constraints,
+    const std::function<dealii::Tensor<1, 2>(const dealii::Point<2> &,
+                                             unsigned int block)> &velocity)
+  {
+    const ManifoldMesh     &mesh  = covers.manifold_mesh();
+    const dealii::IndexSet &owned = covers.locally_owned_covers();
+    ElasticModel::Vector    result(covers.locally_owned_dofs(2),
+                                covers.communicator());
+    for (unsigned int e = 0; e < mesh.n_elements(); ++e)
+      for (const unsigned int k : covers.covers(e))
+        if (owned.is_element(k))
+        {
+          const dealii::Tensor<1, 2> v =
+            velocity(covers.node(k), mesh.block(e));
+          for (unsigned int c = 0; c < 2; ++c)
+            result(2 * k + c) = v[c];
+        }
+    result.compress(dealii::VectorOperation::insert);
+    constraints.distribute(result);
+    return result;
+  }
+
+
+  dealii::Tensor<1, 2>
+  RigidVelocity::operator()(const dealii::Point<2> &x) const
+  {
+    dealii::Tensor<1, 2> v = translation;
+    v[0] -= angular_velocity * (x[1] - center[1]);
+    v[1] += angular_velocity * (x[0] - center[0]);
+    return v;
+  }
+} // namespace NMM

@@ -1,0 +1,171 @@
+#include <nmm/dynamics/elastic_models.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace NMM
+{
+  FiniteModel::FiniteModel(FiniteElasticity           &elasticity,
+                           const QuadratureCollection &mass_quadrature,
+                           Loading                     loading)
+    : ElasticModel(elasticity, mass_quadrature, std::move(loading), nullptr)
+    , has_follower(!elasticity.tangent_is_symmetric())
+  {
+  }
+
+
+  const FiniteModel::Matrix &
+  FiniteModel::stiffness_at_rest()
+  {
+    set_amplitudes(amplitudes_at(0.));
+    (void)elasticity->assemble(zero, 0., Tangent::consistent);
+    return elasticity->tangent();
+  }
+
+
+  bool
+  FiniteModel::is_linear() const
+  {
+    return false;
+  }
+
+
+  bool
+  FiniteModel::tangent_is_symmetric() const
+  {
+    return elasticity->tangent_is_symmetric();
+  }
+
+
+  bool
+  FiniteModel::tangent_between_is_symmetric() const
+  {
+    return false;
+  }
+
+
+  Deformation
+  FiniteModel::assemble(const Vector &u,
+                        const double  t,
+                        const Tangent tangent,
+                        const Vector *increment)
+  {
+    set_amplitudes(amplitudes_at(t));
+    const Deformation state = elasticity->assemble(u, 1., tangent, increment);
+    if (state == Deformation::admissible)
+    {
+      sum = elasticity->residual();
+      add_base_force(t, 1., sum);
+    }
+    return state;
+  }
+
+
+  Deformation
+  FiniteModel::assemble_between(const Vector &begin,
+                                const Vector &end,
+                                const double  t,
+                                const bool    with_tangent)
+  {
+    set_amplitudes(amplitudes_at(t));
+    const Deformation state =
+      elasticity->assemble_between(begin, end, 1., with_tangent);
+    if (state == Deformation::admissible)
+    {
+      sum = elasticity->residual();
+      add_base_force(t, 1., sum);
+    }
+    return state;
+  }
+
+
+  const FiniteModel::Vector &
+  FiniteModel::residual() const
+  {
+    return sum;
+  }
+
+
+  FiniteModel::Energies
+  FiniteModel::energies() const
+  {
+    return {elasticity->energies().strain, elasticity->energies().conditions};
+  }
+
+
+  void
+  FiniteModel::external_forces(const Vector &u, const double t, Vector &forces)
+  {
+    // dead loads do not depend on u, and often not on t
+    if (has_follower || !has_known || known_at != n_passed || loads_change())
+    {
+      // at rest unless they follow u: the same bits whenever they are asked for
+      const Vector &at = has_follower ? u : zero;
+      known_forces.reinit(locally_owned(), communicator());
+      set_amplitudes(amplitudes_at(t, /* with_loads = */ false));
+      if (elasticity->assemble(at, 1., Tangent::none) ==
+          Deformation::admissible)
+        known_forces = elasticity->residual();
+      set_amplitudes(amplitudes_at(t));
+      if (elasticity->assemble(at, 1., Tangent::none) ==
+          Deformation::admissible)
+        known_forces -= elasticity->residual();
+      has_known = true;
+      known_at  = n_passed;
+    }
+    forces = known_forces;
+    add_base_force(t, -1., forces);
+  }
+
+
+  double
+  FiniteModel::energy_of_conditions(const Vector         &u,
+                                    const LoadAmplitudes &amplitudes)
+  {
+    set_amplitudes(amplitudes);
+    return elasticity->assemble(u, 1., Tangent::none) == Deformation::admissible
+             ? elasticity->energies().conditions
+             : 0.;
+  }
+
+
+  /// The energy of conditions is quadratic in what is prescribed: the difference
+  /// about the middle is its derivative times the change.
+  double
+  FiniteModel::work_of_supports(const Vector &u,
+                                const double  t,
+                                const double  t_0,
+                                const double  t_1)
+  {
+    if (!loads_change())
+      return 0.;
+    const LoadAmplitudes begin = amplitudes_at(t_0), end = amplitudes_at(t_1);
+    LoadAmplitudes       plus = amplitudes_at(t), minus = plus;
+    double               largest = 0.;
+    const auto           spread  = [&](const std::vector<double> &from,
+                            const std::vector<double> &to,
+                            std::vector<double>       &up,
+                            std::vector<double>       &down) {
+      for (unsigned int i = 0;
+           i < std::min({from.size(), to.size(), up.size()});
+           ++i)
+      {
+        const double change = to[i] - from[i];
+        largest             = std::max(largest, std::abs(change));
+        up[i] += 0.5 * change;
+        down[i] -= 0.5 * change;
+      }
+    };
+    spread(begin.boundary_conditions,
+           end.boundary_conditions,
+           plus.boundary_conditions,
+           minus.boundary_conditions);
+    spread(begin.fixed_points,
+           end.fixed_points,
+           plus.fixed_points,
+           minus.fixed_points);
+    return largest > 0.
+             ? energy_of_conditions(u, plus) - energy_of_conditions(u, minus)
+             : 0.;
+  }
+} // namespace NMM

@@ -1,0 +1,46 @@
+#ifndef nmm_source_dynamics_hash_h
+#define nmm_source_dynamics_hash_h
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace NMM
+{
+  namespace internal
+  {
+    /// FNV-1a with 64 bits, over the bytes of what is added.
+    class Hash
+    {
+    public:
+      void
+      add_bytes(const void *bytes, const std::size_t n)
+      {
+        const unsigned char *byte = static_cast<const unsigned char *>(bytes);
+        for (std::size_t i = 0; i < n; ++i)
+        {
+          sum ^= byte[i];
+          sum *= 1099511628211ull;
+        }
+      }
+
+      template <typename Number>
+      void
+      add(const Number number)
+      {
+        add_bytes(&number, sizeof(Number));
+      }
+
+      std::uint64_t
+      value() const
+      {
+        return sum;
+      }
+
+    private:
+      std::uint64_t sum = 14695981039346656037ull;
+    };
+  } // namespace internal
+} // namespace NMM
+
+#endif

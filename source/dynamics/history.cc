@@ -1,0 +1,93 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/dynamics/history.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <iomanip>
+#include <sstream>
+#include <vector>
+
+namespace NMM
+{
+  namespace
+  {
+    const char *const units =
+      "# per unit thickness: energies [J/m], linear momentum [kg/s], angular "
+      "momentum about the origin [kg m/s]; time and size [s], displacement and "
+      "error [m]";
+    const char *const names =
+      "time,step,size,iterations,lost_iterations,max_displacement,error,"
+      "kinetic,"
+      "strain,conditions,dissipated,external_work,balance,momentum_x,momentum_"
+      "y,"
+      "angular_momentum";
+  } // namespace
+
+
+  History::History(const std::string &filename,
+                   const MPI_Comm     communicator,
+                   const int          continue_after)
+    : filename(filename)
+    , writes(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+  {
+    if (!writes)
+      return;
+    std::string kept = std::string(units) + "\n" + names + "\n";
+    if (continue_after >= 0)
+    {
+      std::ifstream in(filename);
+      std::string   line;
+      AssertThrow(std::getline(in, line) && std::getline(in, line) &&
+                    line == names,
+                  InputError("This is no history to continue",
+                             filename,
+                             "check its name, or start a new one"));
+      while (std::getline(in, line))
+      {
+        // time,step,...
+        std::istringstream row(line);
+        double             time;
+        char               comma;
+        int                step;
+        if ((row >> time >> comma >> step >> comma) && step <= continue_after)
+          kept += line + "\n";
+      }
+    }
+    out.open(filename, std::ios::trunc);
+    out << kept << std::flush;
+    AssertThrow(out,
+                InputError("The history cannot be written",
+                           filename,
+                           "check folder and rights"));
+  }
+
+
+  void
+  History::write(const TimeIntegrator &integrator, const StepRecord &record)
+  {
+    if (!writes)
+      return;
+    const Account      &a     = integrator.account();
+    const DynamicState &state = integrator.state();
+    out << std::setprecision(17) << state.time << ',' << state.step << ','
+        << record.report.step << ',' << record.report.n_iterations << ','
+        << record.n_lost_iterations;
+    for (const double value : {record.report.max_displacement,
+                               record.report.error,
+                               a.kinetic,
+                               a.strain,
+                               a.conditions,
+                               a.dissipated,
+                               a.external_work,
+                               a.balance,
+                               a.linear_momentum[0],
+                               a.linear_momentum[1],
+                               a.angular_momentum})
+      out << ',' << value;
+    out << std::endl;
+    AssertThrow(out,
+                InputError("The history cannot be written",
+                           filename,
+                           "is the disk full?"));
+  }
+} // namespace NMM

@@ -1,0 +1,107 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/dynamics/loading.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+namespace NMM
+{
+  TimeHistory::TimeHistory(std::vector<double> times_in,
+                           std::vector<double> values_in)
+    : times(std::move(times_in))
+    , values(std::move(values_in))
+  {
+    AssertThrow(!times.empty() && times.size() == values.size(),
+                InputError(std::to_string(times.size()) + " times and " +
+                             std::to_string(values.size()) + " values",
+                           "a time history",
+                           "give as many of both, at least one"));
+    for (unsigned int i = 0; i < times.size(); ++i)
+    {
+      AssertThrow(std::isfinite(times[i]) && std::isfinite(values[i]),
+                  InputError("A number is not finite",
+                             "point " + std::to_string(i + 1) +
+                               " of a time history",
+                             "correct it"));
+      AssertThrow(i == 0 || times[i - 1] < times[i],
+                  InputError("Times do not ascend: " +
+                               std::to_string(times[i]) + " s after " +
+                               std::to_string(times[i == 0 ? 0 : i - 1]) + " s",
+                             "point " + std::to_string(i + 1) +
+                               " of a time history",
+                             "sort the points"));
+    }
+  }
+
+
+  TimeHistory
+  TimeHistory::read(const std::string &filename)
+  {
+    std::ifstream in(filename);
+    AssertThrow(
+      in, InputError("The file cannot be read", filename, "check its name"));
+    return read(in, filename);
+  }
+
+
+  TimeHistory
+  TimeHistory::read(std::istream &in, const std::string &name)
+  {
+    std::vector<double> times, values;
+    std::string         line;
+    for (unsigned int n = 1; std::getline(in, line); ++n)
+    {
+      std::replace(line.begin(), line.end(), ',', ' ');
+      std::istringstream words(line);
+      std::string        first;
+      if (!(words >> first) || first[0] == '#')
+        continue;
+      words.seekg(0);
+      double      time, value;
+      std::string rest;
+      const auto  where = [&] { return name + ", line " + std::to_string(n); };
+      AssertThrow(
+        (words >> time >> value) && !(words >> rest),
+        InputError("Expected two numbers, time and value, instead of '" + line +
+                     "'",
+                   where(),
+                   "correct the line"));
+      AssertThrow(times.empty() || times.back() < time,
+                  InputError("Times do not ascend: " + std::to_string(time) +
+                               " s after " + std::to_string(times.back()) +
+                               " s",
+                             where(),
+                             "sort the lines"));
+      times.push_back(time);
+      values.push_back(value);
+    }
+    AssertThrow(!times.empty(),
+                InputError("There are no points",
+                           name,
+                           "give lines of two numbers, time and value"));
+    return TimeHistory(std::move(times), std::move(values));
+  }
+
+
+  double
+  TimeHistory::operator()(const double t) const
+  {
+    if (!(t >= times.front()) || t > times.back())
+      return 0.;
+    const auto next = std::upper_bound(times.begin(), times.end(), t);
+    if (next == times.end())
+      return values.back();
+    const std::size_t i     = next - times.begin();
+    const double      share = (t - times[i - 1]) / (times[i] - times[i - 1]);
+    return (1. - share) * values[i - 1] + share * values[i];
+  }
+
+
+  double
+  TimeHistory::last_time() const
+  {
+    return times.back();
+  }
+} // namespace NMM

@@ -1,0 +1,98 @@
+#include <Epetra_CrsMatrix.h>
+#include <algorithm>
+#include <dynamics/matrix_sum.h>
+
+namespace NMM
+{
+  namespace internal
+  {
+    MatrixSum::Places
+    MatrixSum::find_places(const Matrix &matrix) const
+    {
+      const Epetra_CrsMatrix &from         = matrix.trilinos_matrix();
+      const Epetra_CrsMatrix &to           = sum.trilinos_matrix();
+      const int              *from_columns = from.ColMap().MyGlobalElements();
+      const int              *to_columns   = to.ColMap().MyGlobalElements();
+      Places                  places;
+      places.reserve(from.NumMyNonzeros());
+      std::vector<std::pair<int, int>> row;
+      for (int r = 0; r < from.NumMyRows(); ++r)
+      {
+        int     n_from, n_to, *from_indices, *to_indices;
+        double *values;
+        from.ExtractMyRowView(r, n_from, values, from_indices);
+        to.ExtractMyRowView(r, n_to, values, to_indices);
+        row.clear();
+        for (int i = 0; i < n_to; ++i)
+          row.emplace_back(to_columns[to_indices[i]], i);
+        std::sort(row.begin(), row.end());
+        for (int i = 0; i < n_from; ++i)
+        {
+          const int  column = from_columns[from_indices[i]];
+          const auto place =
+            std::lower_bound(row.begin(), row.end(), std::make_pair(column, 0));
+          AssertThrow(place != row.end() && place->first == column,
+                      dealii::ExcMessage(
+                        "The pattern is not within that of the stiffness."));
+          places.push_back(place->second);
+        }
+      }
+      return places;
+    }
+
+
+    void
+    MatrixSum::add(const Matrix &matrix,
+                   const double  factor,
+                   const Places &places)
+    {
+      const Epetra_CrsMatrix &from  = matrix.trilinos_matrix();
+      const Epetra_CrsMatrix &to    = sum.trilinos_matrix();
+      auto                    place = places.begin();
+      for (int r = 0; r < from.NumMyRows(); ++r)
+      {
+        int     n_from, n_to, *indices;
+        double *from_values, *to_values;
+        from.ExtractMyRowView(r, n_from, from_values, indices);
+        to.ExtractMyRowView(r, n_to, to_values, indices);
+        for (int i = 0; i < n_from; ++i)
+          to_values[*place++] += factor * from_values[i];
+      }
+    }
+
+
+    void
+    MatrixSum::assemble(const Matrix &stiffness,
+                        const double  k,
+                        const Matrix &mass,
+                        const double  m,
+                        const Matrix *damping,
+                        const double  c)
+    {
+      if (sum.m() != stiffness.m() ||
+          sum.n_nonzero_elements() != stiffness.n_nonzero_elements())
+      {
+        sum.reinit(stiffness);
+        mass_places = find_places(mass);
+        damping_places.clear();
+      }
+      if (damping != nullptr && damping_places.empty())
+        damping_places = find_places(*damping);
+
+      const Epetra_CrsMatrix &from = stiffness.trilinos_matrix();
+      const Epetra_CrsMatrix &to   = sum.trilinos_matrix();
+      for (int r = 0; r < from.NumMyRows(); ++r)
+      {
+        int     n, *indices;
+        double *from_values, *to_values;
+        from.ExtractMyRowView(r, n, from_values, indices);
+        to.ExtractMyRowView(r, n, to_values, indices);
+        for (int i = 0; i < n; ++i)
+          to_values[i] = k * from_values[i];
+      }
+      add(mass, m, mass_places);
+      if (damping != nullptr && c != 0.)
+        add(*damping, c, damping_places);
+    }
+  } // namespace internal
+} // namespace NMM

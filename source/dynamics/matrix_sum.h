@@ -1,0 +1,52 @@
+#ifndef nmm_source_dynamics_matrix_sum_h
+#define nmm_source_dynamics_matrix_sum_h
+
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
+#include <vector>
+
+namespace NMM
+{
+  namespace internal
+  {
+    /**
+     * k K + m M + c C for matrices whose patterns lie within that of K, again and
+     * again with other values: where the entries go is looked up once.
+     */
+    class MatrixSum
+    {
+    public:
+      using Matrix = dealii::TrilinosWrappers::SparseMatrix;
+
+      /// @p damping may be null.
+      void
+      assemble(const Matrix &stiffness,
+               double        k,
+               const Matrix &mass,
+               double        m,
+               const Matrix *damping,
+               double        c);
+
+      const Matrix &
+      operator()() const
+      {
+        return sum;
+      }
+
+    private:
+      /// Per entry of a matrix, row by row, its place in the sum's row.
+      using Places = std::vector<int>;
+
+      Places
+      find_places(const Matrix &matrix) const;
+
+      void
+      add(const Matrix &matrix, double factor, const Places &places);
+
+      Matrix sum;
+      Places mass_places, damping_places;
+    };
+  } // namespace internal
+} // namespace NMM
+
+#endif

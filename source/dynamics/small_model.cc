@@ -1,0 +1,139 @@
+#include <nmm/dynamics/elastic_models.h>
+
+namespace NMM
+{
+  SmallModel::SmallModel(FiniteElasticity           &elasticity,
+                         const QuadratureCollection &mass_quadrature,
+                         Loading                     loading,
+                         const GhostPenalty         *ghost_penalty)
+    : ElasticModel(elasticity,
+                   mass_quadrature,
+                   std::move(loading),
+                   ghost_penalty)
+  {
+    for (Vector *vector : {&owned, &forces, &load})
+      vector->reinit(locally_owned(), communicator());
+  }
+
+
+  void
+  SmallModel::update(const double t)
+  {
+    const bool is_changed = set_amplitudes(amplitudes_at(t));
+    if (!has_stiffness || stiffness_at != n_passed)
+    {
+      // without loads: the tangent of follower pressure is none of `small`'s
+      (void)elasticity->assemble(zero, 0., Tangent::consistent);
+      stiffness_at  = n_passed;
+      has_stiffness = true;
+      has_load      = false;
+    }
+    if (!has_load || is_changed)
+    {
+      (void)elasticity->assemble(zero, 1., Tangent::none);
+      load = elasticity->residual();
+      load *= -1.;
+      has_load = true;
+    }
+  }
+
+
+  const SmallModel::Matrix &
+  SmallModel::stiffness_at_rest()
+  {
+    update(0.);
+    return elasticity->tangent();
+  }
+
+
+  bool
+  SmallModel::is_linear() const
+  {
+    return true;
+  }
+
+
+  bool
+  SmallModel::tangent_is_symmetric() const
+  {
+    return true;
+  }
+
+
+  bool
+  SmallModel::tangent_between_is_symmetric() const
+  {
+    return true;
+  }
+
+
+  Deformation
+  SmallModel::assemble(const Vector &u,
+                       const double  t,
+                       const Tangent,
+                       const Vector *)
+  {
+    owned = u;
+    return assemble_owned(t);
+  }
+
+
+  Deformation
+  SmallModel::assemble_owned(const double t)
+  {
+    update(t);
+    elasticity->tangent().vmult(forces, owned);
+    // constrained unknowns have a diagonal entry of their own
+    constraints().set_zero(forces);
+    strain_energy = 0.5 * (owned * forces);
+    forces -= load;
+    add_base_force(t, 1., forces);
+    return Deformation::admissible;
+  }
+
+
+  Deformation
+  SmallModel::assemble_between(const Vector &begin,
+                               const Vector &end,
+                               const double  t,
+                               const bool)
+  {
+    owned  = begin;
+    forces = end;
+    owned.sadd(0.5, 0.5, forces);
+    return assemble_owned(t);
+  }
+
+
+  const SmallModel::Vector &
+  SmallModel::residual() const
+  {
+    return forces;
+  }
+
+
+  SmallModel::Energies
+  SmallModel::energies() const
+  {
+    return {strain_energy, 0.};
+  }
+
+
+  void
+  SmallModel::external_forces(const Vector &, const double t, Vector &result)
+  {
+    update(t);
+    result = load;
+    add_base_force(t, -1., result);
+  }
+
+
+  double
+  SmallModel::work_of_supports(const Vector &,
+                               const double,
+                               const double,
+                               const double)
+  {
+    return 0.;
+  }
+} // namespace NMM

@@ -1,0 +1,644 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/dynamics/time_integrator.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <dynamics/matrix_sum.h>
+#include <mechanics/mumps_solver.h>
+
+namespace NMM
+{
+  using Vector = TimeIntegrator::Vector;
+  using internal::DirectSolver;
+
+  /// The equations of a step, unknown u_1.
+  struct TimeIntegrator::Data : public NonlinearSystem
+  {
+    Data(MechanicalModel        &model,
+         const TimeScheme       &scheme,
+         const RayleighDamping  &damping,
+         const NewtonParameters &newton);
+
+    /// @name NonlinearSystem
+    /// @{
+    Deformation
+    assemble(const Vector &u,
+             Tangent       tangent,
+             const Vector *increment) override;
+
+    const Vector &
+    residual() const override
+    {
+      return forces;
+    }
+
+    const dealii::TrilinosWrappers::SparseMatrix &
+    tangent() const override
+    {
+      return matrix();
+    }
+
+    bool
+    tangent_is_symmetric() const override
+    {
+      return scheme.is_conserving ? model->tangent_between_is_symmetric()
+                                  : model->tangent_is_symmetric();
+    }
+
+    double
+    force_scale() const override
+    {
+      return scale;
+    }
+    /// @}
+
+    Vector
+    owned_vector() const
+    {
+      return Vector(model->locally_owned(), model->communicator());
+    }
+
+    /// v_1 and a_1 of u_1.
+    void
+    set_rates();
+
+    Deformation
+    assemble_forces(const Vector &u, Tangent tangent, const Vector *increment);
+
+    void
+    make_matrix();
+
+    /// out += factor C in
+    void
+    add_damping(double factor, const Vector &in, Vector &out);
+
+    void
+    predict();
+
+    void
+    solve_linear();
+
+    void
+    measure(StepReport &report) const;
+
+    /// M a = -C v - r for the current state.
+    void
+    set_accelerations();
+
+    /// Energies and momenta of the current state; r is that of u.
+    void
+    take_account();
+
+    double
+    stored_energy() const
+    {
+      return account.strain + account.conditions;
+    }
+
+    void
+    add_work();
+
+    MechanicalModel                       *model;
+    TimeScheme                             scheme;
+    RayleighDamping                        damping;
+    NewtonSolver                           newton;
+    dealii::TrilinosWrappers::SparseMatrix stiffness_at_rest;
+    internal::MatrixSum                    matrix;
+    std::unique_ptr<DirectSolver>          mass_solver, linear_solver;
+    /// What linear_solver was factorized for.
+    double factorized_step = 0., factorized_events = 0.;
+
+    DynamicState state;
+    Account      account;
+    double       total_mass = 0.;
+    /// |M u_0| [kg].
+    double mass_of_displacement = 0.;
+
+    /// The step being tried; relevant unknowns of its ends and between.
+    double h             = 0.;
+    bool   has_candidate = false;
+    Vector u_begin, u_end, u_middle;
+    Vector u_1, v_1, a_1;
+    Vector forces, scratch, other_scratch;
+    double scale = 0.;
+    /// Loads at the current state.
+    Vector external;
+  };
+
+
+  NewtonParameters
+  TimeIntegrator::default_newton_parameters()
+  {
+    NewtonParameters parameters;
+    // a step starts so near to its end that the energy of the first correction
+    // says nothing
+    parameters.energy_tolerance = 1.;
+    // residuals are compared with forces of which those of inertia, whose
+    // moments must vanish, may be a small part
+    parameters.n_refinements       = 1;
+    parameters.n_robust_iterations = 1;
+    return parameters;
+  }
+
+
+  TimeIntegrator::Data::Data(MechanicalModel        &model,
+                             const TimeScheme       &scheme,
+                             const RayleighDamping  &damping,
+                             const NewtonParameters &newton_parameters)
+    : model(&model)
+    , scheme(scheme)
+    , damping(damping)
+    , newton(newton_parameters)
+  {
+    scheme.check();
+    AssertThrow(damping.mass >= 0. && damping.stiffness >= 0.,
+                InputError("A coefficient of Rayleigh damping is negative",
+                           "",
+                           "choose both at least 0"));
+    for (Vector *vector : {&u_1,
+                           &v_1,
+                           &a_1,
+                           &forces,
+                           &scratch,
+                           &other_scratch,
+                           &external,
+                           &state.u,
+                           &state.v,
+                           &state.a})
+      vector->reinit(model.locally_owned(), model.communicator());
+    for (Vector *vector : {&u_begin, &u_end, &u_middle})
+      vector->reinit(model.locally_owned(),
+                     model.locally_relevant(),
+                     model.communicator());
+
+    for (const auto i : model.locally_owned())
+      if (i % 2 == 0 && !model.constraints().is_constrained(i))
+        scratch(i) = 1.;
+    scratch.compress(dealii::VectorOperation::insert);
+    model.mass().vmult(forces, scratch);
+    total_mass = scratch * forces;
+    if (damping.stiffness > 0.)
+    {
+      const auto &stiffness = model.stiffness_at_rest();
+      stiffness_at_rest.reinit(stiffness);
+      stiffness_at_rest.copy_from(stiffness);
+    }
+  }
+
+
+  void
+  TimeIntegrator::Data::set_rates()
+  {
+    // differences first: u_1 and u_0 are near each other
+    a_1 = u_1;
+    a_1 -= state.u;
+    a_1.add(-h, state.v);
+    if (scheme.beta != 0.5)
+      a_1.add(-h * h * (0.5 - scheme.beta), state.a);
+    a_1 *= 1. / (scheme.beta * h * h);
+    v_1 = state.v;
+    if (scheme.gamma != 1.)
+      v_1.add(h * (1. - scheme.gamma), state.a);
+    v_1.add(h * scheme.gamma, a_1);
+  }
+
+
+  void
+  TimeIntegrator::Data::add_damping(const double  factor,
+                                    const Vector &in,
+                                    Vector       &out)
+  {
+    if (damping.mass > 0.)
+    {
+      model->mass().vmult(other_scratch, in);
+      out.add(factor * damping.mass, other_scratch);
+    }
+    if (damping.stiffness > 0.)
+    {
+      stiffness_at_rest.vmult(other_scratch, in);
+      out.add(factor * damping.stiffness, other_scratch);
+    }
+  }
+
+
+  Deformation
+  TimeIntegrator::Data::assemble_forces(const Vector &u,
+                                        const Tangent tangent,
+                                        const Vector *increment)
+  {
+    const double t = state.time + (1. - scheme.alpha_f) * h;
+    if (scheme.is_conserving)
+      return model->assemble_between(u_begin, u, t, tangent != Tangent::none);
+    if (scheme.alpha_f == 0.)
+      return model->assemble(u, t, tangent, increment);
+    scratch = u_1;
+    scratch.sadd(1. - scheme.alpha_f, scheme.alpha_f, state.u);
+    u_middle = scratch;
+    return model->assemble(u_middle, t, tangent);
+  }
+
+
+  void
+  TimeIntegrator::Data::make_matrix()
+  {
+    const double k = 1. - scheme.alpha_f;
+    const double c = k * scheme.gamma / (scheme.beta * h);
+    const double m = (1. - scheme.alpha_m) / (scheme.beta * h * h);
+    matrix.assemble(model->tangent(),
+                    k,
+                    model->mass(),
+                    m + c * damping.mass,
+                    damping.stiffness > 0. ? &stiffness_at_rest : nullptr,
+                    c * damping.stiffness);
+  }
+
+
+  Deformation
+  TimeIntegrator::Data::assemble(const Vector &u,
+                                 const Tangent tangent,
+                                 const Vector *increment)
+  {
+    u_1 = u;
+    set_rates();
+    if (assemble_forces(u, tangent, increment) != Deformation::admissible)
+      return Deformation::inverted;
+    if (tangent != Tangent::none)
+      make_matrix();
+
+    scratch = a_1;
+    if (scheme.alpha_m != 0.)
+      scratch.sadd(1. - scheme.alpha_m, scheme.alpha_m, state.a);
+    model->mass().vmult(forces, scratch);
+    scale = std::hypot(model->force_scale(), forces.l2_norm());
+    // accelerations are differences of displacements: their rounding must stay
+    // below tolerances, however small the step
+    constexpr double rounding = 1e-6;
+    scale                     = std::hypot(scale,
+                       rounding / (scheme.beta * h * h) * mass_of_displacement);
+    forces += model->residual();
+    scratch = v_1;
+    if (scheme.alpha_f != 0.)
+      scratch.sadd(1. - scheme.alpha_f, scheme.alpha_f, state.v);
+    add_damping(1., scratch, forces);
+    model->constraints().set_zero(forces);
+    return Deformation::admissible;
+  }
+
+
+  void
+  TimeIntegrator::Data::predict()
+  {
+    u_begin = state.u;
+    model->mass().vmult(forces, state.u);
+    mass_of_displacement = forces.l2_norm();
+    u_1                  = state.u;
+    u_1.add(h, state.v, 0.5 * h * h, state.a);
+    model->constraints().distribute(u_1);
+    u_end = u_1;
+  }
+
+
+  void
+  TimeIntegrator::Data::solve_linear()
+  {
+    const bool is_factorized = linear_solver != nullptr &&
+                               factorized_step == h &&
+                               factorized_events == state.events_passed;
+    (void)assemble(u_end,
+                   is_factorized ? Tangent::none : Tangent::consistent,
+                   nullptr);
+    if (!is_factorized)
+    {
+      if (linear_solver == nullptr)
+        linear_solver = std::make_unique<DirectSolver>();
+      linear_solver->factorize(matrix());
+      factorized_step   = h;
+      factorized_events = state.events_passed;
+    }
+    linear_solver->solve(forces, scratch);
+    u_1 -= scratch;
+    model->constraints().distribute(u_1);
+    set_rates();
+    u_end = u_1;
+  }
+
+
+  void
+  TimeIntegrator::Data::measure(StepReport &report) const
+  {
+    Vector change(u_1);
+    change -= state.u;
+    double square = 0.;
+    for (auto x = change.begin(); x != change.end(); x += 2)
+      square = std::max(square, *x * *x + *(x + 1) * *(x + 1));
+    report.max_displacement =
+      std::sqrt(dealii::Utilities::MPI::max(square, model->communicator()));
+
+    const double beta = scheme.is_conserving ? 0.25 : scheme.beta;
+    change            = a_1;
+    change -= state.a;
+    report.error =
+      std::abs(beta - 1. / 6.) * h * h *
+      std::sqrt(model->mass().matrix_norm_square(change) / total_mass);
+    if (!std::isfinite(report.error) || !std::isfinite(square))
+    {
+      report.converged = false;
+      report.reason    = "displacements are not finite";
+    }
+  }
+
+
+  void
+  TimeIntegrator::Data::set_accelerations()
+  {
+    if (mass_solver == nullptr)
+    {
+      mass_solver = std::make_unique<DirectSolver>();
+      mass_solver->factorize(model->mass());
+    }
+    forces = model->residual();
+    add_damping(1., state.v, forces);
+    forces *= -1.;
+    model->constraints().set_zero(forces);
+    mass_solver->solve(forces, state.a);
+    model->constraints().distribute(state.a);
+  }
+
+
+  void
+  TimeIntegrator::Data::take_account()
+  {
+    const MechanicalModel::Energies energies = model->energies();
+    account.strain                           = energies.strain;
+    account.conditions                       = energies.conditions;
+
+    forces = model->residual();
+    add_damping(1., state.v, forces);
+    model->constraints().set_zero(forces);
+    const double norm = forces.l2_norm();
+    account.imbalance = norm > 0. ? norm / model->force_scale() : 0.;
+
+    Vector &momentum = forces;
+    model->mass().vmult(momentum, state.v);
+    model->constraints().set_zero(momentum);
+    account.kinetic = 0.5 * (momentum * state.v);
+    double sums[3]  = {0., 0., 0.};
+    auto   p        = momentum.begin();
+    auto   u        = state.u.begin();
+    auto   x        = model->reference_positions().begin();
+    for (; p != momentum.end(); p += 2, u += 2, x += 2)
+    {
+      sums[0] += *p;
+      sums[1] += *(p + 1);
+      sums[2] += (*x + *u) * *(p + 1) - (*(x + 1) + *(u + 1)) * *p;
+    }
+    dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums, 3),
+                                model->communicator(),
+                                dealii::ArrayView<double>(sums, 3));
+    account.linear_momentum[0] = sums[0];
+    account.linear_momentum[1] = sums[1];
+    account.angular_momentum   = sums[2];
+
+    state.kinetic         = account.kinetic;
+    account.external_work = state.sums.external_work;
+    account.dissipated    = state.sums.dissipated;
+    account.balance = account.kinetic + stored_energy() + account.dissipated -
+                      account.external_work - state.sums.initial;
+  }
+
+
+  /// Of loads, supports and damping in the step, to the sums.
+  void
+  TimeIntegrator::Data::add_work()
+  {
+    const double t_1 = state.time + h;
+    Vector       change(u_1), mean(u_1), loads(external);
+    change -= state.u;
+    double &work = state.sums.external_work;
+    if (scheme.is_conserving)
+    {
+      mean.sadd(0.5, 0.5, state.u);
+      u_middle = mean;
+      model->external_forces(u_middle, state.time + 0.5 * h, loads);
+      work += loads * change;
+      work += model->work_of_supports(u_middle,
+                                      state.time + 0.5 * h,
+                                      state.time,
+                                      t_1);
+      model->external_forces(u_end, t_1, external);
+    }
+    else
+    {
+      model->external_forces(u_end, t_1, external);
+      loads.add(1., external);
+      work += 0.5 * (loads * change);
+      work +=
+        0.5 * (model->work_of_supports(u_begin, state.time, state.time, t_1) +
+               model->work_of_supports(u_end, t_1, state.time, t_1));
+    }
+    if (damping.mass > 0. || damping.stiffness > 0.)
+    {
+      loads = 0.;
+      add_damping(1. / h, change, loads);
+      model->constraints().set_zero(loads);
+      state.sums.dissipated += loads * change;
+    }
+  }
+
+
+  TimeIntegrator::TimeIntegrator(MechanicalModel        &model,
+                                 const TimeScheme       &scheme,
+                                 const RayleighDamping  &damping,
+                                 const NewtonParameters &newton)
+    : data(std::make_unique<Data>(model, scheme, damping, newton))
+  {
+    initialize();
+  }
+
+
+  TimeIntegrator::~TimeIntegrator() = default;
+
+
+  void
+  TimeIntegrator::initialize()
+  {
+    const Vector zero = data->owned_vector();
+    initialize(zero, zero);
+  }
+
+
+  void
+  TimeIntegrator::initialize(const Vector &u,
+                             const Vector &v,
+                             const double  time)
+  {
+    Data &d               = *data;
+    d.state.time          = time;
+    d.state.step          = 0;
+    d.state.next_step     = 0.;
+    d.state.events_passed = time;
+    d.state.sums          = EnergySums();
+    d.has_candidate       = false;
+    d.state.u             = u;
+    d.state.v             = v;
+    d.model->constraints().distribute(d.state.u);
+    d.model->constraints().distribute(d.state.v);
+    d.model->pass_events(time);
+    d.u_begin = d.state.u;
+    d.model->external_forces(d.u_begin, time, d.external);
+    AssertThrow(d.model->assemble(d.u_begin, time, Tangent::none) ==
+                  Deformation::admissible,
+                NumericalFailure("An element is turned inside out",
+                                 "the initial displacements",
+                                 "correct them"));
+    d.set_accelerations();
+    d.take_account();
+    d.state.sums.initial = d.account.kinetic + d.stored_energy();
+    d.account.balance    = 0.;
+  }
+
+
+  void
+  TimeIntegrator::restore(const DynamicState &state)
+  {
+    Data &d         = *data;
+    d.state         = state;
+    d.has_candidate = false;
+    d.model->pass_events(state.events_passed);
+    d.u_begin = d.state.u;
+    d.model->external_forces(d.u_begin, state.time, d.external);
+    AssertThrow(d.model->assemble(d.u_begin, state.time, Tangent::none) ==
+                  Deformation::admissible,
+                NumericalFailure("An element is turned inside out",
+                                 "the state to continue from",
+                                 "take another checkpoint"));
+    d.take_account();
+  }
+
+
+  StepReport
+  TimeIntegrator::try_step(const double step)
+  {
+    Data &d = *data;
+    AssertThrow(step > 0. && std::isfinite(step),
+                InputError("The time step is " + std::to_string(step) + " s",
+                           "time " + std::to_string(d.state.time) + " s",
+                           "choose it above 0"));
+    StepReport report;
+    report.step     = step;
+    d.h             = step;
+    d.has_candidate = false;
+    d.predict();
+    if (d.model->is_linear())
+    {
+      d.solve_linear();
+      report.n_iterations = 1;
+      report.converged    = true;
+    }
+    else
+    {
+      const NewtonReport newton =
+        d.newton.solve(d, d.model->constraints(), d.u_end);
+      report.n_iterations = newton.iterations.size();
+      report.converged    = newton.converged;
+      report.reason       = newton.reason;
+    }
+    if (report.converged)
+      d.measure(report);
+    d.has_candidate = report.converged;
+    return report;
+  }
+
+
+  void
+  TimeIntegrator::accept()
+  {
+    Data &d = *data;
+    Assert(d.has_candidate,
+           dealii::ExcMessage("There is no converged step to accept."));
+    d.add_work();
+    d.state.time += d.h;
+    ++d.state.step;
+    d.state.u.swap(d.u_1);
+    d.state.v.swap(d.v_1);
+    d.state.a.swap(d.a_1);
+    d.has_candidate = false;
+    AssertThrow(d.model->assemble(d.u_end, d.state.time, Tangent::none) ==
+                  Deformation::admissible,
+                NumericalFailure("An element is turned inside out",
+                                 "time " + std::to_string(d.state.time) + " s",
+                                 "take smaller steps"));
+    d.take_account();
+  }
+
+
+  void
+  TimeIntegrator::pass_events(const double until)
+  {
+    Data        &d      = *data;
+    const double before = d.stored_energy();
+    d.model->pass_events(until);
+    d.state.events_passed = until;
+    d.u_begin             = d.state.u;
+    d.model->external_forces(d.u_begin, d.state.time, d.external);
+    AssertThrow(d.model->assemble(d.u_begin, d.state.time, Tangent::none) ==
+                  Deformation::admissible,
+                dealii::ExcInternalError());
+    const MechanicalModel::Energies energies = d.model->energies();
+    d.state.sums.external_work +=
+      energies.strain + energies.conditions - before;
+    d.set_accelerations();
+    d.take_account();
+  }
+
+
+  void
+  TimeIntegrator::stop_motion()
+  {
+    Data &d = *data;
+    d.state.sums.dissipated += d.account.kinetic;
+    d.state.v = 0.;
+    d.u_begin = d.state.u;
+    AssertThrow(d.model->assemble(d.u_begin, d.state.time, Tangent::none) ==
+                  Deformation::admissible,
+                dealii::ExcInternalError());
+    d.set_accelerations();
+    d.take_account();
+  }
+
+
+  const DynamicState &
+  TimeIntegrator::state() const
+  {
+    return data->state;
+  }
+
+
+  void
+  TimeIntegrator::set_next_step(const double step)
+  {
+    data->state.next_step = step;
+  }
+
+
+  const Account &
+  TimeIntegrator::account() const
+  {
+    return data->account;
+  }
+
+
+  MechanicalModel &
+  TimeIntegrator::model() const
+  {
+    return *data->model;
+  }
+
+
+  const TimeScheme &
+  TimeIntegrator::scheme() const
+  {
+    return data->scheme;
+  }
+} // namespace NMM

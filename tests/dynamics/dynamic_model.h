@@ -1,0 +1,287 @@
+#ifndef nmm_tests_dynamics_dynamic_model_h
+#define nmm_tests_dynamics_dynamic_model_h
+
+#include <nmm/dynamics/elastic_models.h>
+#include <nmm/dynamics/step_control.h>
+#include <nmm/dynamics/time_integrator.h>
+
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+
+#include <mechanics/model.h>
+
+namespace NMM
+{
+  namespace Test
+  {
+    using Vector = MechanicalModel::Vector;
+
+    /// A body in the making: change `model->problem`, then call a make function.
+    struct Body
+    {
+      std::unique_ptr<Model>            model;
+      std::unique_ptr<FiniteElasticity> elasticity;
+      std::unique_ptr<MechanicalModel>  mechanics;
+
+      void
+      make_small(Loading loading = {})
+      {
+        make_elasticity();
+        mechanics = std::make_unique<SmallModel>(*elasticity,
+                                                 *model->quadrature,
+                                                 std::move(loading));
+      }
+
+      void
+      make_finite(Loading loading = {})
+      {
+        make_elasticity();
+        mechanics = std::make_unique<FiniteModel>(*elasticity,
+                                                  *model->quadrature,
+                                                  std::move(loading));
+      }
+
+      Vector
+      velocity(
+        const std::function<Tensor<1, 2>(const Point<2> &)> &function) const
+      {
+        return interpolate_velocity(model->covers,
+                                    model->constraints,
+                                    [&](const Point<2> &x, unsigned int) {
+                                      return function(x);
+                                    });
+      }
+
+      Vector
+      zero() const
+      {
+        return Vector(mechanics->locally_owned(), mechanics->communicator());
+      }
+
+      /// Of owned unknowns.
+      DisplacementField
+      field(const Vector &owned) const
+      {
+        Vector relevant(mechanics->locally_owned(),
+                        mechanics->locally_relevant(),
+                        mechanics->communicator());
+        relevant = owned;
+        return DisplacementField(model->covers, model->problem, relevant);
+      }
+
+      /// Current area, the integral of det F.
+      double
+      area(const Vector &u) const
+      {
+        const DisplacementField displacements = field(u);
+        const ManifoldMesh     &mesh          = model->manifold_mesh;
+        double                  area          = 0.;
+        const auto [first, last] = model->covers.locally_owned_elements();
+        for (unsigned int e = first; e < last; ++e)
+        {
+          const auto  &rule = model->quadrature->rule(e);
+          const double cell =
+            2. * model->mathematical_mesh.cell_area(mesh.cell(e));
+          for (unsigned int q = 0; q < rule.size(); ++q)
+            area +=
+              cell * rule.weight(q) *
+              dealii::determinant(dealii::unit_symmetric_tensor<2>() +
+                                  displacements.gradient(e, rule.point(q)));
+        }
+        return dealii::Utilities::MPI::sum(area, mechanics->communicator());
+      }
+
+    private:
+      void
+      make_elasticity()
+      {
+        elasticity = std::make_unique<FiniteElasticity>(model->covers,
+                                                        *model->quadrature,
+                                                        model->constraints,
+                                                        model->problem,
+                                                        /* may_float = */ true);
+      }
+    };
+
+
+    /// A box of one material on a mesh that is offset and turned.
+    inline Body
+    box(const Point<2> &lower,
+        const Point<2> &upper,
+        const double    cell_size,
+        const Material &rock,
+        const MPI_Comm  communicator = MPI_COMM_WORLD)
+    {
+      Geometry geometry;
+      add_box(geometry, lower, upper);
+      Body         body;
+      Tensor<1, 2> offset;
+      offset[0] = 0.31 * cell_size;
+      offset[1] = 0.17 * cell_size;
+      body.model =
+        std::make_unique<Model>(std::move(geometry),
+                                mesh_parameters(cell_size, offset, 17.),
+                                2,
+                                Stabilization::aggregation,
+                                communicator);
+      body.model->problem.materials = {rock};
+      return body;
+    }
+
+
+    inline void
+    step(TimeIntegrator &integrator, const double h)
+    {
+      const StepReport report = integrator.try_step(h);
+      AssertThrow(report.converged, dealii::ExcMessage(report.reason));
+      integrator.accept();
+    }
+
+
+    /// Two masses on springs of their own, without constraints: what
+    /// schemes do is known in closed form. On MPI_COMM_SELF.
+    class Oscillators : public MechanicalModel
+    {
+    public:
+      Oscillators(const double k_0, const double k_1, const double m = 1.)
+        : owned(2)
+      {
+        owned.add_range(0, 2);
+        dealii::DynamicSparsityPattern pattern(2, 2);
+        pattern.add(0, 0);
+        pattern.add(1, 1);
+        for (Matrix *matrix : {&mass_matrix, &stiffness})
+          matrix->reinit(owned, owned, pattern, MPI_COMM_SELF);
+        for (unsigned int i = 0; i < 2; ++i)
+        {
+          mass_matrix.set(i, i, m);
+          stiffness.set(i, i, i == 0 ? k_0 : k_1);
+        }
+        mass_matrix.compress(dealii::VectorOperation::insert);
+        stiffness.compress(dealii::VectorOperation::insert);
+        none.close();
+        for (Vector *vector : {&positions, &forces, &displacements})
+          vector->reinit(owned, MPI_COMM_SELF);
+      }
+
+      MPI_Comm
+      communicator() const override
+      {
+        return MPI_COMM_SELF;
+      }
+      dealii::IndexSet
+      locally_owned() const override
+      {
+        return owned;
+      }
+      dealii::IndexSet
+      locally_relevant() const override
+      {
+        return owned;
+      }
+      const dealii::AffineConstraints<double> &
+      constraints() const override
+      {
+        return none;
+      }
+      const Vector &
+      reference_positions() const override
+      {
+        return positions;
+      }
+      std::uint64_t
+      fingerprint() const override
+      {
+        return 1;
+      }
+      const Matrix &
+      mass() const override
+      {
+        return mass_matrix;
+      }
+      const Matrix &
+      stiffness_at_rest() override
+      {
+        return stiffness;
+      }
+      bool
+      is_linear() const override
+      {
+        return true;
+      }
+      bool
+      tangent_is_symmetric() const override
+      {
+        return true;
+      }
+      bool
+      tangent_between_is_symmetric() const override
+      {
+        return true;
+      }
+      Deformation
+      assemble(const Vector &u, double, Tangent, const Vector *) override
+      {
+        displacements = u;
+        stiffness.vmult(forces, displacements);
+        return Deformation::admissible;
+      }
+      Deformation
+      assemble_between(const Vector &begin,
+                       const Vector &end,
+                       double        t,
+                       bool) override
+      {
+        Vector mean(begin);
+        mean.sadd(0.5, 0.5, end);
+        return assemble(mean, t, Tangent::none, nullptr);
+      }
+      const Vector &
+      residual() const override
+      {
+        return forces;
+      }
+      const Matrix &
+      tangent() const override
+      {
+        return stiffness;
+      }
+      double
+      force_scale() const override
+      {
+        return 1.;
+      }
+      Energies
+      energies() const override
+      {
+        return {0.5 * (displacements * forces), 0.};
+      }
+      void
+      external_forces(const Vector &, double, Vector &result) override
+      {
+        result = 0.;
+      }
+      double
+      work_of_supports(const Vector &, double, double, double) override
+      {
+        return 0.;
+      }
+      std::vector<double>
+      events() const override
+      {
+        return {};
+      }
+      void
+      pass_events(double) override
+      {
+      }
+
+    private:
+      dealii::IndexSet                  owned;
+      Matrix                            mass_matrix, stiffness;
+      dealii::AffineConstraints<double> none;
+      Vector                            positions, forces, displacements;
+    };
+  } // namespace Test
+} // namespace NMM
+
+#endif

@@ -8,7 +8,7 @@
  * The second-order numerical manifold method on deal.II.
  *
  * Modules, in the order data flows (a module includes only those before it):
- * base, geometry, covers, quadrature, mechanics, io.
+ * base, geometry, covers, quadrature, mechanics, dynamics, io.
  */
 namespace NMM
 {

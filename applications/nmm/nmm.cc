@@ -8,10 +8,12 @@
 
 #include <deal.II/base/mpi.h>
 
+#include "nonlinear_analysis.h"
 #include "static_analysis.h"
 #include <boost/program_options.hpp>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <sstream>
 #include <string>
 #include <unistd.h>
@@ -75,8 +77,9 @@ namespace
             "method.\n\n"
             "Usage: nmm [options] scene.prm\n\n"
          << visible_options()
-         << "\nWrites summary.csv, probes.csv, fields.vtu and picture.png. "
-            "Scene files are\nexplained in doc/scene-format.md.\n\n"
+         << "\nWrites summary.csv, probes.csv, fields.vtu and picture.png, and "
+            "history.csv of\nload steps. Scene files are explained in "
+            "doc/scene-format.md.\n\n"
             "Exit codes: 0 success, 1 internal error, 2 bad input (nothing "
             "is written),\n3 no solution (what is known is written).\n";
     return text.str();
@@ -166,6 +169,17 @@ namespace
   }
 
 
+  std::unique_ptr<SceneAnalysis>
+  make_analysis(const NMM::Scene &scene,
+                NMM::Progress    &progress,
+                const MPI_Comm    communicator)
+  {
+    if (scene.parameters().model.kinematics == NMM::Kinematics::small)
+      return std::make_unique<StaticAnalysis>(scene, progress, communicator);
+    return std::make_unique<NonlinearAnalysis>(scene, progress, communicator);
+  }
+
+
   int
   run_scene(const Options &options, const MPI_Comm communicator)
   {
@@ -180,23 +194,23 @@ namespace
       directory.check();
 
     progress.message(scene.title());
-    StaticAnalysis analysis(scene, progress, communicator);
-    analysis.build();
-    analysis.print_report();
+    const auto analysis = make_analysis(scene, progress, communicator);
+    analysis->build();
+    analysis->print_report();
     if (options.check_only)
       return success;
 
     try
     {
-      analysis.solve();
+      analysis->solve();
     }
     catch (const NMM::NumericalFailure &)
     {
-      analysis.write(directory);
+      analysis->write(directory);
       throw;
     }
-    analysis.verify();
-    analysis.write(directory);
+    analysis->verify();
+    analysis->write(directory);
     progress.message("Results are in " + directory.path().string());
     return success;
   }

@@ -1,10 +1,7 @@
 #include "static_analysis.h"
 
 #include <nmm/base/exceptions.h>
-#include <nmm/covers/own_meshes.h>
 #include <nmm/covers/point_location.h>
-#include <nmm/io/picture.h>
-#include <nmm/io/vtu.h>
 #include <nmm/mechanics/condition_number.h>
 #include <nmm/mechanics/error_norms.h>
 
@@ -16,165 +13,11 @@ using namespace NMM;
 using dealii::Point;
 using Stage = Progress::Stage;
 
-StaticAnalysis::StaticAnalysis(const Scene   &scene,
-                               Progress      &progress,
-                               const MPI_Comm communicator)
-  : scene(scene)
-  , progress(progress)
-  , communicator(communicator)
-{
-}
-
-
 void
-StaticAnalysis::build()
+StaticAnalysis::make_system()
 {
-  const SceneParameters &parameters = scene.parameters();
-  {
-    Stage    stage(progress, "geometry");
-    Geometry geometry = scene.make_geometry();
-    cleaning_actions  = clean(geometry, parameters.geometry.cleaning_tolerance);
-    physical_mesh     = std::make_unique<PhysicalMesh>(std::move(geometry));
-    problem           = scene.make_problem();
-    problem.check(*physical_mesh);
-    make_exact_solution();
-  }
-  {
-    Stage stage(progress, "mathematical mesh");
-    mathematical_mesh = std::make_unique<MathematicalMesh>(
-      scene.make_mathematical_mesh(*physical_mesh));
-  }
-  {
-    Stage stage(progress, "cutting");
-    cut();
-    probes = std::make_unique<ProbePoints>(*manifold_mesh, parameters.probes);
-  }
-  {
-    Stage stage(progress, "covers");
-    make_covers();
-  }
-  {
-    Stage stage(progress, "quadrature");
-    // Stiffness needs 2p - 2, a constant body force p; one that varies is
-    // integrated with the accuracy of the mass matrix.
-    const unsigned int p = mathematical_mesh->degree();
-    const unsigned int degree =
-      problem.body_force ? 2 * p : std::max(2 * p - 2, p);
-    quadrature = std::make_unique<QuadratureCollection>(
-      *manifold_mesh, degree, degree, covers->locally_owned_elements());
-  }
   elasticity = std::make_unique<StaticElasticity>(
     *covers, *quadrature, constraints, problem, ghost_penalty.get());
-  add_counts();
-}
-
-
-void
-StaticAnalysis::cut()
-{
-  using Choice                  = CoverParameters::OwnMeshes;
-  const CoverParameters &covers = scene.parameters().covers;
-  OwnMeshParameters      parameters;
-  parameters.threshold =
-    covers.own_meshes == Choice::never ? 0. : covers.threshold;
-  parameters.every_region = covers.own_meshes == Choice::every_region;
-  OwnMeshes meshes =
-    make_own_meshes(std::move(mathematical_mesh), *physical_mesh, parameters);
-  mathematical_mesh = std::move(meshes.mathematical_mesh);
-  manifold_mesh     = std::move(meshes.manifold_mesh);
-  own_mesh_notices  = std::move(meshes.notices);
-}
-
-
-void
-StaticAnalysis::make_covers()
-{
-  const CoverParameters &parameters = scene.parameters().covers;
-  covers = std::make_unique<CoverSystem>(*manifold_mesh, communicator);
-  // With threshold 0 every element is well supported and no cover is
-  // constrained.
-  aggregation = aggregate(*covers,
-                          parameters.stabilization == Stabilization::aggregation
-                            ? parameters.threshold
-                            : 0.);
-  constraints = make_constraints(*covers, aggregation, 2);
-  if (parameters.stabilization == Stabilization::ghost_penalty)
-    ghost_penalty = std::make_unique<GhostPenalty>(
-      make_ghost_penalty(*manifold_mesh, parameters.threshold));
-}
-
-
-void
-StaticAnalysis::add_counts()
-{
-  const auto [first, last] = covers->locally_owned_elements();
-  double area = 0., smallest = 1.;
-  for (unsigned int element = first; element < last; ++element)
-  {
-    const double fraction = quadrature->area_fraction(element);
-    smallest              = std::min(smallest, fraction);
-    area +=
-      fraction * mathematical_mesh->cell_area(manifold_mesh->cell(element));
-  }
-  namespace MPI = dealii::Utilities::MPI;
-  summary.add("ranks", MPI::n_mpi_processes(communicator));
-  summary.add("degree", mathematical_mesh->degree());
-  summary.add("blocks", physical_mesh->n_blocks());
-  summary.add("regions", physical_mesh->regions().size());
-  summary.add("own_meshes", mathematical_mesh->n_parts() - 1);
-  summary.add("cells", mathematical_mesh->n_cells());
-  summary.add("cells_cut_exactly", manifold_mesh->n_cells_cut_exactly());
-  summary.add("mathematical_covers",
-              mathematical_mesh->n_mathematical_covers());
-  summary.add("manifold_elements", manifold_mesh->n_elements());
-  summary.add("physical_covers", covers->n_covers());
-  summary.add("aggregated_covers", aggregation.cover_to_root.size());
-  summary.add("unknowns",
-              2. * (covers->n_covers() - aggregation.cover_to_root.size()));
-  summary.add("area",
-              MPI::sum(area, communicator),
-              scene.parameters().output.length_unit + "^2");
-  summary.add("smallest_area_fraction", MPI::min(smallest, communicator));
-  summary.add("quadrature_fallbacks",
-              MPI::sum(quadrature->n_fallbacks(), communicator));
-  summary.add("cleaning_actions", cleaning_actions.size());
-  summary.add("notices",
-              physical_mesh->notices().size() + own_mesh_notices.size());
-}
-
-
-void
-StaticAnalysis::print_report()
-{
-  for (const CleaningAction &action : cleaning_actions)
-    progress.message("  cleaned: " + action.description());
-  for (const std::string &notice : physical_mesh->notices())
-    progress.message("  notice: " + notice);
-  for (const std::string &notice : own_mesh_notices)
-    progress.message("  notice: " + notice);
-
-  const auto count = [&](const std::string &name) {
-    std::ostringstream text;
-    text << std::fixed;
-    text.precision(0);
-    text << summary.value(name);
-    return text.str();
-  };
-  progress.message("  " + count("blocks") + " block(s), " + count("regions") +
-                   " region(s), " + count("cells") + " cells (" +
-                   count("cells_cut_exactly") + " cut exactly), " +
-                   count("mathematical_covers") + " mathematical covers");
-  progress.message("  " + count("manifold_elements") + " manifold elements, " +
-                   count("physical_covers") + " physical covers (" +
-                   count("aggregated_covers") + " aggregated), " +
-                   count("unknowns") + " unknowns");
-  std::ostringstream smallest;
-  smallest << "  smallest element area over cell area "
-           << summary.value("smallest_area_fraction");
-  progress.message(smallest.str());
-  if (summary.value("quadrature_fallbacks") > 0.)
-    progress.message("  warning: " + count("quadrature_fallbacks") +
-                     " quadrature rule(s) of lower quality");
 }
 
 
@@ -291,7 +134,7 @@ namespace
 
 
 void
-StaticAnalysis::make_exact_solution()
+StaticAnalysis::check_problem()
 {
   const ExactSolutionParameters &parameters = scene.parameters().exact_solution;
   if (parameters.type == ExactSolutionParameters::Type::none)
@@ -415,71 +258,4 @@ StaticAnalysis::strain_energy() const
     }
   }
   return problem.thickness * dealii::Utilities::MPI::sum(energy, communicator);
-}
-
-
-void
-StaticAnalysis::write(const OutputDirectory &directory)
-{
-  const bool is_first =
-    dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
-  OutputParameters parameters = scene.parameters().output;
-  {
-    Stage stage(progress, "output");
-    if (is_first)
-      directory.create();
-    MPI_Barrier(communicator);
-
-    if (is_solved && !probes->entries().empty())
-    {
-      const auto samples = probes->evaluate(*covers, *evaluator);
-      if (is_first)
-        directory.write_text("probes.csv", [&](std::ostream &out) {
-          probes->write(out, samples);
-        });
-    }
-
-    const FieldTriangles triangles(*covers, evaluator.get());
-    summary.add("max_displacement",
-                triangles.max_displacement(communicator),
-                parameters.length_unit);
-    if (parameters.fields)
-      write_fields(*covers, triangles, directory);
-    if (parameters.picture)
-    {
-      // Without a solution the picture still shows which block is which.
-      if (!is_solved)
-        parameters.quantity = Quantity::block;
-      const PictureData data =
-        make_picture_data(*covers, triangles, evaluator.get(), parameters);
-      if (is_first)
-        directory.write_file("picture.png", [&](const std::string &name) {
-          draw_picture(data,
-                       parameters,
-                       scene.title() + (is_solved ? "" : " (not solved)"),
-                       name);
-        });
-    }
-  }
-  write_summary(directory);
-}
-
-
-void
-StaticAnalysis::write_summary(const OutputDirectory &directory)
-{
-  summary.add("solved", is_solved ? 1. : 0.);
-  double total = 0.;
-  for (const auto &[name, seconds] : progress.times())
-  {
-    std::string row = "time_" + name;
-    std::replace(row.begin(), row.end(), ' ', '_');
-    summary.add(row, seconds, "s");
-    total += seconds;
-  }
-  summary.add("time_total", total, "s");
-  summary.add("peak_memory", peak_memory(communicator), "MB");
-  if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-    directory.write_text("summary.csv",
-                         [&](std::ostream &out) { summary.write(out); });
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace NMM
 {
@@ -32,12 +33,14 @@ namespace NMM
 
   FieldEvaluator::FieldEvaluator(const DisplacementField &field,
                                  const StressRecovery    &recovery,
-                                 const ElasticityProblem &problem)
+                                 const ElasticityProblem &problem,
+                                 StressLaw                law)
     : field(&field)
     , recovery(&recovery)
     , problem(&problem)
     , region_to_material(problem.region_to_material(
         field.cover_system().manifold_mesh().physical_mesh()))
+    , law(std::move(law))
   {
   }
 
@@ -54,6 +57,12 @@ namespace NMM
     const dealii::Tensor<2, 2> direct    = field->gradient(element, xi);
     const dealii::Tensor<2, 2> recovered = recovery->gradient(element, xi);
     sample.displacement                  = field->displacement(element, xi);
+    if (law)
+    {
+      sample.direct    = law(element, xi, direct);
+      sample.recovered = law(element, xi, recovered);
+      return sample;
+    }
     sample.direct.in_plane    = field->stress_from_gradient(element, direct);
     sample.direct.zz          = stress_zz(element, direct);
     sample.recovered.in_plane = field->stress_from_gradient(element, recovered);

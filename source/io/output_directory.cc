@@ -58,10 +58,10 @@ namespace NMM
       const std::string name      = entry.path().filename().string();
       const std::string extension = entry.path().extension().string();
       const bool        is_field =
-        name.rfind("fields.", 0) == 0 &&
+        (name.rfind("fields.", 0) == 0 || name.rfind("fields-", 0) == 0) &&
         (extension == ".vtu" || extension == ".pvtu" || extension == ".pvd");
       if (is_field || name == "summary.csv" || name == "probes.csv" ||
-          name == "picture.png")
+          name == "history.csv" || name == "picture.png")
         fs::remove(entry.path());
     }
   }

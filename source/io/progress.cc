@@ -67,8 +67,9 @@ namespace NMM
   void
   Progress::message(const std::string &text)
   {
+    // On a terminal the line of a running stage gives way.
     if (prints)
-      out << text << std::endl;
+      out << (is_terminal ? "\r\033[K" : "") << text << std::endl;
   }
 
 

@@ -453,9 +453,12 @@ namespace NMM
       material.check(model.plane_state);
     for (const BoundaryConditionParameters &condition : boundary_conditions)
       condition.check();
+    load_steps.check(model.kinematics);
+    newton.check(model.kinematics);
     output.check();
     for (const ProbeParameters &probe : probes)
       probe.check();
     exact_solution.check();
+    check_kinematics();
   }
 } // namespace NMM

@@ -13,14 +13,25 @@ namespace NMM
 
   namespace
   {
+    const std::vector<std::pair<std::string, Kinematics>> kinematics_choices = {
+      {"small", Kinematics::small},
+      {"finite", Kinematics::finite},
+      {"incremental", Kinematics::incremental}};
+
     const std::vector<std::pair<std::string, PlaneState>> plane_states = {
       {"plane stress", PlaneState::plane_stress},
       {"plane strain", PlaneState::plane_strain}};
+
+    const std::vector<std::pair<std::string, MaterialLaw>> laws = {
+      {"linear", MaterialLaw::linear},
+      {"St. Venant-Kirchhoff", MaterialLaw::st_venant_kirchhoff},
+      {"neo-Hookean", MaterialLaw::neo_hookean}};
 
     const std::vector<std::pair<std::string, BoundaryCondition::Type>>
       condition_types = {
         {"traction", BoundaryCondition::Type::traction},
         {"pressure", BoundaryCondition::Type::pressure},
+        {"follower pressure", BoundaryCondition::Type::follower_pressure},
         {"displacement", BoundaryCondition::Type::displacement},
         {"normal displacement", BoundaryCondition::Type::normal_displacement}};
 
@@ -52,6 +63,17 @@ namespace NMM
   } // namespace internal
 
 
+  const std::string &
+  to_string(const Kinematics kinematics)
+  {
+    for (const auto &choice : kinematics_choices)
+      if (choice.second == kinematics)
+        return choice.first;
+    AssertThrow(false, dealii::ExcInternalError());
+    return kinematics_choices.front().first;
+  }
+
+
   void
   MaterialParameters::declare(ParameterHandler &prm)
   {
@@ -68,6 +90,14 @@ namespace NMM
                       Patterns::Double(0),
                       "rho, the mass per volume that gravity acts on "
                       "[kg/m^3].");
+    prm.declare_entry("Law",
+                      "linear",
+                      selection(laws),
+                      "Finite kinematics: stress from deformation. linear and "
+                      "St. Venant-Kirchhoff: the second Piola-Kirchhoff stress "
+                      "is linear in the Green-Lagrange strain; neo-Hookean: "
+                      "for large strains. Small and incremental kinematics are "
+                      "linear.");
     prm.declare_entry("Initial stress",
                       "0, 0, 0",
                       Patterns::List(Patterns::Double(), 3, 3, ","),
@@ -84,6 +114,7 @@ namespace NMM
     material.youngs_modulus   = prm.get_double("Young's modulus");
     material.poissons_ratio   = prm.get_double("Poisson's ratio");
     material.density          = prm.get_double("Density");
+    material.law              = get_selection(prm, "Law", laws);
     const auto initial_stress = dealii::Utilities::string_to_double(
       dealii::Utilities::split_string_list(prm.get("Initial stress"), ','));
     material.initial_stress[0][0] = initial_stress[0];
@@ -96,6 +127,14 @@ namespace NMM
   void
   ModelParameters::declare(ParameterHandler &prm)
   {
+    prm.declare_entry("Kinematics",
+                      "small",
+                      selection(kinematics_choices),
+                      "small: displacements so small that one linear problem "
+                      "tells all; finite: displacements and rotations of any "
+                      "size, by Newton's method; incremental: one linear "
+                      "problem per load step, stress and geometry carried "
+                      "along, accurate to first order in the step.");
     prm.declare_entry("Plane state",
                       "plane stress",
                       selection(plane_states),
@@ -121,6 +160,7 @@ namespace NMM
   void
   ModelParameters::parse(ParameterHandler &prm)
   {
+    kinematics  = get_selection(prm, "Kinematics", kinematics_choices);
     plane_state = get_selection(prm, "Plane state", plane_states);
     thickness   = prm.get_double("Thickness");
     gravity     = get_point(prm, "Gravity");
@@ -144,14 +184,17 @@ namespace NMM
       "traction",
       selection(condition_types),
       "traction: force per area; pressure: force per area along "
-      "the inward normal; displacement: prescribed by component; "
+      "the inward normal of the undeformed solid; follower pressure: pressure "
+      "that turns with the surface and acts on its current area (small "
+      "kinematics: the same as pressure); displacement: prescribed by "
+      "component; "
       "normal displacement: prescribed along the outward normal, "
       "free to slide along the boundary (0: a symmetry line).");
     prm.declare_entry(
       "Value",
       "",
       Patterns::Anything(),
-      "Expression of x and y: one for pressure [Pa] and normal "
+      "Expression of x and y: one for pressures [Pa] and normal "
       "displacement [m], two separated by a semicolon for "
       "traction [Pa] and displacement [m]. Empty: zero. pi, the "
       "usual functions and if(condition, a, b) are known.");

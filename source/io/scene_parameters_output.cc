@@ -66,6 +66,12 @@ namespace NMM
                       Patterns::Bool(),
                       "Write fields.vtu (fields.pvtu and one file per rank in "
                       "parallel) and fields.pvd.");
+    prm.declare_entry("Fields every",
+                      "0",
+                      Patterns::Integer(0),
+                      "Finite and incremental kinematics: write the fields of "
+                      "every so many load steps too, as a series in "
+                      "fields.pvd; 0: of the last one alone.");
     prm.declare_entry("Picture",
                       "true",
                       Patterns::Bool(),
@@ -104,7 +110,8 @@ namespace NMM
       Patterns::Double(),
       "Displacements are multiplied by this in the picture [-]; "
       "0 draws the undeformed solid; negative: chosen so that "
-      "the largest displacement is 5 % of the solid's size.");
+      "the largest displacement is 5 % of the solid's size, or 1 "
+      "with finite and incremental kinematics.");
     prm.declare_entry("Length unit",
                       "m",
                       Patterns::Anything(),
@@ -119,12 +126,13 @@ namespace NMM
   void
   OutputParameters::parse(ParameterHandler &prm)
   {
-    title     = prm.get("Title");
-    fields    = prm.get_bool("Fields");
-    picture   = prm.get_bool("Picture");
-    quantity  = get_selection(prm, "Picture quantity", quantities);
-    recovered = get_selection(prm, "Picture stress", stress_choices);
-    center    = get_point(prm, "Picture center");
+    title        = prm.get("Title");
+    fields       = prm.get_bool("Fields");
+    fields_every = prm.get_integer("Fields every");
+    picture      = prm.get_bool("Picture");
+    quantity     = get_selection(prm, "Picture quantity", quantities);
+    recovered    = get_selection(prm, "Picture stress", stress_choices);
+    center       = get_point(prm, "Picture center");
     const dealii::Point<2> range = get_point(prm, "Picture range");
     range_min                    = range[0];
     range_max                    = range[1];
@@ -145,6 +153,11 @@ namespace NMM
                              std::to_string(range_max),
                            "parameter 'Output/Picture range'",
                            "give the smaller value first"));
+    AssertThrow(fields || fields_every == 0,
+                InputError("fields of every " + std::to_string(fields_every) +
+                             " load steps are asked for, but no fields",
+                           "parameter 'Output/Fields every'",
+                           "remove it, or set 'Fields = true'"));
     for (const std::string &unit : {length_unit, stress_unit})
       AssertThrow(unit.find_first_of(",\"") == std::string::npos,
                   InputError("the unit '" + unit +
@@ -357,6 +370,8 @@ namespace NMM
                  "Names of the points, each with a subsection of its own.",
                  &FixedPointParameters::declare);
     declare_section(prm, "Solver", &SolverParameters::declare);
+    declare_section(prm, "Load steps", &LoadStepParameters::declare);
+    declare_section(prm, "Newton", &NewtonSectionParameters::declare);
     declare_section(prm, "Output", &OutputParameters::declare);
     declare_list(prm,
                  "Probes",
@@ -374,6 +389,8 @@ namespace NMM
     parse_section(prm, "Mathematical mesh", mathematical_mesh);
     parse_section(prm, "Covers", covers);
     parse_section(prm, "Model", model);
+    parse_section(prm, "Load steps", load_steps);
+    parse_section(prm, "Newton", newton);
     parse_section(prm, "Output", output);
     parse_section(prm, "Exact solution", exact_solution);
     parse_list(prm,

@@ -108,10 +108,11 @@ namespace NMM
   } // namespace
 
 
-  void
-  write_fields(const CoverSystem     &covers,
-               const FieldTriangles  &triangles,
-               const OutputDirectory &directory)
+  std::string
+  write_fields_of_state(const CoverSystem     &covers,
+                        const FieldTriangles  &triangles,
+                        const OutputDirectory &directory,
+                        const std::string     &base)
   {
     const MPI_Comm     communicator = covers.communicator();
     const unsigned int rank =
@@ -124,8 +125,8 @@ namespace NMM
     flags.write_higher_order_cells = true;
 
     const auto piece_name = [&](const unsigned int r) {
-      return n_ranks == 1 ? std::string("fields.vtu")
-                          : "fields." + std::to_string(r) + ".vtu";
+      return n_ranks == 1 ? base + ".vtu"
+                          : base + "." + std::to_string(r) + ".vtu";
     };
     directory.write_text(piece_name(rank), [&](std::ostream &out) {
       dealii::DataOutBase::write_vtu(make_patches(covers, triangles),
@@ -134,20 +135,39 @@ namespace NMM
                                      flags,
                                      out);
     });
-    if (rank > 0)
-      return;
+    if (n_ranks == 1)
+      return piece_name(0);
 
-    if (n_ranks > 1)
-      directory.write_text("fields.pvtu", [&](std::ostream &out) {
+    if (rank == 0)
+      directory.write_text(base + ".pvtu", [&](std::ostream &out) {
         std::vector<std::string> pieces;
         for (unsigned int r = 0; r < n_ranks; ++r)
           pieces.push_back(piece_name(r));
         dealii::DataOutBase::write_pvtu_record(
           out, pieces, field_names(), vector_ranges(), flags);
       });
+    return base + ".pvtu";
+  }
+
+
+  void
+  write_series(const std::vector<std::pair<double, std::string>> &states,
+               const OutputDirectory                             &directory)
+  {
     directory.write_text("fields.pvd", [&](std::ostream &out) {
-      dealii::DataOutBase::write_pvd_record(
-        out, {{0., n_ranks > 1 ? "fields.pvtu" : "fields.vtu"}});
+      dealii::DataOutBase::write_pvd_record(out, states);
     });
+  }
+
+
+  void
+  write_fields(const CoverSystem     &covers,
+               const FieldTriangles  &triangles,
+               const OutputDirectory &directory)
+  {
+    const std::string name =
+      write_fields_of_state(covers, triangles, directory, "fields");
+    if (dealii::Utilities::MPI::this_mpi_process(covers.communicator()) == 0)
+      write_series({{0., name}}, directory);
   }
 } // namespace NMM

@@ -164,6 +164,97 @@ namespace
   }
 
 
+  TEST(BadInput, SmallKinematicsHasNoLoadSteps)
+  {
+    expect_rejected_override("Model/Kinematics=large", {"large", "finite"});
+    expect_rejected_override("Materials/rock/Law=rubber",
+                             {"rubber", "neo-Hookean"});
+    expect_rejected_override("Materials/rock/Law=neo-Hookean",
+                             {"Materials/rock/Law", "small"});
+    expect_rejected_override("Load steps/Number of steps=20",
+                             {"Load steps/Number of steps", "20", "small"});
+    expect_rejected_override("Load steps/Smallest step=0.25",
+                             {"Load steps/Smallest step", "0.25", "small"});
+    expect_rejected_override("Load steps/Load factors=0.5, 1",
+                             {"Load steps/Load factors", "0.5", "small"});
+    expect_rejected_override("Newton/Residual tolerance=1e-6",
+                             {"Newton/Residual tolerance", "1e-06", "small"});
+    expect_rejected_override("Newton/Energy tolerance=1e-6",
+                             {"Newton/Energy tolerance", "1e-06", "small"});
+    expect_rejected_override("Newton/Maximum iterations=30",
+                             {"Newton/Maximum iterations", "30", "small"});
+    expect_rejected_override("Output/Fields every=2",
+                             {"Output/Fields every", "2", "small"});
+  }
+
+
+  TEST(BadInput, FiniteAndIncrementalKinematics)
+  {
+    const auto expect_rejected_with =
+      [](const std::string              &kinematics,
+         const std::string              &override,
+         const std::vector<std::string> &words) {
+        SCOPED_TRACE(kinematics + ": " + override);
+        expect_rejected({"--set",
+                         "Model/Kinematics=" + kinematics,
+                         "--set",
+                         override,
+                         base_scene},
+                        words);
+      };
+    for (const char *kinematics : {"finite", "incremental"})
+    {
+      expect_rejected_with(kinematics,
+                           "Covers/Stabilization=ghost penalty",
+                           {"ghost penalty", kinematics, "aggregation"});
+      expect_rejected_with(kinematics,
+                           "Solver/Type=iterative",
+                           {"Solver/Type", "iterative"});
+      expect_rejected_with(kinematics,
+                           "Solver/Condition number=true",
+                           {"Solver/Condition number", kinematics});
+      expect_rejected_with(kinematics,
+                           "Load steps/Number of steps=0",
+                           {"Load steps/Number of steps", "0"});
+      expect_rejected_with(kinematics,
+                           "Load steps/Load factors=1, 0.5",
+                           {"Load steps/Load factors", "0.5 follows 1"});
+      expect_rejected_with(kinematics,
+                           "Load steps/Load factors=0, 1",
+                           {"Load steps/Load factors", "0 follows 0"});
+      expect_rejected_with(kinematics,
+                           "Fixed points/corner/Point=2, 2",
+                           {"(2, 2)"});
+    }
+    expect_rejected_with("finite",
+                         "Load steps/Smallest step=0",
+                         {"Load steps/Smallest step", "0"});
+    expect_rejected_with("finite",
+                         "Newton/Residual tolerance=0",
+                         {"Newton/Residual tolerance", "0"});
+    expect_rejected_with("finite",
+                         "Newton/Energy tolerance=0",
+                         {"Newton/Energy tolerance", "0"});
+    expect_rejected_with("incremental",
+                         "Load steps/Smallest step=0.25",
+                         {"Load steps/Smallest step", "incremental"});
+    expect_rejected_with("incremental",
+                         "Newton/Maximum iterations=30",
+                         {"Newton/Maximum iterations", "incremental"});
+    expect_rejected_with("incremental",
+                         "Materials/rock/Law=neo-Hookean",
+                         {"Materials/rock/Law", "incremental"});
+    expect_rejected({"--set",
+                     "Model/Kinematics=finite",
+                     "--set",
+                     "Load steps/Number of steps=5",
+                     "--set",
+                     "Load steps/Load factors=1",
+                     base_scene},
+                    {"Load steps/Number of steps", "5"});
+  }
+
+
   TEST(BadInput, Geometry)
   {
     // Open and self-intersecting boundaries.

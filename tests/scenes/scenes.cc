@@ -13,8 +13,9 @@
 // scene is run and how ("# scene:", "# arguments:", "# ranks:", "# exit code:"), and
 // has the rows name, value, abs_tol, rel_tol, source of the value. Arguments are
 // separated by vertical bars. A name is a row
-// of summary.csv or "probes/<probe>/<point>/<column>" of probes.csv. A value v
-// passes if |v - expected| <= abs_tol + rel_tol * |expected|.
+// of summary.csv, "probes/<probe>/<point>/<column>" of probes.csv or
+// "history/<step>/<column>" of history.csv. A value v passes if
+// |v - expected| <= abs_tol + rel_tol * |expected|.
 namespace
 {
   namespace fs = std::filesystem;
@@ -107,6 +108,19 @@ namespace
     {
       const auto fields = split(line, ',');
       values[fields[0]] = std::stod(fields[1]);
+    }
+
+    std::ifstream history(directory / "history.csv");
+    if (std::getline(history, line))
+    {
+      const auto columns = split(line, ',');
+      while (std::getline(history, line))
+      {
+        const auto fields = split(line, ',');
+        for (std::size_t i = 1; i < fields.size(); ++i)
+          values["history/" + fields[0] + "/" + columns[i]] =
+            std::stod(fields[i]);
+      }
     }
 
     std::ifstream probes(directory / "probes.csv");
@@ -303,6 +317,31 @@ namespace
       EXPECT_FALSE(exists(name)) << name;
     for (const auto &entry : fs::directory_iterator(output))
       EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+  }
+
+
+  TEST(Scenes, WritesASeriesOfFields)
+  {
+    const std::string  output = fresh_output_dir("series");
+    const DriverResult result =
+      run_driver({"-o",
+                  output,
+                  "--set",
+                  "Output/Fields every=1",
+                  (cases_dir / "finite-stretch" / "scene.prm").string()});
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+    for (const char *name :
+         {"history.csv", "fields-0001.vtu", "fields.vtu", "picture.png"})
+      EXPECT_TRUE(fs::exists(fs::path(output) / name)) << name;
+    // The last step's fields have no second file.
+    EXPECT_FALSE(fs::exists(fs::path(output) / "fields-0002.vtu"));
+    std::ifstream     file(fs::path(output) / "fields.pvd");
+    std::stringstream pvd;
+    pvd << file.rdbuf();
+    for (const char *word : {"\"0.5\"", "fields-0001.vtu", "\"fields.vtu\""})
+      EXPECT_NE(pvd.str().find(word), std::string::npos) << pvd.str();
+    for (const char *word : {"load factor 0.5", "iteration(s), 0 cut(s)"})
+      EXPECT_NE(result.output.find(word), std::string::npos) << result.output;
   }
 
 

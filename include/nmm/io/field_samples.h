@@ -7,6 +7,7 @@
 #include <nmm/mechanics/stress_recovery.h>
 
 #include <array>
+#include <functional>
 #include <vector>
 
 namespace NMM
@@ -40,9 +41,20 @@ namespace NMM
   class FieldEvaluator
   {
   public:
+    /**
+     * Cauchy stress [Pa] at reference coordinates xi of an element's cell where
+     * the displacement gradient du_i/dX_j [-] is given.
+     */
+    using StressLaw =
+      std::function<FieldSample::Stress(unsigned int                element,
+                                        const dealii::Point<2>     &xi,
+                                        const dealii::Tensor<2, 2> &gradient)>;
+
+    /// With @p law instead of the linear one, if it is given.
     FieldEvaluator(const DisplacementField &field,
                    const StressRecovery    &recovery,
-                   const ElasticityProblem &problem);
+                   const ElasticityProblem &problem,
+                   StressLaw                law = {});
 
     /// At @p x [m] of @p element.
     FieldSample
@@ -57,6 +69,7 @@ namespace NMM
     const StressRecovery     *recovery;
     const ElasticityProblem  *problem;
     std::vector<unsigned int> region_to_material;
+    StressLaw                 law;
 
     double
     stress_zz(unsigned int element, const dealii::Tensor<2, 2> &gradient) const;

@@ -5,6 +5,8 @@
 #include <nmm/covers/graded_mesh.h>
 #include <nmm/covers/mathematical_mesh.h>
 #include <nmm/mechanics/elasticity_problem.h>
+#include <nmm/mechanics/newton_solver.h>
+#include <nmm/mechanics/nonlinear_statics.h>
 #include <nmm/mechanics/static_elasticity.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -109,8 +111,25 @@ namespace NMM
   };
 
 
+  /// How the deformation is described.
+  enum class Kinematics
+  {
+    /// Small displacements: one linear problem, StaticElasticity.
+    small,
+    /// Total Lagrangian, exact under rotation: FiniteElasticity.
+    finite,
+    /// One linear problem per load step: IncrementalElasticity.
+    incremental
+  };
+
+  /// Its name in scene files.
+  const std::string &
+  to_string(Kinematics kinematics);
+
+
   struct ModelParameters
   {
+    Kinematics           kinematics  = Kinematics::small;
     PlaneState           plane_state = PlaneState::plane_stress;
     double               thickness   = 1.;
     dealii::Tensor<1, 2> gravity;
@@ -170,6 +189,44 @@ namespace NMM
   };
 
 
+  /// At which load factors there are answers.
+  struct LoadStepParameters
+  {
+    unsigned int n_steps  = default_n_steps;
+    double       min_step = LoadSteps().min_step;
+    /// Load factors [-]; empty: n_steps equal steps up to 1.
+    std::vector<double> load_factors;
+
+    static constexpr unsigned int default_n_steps = 10;
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
+    /// @throws InputError for a value that @p kinematics does not use.
+    void
+    check(Kinematics kinematics) const;
+
+    LoadSteps
+    load_steps() const;
+  };
+
+
+  /// The section `Newton`.
+  struct NewtonSectionParameters
+  {
+    NewtonParameters newton;
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
+    /// @throws InputError for a value that @p kinematics does not use.
+    void
+    check(Kinematics kinematics) const;
+  };
+
+
   /// What a picture can be coloured by.
   enum class Quantity
   {
@@ -194,16 +251,19 @@ namespace NMM
 
   struct OutputParameters
   {
-    bool        fields  = true;
-    bool        picture = true;
-    std::string title;
-    Quantity    quantity = Quantity::von_mises;
+    bool fields = true;
+    /// Fields of every so many load steps too; 0: of the last one alone.
+    unsigned int fields_every = 0;
+    bool         picture      = true;
+    std::string  title;
+    Quantity     quantity = Quantity::von_mises;
     /// Colour by the recovered instead of the direct stress.
     bool recovered = true;
     /// Centre of the polar coordinates of radial and hoop stress [m].
     dealii::Point<2> center;
     /// Factor on displacements in the picture [-]; negative: chosen so that the
-    /// largest displacement is 5 % of the solid's size.
+    /// largest displacement is 5 % of the solid's size, 1 unless kinematics
+    /// is small.
     double deformation_scale = -1.;
     /// Values at the ends of the colour bar; equal: those of the solution.
     double       range_min = 0., range_max = 0.;
@@ -295,6 +355,8 @@ namespace NMM
     std::vector<PointForce>                  point_forces;
     std::vector<FixedPoint>                  fixed_points;
     LinearSolverParameters                   solver;
+    LoadStepParameters                       load_steps;
+    NewtonSectionParameters                  newton;
     OutputParameters                         output;
     std::vector<ProbeParameters>             probes;
     ExactSolutionParameters                  exact_solution;
@@ -308,6 +370,11 @@ namespace NMM
     /// @throws InputError naming the parameter and its value.
     void
     check() const;
+
+  private:
+    /// What cannot be had together with the kinematics.
+    void
+    check_kinematics() const;
   };
 } // namespace NMM
 

@@ -4,6 +4,10 @@
 #include <nmm/io/field_samples.h>
 #include <nmm/io/output_directory.h>
 
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace NMM
 {
   /**
@@ -18,6 +22,19 @@ namespace NMM
   write_fields(const CoverSystem     &covers,
                const FieldTriangles  &triangles,
                const OutputDirectory &directory);
+
+  /// The same for one state of a series, as @p base .vtu or .pvtu; the name of
+  /// the file, for write_series().
+  std::string
+  write_fields_of_state(const CoverSystem     &covers,
+                        const FieldTriangles  &triangles,
+                        const OutputDirectory &directory,
+                        const std::string     &base);
+
+  /// fields.pvd of states at times (or load factors). On one rank only.
+  void
+  write_series(const std::vector<std::pair<double, std::string>> &states,
+               const OutputDirectory                             &directory);
 } // namespace NMM
 
 #endif

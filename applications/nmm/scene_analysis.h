@@ -1,0 +1,114 @@
+#ifndef nmm_applications_scene_analysis_h
+#define nmm_applications_scene_analysis_h
+
+#include <nmm/covers/aggregation.h>
+#include <nmm/covers/cover_system.h>
+#include <nmm/io/output_directory.h>
+#include <nmm/io/probes.h>
+#include <nmm/io/progress.h>
+#include <nmm/io/scene.h>
+#include <nmm/mechanics/displacement_field.h>
+#include <nmm/mechanics/stress_recovery.h>
+#include <nmm/quadrature/element_quadrature.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/lac/affine_constraints.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+/**
+ * A scene's analysis, from geometry to files: what all kinds have in common. The
+ * order is fixed: build(), print_report(), solve(), verify(), write(). All input
+ * errors come out of build(), so that nothing is written for a scene that is wrong.
+ *
+ * Lifetime: the scene and the progress display must outlive it.
+ */
+class SceneAnalysis
+{
+public:
+  SceneAnalysis(const NMM::Scene &scene,
+                NMM::Progress    &progress,
+                MPI_Comm          communicator);
+
+  virtual ~SceneAnalysis() = default;
+
+  /// Cut, make covers and quadrature, check the problem. @throws
+  /// NMM::InputError.
+  void
+  build();
+
+  /// Notices, changes made by cleaning, and counts.
+  void
+  print_report();
+
+  /// @throws NMM::NumericalFailure.
+  virtual void
+  solve() = 0;
+
+  /// What is known about the solution, into the summary.
+  virtual void
+  verify() = 0;
+
+  /// All files the scene asks for; without a solution those that need none.
+  void
+  write(const NMM::OutputDirectory &directory);
+
+protected:
+  const NMM::Scene &scene;
+  NMM::Progress    &progress;
+  MPI_Comm          communicator;
+  NMM::Summary      summary;
+  /// Is all that was asked for done? If not, there may still be an evaluator,
+  /// of the last state that is known.
+  bool is_solved = false;
+
+  // Each object refers to those above it.
+  std::vector<NMM::CleaningAction>           cleaning_actions;
+  std::vector<std::string>                   own_mesh_notices;
+  std::unique_ptr<NMM::PhysicalMesh>         physical_mesh;
+  std::unique_ptr<NMM::MathematicalMesh>     mathematical_mesh;
+  std::unique_ptr<NMM::ManifoldMesh>         manifold_mesh;
+  std::unique_ptr<NMM::CoverSystem>          covers;
+  NMM::Aggregation                           aggregation;
+  dealii::AffineConstraints<double>          constraints;
+  std::unique_ptr<NMM::GhostPenalty>         ghost_penalty;
+  std::unique_ptr<NMM::QuadratureCollection> quadrature;
+  NMM::ElasticityProblem                     problem;
+  std::unique_ptr<NMM::ProbePoints>          probes;
+  std::unique_ptr<NMM::DisplacementField>    field;
+  std::unique_ptr<NMM::StressRecovery>       recovery;
+  std::unique_ptr<NMM::FieldEvaluator>       evaluator;
+
+private:
+  /// Further checks of the problem, before anything is cut.
+  virtual void
+  check_problem()
+  {
+  }
+
+  /// The equations, once covers and quadrature are there.
+  virtual void
+  make_system() = 0;
+
+  /// Further files.
+  virtual void
+  write_more(const NMM::OutputDirectory &)
+  {
+  }
+
+  void
+  add_counts();
+
+  void
+  cut();
+
+  void
+  make_covers();
+
+  void
+  write_summary(const NMM::OutputDirectory &directory);
+};
+
+#endif

@@ -232,6 +232,35 @@ namespace
   }
 
 
+  // The thin layer's condition number, some 1500, above a limit of 100 and below
+  // one of 1e5: a warning with the place, or none. The layer's own mesh is
+  // reported either way.
+  TEST(Scenes, ConditionNumberAboveTheLimitIsWarnedOf)
+  {
+    for (const bool above : {true, false})
+    {
+      const std::string  output = fresh_output_dir("condition");
+      const DriverResult result =
+        run_driver({"--output",
+                    output,
+                    "--set",
+                    std::string("Solver/Condition number limit=") +
+                      (above ? "100" : "1e5"),
+                    (cases_dir / "thin-layer" / "scene.prm").string()});
+      ASSERT_EQ(result.exit_code, 0) << result.output;
+      EXPECT_EQ(result.output.find("warning: the condition number") !=
+                  std::string::npos,
+                above)
+        << result.output;
+      EXPECT_EQ(result.output.find("weakest near (") != std::string::npos,
+                above);
+      EXPECT_NE(result.output.find("a mathematical mesh of the region's own"),
+                std::string::npos)
+        << result.output;
+    }
+  }
+
+
   TEST(Scenes, TheDocumentedFirstSceneRuns)
   {
     std::ifstream     file(NMM_SOURCE_DIR "/doc/scene-format.md");

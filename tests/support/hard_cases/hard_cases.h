@@ -148,9 +148,12 @@ namespace NMM
 
     /// The uncut companion of the disk: the hexagon of about equal area on the
     /// lattice of the same triangles, its left half held, its right half
-    /// loaded.
+    /// loaded; with the wave field, or the solenoidal one.
     Result
-    fitted_hexagon(double cell_size, const Measure &what);
+    fitted_hexagon(double         cell_size,
+                   const Measure &what,
+                   double         poissons_ratio = 0.3,
+                   bool           solenoidal     = false);
 
     /**
      * Case 3: a column of depth 1 between smooth walls under its own weight and

@@ -155,7 +155,10 @@ namespace NMM
 
 
     Result
-    fitted_hexagon(const double cell_size, const Measure &what)
+    fitted_hexagon(const double   cell_size,
+                   const Measure &what,
+                   const double   poissons_ratio,
+                   const bool     solenoidal)
     {
       // nodes p(i, j) = i a + j b, |i|, |j|, |i + j| <= n
       const int n = static_cast<int>(
@@ -226,15 +229,21 @@ namespace NMM
                                            dealii::SubCellData());
         return MathematicalMesh(triangulation, 2);
       });
-      const auto field = make_wave_field();
+      const auto field =
+        solenoidal ? make_solenoidal_field() : make_wave_field();
       prescribe(model,
                 field,
-                material("rock", 1000., 0.3),
+                material("rock", 1000., poissons_ratio),
                 PlaneState::plane_strain,
                 {"left"},
                 {"right"});
-      return measure(
-        model, *field, "fitted hexagon", Stabilization::aggregation, what);
+      char variant[60];
+      std::snprintf(variant,
+                    sizeof(variant),
+                    "fitted hexagon, nu %g, h %g",
+                    poissons_ratio,
+                    cell_size);
+      return measure(model, *field, variant, Stabilization::aggregation, what);
     }
   } // namespace HardCases
 } // namespace NMM

@@ -4,7 +4,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <cmath>
-#include <dynamics/matrix_sum.h>
+#include <mechanics/matrix_sum.h>
 #include <mechanics/mumps_solver.h>
 
 namespace NMM

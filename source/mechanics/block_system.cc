@@ -134,6 +134,13 @@ namespace NMM
 
 
     void
+    BlockSystem::leave_empty_rows()
+    {
+      leaves_empty_rows = true;
+    }
+
+
+    void
     BlockSystem::couple(const dealii::ArrayView<const unsigned int> covers)
     {
       if (has_constrained(covers))
@@ -589,6 +596,8 @@ namespace NMM
     void
     BlockSystem::fix_empty_diagonals()
     {
+      if (leaves_empty_rows)
+        return;
       std::array<double, 2> sum_and_count = {{0., 0.}};
       const auto            diagonal      = [this](const unsigned int row,
                                    const unsigned int c) -> double                 &{

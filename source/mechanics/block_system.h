@@ -48,6 +48,11 @@ namespace NMM
       void
       ignore_inhomogeneities();
 
+      /// Rows to which nothing is added stay empty, for matrices that are added to
+      /// others. Otherwise they get a diagonal entry.
+      void
+      leave_empty_rows();
+
       /// All pairs of @p covers will be coupled. Owned elements are coupled
       /// already.
       void
@@ -175,7 +180,8 @@ namespace NMM
       /// Local numbers: owned covers first, then others, ascending.
       std::vector<unsigned int> cover_to_local;
       std::vector<unsigned int> ghost_covers;
-      unsigned int              n_rows = 0;
+      unsigned int              n_rows            = 0;
+      bool                      leaves_empty_rows = false;
 
       /// Block rows: columns in local numbers, ascending. Values lie as in the
       /// scalar matrix: both scalar rows of a block row one after the other.

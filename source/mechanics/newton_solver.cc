@@ -14,10 +14,11 @@ namespace NMM
     NewtonParameters parameters;
 
     /// Made for the first system and kept, with its analysis, for all of the same
-    /// size and symmetry.
+    /// size, pattern and symmetry.
     std::unique_ptr<internal::DirectSolver> direct_solver;
     bool                                    is_symmetric = false;
     unsigned int                            n            = 0;
+    unsigned int                            version      = 0;
 
     NonlinearSystem                         *system      = nullptr;
     const dealii::AffineConstraints<double> *constraints = nullptr;
@@ -82,8 +83,9 @@ namespace NMM
     dealii::Timer timer;
     if (direct_solver == nullptr ||
         is_symmetric != system->tangent_is_symmetric() ||
-        n != system->tangent().m())
+        n != system->tangent().m() || version != system->pattern_version())
     {
+      version       = system->pattern_version();
       is_symmetric  = system->tangent_is_symmetric();
       n             = system->tangent().m();
       direct_solver = std::make_unique<internal::DirectSolver>(

@@ -44,6 +44,13 @@ namespace NMM
     /// Size of the forces that are in balance, what |r| is compared with [N/m].
     virtual double
     force_scale() const = 0;
+
+    /// Another number whenever tangent() has another pattern.
+    virtual unsigned int
+    pattern_version() const
+    {
+      return 0;
+    }
   };
 
 

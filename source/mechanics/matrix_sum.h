@@ -1,5 +1,5 @@
-#ifndef nmm_source_dynamics_matrix_sum_h
-#define nmm_source_dynamics_matrix_sum_h
+#ifndef nmm_source_mechanics_matrix_sum_h
+#define nmm_source_mechanics_matrix_sum_h
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 

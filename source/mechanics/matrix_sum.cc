@@ -1,6 +1,6 @@
 #include <Epetra_CrsMatrix.h>
 #include <algorithm>
-#include <dynamics/matrix_sum.h>
+#include <mechanics/matrix_sum.h>
 
 namespace NMM
 {

@@ -1,0 +1,206 @@
+#ifndef nmm_contact_contact_h
+#define nmm_contact_contact_h
+
+#include <nmm/contact/contact_surface.h>
+
+#include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <limits>
+#include <memory>
+#include <vector>
+
+namespace NMM
+{
+  struct ContactParameters
+  {
+    /// Penalty eps_n: pressure over penetration [Pa/m].
+    double normal_stiffness = std::numeric_limits<double>::signaling_NaN();
+    /// eps_t: shear over elastic slip [Pa/m]; 0: that of the normal direction.
+    double shear_stiffness = 0.;
+    /// Tangent of the friction angle [-]; 0 without cohesion: no friction.
+    double friction = 0.;
+    /// Shear strength without pressure [Pa], while in contact.
+    double cohesion = 0.;
+    /// Augmented Lagrangian: penetration that is allowed [m]; 0: the penalty's.
+    double       penetration_tolerance = 0.;
+    unsigned int max_augmentations     = 30;
+    /// Distance within which faces are looked at [m]; 0: a tenth of the longest
+    /// edge. No point may move further than this in a step.
+    double reach = 0.;
+    /// Gauss-Lobatto points on each piece of an edge, at least 2.
+    unsigned int n_points = 4;
+    /// Of two blocks the one with the lower number carries the contact points:
+    /// the softer or finer one is the better choice. Empty: the block's number.
+    std::vector<unsigned int> body_ranks;
+
+    /// @throws InputError naming the value.
+    void
+    check() const;
+
+    bool
+    has_friction() const
+    {
+      return friction > 0. || cohesion > 0.;
+    }
+  };
+
+
+  enum class ContactState
+  {
+    open,
+    stick,
+    slip
+  };
+
+
+  /// A point at which a slave edge may touch a master.
+  struct ContactPoint
+  {
+    /// Edge of the surface and parameter on it.
+    unsigned int edge = invalid_index;
+    double       s    = 0.;
+    /// Reference length times the cosine of the angle between both faces [m].
+    double weight = 0.;
+    /// Edge and parameter of the nearest point; invalid_index: none.
+    unsigned int master = invalid_index;
+    double       t      = 0.;
+    /// Positive: open [m].
+    double gap = 0.;
+    /// Per reference length of the slave [Pa].
+    double       pressure = 0., shear = 0.;
+    ContactState state = ContactState::open;
+    /// Edge and parameter at which it sticks.
+    unsigned int stick_edge = invalid_index;
+    double       stick_t    = 0.;
+    /// Multiplier of the augmented Lagrangian [Pa].
+    double multiplier = 0.;
+    /// Current position and normal of the master.
+    dealii::Point<2>     x;
+    dealii::Tensor<1, 2> normal;
+  };
+
+
+  /// Counts and sums over all ranks.
+  struct ContactReport
+  {
+    unsigned int n_points = 0, n_open = 0, n_stick = 0, n_slip = 0;
+    /// States that differ from those of the assembly before.
+    unsigned int n_changes = 0;
+    /// [m]
+    double largest_penetration = 0.;
+    /// Stored in springs [J/m].
+    double energy = 0.;
+    /// On the slaves [N/m].
+    dealii::Tensor<1, 2> force;
+  };
+
+
+  /**
+   * Contact of the faces of a ContactSurface: penalty springs normal to the master,
+   * eq. (13), and along it, (h), with Coulomb's friction (14), integrated along the slave
+   * edges by Gauss-Lobatto points so that corners are points too:
+   * @f[ \Pi = \sum_q w_q\left(\tfrac{1}{2\epsilon_n}\langle\lambda - \epsilon_n
+   *     g\rangle_+^2 + \tfrac{\epsilon_t}{2} g_t^2\right). @f]
+   * Edges are divided where the other side's edges end, so that the
+   * rule is exact. The paper has springs at corners only; here their stiffness is
+   * per length, and refinement does not change it.
+   *
+   * Friction: the shear at a point is eps_t times the distance, along the
+   * master, from the material point of the master where it sticks; beyond
+   * q_max = p tan phi + c that point is dragged along (moving friction cone;
+   * Wriggers & Krstulovic-Opara, ZAMM 80 (2000)). So the history is a
+   * place, and nothing is lost when a point passes from one edge to the next.
+   *
+   * Augmented Lagrangian: the multiplier is a polynomial on each slave edge, the
+   * projection of <lambda - eps g> on it, until no penetration is larger than
+   * the tolerance (Alart & Curnier 1991; Uzawa's iteration).
+   *
+   * It knows positions and normals, not materials. All per unit thickness.
+   *
+   * Lifetime: the surface and the constraints must outlive this object.
+   */
+  class Contact
+  {
+  public:
+    using Vector = dealii::TrilinosWrappers::MPI::Vector;
+    using Matrix = dealii::TrilinosWrappers::SparseMatrix;
+
+    Contact(ContactSurface                          &surface,
+            const dealii::AffineConstraints<double> &constraints,
+            const ContactParameters                 &parameters);
+    ~Contact();
+
+    /// Obstacles move.
+    void
+    set_time(double time);
+
+    /**
+     * Find candidates and make contact points at the displacements @p u (locally
+     * relevant). Multipliers and places of sticking are carried over.
+     */
+    void
+    detect(const Vector &u);
+
+    /// Has something moved so far since detect() that candidates may be
+    /// missing?
+    bool
+    needs_detection(const Vector &u);
+
+    /// No candidates on any rank: assemble() would add nothing.
+    bool
+    is_idle() const;
+
+    /**
+     * Forces r = d Pi / du (owned unknowns, 0 for constrained ones) and, if
+     * @p with_tangent, K = dr/du, at @p u (locally relevant).
+     */
+    void
+    assemble(const Vector &u, bool with_tangent);
+
+    const Vector &
+    residual() const;
+
+    /// In a pattern that holds that of the elasticity, too.
+    const Matrix &
+    tangent() const;
+
+    /// Grows whenever the pattern of tangent() changes.
+    unsigned int
+    pattern_version() const;
+
+    bool
+    tangent_is_symmetric() const;
+
+    /// Of the last assembly.
+    const ContactReport &
+    report() const;
+
+    /// This rank's points, as of the last assembly.
+    const std::vector<ContactPoint> &
+    points() const;
+
+    /// Take over pressures as multipliers. Call after assemble() at a solution. Returns
+    /// the largest change of a multiplier over the largest pressure [-].
+    double
+    augment();
+
+    /// The last assembly was that of an accepted state: points stick from now
+    /// on where they are.
+    void
+    accept();
+
+    const ContactParameters &
+    parameters() const;
+
+    const ContactSurface &
+    surface() const;
+
+  private:
+    struct Data;
+    std::unique_ptr<Data> data;
+  };
+} // namespace NMM
+
+#endif

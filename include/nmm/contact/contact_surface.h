@@ -1,0 +1,195 @@
+#ifndef nmm_contact_contact_surface_h
+#define nmm_contact_contact_surface_h
+
+#include <nmm/covers/cover_system.h>
+#include <nmm/geometry/curve.h>
+#include <nmm/mechanics/weight_functions.h>
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace NMM
+{
+  /**
+   * A body that does not deform and has no unknowns: walls, floors, the plates of
+   * a press.
+   */
+  struct RigidObstacle
+  {
+    /// For messages and laws of contact.
+    std::string name;
+    /// Its boundary, the body on the left; each piece starts where the last one
+    /// ended. It need not be closed. Full circles are no pieces: give arcs.
+    std::vector<CurvePiece> pieces;
+    /// Displacement [m] at a time (or load factor); empty: at rest.
+    std::function<dealii::Tensor<1, 2>(double)> displacement;
+  };
+
+
+  /**
+   * All faces of a solid that can touch something: edges of manifold elements on
+   * boundaries, holes and both faces of open joints, and the pieces of rigid
+   * obstacles. The body is on the left of an edge.
+   *
+   * An edge runs from t = 0 to t = 1 (arcs with constant speed). Its current position
+   * is @f[ x(t) = X(t) + \sum_i w_i(X(t))\,u_i, @f] X being the straight line or the
+   * arc, so that arcs stay arcs. t beyond [0, 1] continues the curve and the
+   * polynomial.
+   *
+   * Every rank holds all edges.
+   *
+   * Lifetime: the cover system must outlive this object.
+   */
+  class ContactSurface
+  {
+  public:
+    /// What the boundary does where an edge meets the next one.
+    enum class Corner
+    {
+      smooth,
+      convex,
+      concave,
+      /// No edge follows.
+      end
+    };
+
+    struct Edge
+    {
+      /// Manifold element, invalid_index for obstacles.
+      unsigned int element = invalid_index;
+      /// Block; for obstacle i the number of blocks + i.
+      unsigned int body = invalid_index;
+      /// Curve of the physical mesh, invalid_index for obstacles.
+      unsigned int curve = invalid_index;
+      /// See ElementEdge [m].
+      dealii::Point<2> start, end, center;
+      double           radius = 0.;
+      /// Arcs: angles of start and end [rad].
+      double first_angle = 0., last_angle = 0.;
+      /// [m]
+      double length = 0.;
+      /// Along the boundary, or invalid_index.
+      unsigned int previous = invalid_index, next = invalid_index;
+      Corner       at_start = Corner::end, at_end = Corner::end;
+      /// Of the element's cell: xi = inverse (X - origin).
+      dealii::Point<2>     origin;
+      dealii::Tensor<2, 2> inverse;
+    };
+
+    /// Position [m] and derivatives by t [m].
+    struct Place
+    {
+      dealii::Point<2>     x;
+      dealii::Tensor<1, 2> a, b;
+
+      /// Unit normal out of the body.
+      dealii::Tensor<1, 2>
+      normal() const
+      {
+        const double length = a.norm();
+        return dealii::Point<2>(a[1] / length, -a[0] / length);
+      }
+    };
+
+    /// Weight functions of the element, and derivatives by t.
+    struct Weights
+    {
+      unsigned int n = 0;
+      double       w[WeightFunctions::max_per_cell];
+      double       dw[WeightFunctions::max_per_cell];
+      double       ddw[WeightFunctions::max_per_cell];
+    };
+
+    /**
+     * @p obstacles are numbered after the blocks. The covers of all edges are made
+     * relevant to all ranks, so vectors have to be laid out afterwards.
+     * @throws InputError for an obstacle whose pieces do not follow each other, or
+     * are full circles.
+     */
+    explicit ContactSurface(CoverSystem               &covers,
+                            std::vector<RigidObstacle> obstacles = {});
+
+    const std::vector<Edge> &
+    edges() const;
+
+    const std::vector<RigidObstacle> &
+    obstacles() const;
+
+    const CoverSystem &
+    cover_system() const;
+
+    unsigned int
+    n_bodies() const;
+
+    bool
+    is_rigid(unsigned int edge) const;
+
+    /// Edges of elements that this rank owns.
+    std::pair<unsigned int, unsigned int>
+    locally_owned_edges() const;
+
+    /// Obstacles move to where they are at @p time.
+    void
+    set_time(double time);
+
+    /// Displacements: two per cover of the whole system [m].
+    void
+    set_displacements(const std::vector<double> *nodal);
+
+    /// X(t) [m], and derivatives.
+    Place
+    reference_place(unsigned int edge, double t) const;
+
+    /// x(t) at the current displacements and time.
+    Place
+    place(unsigned int edge, double t) const;
+
+    void
+    weights(unsigned int edge, double t, Weights &weights) const;
+
+    /// Position of a place with given weights: less work than place().
+    dealii::Point<2>
+    position(unsigned int            edge,
+             const dealii::Point<2> &reference,
+             const Weights          &weights) const;
+
+    /// Physical covers of the edge's element; none for obstacles.
+    dealii::ArrayView<const unsigned int>
+    covers(unsigned int edge) const;
+
+    /// For people: the curve's or obstacle's name.
+    std::string
+    name(unsigned int edge) const;
+
+  private:
+    void
+    add_elements();
+
+    void
+    add_obstacles();
+
+    void
+    find_next(unsigned int element, unsigned int position, unsigned int edge);
+
+    void
+    set_corners();
+
+    CoverSystem                          *cover_pointer;
+    std::vector<RigidObstacle>            rigid_obstacles;
+    std::vector<dealii::Tensor<1, 2>>     obstacle_displacements;
+    std::vector<Edge>                     all_edges;
+    std::pair<unsigned int, unsigned int> owned;
+    unsigned int                          degree, n_blocks;
+    const std::vector<double>            *nodal = nullptr;
+    /// Construction only: edge of an element's boundary position.
+    std::vector<std::pair<std::pair<unsigned int, unsigned int>, unsigned int>>
+      position_to_edge;
+  };
+} // namespace NMM
+
+#endif

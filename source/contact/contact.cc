@@ -1,0 +1,558 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/contact/contact.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <contact/contact_points.h>
+#include <contact/contact_search.h>
+#include <contact/contact_terms.h>
+#include <mechanics/block_system.h>
+#include <mechanics/nodal_values.h>
+
+namespace NMM
+{
+  using namespace internal;
+  using dealii::Point;
+  using dealii::Tensor;
+  namespace Parallel = dealii::Utilities::MPI;
+
+  struct Contact::Data
+  {
+    Data(ContactSurface                          &surface,
+         const dealii::AffineConstraints<double> &constraints,
+         const ContactParameters                 &parameters);
+
+    /// What does not change from one assembly to the next.
+    struct PointData
+    {
+      /// Position in ContactSearch::slaves().
+      unsigned int            slave;
+      ContactSurface::Weights weights;
+      /// The weight knows the angle between both faces, that of the first time
+      /// there is a master since detect().
+      bool has_angle = false;
+    };
+
+    void
+    make_points();
+
+    void
+    add_points_of(unsigned int slave);
+
+    void
+    make_pattern();
+
+    void
+    find_states();
+
+    /// @name One point in an assembly
+    /// @{
+    void
+    add_point(unsigned int q, bool with_tangent);
+
+    ContactTraction
+    find_traction(ContactPoint                &point,
+                  const ContactSurface::Place &slave,
+                  const ContactProjection     &projection,
+                  double                      &energy) const;
+    /// @}
+
+    void
+    reduce_report();
+
+    ContactSurface                          *surface;
+    const dealii::AffineConstraints<double> *constraints;
+    ContactParameters                        parameters;
+    MPI_Comm                                 communicator;
+    ContactSearch                            search;
+    std::vector<double>                      rule_points, rule_weights;
+
+    std::vector<double>          nodal;
+    std::vector<ContactPoint>    points;
+    std::vector<PointData>       point_data;
+    std::unique_ptr<BlockSystem> block_system;
+    bool                         is_idle         = true;
+    unsigned int                 pattern_version = 0;
+    std::vector<unsigned int>    couplings, known_couplings;
+
+    std::unordered_map<unsigned int, EdgeMultiplier> multipliers;
+    StickPlaces                                      stick_places;
+
+    ContactLocalSystem local;
+    Matrix             matrix;
+    Vector             residual;
+    ContactReport      report;
+    double             last_change = 0.;
+  };
+
+
+  Contact::Data::Data(ContactSurface                          &surface,
+                      const dealii::AffineConstraints<double> &constraints,
+                      const ContactParameters                 &parameters_in)
+    : surface(&surface)
+    , constraints(&constraints)
+    , parameters(parameters_in)
+    , communicator(surface.cover_system().communicator())
+    , search(surface, parameters_in.body_ranks)
+  {
+    parameters.check();
+    lobatto_rule(parameters.n_points, rule_points, rule_weights);
+    if (parameters.shear_stiffness == 0.)
+      parameters.shear_stiffness = parameters.normal_stiffness;
+    if (parameters.reach == 0.)
+    {
+      double longest = 0.;
+      for (unsigned int e = 0; e < surface.edges().size(); ++e)
+        if (!surface.is_rigid(e))
+          longest = std::max(longest, surface.edges()[e].length);
+      parameters.reach = 0.1 * longest;
+    }
+    residual.reinit(surface.cover_system().locally_owned_dofs(2), communicator);
+    nodal.assign(2 * surface.cover_system().n_covers(), 0.);
+    surface.set_displacements(&nodal);
+  }
+
+
+  Contact::Contact(ContactSurface                          &surface,
+                   const dealii::AffineConstraints<double> &constraints,
+                   const ContactParameters                 &parameters)
+    : data(std::make_unique<Data>(surface, constraints, parameters))
+  {
+  }
+
+
+  Contact::~Contact() = default;
+
+
+  void
+  Contact::set_time(const double time)
+  {
+    data->surface->set_time(time);
+  }
+
+
+  void
+  Contact::detect(const Vector &u)
+  {
+    Data &d = *data;
+    read_nodal_values(d.surface->cover_system(), u, d.nodal);
+    d.search.update(d.parameters.reach);
+    d.make_points();
+    d.make_pattern();
+  }
+
+
+  bool
+  Contact::needs_detection(const Vector &u)
+  {
+    read_nodal_values(data->surface->cover_system(), u, data->nodal);
+    return data->search.movement() > 0.5 * data->parameters.reach;
+  }
+
+
+  bool
+  Contact::is_idle() const
+  {
+    return data->is_idle;
+  }
+
+
+  void
+  Contact::Data::make_points()
+  {
+    points.clear();
+    point_data.clear();
+    for (unsigned int i = 0; i < search.slaves().size(); ++i)
+      add_points_of(i);
+  }
+
+
+  void
+  Contact::Data::add_points_of(const unsigned int slave)
+  {
+    const unsigned int        edge      = search.slaves()[slave];
+    const std::vector<double> divisions = search.divisions(slave);
+    const auto                known     = multipliers.find(edge);
+    const auto                sticking  = stick_places.find(edge);
+    for (unsigned int i = 0; i + 1 < divisions.size(); ++i)
+      for (unsigned int q = 0; q < rule_points.size(); ++q)
+      {
+        const double length = divisions[i + 1] - divisions[i];
+        ContactPoint point;
+        point.edge = edge;
+        point.s    = q == 0 ? divisions[i]
+                     : q + 1 == rule_points.size()
+                       ? divisions[i + 1]
+                       : divisions[i] + rule_points[q] * length;
+        PointData fixed;
+        fixed.slave      = slave;
+        const auto place = surface->reference_place(edge, point.s);
+        surface->weights(edge, point.s, fixed.weights);
+        point.weight = rule_weights[q] * length * place.a.norm();
+
+        if (sticking != stick_places.end())
+        {
+          StickPlace stick;
+          if (find_stick_place(sticking->second, point.s, stick))
+          {
+            point.stick_edge = stick.edge;
+            point.stick_t    = stick.t;
+          }
+        }
+        if (known != multipliers.end())
+          point.multiplier = known->second(point.s);
+        points.push_back(point);
+        point_data.push_back(fixed);
+      }
+  }
+
+
+  void
+  Contact::Data::make_pattern()
+  {
+    is_idle =
+      Parallel::max(search.slaves().empty() ? 0U : 1U, communicator) == 0U;
+    if (is_idle)
+      return;
+    couplings.clear();
+    for (unsigned int i = 0; i < search.slaves().size(); ++i)
+    {
+      const unsigned int slave = search.slaves()[i];
+      const unsigned int begin = couplings.size();
+      couplings.push_back(0);
+      const auto append = [&](const unsigned int edge) {
+        const auto covers = surface->covers(edge);
+        couplings.insert(couplings.end(), covers.begin(), covers.end());
+      };
+      append(slave);
+      for (const unsigned int master : search.masters(i))
+        append(master);
+      const auto sticking = stick_places.find(slave);
+      if (sticking != stick_places.end())
+        for (const StickPlace &place : sticking->second)
+          if (!surface->is_rigid(place.edge))
+            append(place.edge);
+      std::sort(couplings.begin() + begin + 1, couplings.end());
+      couplings.erase(std::unique(couplings.begin() + begin + 1,
+                                  couplings.end()),
+                      couplings.end());
+      couplings[begin] = couplings.size() - begin - 1;
+    }
+    const bool is_new = block_system == nullptr || couplings != known_couplings;
+    if (Parallel::max(is_new ? 1U : 0U, communicator) == 0U)
+      return;
+    known_couplings = couplings;
+    block_system =
+      std::make_unique<BlockSystem>(surface->cover_system(), *constraints);
+    for (unsigned int i = 0; i < couplings.size(); i += couplings[i] + 1)
+      block_system->couple({couplings.data() + i + 1, couplings[i]});
+    block_system->ignore_inhomogeneities();
+    block_system->leave_empty_rows();
+    block_system->build();
+    matrix.clear();
+    ++pattern_version;
+  }
+
+
+  /// Pressure, shear and what they depend on.
+  ContactTraction
+  Contact::Data::find_traction(ContactPoint                &point,
+                               const ContactSurface::Place &slave,
+                               const ContactProjection     &projection,
+                               double                      &energy) const
+  {
+    ContactTraction traction;
+    const double    eps = parameters.normal_stiffness;
+    point.pressure      = point.multiplier - eps * projection.gap;
+    if (point.pressure <= 0.)
+    {
+      point.pressure = point.shear = 0.;
+      point.state                  = ContactState::open;
+      return traction;
+    }
+    traction.pressure         = point.weight * point.pressure;
+    traction.normal_stiffness = point.weight * eps;
+    energy +=
+      point.weight *
+      (point.pressure * point.pressure - point.multiplier * point.multiplier) /
+      (2. * eps);
+    point.state = ContactState::slip;
+    if (!parameters.has_friction())
+      return traction;
+
+    const Tensor<1, 2> tangent = projection.place.a / projection.place.a.norm();
+    const Tensor<1, 2> distance =
+      slave.x - surface->place(point.stick_edge, point.stick_t).x;
+    const double trial = parameters.shear_stiffness * (distance * tangent);
+    const double limit =
+      parameters.friction * point.pressure + parameters.cohesion;
+    traction.normal_distance = distance * projection.normal;
+    if (std::abs(trial) <= limit)
+    {
+      point.state              = ContactState::stick;
+      point.shear              = trial;
+      traction.shear_stiffness = point.weight * parameters.shear_stiffness;
+    }
+    else
+    {
+      point.shear = trial > 0. ? limit : -limit;
+      traction.shear_over_pressure =
+        trial > 0. ? parameters.friction : -parameters.friction;
+    }
+    traction.shear = point.weight * point.shear;
+    energy += point.weight * point.shear * point.shear /
+              (2. * parameters.shear_stiffness);
+    return traction;
+  }
+
+
+  void
+  Contact::Data::add_point(const unsigned int q, const bool with_tangent)
+  {
+    ContactPoint               &point  = points[q];
+    PointData                  &fixed  = point_data[q];
+    const ContactState          before = point.state;
+    const ContactSurface::Place slave  = surface->place(point.edge, point.s);
+    const ContactProjection     projection =
+      search.project(slave, search.masters(fixed.slave));
+    point.x      = slave.x;
+    point.master = projection.master;
+    if (projection.master == invalid_index)
+    {
+      point.pressure = point.shear = 0.;
+      point.gap                    = parameters.reach;
+      point.state                  = ContactState::open;
+      report.n_changes += before != point.state;
+      return;
+    }
+    point.t      = projection.t;
+    point.gap    = projection.gap;
+    point.normal = projection.normal;
+    if (!fixed.has_angle)
+    {
+      point.weight *= -(projection.normal * slave.normal());
+      fixed.has_angle = true;
+    }
+    if (parameters.has_friction() && point.stick_edge == invalid_index)
+    {
+      point.stick_edge = projection.master;
+      point.stick_t    = projection.t;
+    }
+    const ContactTraction traction =
+      find_traction(point, slave, projection, report.energy);
+    report.n_changes += before != point.state;
+    if (point.state == ContactState::open)
+      return;
+    ++(point.state == ContactState::stick ? report.n_stick : report.n_slip);
+    report.largest_penetration =
+      std::max(report.largest_penetration, -projection.gap);
+
+    ContactSurface::Weights master, stick;
+    surface->weights(projection.master, projection.t, master);
+    const bool              with_friction = parameters.has_friction();
+    const ContactKinematics kinematics(
+      fixed.weights, master, projection.place, projection.gap, with_friction);
+    for (unsigned int c = 0; c < 2; ++c)
+      report.force[c] += traction.pressure * kinematics.normal[c] -
+                         traction.shear * kinematics.tangent[c];
+
+    local.n_covers = 0;
+    local.append(surface->covers(point.edge));
+    local.append(surface->covers(projection.master));
+    if (with_friction)
+    {
+      surface->weights(point.stick_edge, point.stick_t, stick);
+      local.append(surface->covers(point.stick_edge));
+    }
+    local.clear();
+    add_contact_point(kinematics,
+                      traction,
+                      &fixed.weights,
+                      with_friction ? &stick : nullptr,
+                      with_tangent,
+                      local);
+    const dealii::ArrayView<const unsigned int> covers(local.covers,
+                                                       local.n_covers);
+    if (with_tangent)
+      block_system->add(covers, local.matrix, local.rhs);
+    else
+      block_system->add_rhs(covers, local.rhs);
+  }
+
+
+  void
+  Contact::Data::reduce_report()
+  {
+    report.n_points = points.size();
+    report.n_open   = report.n_points - report.n_stick - report.n_slip;
+    if (Parallel::n_mpi_processes(communicator) == 1)
+      return;
+    for (unsigned int *count : {&report.n_points,
+                                &report.n_open,
+                                &report.n_stick,
+                                &report.n_slip,
+                                &report.n_changes})
+      *count = Parallel::sum(*count, communicator);
+    report.largest_penetration =
+      Parallel::max(report.largest_penetration, communicator);
+    report.energy = Parallel::sum(report.energy, communicator);
+    report.force  = Parallel::sum(report.force, communicator);
+  }
+
+
+  void
+  Contact::assemble(const Vector &u, const bool with_tangent)
+  {
+    Data &d  = *data;
+    d.report = ContactReport();
+    if (d.is_idle)
+    {
+      d.residual = 0.;
+      return;
+    }
+    read_nodal_values(d.surface->cover_system(), u, d.nodal);
+    d.block_system->reset(with_tangent);
+    for (unsigned int q = 0; q < d.points.size(); ++q)
+      d.add_point(q, with_tangent);
+    if (with_tangent)
+      d.block_system->transfer(d.matrix, d.residual);
+    else
+      d.block_system->transfer_rhs(d.residual);
+    d.reduce_report();
+  }
+
+
+  const Contact::Vector &
+  Contact::residual() const
+  {
+    return data->residual;
+  }
+
+
+  const Contact::Matrix &
+  Contact::tangent() const
+  {
+    return data->matrix;
+  }
+
+
+  unsigned int
+  Contact::pattern_version() const
+  {
+    return data->pattern_version;
+  }
+
+
+  bool
+  Contact::tangent_is_symmetric() const
+  {
+    return !data->parameters.has_friction();
+  }
+
+
+  const ContactReport &
+  Contact::report() const
+  {
+    return data->report;
+  }
+
+
+  const std::vector<ContactPoint> &
+  Contact::points() const
+  {
+    return data->points;
+  }
+
+
+  double
+  Contact::augment()
+  {
+    Data  &d       = *data;
+    double largest = 0., change = 0.;
+    for (unsigned int q = 0; q < d.points.size();)
+    {
+      const unsigned int edge = d.points[q].edge;
+      EdgeMultiplier     projected;
+      unsigned int       end         = q;
+      bool               is_touching = false;
+      // Legendre polynomials are orthogonal; the points' own weights make the sum
+      // of several pieces exact
+      for (; end < d.points.size() && d.points[end].edge == edge; ++end)
+      {
+        const ContactPoint &point = d.points[end];
+        const double        length =
+          d.surface->reference_place(edge, point.s).a.norm();
+        const unsigned int n     = d.rule_points.size();
+        const unsigned int piece = (end - q) / n * n + q;
+        const double share  = d.points[piece + n - 1].s - d.points[piece].s;
+        const double weight = d.rule_weights[(end - q) % n] * share;
+        (void)length;
+        const auto modes = EdgeMultiplier::modes(point.s);
+        for (unsigned int m = 0; m < EdgeMultiplier::n_modes; ++m)
+          projected.coefficients[m] +=
+            (2. * m + 1.) * weight * point.pressure * modes[m];
+        is_touching = is_touching || point.pressure > 0.;
+      }
+      for (unsigned int i = q; i < end; ++i)
+      {
+        ContactPoint &point = d.points[i];
+        const double  value = is_touching ? projected(point.s) : 0.;
+        change           = std::max(change, std::abs(value - point.multiplier));
+        largest          = std::max(largest, point.pressure);
+        point.multiplier = value;
+      }
+      if (is_touching)
+        d.multipliers[edge] = projected;
+      else
+        d.multipliers.erase(edge);
+      q = end;
+    }
+    largest = Parallel::max(largest, d.communicator);
+    change  = Parallel::max(change, d.communicator);
+    return largest > 0. ? change / largest : 0.;
+  }
+
+
+  void
+  Contact::accept()
+  {
+    Data &d = *data;
+    d.stick_places.clear();
+    if (!d.parameters.has_friction())
+      return;
+    for (ContactPoint &point : d.points)
+    {
+      if (point.master == invalid_index)
+        continue;
+      StickPlace place{point.s, point.master, point.t};
+      if (point.state == ContactState::stick)
+        place = {point.s, point.stick_edge, point.stick_t};
+      else if (point.state == ContactState::slip)
+        place.t -=
+          point.shear / (d.parameters.shear_stiffness *
+                         d.surface->place(point.master, point.t).a.norm());
+      auto &places = d.stick_places[point.edge];
+      // both pieces that meet at a division have a point there
+      if (places.empty() || places.back().s < point.s)
+        places.push_back(place);
+      point.stick_edge = place.edge;
+      point.stick_t    = place.t;
+    }
+  }
+
+
+  const ContactParameters &
+  Contact::parameters() const
+  {
+    return data->parameters;
+  }
+
+
+  const ContactSurface &
+  Contact::surface() const
+  {
+    return *data->surface;
+  }
+} // namespace NMM

@@ -1,0 +1,101 @@
+#include <nmm/base/exceptions.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <contact/contact_points.h>
+
+namespace NMM
+{
+  namespace internal
+  {
+    void
+    lobatto_rule(const unsigned int   n,
+                 std::vector<double> &points,
+                 std::vector<double> &weights)
+    {
+      const dealii::QGaussLobatto<1> rule(n);
+      points.resize(n);
+      for (unsigned int q = 0; q < n; ++q)
+        points[q] = rule.point(q)[0];
+      weights = rule.get_weights();
+    }
+
+
+    bool
+    find_stick_place(const std::vector<StickPlace> &places,
+                     const double                   s,
+                     StickPlace                    &result)
+    {
+      if (places.empty())
+        return false;
+      const auto after =
+        std::lower_bound(places.begin(),
+                         places.end(),
+                         s,
+                         [](const StickPlace &place, const double value) {
+                           return place.s < value;
+                         });
+      if (after == places.begin() || (after != places.end() && after->s == s))
+      {
+        result = *after;
+        return true;
+      }
+      const auto before = after - 1;
+      if (after == places.end())
+        result = *before;
+      else if (before->edge == after->edge)
+      {
+        const double share = (s - before->s) / (after->s - before->s);
+        result             = *before;
+        result.t += share * (after->t - before->t);
+      }
+      else
+        result = s - before->s < after->s - s ? *before : *after;
+      result.s = s;
+      return true;
+    }
+  } // namespace internal
+
+
+  void
+  ContactParameters::check() const
+  {
+    const auto check = [](const bool         is_good,
+                          const std::string &name,
+                          const double       value,
+                          const std::string &remedy) {
+      AssertThrow(is_good,
+                  InputError(name + " is " + std::to_string(value),
+                             "the contact parameters",
+                             remedy));
+    };
+    check(normal_stiffness > 0. && std::isfinite(normal_stiffness),
+          "the normal spring's stiffness",
+          normal_stiffness,
+          "give a positive one, such as ten times Young's modulus over the "
+          "size of a cell");
+    check(shear_stiffness >= 0. && std::isfinite(shear_stiffness),
+          "the shear spring's stiffness",
+          shear_stiffness,
+          "give a positive one, or 0 for that of the normal spring");
+    check(friction >= 0. && std::isfinite(friction),
+          "the coefficient of friction",
+          friction,
+          "give the tangent of an angle in [0, 90) degrees");
+    check(cohesion >= 0. && std::isfinite(cohesion),
+          "the cohesion",
+          cohesion,
+          "give a number that is at least 0");
+    check(penetration_tolerance >= 0.,
+          "the penetration that is allowed",
+          penetration_tolerance,
+          "give a length, or 0 for the penalty method");
+    check(reach >= 0., "the reach", reach, "give a length, or 0");
+    check(n_points >= 2 && n_points <= 20,
+          "the number of points",
+          n_points,
+          "give 2 to 20");
+  }
+} // namespace NMM

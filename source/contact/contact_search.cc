@@ -1,0 +1,300 @@
+#include <algorithm>
+#include <boost/geometry.hpp>
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <cmath>
+#include <contact/contact_search.h>
+
+namespace NMM
+{
+  namespace internal
+  {
+    using dealii::Point;
+    using dealii::Tensor;
+    using Place = ContactSurface::Place;
+
+    namespace
+    {
+      namespace bg = boost::geometry;
+      using Corner = bg::model::point<double, 2, bg::cs::cartesian>;
+      using Box    = bg::model::box<Corner>;
+      using Entry  = std::pair<Box, unsigned int>;
+
+      /// Parts of an edge by which it may go on beyond its ends.
+      constexpr double smooth_extension = 0.1, concave_extension = 0.5;
+
+
+      double
+      extension(const ContactSurface::Corner corner)
+      {
+        switch (corner)
+        {
+          case ContactSurface::Corner::smooth:
+            return smooth_extension;
+          case ContactSurface::Corner::concave:
+            return concave_extension;
+          default:
+            return 0.;
+        }
+      }
+
+
+      /// Of an edge, and how far it may bulge out between the points looked at.
+      Box
+      box_of(const ContactSurface &surface,
+             const unsigned int    edge,
+             const double          margin)
+      {
+        constexpr unsigned int n = 4;
+        double                 lower[2], upper[2], bulge = 0.;
+        for (unsigned int i = 0; i <= n; ++i)
+        {
+          const Place place = surface.place(edge, i / double(n));
+          bulge             = std::max(bulge, place.b.norm() / (8. * n * n));
+          for (unsigned int c = 0; c < 2; ++c)
+          {
+            lower[c] = i == 0 ? place.x[c] : std::min(lower[c], place.x[c]);
+            upper[c] = i == 0 ? place.x[c] : std::max(upper[c], place.x[c]);
+          }
+        }
+        bulge += margin;
+        return Box(Corner(lower[0] - bulge, lower[1] - bulge),
+                   Corner(upper[0] + bulge, upper[1] + bulge));
+      }
+    } // namespace
+
+
+    ContactSearch::ContactSearch(const ContactSurface     &surface,
+                                 std::vector<unsigned int> body_ranks)
+      : surface(&surface)
+      , ranks(std::move(body_ranks))
+      , masters_begin(1, 0)
+    {
+      for (unsigned int body = ranks.size(); body < surface.n_bodies(); ++body)
+        ranks.push_back(body);
+    }
+
+
+    ContactSearch::~ContactSearch() = default;
+
+
+    bool
+    ContactSearch::may_be_master(const unsigned int slave,
+                                 const unsigned int edge) const
+    {
+      if (surface->is_rigid(edge))
+        return true;
+      const auto &edges = surface->edges();
+      if (edges[edge].body != edges[slave].body)
+        return ranks[edges[slave].body] != ranks[edges[edge].body]
+                 ? ranks[edges[slave].body] < ranks[edges[edge].body]
+                 : edges[slave].body < edges[edge].body;
+      if (slave > edge || edges[slave].next == edge ||
+          edges[slave].previous == edge)
+        return false;
+      // the far side of a thin body is no neighbour: what touches later lies
+      // outside of each other at rest
+      const Place  here   = surface->reference_place(slave, 0.5);
+      const Place  there  = surface->reference_place(edge, 0.5);
+      const double inside = 1e-9 * (edges[slave].length + edges[edge].length);
+      return (here.x - there.x) * there.normal() >= -inside &&
+             (there.x - here.x) * here.normal() >= -inside;
+    }
+
+
+    void
+    ContactSearch::update(const double new_reach)
+    {
+      reach                = new_reach;
+      const unsigned int n = surface->edges().size();
+      std::vector<Entry> entries;
+      entries.reserve(n);
+      known_positions.resize(3 * n);
+      for (unsigned int e = 0; e < n; ++e)
+      {
+        entries.emplace_back(box_of(*surface, e, 0.), e);
+        for (unsigned int i = 0; i < 3; ++i)
+          known_positions[3 * e + i] = surface->place(e, 0.5 * i).x;
+      }
+      const bg::index::rtree<Entry, bg::index::rstar<16>> tree(entries);
+
+      slave_edges.clear();
+      master_edges.clear();
+      masters_begin.assign(1, 0);
+      const auto [first, last] = surface->locally_owned_edges();
+      std::vector<unsigned int> found;
+      for (unsigned int e = first; e < last; ++e)
+      {
+        Box box = entries[e].first;
+        for (unsigned int c = 0; c < 2; ++c)
+          if (c == 0)
+          {
+            box.min_corner().set<0>(box.min_corner().get<0>() - reach);
+            box.max_corner().set<0>(box.max_corner().get<0>() + reach);
+          }
+          else
+          {
+            box.min_corner().set<1>(box.min_corner().get<1>() - reach);
+            box.max_corner().set<1>(box.max_corner().get<1>() + reach);
+          }
+        found.clear();
+        for (auto entry = tree.qbegin(bg::index::intersects(box));
+             entry != tree.qend();
+             ++entry)
+          if (may_be_master(e, entry->second))
+            found.push_back(entry->second);
+        if (found.empty())
+          continue;
+        std::sort(found.begin(), found.end());
+        slave_edges.push_back(e);
+        master_edges.insert(master_edges.end(), found.begin(), found.end());
+        masters_begin.push_back(master_edges.size());
+      }
+    }
+
+
+    const std::vector<unsigned int> &
+    ContactSearch::slaves() const
+    {
+      return slave_edges;
+    }
+
+
+    dealii::ArrayView<const unsigned int>
+    ContactSearch::masters(const unsigned int position) const
+    {
+      return {master_edges.data() + masters_begin[position],
+              masters_begin[position + 1] - masters_begin[position]};
+    }
+
+
+    double
+    ContactSearch::movement() const
+    {
+      double square = 0.;
+      for (unsigned int i = 0; i < known_positions.size(); ++i)
+        square =
+          std::max(square,
+                   (surface->place(i / 3, 0.5 * (i % 3)).x - known_positions[i])
+                     .norm_square());
+      return std::sqrt(square);
+    }
+
+
+    bool
+    ContactSearch::find_nearest(const unsigned int edge,
+                                const Point<2>    &x,
+                                double            &t,
+                                Place             &place) const
+    {
+      const Point<2>     start = surface->place(edge, 0.).x;
+      const Tensor<1, 2> chord = surface->place(edge, 1.).x - start;
+      t                        = ((x - start) * chord) / chord.norm_square();
+      t = std::min(1. + concave_extension, std::max(-concave_extension, t));
+
+      constexpr unsigned int max_iterations = 30;
+      constexpr double       tolerance      = 1e-15;
+      for (unsigned int i = 0; i < max_iterations; ++i)
+      {
+        place                      = surface->place(edge, t);
+        const Tensor<1, 2> d       = x - place.x;
+        const double       square  = place.a.norm_square();
+        const double       bending = d * place.b;
+        // beyond the centre of curvature the nearest point is no minimum:
+        // go on along the tangent
+        const double change =
+          (d * place.a) / (bending < 0.9 * square ? square - bending : square);
+        if (!std::isfinite(change))
+          return false;
+        t += std::min(0.5, std::max(-0.5, change));
+        if (std::abs(t - 0.5) > 3.)
+          return false;
+        if (std::abs(change) <= tolerance)
+          break;
+      }
+      place = surface->place(edge, t);
+      return true;
+    }
+
+
+    std::vector<double>
+    ContactSearch::divisions(const unsigned int position) const
+    {
+      // shorter pieces weigh nothing
+      constexpr double same = 1e-9;
+
+      const unsigned int  slave = slave_edges[position];
+      std::vector<double> result{0., 1.};
+      for (const unsigned int master : masters(position))
+        for (const double end : {0., 1.})
+        {
+          const Point<2> x = surface->place(master, end).x;
+          double         t;
+          Place          place;
+          if (find_nearest(slave, x, t, place) && t > same && t < 1. - same &&
+              place.x.distance(x) <= reach)
+            result.push_back(t);
+        }
+      std::sort(result.begin(), result.end());
+      result.erase(std::unique(result.begin(),
+                               result.end(),
+                               [](const double a, const double b) {
+                                 return b - a < same;
+                               }),
+                   result.end());
+      result.back() = 1.;
+      return result;
+    }
+
+
+    ContactProjection
+    ContactSearch::project(
+      const Place                                &slave_place,
+      const dealii::ArrayView<const unsigned int> masters) const
+    {
+      // gaps that differ by less than this part of the reach are equal
+      constexpr double same = 1e-9;
+      // faces at nearly a right angle do not touch
+      constexpr double least_facing = 0.01;
+
+      const Tensor<1, 2> slave_normal = slave_place.normal();
+      ContactProjection  best;
+      bool               best_is_inside = false;
+      double             best_facing    = 0.;
+      for (const unsigned int master : masters)
+      {
+        const ContactSurface::Edge &edge = surface->edges()[master];
+        ContactProjection           now;
+        now.master = master;
+        if (!find_nearest(master, slave_place.x, now.t, now.place) ||
+            now.t < -extension(edge.at_start) ||
+            now.t > 1. + extension(edge.at_end))
+          continue;
+        now.normal          = now.place.normal();
+        const double facing = -(now.normal * slave_normal);
+        now.gap             = (slave_place.x - now.place.x) * now.normal;
+        if (facing <= least_facing || std::abs(now.gap) > reach)
+          continue;
+        const bool is_inside = now.t >= 0. && now.t <= 1.;
+        bool       is_better = best.master == invalid_index;
+        if (!is_better && is_inside != best_is_inside)
+          is_better = is_inside;
+        else if (!is_better)
+        {
+          const double difference = std::abs(now.gap) - std::abs(best.gap);
+          is_better               = std::abs(difference) > same * reach
+                                      ? difference < 0.
+                                      : facing > best_facing + same;
+        }
+        if (is_better)
+        {
+          best           = now;
+          best_is_inside = is_inside;
+          best_facing    = facing;
+        }
+      }
+      return best;
+    }
+  } // namespace internal
+} // namespace NMM

@@ -1,0 +1,99 @@
+#ifndef nmm_source_contact_contact_search_h
+#define nmm_source_contact_contact_search_h
+
+#include <nmm/contact/contact_surface.h>
+
+#include <memory>
+#include <vector>
+
+namespace NMM
+{
+  namespace internal
+  {
+    /// Where a point of a slave edge meets a master edge.
+    struct ContactProjection
+    {
+      unsigned int master = invalid_index;
+      double       t      = 0.;
+      /// Positive outside [m].
+      double                gap = 0.;
+      dealii::Tensor<1, 2>  normal;
+      ContactSurface::Place place;
+    };
+
+
+    /**
+     * Finds what may touch. Broad phase: the boxes of all edges in an R-tree
+     * (Boost.Geometry, packed), queried by the boxes of slave edges inflated by a
+     * reach. Narrow phase: the closest point.
+     *
+     * Of two edges the *slave* carries the contact points: obstacles are always
+     * masters, of blocks the one with the lower rank is the slave, within a
+     * block the edge with the lower number.
+     */
+    class ContactSearch
+    {
+    public:
+      /// @p body_ranks: see ContactParameters; empty: the body's number.
+      ContactSearch(const ContactSurface     &surface,
+                    std::vector<unsigned int> body_ranks);
+      ~ContactSearch();
+
+      /// Find the masters of this rank's edges within @p reach [m] at the
+      /// surface's current positions.
+      void
+      update(double reach);
+
+      /// Edges of this rank that have masters, ascending.
+      const std::vector<unsigned int> &
+      slaves() const;
+
+      /// Of the slave at a position of slaves(), ascending.
+      dealii::ArrayView<const unsigned int>
+      masters(unsigned int position) const;
+
+      /// Largest way [m] that an end or the middle of an edge has moved since
+      /// update(), on this rank's knowledge, which is that of all ranks.
+      double
+      movement() const;
+
+      /**
+       * Parameters in [0, 1] at which the slave at a position is to be divided:
+       * its ends, and where ends of its masters lie nearest. On
+       * the pieces between, both displacements are polynomials.
+       */
+      std::vector<double>
+      divisions(unsigned int position) const;
+
+      /**
+       * The nearest of the masters that face the normal of @p slave_place (unit
+       * normals' product below -0.01), within the reach; master is invalid_index
+       * if there is none. Of two at equal distance: the one that
+       * faces it more (Shi's entrance edge), then the lower number. Beyond a
+       * convex corner or an open end there is no master, beyond a smooth joint or a concave
+       * corner an edge goes on.
+       */
+      ContactProjection
+      project(const ContactSurface::Place          &slave_place,
+              dealii::ArrayView<const unsigned int> masters) const;
+
+    private:
+      bool
+      may_be_master(unsigned int slave, unsigned int edge) const;
+
+      bool
+      find_nearest(unsigned int            edge,
+                   const dealii::Point<2> &x,
+                   double                 &t,
+                   ContactSurface::Place  &place) const;
+
+      const ContactSurface         *surface;
+      std::vector<unsigned int>     ranks;
+      double                        reach = 0.;
+      std::vector<unsigned int>     slave_edges, masters_begin, master_edges;
+      std::vector<dealii::Point<2>> known_positions;
+    };
+  } // namespace internal
+} // namespace NMM
+
+#endif

@@ -1,0 +1,274 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/contact/contact_statics.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mechanics/matrix_sum.h>
+
+namespace NMM
+{
+  struct ContactSystem::Data
+  {
+    NonlinearSystem                     *elasticity;
+    Contact                             *contact;
+    std::unique_ptr<internal::MatrixSum> matrix;
+    unsigned int                         known_version = 0;
+    Vector                               sum;
+    double                               scale = 0.;
+  };
+
+
+  ContactSystem::ContactSystem(NonlinearSystem &elasticity, Contact &contact)
+    : data(std::make_unique<Data>())
+  {
+    data->elasticity = &elasticity;
+    data->contact    = &contact;
+    data->sum.reinit(contact.residual());
+  }
+
+
+  ContactSystem::~ContactSystem() = default;
+
+
+  Deformation
+  ContactSystem::assemble(const Vector &u,
+                          const Tangent tangent,
+                          const Vector *increment)
+  {
+    Data             &d     = *data;
+    const Deformation state = d.elasticity->assemble(u, tangent, increment);
+    if (state != Deformation::admissible)
+      return state;
+    d.scale = d.elasticity->force_scale();
+    if (d.contact->is_idle())
+      return state;
+    const bool with_tangent = tangent != Tangent::none;
+    d.contact->assemble(u, with_tangent);
+    d.sum = d.elasticity->residual();
+    d.sum += d.contact->residual();
+    d.scale = std::hypot(d.scale, d.contact->residual().l2_norm());
+    if (with_tangent)
+    {
+      if (d.matrix == nullptr ||
+          d.known_version != d.contact->pattern_version())
+      {
+        d.matrix        = std::make_unique<internal::MatrixSum>();
+        d.known_version = d.contact->pattern_version();
+      }
+      d.matrix->assemble(
+        d.contact->tangent(), 1., d.elasticity->tangent(), 1., nullptr, 0.);
+    }
+    return state;
+  }
+
+
+  const ContactSystem::Vector &
+  ContactSystem::residual() const
+  {
+    return data->contact->is_idle() ? data->elasticity->residual() : data->sum;
+  }
+
+
+  const dealii::TrilinosWrappers::SparseMatrix &
+  ContactSystem::tangent() const
+  {
+    return data->contact->is_idle() ? data->elasticity->tangent()
+                                    : (*data->matrix)();
+  }
+
+
+  bool
+  ContactSystem::tangent_is_symmetric() const
+  {
+    return data->elasticity->tangent_is_symmetric() &&
+           (data->contact->is_idle() || data->contact->tangent_is_symmetric());
+  }
+
+
+  double
+  ContactSystem::force_scale() const
+  {
+    return data->scale;
+  }
+
+
+  unsigned int
+  ContactSystem::pattern_version() const
+  {
+    return data->contact->is_idle() ? 0 : data->contact->pattern_version();
+  }
+
+
+  struct ContactStatics::Data
+  {
+    Data(ElasticSystem          &elasticity,
+         Contact                &contact,
+         const NewtonParameters &newton)
+      : elasticity(&elasticity)
+      , contact(&contact)
+      , system(elasticity, contact)
+      , newton(newton)
+      , parameters(newton)
+      , solution(elasticity.elasticity().initial_solution())
+    {
+    }
+
+    bool
+    try_step(double load_factor, Vector &u, ContactStep &step);
+
+    ElasticSystem   *elasticity;
+    Contact         *contact;
+    ContactSystem    system;
+    NewtonSolver     newton;
+    NewtonParameters parameters;
+    Vector           solution;
+    double           load_factor = 0.;
+    std::string      reason;
+  };
+
+
+  NewtonParameters
+  ContactStatics::default_newton_parameters()
+  {
+    NewtonParameters parameters;
+    parameters.max_iterations = 25;
+    // later solutions of a step start next to their end, where the energy of the
+    // first correction says nothing
+    parameters.energy_tolerance = 1.;
+    return parameters;
+  }
+
+
+  ContactStatics::ContactStatics(ElasticSystem          &elasticity,
+                                 Contact                &contact,
+                                 const NewtonParameters &newton)
+    : data(std::make_unique<Data>(elasticity, contact, newton))
+  {
+  }
+
+
+  ContactStatics::~ContactStatics() = default;
+
+
+  /// False, with the reason, if there is no solution.
+  bool
+  ContactStatics::Data::try_step(const double factor,
+                                 Vector      &u,
+                                 ContactStep &step)
+  {
+    const bool is_augmented = contact->parameters().penetration_tolerance > 0.;
+    const double tolerance  = contact->parameters().penetration_tolerance;
+    // candidates and divisions follow the solution, which moves little by them
+    constexpr unsigned int n_plain = 3;
+    const unsigned int     n =
+      is_augmented ? contact->parameters().max_augmentations + 1 : n_plain;
+
+    elasticity->set_load_factor(factor);
+    contact->set_time(factor);
+    step             = ContactStep();
+    step.load_factor = factor;
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      contact->detect(u);
+      const NewtonReport report =
+        newton.solve(system, elasticity->elasticity().affine_constraints(), u);
+      step.n_iterations += report.iterations.size();
+      step.relative_residual = report.relative_residual;
+      reason                 = report.reason;
+      {
+        for (auto &x : report.iterations)
+          fprintf(stderr,
+                  " [%g e %g ls %g]",
+                  x.relative_residual,
+                  x.energy,
+                  x.line_search);
+        fprintf(stderr,
+                " -> %g pts %u touching %u ch %u pen %g\n",
+                report.relative_residual,
+                contact->report().n_points,
+                contact->report().n_slip,
+                contact->report().n_changes,
+                contact->report().largest_penetration);
+      }
+      if (!report.converged)
+        return false;
+      step.contact = contact->report();
+      if (contact->is_idle())
+        return true;
+      const bool is_settled =
+        i > 0 && report.iterations.front().relative_residual <=
+                   100. * parameters.residual_tolerance;
+      if (!is_augmented)
+      {
+        if (is_settled || i + 1 == n)
+          return true;
+        continue;
+      }
+      if (step.contact.largest_penetration <= tolerance)
+        return true;
+      contact->augment();
+      ++step.n_augmentations;
+    }
+    std::ostringstream text;
+    text << "a penetration of " << step.contact.largest_penetration
+         << " m is left after " << step.n_augmentations << " augmentations";
+    reason = text.str();
+    return false;
+  }
+
+
+  std::vector<ContactStep>
+  ContactStatics::run(
+    const LoadSteps                                                &steps,
+    const std::function<void(const ContactStep &, const Vector &)> &after_step)
+  {
+    steps.check();
+    Data                    &d = *data;
+    std::vector<ContactStep> result;
+    const double             least = steps.min_step * steps.load_factors.back();
+    double                   length = steps.load_factors.back();
+    unsigned int             n_cuts = 0, n_lost = 0;
+    for (const double asked : steps.load_factors)
+      while (d.load_factor < asked)
+      {
+        const double remaining = asked - d.load_factor;
+        const bool   is_last   = length >= remaining * (1. - 1e-9);
+        const double next      = is_last ? asked : d.load_factor + length;
+        Vector       u(d.solution);
+        ContactStep  step;
+        if (d.try_step(next, u, step))
+        {
+          d.contact->accept();
+          length        = std::max(length, 2. * (next - d.load_factor));
+          d.solution    = u;
+          d.load_factor = next;
+          step.is_asked = is_last;
+          step.n_cuts   = n_cuts;
+          step.n_lost_iterations = n_lost;
+          n_cuts = n_lost = 0;
+          result.push_back(step);
+          if (after_step)
+            after_step(step, d.solution);
+          continue;
+        }
+        ++n_cuts;
+        n_lost += step.n_iterations;
+        length = 0.5 * (next - d.load_factor);
+        AssertThrow(
+          length >= least,
+          NumericalFailure(
+            "The load step would be smaller than allowed: " + d.reason,
+            "load factor " + std::to_string(next),
+            "look at the last good state for what gives way, or allow "
+            "smaller steps"));
+      }
+    return result;
+  }
+
+
+  const ContactStatics::Vector &
+  ContactStatics::solution() const
+  {
+    return data->solution;
+  }
+} // namespace NMM

@@ -1,0 +1,461 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/contact/contact_surface.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace NMM
+{
+  using dealii::Point;
+  using dealii::Tensor;
+
+  namespace
+  {
+    /// Joints whose faces are free, and boundaries.
+    bool
+    is_free(const ManifoldMesh &mesh, const ElementEdge &edge)
+    {
+      if (edge.curve_set == invalid_index)
+        return false;
+      if (edge.neighbor == invalid_index)
+        return true;
+      const PhysicalMesh &physical_mesh = mesh.physical_mesh();
+      for (const unsigned int piece : mesh.curve_set(edge.curve_set))
+      {
+        const Curve &curve =
+          physical_mesh.curves()[physical_mesh.piece_to_curve()[piece]];
+        if (curve.role == CurveRole::boundary ||
+            curve.role == CurveRole::hole ||
+            (curve.role == CurveRole::joint && curve.state == JointState::open))
+          return true;
+      }
+      return false;
+    }
+
+
+    /// Position of the edge that follows in the same loop.
+    unsigned int
+    next_in_loop(const dealii::ArrayView<const ElementEdge> &edges,
+                 const unsigned int                          position)
+    {
+      if (position + 1 < edges.size() &&
+          edges[position + 1].start == edges[position].end)
+        return position + 1;
+      unsigned int first = position;
+      while (first > 0 && edges[first - 1].end == edges[first].start)
+        --first;
+      return first;
+    }
+
+
+    void
+    set_angles(ContactSurface::Edge &edge)
+    {
+      if (edge.radius == 0.)
+      {
+        edge.length = edge.start.distance(edge.end);
+        return;
+      }
+      const Tensor<1, 2> first = edge.start - edge.center;
+      const Tensor<1, 2> last  = edge.end - edge.center;
+      edge.first_angle         = std::atan2(first[1], first[0]);
+      edge.last_angle          = std::atan2(last[1], last[0]);
+      const double turn        = 2. * dealii::numbers::PI;
+      if (edge.radius > 0. && edge.last_angle <= edge.first_angle)
+        edge.last_angle += turn;
+      if (edge.radius < 0. && edge.last_angle >= edge.first_angle)
+        edge.last_angle -= turn;
+      edge.length =
+        std::abs(edge.radius * (edge.last_angle - edge.first_angle));
+    }
+
+
+    /// As an arc with the body on the left.
+    ContactSurface::Edge
+    edge_of_piece(const CurvePiece &piece)
+    {
+      ContactSurface::Edge edge;
+      edge.start = piece.start;
+      edge.end   = piece.end;
+      if (piece.kind == CurvePiece::Kind::arc)
+      {
+        edge.center          = piece.center;
+        const Tensor<1, 2> d = piece.through - piece.start;
+        const Tensor<1, 2> e = piece.end - piece.through;
+        edge.radius =
+          d[0] * e[1] - d[1] * e[0] > 0. ? piece.radius : -piece.radius;
+      }
+      set_angles(edge);
+      return edge;
+    }
+  } // namespace
+
+
+  ContactSurface::ContactSurface(CoverSystem               &covers,
+                                 std::vector<RigidObstacle> obstacles)
+    : cover_pointer(&covers)
+    , rigid_obstacles(std::move(obstacles))
+    , obstacle_displacements(rigid_obstacles.size())
+    , degree(covers.manifold_mesh().mathematical_mesh().degree())
+    , n_blocks(covers.manifold_mesh().physical_mesh().n_blocks())
+  {
+    add_elements();
+    add_obstacles();
+    set_corners();
+    position_to_edge.clear();
+    position_to_edge.shrink_to_fit();
+    set_time(0.);
+
+    std::vector<dealii::types::global_dof_index> relevant;
+    for (unsigned int e = 0; e < all_edges.size(); ++e)
+      for (const unsigned int cover : this->covers(e))
+        relevant.push_back(cover);
+    covers.make_relevant(std::move(relevant));
+  }
+
+
+  void
+  ContactSurface::add_elements()
+  {
+    const ManifoldMesh &mesh    = cover_pointer->manifold_mesh();
+    const auto [first, last]    = cover_pointer->locally_owned_elements();
+    const PhysicalMesh &physics = mesh.physical_mesh();
+    owned                       = {0, 0};
+    for (unsigned int e = 0; e < mesh.n_elements(); ++e)
+    {
+      if (e == first)
+        owned.first = all_edges.size();
+      const auto boundary = mesh.edges(e);
+      for (unsigned int k = 0; k < boundary.size(); ++k)
+        if (is_free(mesh, boundary[k]))
+        {
+          Edge edge;
+          edge.element = e;
+          edge.body    = mesh.block(e);
+          edge.curve =
+            physics
+              .piece_to_curve()[mesh.curve_set(boundary[k].curve_set).front()];
+          edge.start  = boundary[k].start;
+          edge.end    = boundary[k].end;
+          edge.center = boundary[k].center;
+          edge.radius = boundary[k].radius;
+          set_angles(edge);
+
+          const MathematicalMesh &cells = mesh.mathematical_mesh();
+          const unsigned int      cell  = mesh.cell(e);
+          edge.origin = cells.reference_to_real(cell, Point<2>(0., 0.));
+          const Tensor<1, 2> x =
+            cells.reference_to_real(cell, Point<2>(1., 0.)) - edge.origin;
+          const Tensor<1, 2> y =
+            cells.reference_to_real(cell, Point<2>(0., 1.)) - edge.origin;
+          Tensor<2, 2> jacobian;
+          for (unsigned int c = 0; c < 2; ++c)
+          {
+            jacobian[c][0] = x[c];
+            jacobian[c][1] = y[c];
+          }
+          edge.inverse = dealii::invert(jacobian);
+          position_to_edge.push_back(
+            {{e, k}, static_cast<unsigned int>(all_edges.size())});
+          all_edges.push_back(edge);
+        }
+      if (e + 1 == last)
+        owned.second = all_edges.size();
+    }
+    for (unsigned int i = 0; i < position_to_edge.size(); ++i)
+      find_next(position_to_edge[i].first.first,
+                position_to_edge[i].first.second,
+                position_to_edge[i].second);
+  }
+
+
+  /// Turn about the end of an edge, from element to element, until the next free
+  /// edge: exact at pinched points and tips of cracks, where coordinates do not
+  /// tell which edge follows.
+  void
+  ContactSurface::find_next(const unsigned int element,
+                            const unsigned int position,
+                            const unsigned int edge)
+  {
+    const ManifoldMesh    &mesh    = cover_pointer->manifold_mesh();
+    constexpr unsigned int n_turns = 1000;
+
+    unsigned int e = element, k = position;
+    for (unsigned int i = 0; i < n_turns; ++i)
+    {
+      const auto boundary = mesh.edges(e);
+      k                   = next_in_loop(boundary, k);
+      if (is_free(mesh, boundary[k]))
+      {
+        const auto found =
+          std::lower_bound(position_to_edge.begin(),
+                           position_to_edge.end(),
+                           std::make_pair(std::make_pair(e, k), 0U));
+        all_edges[edge].next              = found->second;
+        all_edges[found->second].previous = edge;
+        return;
+      }
+      const ElementEdge &inner = boundary[k];
+      if (inner.neighbor == invalid_index)
+        return;
+      const auto         other = mesh.edges(inner.neighbor);
+      const unsigned int n     = other.size();
+      unsigned int       j     = 0;
+      while (j < n && !(other[j].start == inner.end &&
+                        other[j].end == inner.start && other[j].neighbor == e))
+        ++j;
+      if (j == n)
+        return;
+      e = inner.neighbor;
+      k = j;
+    }
+  }
+
+
+  void
+  ContactSurface::add_obstacles()
+  {
+    for (unsigned int i = 0; i < rigid_obstacles.size(); ++i)
+    {
+      const RigidObstacle &obstacle = rigid_obstacles[i];
+      const unsigned int   first    = all_edges.size();
+      for (const CurvePiece &piece : obstacle.pieces)
+      {
+        AssertThrow(piece.kind != CurvePiece::Kind::circle,
+                    InputError("A piece of the obstacle '" + obstacle.name +
+                                 "' is a full circle",
+                               "the obstacle",
+                               "give two arcs"));
+        const bool is_first = all_edges.size() == first;
+        AssertThrow(is_first || all_edges.back().end == piece.start,
+                    InputError("A piece of the obstacle '" + obstacle.name +
+                                 "' does not start where the last one ends",
+                               "the obstacle",
+                               "give consecutive pieces"));
+        Edge edge = edge_of_piece(piece);
+        edge.body = n_blocks + i;
+        if (!is_first)
+        {
+          edge.previous                        = all_edges.size() - 1;
+          all_edges[all_edges.size() - 1].next = all_edges.size();
+        }
+        all_edges.push_back(edge);
+      }
+      if (all_edges.size() > first + 1 &&
+          all_edges.back().end == all_edges[first].start)
+      {
+        all_edges.back().next     = first;
+        all_edges[first].previous = all_edges.size() - 1;
+      }
+    }
+  }
+
+
+  void
+  ContactSurface::set_corners()
+  {
+    // angle that rounding cannot make [rad]
+    constexpr double smooth = 1e-3;
+
+    for (unsigned int e = 0; e < all_edges.size(); ++e)
+    {
+      Edge &edge = all_edges[e];
+      if (edge.next == invalid_index)
+        continue;
+      const Tensor<1, 2> here  = reference_place(e, 1.).a;
+      const Tensor<1, 2> there = reference_place(edge.next, 0.).a;
+      const double       angle =
+        std::atan2(here[0] * there[1] - here[1] * there[0], here * there);
+      edge.at_end                   = std::abs(angle) < smooth ? Corner::smooth
+                                      : angle > 0.             ? Corner::convex
+                                                   : Corner::concave;
+      all_edges[edge.next].at_start = edge.at_end;
+    }
+  }
+
+
+  const std::vector<ContactSurface::Edge> &
+  ContactSurface::edges() const
+  {
+    return all_edges;
+  }
+
+
+  const std::vector<RigidObstacle> &
+  ContactSurface::obstacles() const
+  {
+    return rigid_obstacles;
+  }
+
+
+  const CoverSystem &
+  ContactSurface::cover_system() const
+  {
+    return *cover_pointer;
+  }
+
+
+  unsigned int
+  ContactSurface::n_bodies() const
+  {
+    return n_blocks + rigid_obstacles.size();
+  }
+
+
+  bool
+  ContactSurface::is_rigid(const unsigned int edge) const
+  {
+    return all_edges[edge].element == invalid_index;
+  }
+
+
+  std::pair<unsigned int, unsigned int>
+  ContactSurface::locally_owned_edges() const
+  {
+    return owned;
+  }
+
+
+  void
+  ContactSurface::set_time(const double time)
+  {
+    for (unsigned int i = 0; i < rigid_obstacles.size(); ++i)
+      if (rigid_obstacles[i].displacement)
+        obstacle_displacements[i] = rigid_obstacles[i].displacement(time);
+  }
+
+
+  void
+  ContactSurface::set_displacements(const std::vector<double> *displacements)
+  {
+    nodal = displacements;
+  }
+
+
+  ContactSurface::Place
+  ContactSurface::reference_place(const unsigned int e, const double t) const
+  {
+    const Edge &edge = all_edges[e];
+    Place       place;
+    if (edge.radius == 0.)
+    {
+      place.a = edge.end - edge.start;
+      place.x =
+        t < 0.5 ? edge.start + t * place.a : edge.end - (1. - t) * place.a;
+    }
+    else
+    {
+      const double range = edge.last_angle - edge.first_angle;
+      const double angle = edge.first_angle + t * range;
+      const double r     = std::abs(edge.radius);
+      const double c = r * std::cos(angle), s = r * std::sin(angle);
+      place.x = edge.center + Point<2>(c, s);
+      place.a = Point<2>(-range * s, range * c);
+      place.b = Point<2>(-range * range * c, -range * range * s);
+    }
+    return place;
+  }
+
+
+  void
+  ContactSurface::weights(const unsigned int e,
+                          const double       t,
+                          Weights           &weights) const
+  {
+    const Edge &edge = all_edges[e];
+    if (edge.element == invalid_index)
+    {
+      weights.n = 0;
+      return;
+    }
+    const Place        X   = reference_place(e, t);
+    const Tensor<1, 2> xi  = edge.inverse * (X.x - edge.origin);
+    const Tensor<1, 2> dxi = edge.inverse * X.a;
+    const Tensor<1, 2> ddxi =
+      edge.radius == 0. ? Tensor<1, 2>() : Tensor<1, 2>(edge.inverse * X.b);
+    // barycentric coordinates along the edge
+    const double l[3]   = {1. - xi[0] - xi[1], xi[0], xi[1]};
+    const double dl[3]  = {-dxi[0] - dxi[1], dxi[0], dxi[1]};
+    const double ddl[3] = {-ddxi[0] - ddxi[1], ddxi[0], ddxi[1]};
+    weights.n           = WeightFunctions::n_per_cell(degree);
+    for (unsigned int i = 0; i < 3; ++i)
+    {
+      if (degree == 1)
+      {
+        weights.w[i]   = l[i];
+        weights.dw[i]  = dl[i];
+        weights.ddw[i] = ddl[i];
+        continue;
+      }
+      const unsigned int j = (i + 1) % 3;
+      weights.w[i]         = l[i] * (2. * l[i] - 1.);
+      weights.dw[i]        = (4. * l[i] - 1.) * dl[i];
+      weights.ddw[i]       = 4. * dl[i] * dl[i] + (4. * l[i] - 1.) * ddl[i];
+      weights.w[3 + i]     = 4. * l[i] * l[j];
+      weights.dw[3 + i]    = 4. * (dl[i] * l[j] + l[i] * dl[j]);
+      weights.ddw[3 + i] =
+        4. * (ddl[i] * l[j] + 2. * dl[i] * dl[j] + l[i] * ddl[j]);
+    }
+  }
+
+
+  ContactSurface::Place
+  ContactSurface::place(const unsigned int e, const double t) const
+  {
+    Place place = reference_place(e, t);
+    if (is_rigid(e))
+    {
+      place.x += obstacle_displacements[all_edges[e].body - n_blocks];
+      return place;
+    }
+    Weights f;
+    weights(e, t, f);
+    const auto edge_covers = covers(e);
+    for (unsigned int i = 0; i < f.n; ++i)
+    {
+      const double *u = nodal->data() + 2 * edge_covers[i];
+      for (unsigned int c = 0; c < 2; ++c)
+      {
+        place.x[c] += f.w[i] * u[c];
+        place.a[c] += f.dw[i] * u[c];
+        place.b[c] += f.ddw[i] * u[c];
+      }
+    }
+    return place;
+  }
+
+
+  Point<2>
+  ContactSurface::position(const unsigned int e,
+                           const Point<2>    &reference,
+                           const Weights     &f) const
+  {
+    Point<2> x = reference;
+    if (is_rigid(e))
+      return x + obstacle_displacements[all_edges[e].body - n_blocks];
+    const auto edge_covers = covers(e);
+    for (unsigned int i = 0; i < f.n; ++i)
+      for (unsigned int c = 0; c < 2; ++c)
+        x[c] += f.w[i] * (*nodal)[2 * edge_covers[i] + c];
+    return x;
+  }
+
+
+  dealii::ArrayView<const unsigned int>
+  ContactSurface::covers(const unsigned int e) const
+  {
+    return is_rigid(e) ? dealii::ArrayView<const unsigned int>()
+                       : cover_pointer->covers(all_edges[e].element);
+  }
+
+
+  std::string
+  ContactSurface::name(const unsigned int e) const
+  {
+    return is_rigid(e) ? rigid_obstacles[all_edges[e].body - n_blocks].name
+                       : cover_pointer->manifold_mesh()
+                           .physical_mesh()
+                           .curves()[all_edges[e].curve]
+                           .name;
+  }
+} // namespace NMM

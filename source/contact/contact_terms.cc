@@ -1,0 +1,108 @@
+#include <cmath>
+#include <contact/contact_terms.h>
+
+namespace NMM
+{
+  namespace internal
+  {
+    ContactKinematics::ContactKinematics(const ContactSurface::Weights &slave,
+                                         const ContactSurface::Weights &master,
+                                         const ContactSurface::Place   &place,
+                                         const double                   gap,
+                                         const bool with_friction)
+      : n_slave(slave.n)
+      , n_master(master.n)
+      , n(2 * (slave.n + master.n))
+      , normal(place.normal())
+      , tangent(place.a / place.a.norm())
+      , gap(gap)
+      , length(place.a.norm())
+      , bending(place.b * normal)
+      , h(length * length - gap * bending)
+    {
+      for (unsigned int i = 0; i < n_slave; ++i)
+        for (unsigned int c = 0; c < 2; ++c)
+        {
+          const unsigned int k = 2 * i + c;
+          N[k]                 = slave.w[i] * normal[c];
+          T[k]                 = slave.w[i] * tangent[c];
+          N1[k] = T1[k] = 0.;
+          D[k]          = length * T[k] / h;
+        }
+      for (unsigned int i = 0; i < n_master; ++i)
+        for (unsigned int c = 0; c < 2; ++c)
+        {
+          const unsigned int k = 2 * (n_slave + i) + c;
+          N[k]                 = -master.w[i] * normal[c];
+          T[k]                 = -master.w[i] * tangent[c];
+          N1[k]                = -master.dw[i] * normal[c];
+          T1[k]                = -master.dw[i] * tangent[c];
+          D[k]                 = (length * T[k] - gap * N1[k]) / h;
+        }
+      if (with_friction)
+        for (unsigned int k = 0; k < n; ++k)
+          C[k] = (bending * D[k] - N1[k]) / length;
+    }
+
+
+    void
+    add_contact_point(const ContactKinematics       &f,
+                      const ContactTraction         &traction,
+                      const ContactSurface::Weights *slave,
+                      const ContactSurface::Weights *stick,
+                      const bool                     with_tangent,
+                      ContactLocalSystem            &local)
+    {
+      const double       p = traction.pressure, q = traction.shear;
+      const unsigned int stride = 2 * local.n_covers;
+      for (unsigned int k = 0; k < f.n; ++k)
+        local.rhs[k] += q * f.T[k] - p * f.N[k];
+      if (!with_tangent)
+        return;
+
+      const double squared = f.length * f.length;
+      const double mixed   = p * f.h / squared;
+      const double first   = p * f.gap / squared;
+      const double second  = p * f.h * f.bending / squared;
+      for (unsigned int k = 0; k < f.n; ++k)
+      {
+        double      *row = local.matrix + k * stride;
+        const double n_k = traction.normal_stiffness * f.N[k];
+        const double d_k = second * f.D[k] - mixed * f.N1[k];
+        const double m_k = -mixed * f.D[k] - first * f.N1[k];
+        for (unsigned int l = 0; l < f.n; ++l)
+          row[l] += n_k * f.N[l] + d_k * f.D[l] + m_k * f.N1[l];
+      }
+      if (stick == nullptr)
+        return;
+
+      double change[ContactKinematics::max] = {};
+      if (traction.shear_stiffness != 0.)
+      {
+        for (unsigned int k = 0; k < f.n; ++k)
+          change[k] =
+            traction.shear_stiffness * traction.normal_distance * f.C[k];
+        for (unsigned int i = 0; i < slave->n; ++i)
+          for (unsigned int c = 0; c < 2; ++c)
+            change[2 * i + c] +=
+              traction.shear_stiffness * slave->w[i] * f.tangent[c];
+        for (unsigned int i = 0; i < stick->n; ++i)
+          for (unsigned int c = 0; c < 2; ++c)
+            change[f.n + 2 * i + c] -=
+              traction.shear_stiffness * stick->w[i] * f.tangent[c];
+      }
+      else
+        for (unsigned int k = 0; k < f.n; ++k)
+          change[k] =
+            -traction.shear_over_pressure * traction.normal_stiffness * f.N[k];
+      for (unsigned int k = 0; k < f.n; ++k)
+      {
+        double *row = local.matrix + k * stride;
+        for (unsigned int l = 0; l < stride; ++l)
+          row[l] += f.T[k] * change[l];
+        for (unsigned int l = 0; l < f.n; ++l)
+          row[l] += q * (f.N[k] * f.C[l] + f.T1[k] * f.D[l]);
+      }
+    }
+  } // namespace internal
+} // namespace NMM

@@ -1,0 +1,108 @@
+#ifndef nmm_source_contact_contact_terms_h
+#define nmm_source_contact_contact_terms_h
+
+#include <nmm/contact/contact_surface.h>
+
+#include <algorithm>
+
+namespace NMM
+{
+  namespace internal
+  {
+    /// Dense matrix and forces of one contact point: covers of the slave, the
+    /// master and, with friction, of the edge on which the point sticks.
+    struct ContactLocalSystem
+    {
+      static constexpr unsigned int max_covers =
+        3 * WeightFunctions::max_per_cell;
+      unsigned int n_covers = 0;
+      unsigned int covers[max_covers];
+      /// (2 n_covers x 2 n_covers), row-major.
+      double matrix[4 * max_covers * max_covers];
+      double rhs[2 * max_covers];
+
+      void
+      append(const dealii::ArrayView<const unsigned int> more)
+      {
+        std::copy(more.begin(), more.end(), covers + n_covers);
+        n_covers += more.size();
+      }
+
+      void
+      clear()
+      {
+        std::fill_n(matrix, 4 * n_covers * n_covers, 0.);
+        std::fill_n(rhs, 2 * n_covers, 0.);
+      }
+    };
+
+
+    /**
+     * A contact point: how the gap and the slip depend on the unknowns d of slave
+     * and master, to second order. With the slave's position x_s, the master's
+     * nearest point x_m(t), a = dx_m/dt, b = d^2x_m/dt^2, its outward normal n,
+     * tangent tau = a/|a| and
+     * @f$ N_1 = (0, -w_m' n),\ T = (w_s\tau, -w_m\tau),\ h = a^2 - g\,b\cdot n @f$:
+     * @f[ \delta g = N\cdot\delta d,\quad N = (w_s n, -w_m n),\qquad
+     *     \delta t = D\cdot\delta d,\quad D = (|a| T - g N_1)/h, @f]
+     * @f[ \Delta\delta g = \tfrac{h}{a^2}(D\otimes N_1 + N_1\otimes D)
+     *     + \tfrac{g}{a^2} N_1\otimes N_1 - \tfrac{h\,b\cdot n}{a^2} D\otimes D @f]
+     * (Wriggers, Computational Contact Mechanics, 2nd ed., section 4.2 and 6.4, in this
+     * form for curved edges).
+     */
+    struct ContactKinematics
+    {
+      static constexpr unsigned int max = 2 * ContactLocalSystem::max_covers;
+
+      ContactKinematics(const ContactSurface::Weights &slave,
+                        const ContactSurface::Weights &master,
+                        const ContactSurface::Place   &place,
+                        double                         gap,
+                        bool                           with_friction);
+
+      unsigned int         n_slave, n_master, n;
+      dealii::Tensor<1, 2> normal, tangent;
+      double               gap, length, bending, h;
+      double               N[max], N1[max], D[max], T[max], T1[max];
+
+      /// tau turns towards n by C . delta d / 1.
+      double C[max];
+    };
+
+
+    /// What a point exerts.
+    struct ContactTraction
+    {
+      /// Pressure >= 0 and its derivative by -gap, both times the weight [N/m]
+      /// and [N/m^2].
+      double pressure = 0., normal_stiffness = 0.;
+      /// Shear, positive along tau on the master, times the weight [N/m].
+      double shear = 0.;
+      /// Sticking: stiffness, else 0.
+      double shear_stiffness = 0.;
+      /// Sliding: d shear / d pressure.
+      double shear_over_pressure = 0.;
+      /// n . (x_s - x_0), x_0 being where it sticks [m].
+      double normal_distance = 0.;
+    };
+
+
+    /**
+     * Add forces and, if @p with_tangent, tangent to @p local:
+     * @f[ r = -p N + q T,\qquad
+     *     K = \epsilon N\otimes N - p\,\Delta\delta g
+     *         + T\otimes\Delta q + q\,(N\otimes C + T_1\otimes D). @f]
+     * @p stick: weights at the place where it sticks, covers after those of
+     * slave and master; null without friction.
+     */
+    void
+    add_contact_point(const ContactKinematics       &kinematics,
+                      const ContactTraction         &traction,
+                      const ContactSurface::Weights *slave,
+                      const ContactSurface::Weights *stick,
+                      bool                           with_tangent,
+                      ContactLocalSystem            &local);
+  } // namespace internal
+} // namespace NMM
+
+#endif

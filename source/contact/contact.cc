@@ -77,8 +77,10 @@ namespace NMM
     unsigned int                 pattern_version = 0;
     std::vector<unsigned int>    couplings, known_couplings;
 
-    std::unordered_map<unsigned int, EdgeMultiplier> multipliers;
-    StickPlaces                                      stick_places;
+    /// Augmented Lagrangian only.
+    std::unique_ptr<MultiplierSpace> multiplier_space;
+    std::vector<double>              multipliers;
+    StickPlaces                      stick_places;
 
     ContactLocalSystem local;
     Matrix             matrix;
@@ -108,6 +110,11 @@ namespace NMM
         if (!surface.is_rigid(e))
           longest = std::max(longest, surface.edges()[e].length);
       parameters.reach = 0.1 * longest;
+    }
+    if (parameters.penetration_tolerance > 0.)
+    {
+      multiplier_space = std::make_unique<MultiplierSpace>(surface);
+      multipliers.assign(multiplier_space->size(), 0.);
     }
     residual.reinit(surface.cover_system().locally_owned_dofs(2), communicator);
     nodal.assign(2 * surface.cover_system().n_covers(), 0.);
@@ -174,7 +181,6 @@ namespace NMM
   {
     const unsigned int        edge      = search.slaves()[slave];
     const std::vector<double> divisions = search.divisions(slave);
-    const auto                known     = multipliers.find(edge);
     const auto                sticking  = stick_places.find(edge);
     for (unsigned int i = 0; i + 1 < divisions.size(); ++i)
       for (unsigned int q = 0; q < rule_points.size(); ++q)
@@ -201,8 +207,9 @@ namespace NMM
             point.stick_t    = stick.t;
           }
         }
-        if (known != multipliers.end())
-          point.multiplier = known->second(point.s);
+        if (multiplier_space != nullptr)
+          point.multiplier =
+            multiplier_space->value(multipliers, edge, point.s);
         points.push_back(point);
         point_data.push_back(fixed);
       }
@@ -469,49 +476,47 @@ namespace NMM
   double
   Contact::augment()
   {
-    Data  &d       = *data;
-    double largest = 0., change = 0.;
-    for (unsigned int q = 0; q < d.points.size();)
+    Data &d = *data;
+    Assert(d.multiplier_space != nullptr,
+           dealii::ExcMessage("There is no penetration tolerance."));
+    const MultiplierSpace &space  = *d.multiplier_space;
+    const unsigned int     n      = space.size();
+    const unsigned int     n_rule = d.rule_points.size();
+    // integrals of penetration times function, and of functions
+    std::vector<double> sums(2 * n, 0.);
+    for (unsigned int begin = 0; begin < d.points.size(); begin += n_rule)
     {
-      const unsigned int edge = d.points[q].edge;
-      EdgeMultiplier     projected;
-      unsigned int       end         = q;
-      bool               is_touching = false;
-      // Legendre polynomials are orthogonal; the points' own weights make the sum
-      // of several pieces exact
-      for (; end < d.points.size() && d.points[end].edge == edge; ++end)
+      const double length =
+        (d.points[begin + n_rule - 1].s - d.points[begin].s) *
+        d.surface->edges()[d.points[begin].edge].length;
+      for (unsigned int q = 0; q < n_rule; ++q)
       {
-        const ContactPoint &point = d.points[end];
-        const double        length =
-          d.surface->reference_place(edge, point.s).a.norm();
-        const unsigned int n     = d.rule_points.size();
-        const unsigned int piece = (end - q) / n * n + q;
-        const double share  = d.points[piece + n - 1].s - d.points[piece].s;
-        const double weight = d.rule_weights[(end - q) % n] * share;
-        (void)length;
-        const auto modes = EdgeMultiplier::modes(point.s);
-        for (unsigned int m = 0; m < EdgeMultiplier::n_modes; ++m)
-          projected.coefficients[m] +=
-            (2. * m + 1.) * weight * point.pressure * modes[m];
-        is_touching = is_touching || point.pressure > 0.;
+        const ContactPoint &point  = d.points[begin + q];
+        const auto         &f      = space[point.edge];
+        const double        share  = f.share(point.s);
+        const double        weight = d.rule_weights[q] * length;
+        sums[f.first] -= weight * (1. - share) * point.gap;
+        sums[f.second] -= weight * share * point.gap;
+        sums[n + f.first] += weight * (1. - share);
+        sums[n + f.second] += weight * share;
       }
-      for (unsigned int i = q; i < end; ++i)
-      {
-        ContactPoint &point = d.points[i];
-        const double  value = is_touching ? projected(point.s) : 0.;
-        change           = std::max(change, std::abs(value - point.multiplier));
-        largest          = std::max(largest, point.pressure);
-        point.multiplier = value;
-      }
-      if (is_touching)
-        d.multipliers[edge] = projected;
-      else
-        d.multipliers.erase(edge);
-      q = end;
     }
-    largest = Parallel::max(largest, d.communicator);
-    change  = Parallel::max(change, d.communicator);
-    return largest > 0. ? change / largest : 0.;
+    Parallel::sum(sums, d.communicator, sums);
+
+    double change = 0.;
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      double value = 0.;
+      if (sums[n + i] > 0.)
+        value = std::max(0.,
+                         d.multipliers[i] + d.parameters.normal_stiffness *
+                                              sums[i] / sums[n + i]);
+      change           = std::max(change, std::abs(value - d.multipliers[i]));
+      d.multipliers[i] = value;
+    }
+    for (ContactPoint &point : d.points)
+      point.multiplier = space.value(d.multipliers, point.edge, point.s);
+    return change / d.parameters.normal_stiffness;
   }
 
 

@@ -19,29 +19,60 @@ namespace NMM
                  std::vector<double> &weights);
 
 
-    /// Multiplier on a slave edge: coefficients of the Legendre polynomials on
-    /// [0, 1].
-    struct EdgeMultiplier
+    /**
+     * Multipliers of the augmented Lagrangian: continuous and linear along
+     * the boundary, on stretches that are about as long as the cells, whatever the
+     * cuts: a multiplier per cut edge would be more than the displacements can
+     * follow, and pressures would oscillate. At corners they may jump.
+     */
+    class MultiplierSpace
     {
-      static constexpr unsigned int n_modes = 3;
-      std::array<double, n_modes>   coefficients{};
+    public:
+      explicit MultiplierSpace(const ContactSurface &surface);
 
-      static std::array<double, n_modes>
-      modes(const double s)
+      /// Two functions per edge: their numbers, and the second one's values
+      /// at the edge's ends (linear in between; the first one is the rest).
+      struct OnEdge
       {
-        const double x = 2. * s - 1.;
-        return {{1., x, 0.5 * (3. * x * x - 1.)}};
+        unsigned int first = invalid_index, second = invalid_index;
+        double       at_start = 0., at_end = 0.;
+
+        double
+        share(const double s) const
+        {
+          return (1. - s) * at_start + s * at_end;
+        }
+      };
+
+      const OnEdge &
+      operator[](const unsigned int edge) const
+      {
+        return on_edges[edge];
+      }
+
+      unsigned int
+      size() const
+      {
+        return n_functions;
       }
 
       double
-      operator()(const double s) const
+      value(const std::vector<double> &coefficients,
+            const unsigned int         edge,
+            const double               s) const
       {
-        const auto f   = modes(s);
-        double     sum = 0.;
-        for (unsigned int m = 0; m < n_modes; ++m)
-          sum += coefficients[m] * f[m];
-        return sum;
+        const OnEdge &f = on_edges[edge];
+        return (1. - f.share(s)) * coefficients[f.first] +
+               f.share(s) * coefficients[f.second];
       }
+
+    private:
+      void
+      add_stretch(const ContactSurface            &surface,
+                  const std::vector<unsigned int> &edges);
+
+      std::vector<OnEdge> on_edges;
+      unsigned int        n_functions = 0;
     };
 
 

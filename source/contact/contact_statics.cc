@@ -165,8 +165,9 @@ namespace NMM
 
     elasticity->set_load_factor(factor);
     contact->set_time(factor);
-    step             = ContactStep();
-    step.load_factor = factor;
+    step               = ContactStep();
+    step.load_factor   = factor;
+    double penetration = 0.;
     for (unsigned int i = 0; i < n; ++i)
     {
       contact->detect(u);
@@ -175,21 +176,6 @@ namespace NMM
       step.n_iterations += report.iterations.size();
       step.relative_residual = report.relative_residual;
       reason                 = report.reason;
-      {
-        for (auto &x : report.iterations)
-          fprintf(stderr,
-                  " [%g e %g ls %g]",
-                  x.relative_residual,
-                  x.energy,
-                  x.line_search);
-        fprintf(stderr,
-                " -> %g pts %u touching %u ch %u pen %g\n",
-                report.relative_residual,
-                contact->report().n_points,
-                contact->report().n_slip,
-                contact->report().n_changes,
-                contact->report().largest_penetration);
-      }
       if (!report.converged)
         return false;
       step.contact = contact->report();
@@ -204,14 +190,14 @@ namespace NMM
           return true;
         continue;
       }
-      if (step.contact.largest_penetration <= tolerance)
+      penetration = contact->augment();
+      if (penetration <= tolerance)
         return true;
-      contact->augment();
       ++step.n_augmentations;
     }
     std::ostringstream text;
-    text << "a penetration of " << step.contact.largest_penetration
-         << " m is left after " << step.n_augmentations << " augmentations";
+    text << "a penetration of " << penetration << " m is left after "
+         << step.n_augmentations << " augmentations";
     reason = text.str();
     return false;
   }

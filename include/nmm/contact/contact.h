@@ -23,7 +23,8 @@ namespace NMM
     double friction = 0.;
     /// Shear strength without pressure [Pa], while in contact.
     double cohesion = 0.;
-    /// Augmented Lagrangian: penetration that is allowed [m]; 0: the penalty's.
+    /// Augmented Lagrangian: weighted penetration that is allowed, see Contact
+    /// [m]; 0: the penalty method.
     double       penetration_tolerance = 0.;
     unsigned int max_augmentations     = 30;
     /// Distance within which faces are looked at [m]; 0: a tenth of the longest
@@ -113,9 +114,12 @@ namespace NMM
    * Wriggers & Krstulovic-Opara, ZAMM 80 (2000)). So the history is a
    * place, and nothing is lost when a point passes from one edge to the next.
    *
-   * Augmented Lagrangian: the multiplier is a polynomial on each slave edge, the
-   * projection of <lambda - eps g> on it, until no penetration is larger than
-   * the tolerance (Alart & Curnier 1991; Uzawa's iteration).
+   * Augmented Lagrangian (Uzawa's iteration; Alart & Curnier 1991): multipliers
+   * lambda_i >= 0 of functions phi_i that are continuous and linear along the slave's
+   * boundary, on stretches about as long as cells, grow by eps_n times the weighted
+   * penetration
+   * @f$ -\int g\,\phi_i\,ds / \int \phi_i\,ds @f$
+   * until they change by less than eps_n times the tolerance.
    *
    * It knows positions and normals, not materials. All per unit thickness.
    *
@@ -181,8 +185,9 @@ namespace NMM
     const std::vector<ContactPoint> &
     points() const;
 
-    /// Take over pressures as multipliers. Call after assemble() at a solution. Returns
-    /// the largest change of a multiplier over the largest pressure [-].
+    /// Take over pressures as multipliers, after an assemble() at a solution.
+    /// Returns the largest change of a multiplier over eps_n where there is
+    /// contact: the penetration that springs still held [m].
     double
     augment();
 

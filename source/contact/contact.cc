@@ -5,10 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <contact/contact_points.h>
-#include <contact/contact_search.h>
-#include <contact/contact_terms.h>
-#include <mechanics/block_system.h>
+#include <contact/contact_data.h>
 #include <mechanics/nodal_values.h>
 
 namespace NMM
@@ -17,78 +14,6 @@ namespace NMM
   using dealii::Point;
   using dealii::Tensor;
   namespace Parallel = dealii::Utilities::MPI;
-
-  struct Contact::Data
-  {
-    Data(ContactSurface                          &surface,
-         const dealii::AffineConstraints<double> &constraints,
-         const ContactParameters                 &parameters);
-
-    /// What does not change from one assembly to the next.
-    struct PointData
-    {
-      /// Position in ContactSearch::slaves().
-      unsigned int            slave;
-      ContactSurface::Weights weights;
-      /// The weight knows the angle between both faces, that of the first time
-      /// there is a master since detect().
-      bool has_angle = false;
-    };
-
-    void
-    make_points();
-
-    void
-    add_points_of(unsigned int slave);
-
-    void
-    make_pattern();
-
-    void
-    find_states();
-
-    /// @name One point in an assembly
-    /// @{
-    void
-    add_point(unsigned int q, bool with_tangent);
-
-    ContactTraction
-    find_traction(ContactPoint                &point,
-                  const ContactSurface::Place &slave,
-                  const ContactProjection     &projection,
-                  double                      &energy) const;
-    /// @}
-
-    void
-    reduce_report();
-
-    ContactSurface                          *surface;
-    const dealii::AffineConstraints<double> *constraints;
-    ContactParameters                        parameters;
-    MPI_Comm                                 communicator;
-    ContactSearch                            search;
-    std::vector<double>                      rule_points, rule_weights;
-
-    std::vector<double>          nodal;
-    std::vector<ContactPoint>    points;
-    std::vector<PointData>       point_data;
-    std::unique_ptr<BlockSystem> block_system;
-    bool                         is_idle         = true;
-    unsigned int                 pattern_version = 0;
-    std::vector<unsigned int>    couplings, known_couplings;
-
-    /// Augmented Lagrangian only.
-    std::unique_ptr<MultiplierSpace> multiplier_space;
-    std::vector<double>              multipliers;
-    StickPlaces                      stick_places;
-
-    ContactLocalSystem local;
-    Matrix             matrix;
-    Vector             residual;
-    ContactReport      report;
-    double             last_change = 0.;
-  };
-
 
   Contact::Data::Data(ContactSurface                          &surface,
                       const dealii::AffineConstraints<double> &constraints,
@@ -136,16 +61,19 @@ namespace NMM
   void
   Contact::set_time(const double time)
   {
+    data->time = time;
     data->surface->set_time(time);
   }
 
 
   void
-  Contact::detect(const Vector &u)
+  Contact::detect(const Vector &u, const double least_reach)
   {
     Data &d = *data;
     read_nodal_values(d.surface->cover_system(), u, d.nodal);
-    d.search.update(d.parameters.reach);
+    d.reach      = std::max(least_reach, d.parameters.reach);
+    d.is_between = false;
+    d.search.update(d.reach);
     d.make_points();
     d.make_pattern();
   }
@@ -155,7 +83,7 @@ namespace NMM
   Contact::needs_detection(const Vector &u)
   {
     read_nodal_values(data->surface->cover_system(), u, data->nodal);
-    return data->search.movement() > 0.5 * data->parameters.reach;
+    return data->search.movement() > 0.5 * data->reach;
   }
 
 
@@ -286,9 +214,22 @@ namespace NMM
       (point.pressure * point.pressure - point.multiplier * point.multiplier) /
       (2. * eps);
     point.state = ContactState::slip;
-    if (!parameters.has_friction())
-      return traction;
+    if (parameters.has_friction())
+    {
+      find_shear(point, slave, projection, traction);
+      energy += point.weight * point.shear * point.shear /
+                (2. * parameters.shear_stiffness);
+    }
+    return traction;
+  }
 
+
+  void
+  Contact::Data::find_shear(ContactPoint                &point,
+                            const ContactSurface::Place &slave,
+                            const ContactProjection     &projection,
+                            ContactTraction             &traction) const
+  {
     const Tensor<1, 2> tangent = projection.place.a / projection.place.a.norm();
     const Tensor<1, 2> distance =
       slave.x - surface->place(point.stick_edge, point.stick_t).x;
@@ -304,41 +245,36 @@ namespace NMM
     }
     else
     {
+      point.state = ContactState::slip;
       point.shear = trial > 0. ? limit : -limit;
       traction.shear_over_pressure =
         trial > 0. ? parameters.friction : -parameters.friction;
     }
     traction.shear = point.weight * point.shear;
-    energy += point.weight * point.shear * point.shear /
-              (2. * parameters.shear_stiffness);
-    return traction;
   }
 
 
-  void
-  Contact::Data::add_point(const unsigned int q, const bool with_tangent)
+  ContactProjection
+  Contact::Data::project(const unsigned int           q,
+                         const ContactSurface::Place &slave)
   {
-    ContactPoint               &point  = points[q];
-    PointData                  &fixed  = point_data[q];
-    const ContactState          before = point.state;
-    const ContactSurface::Place slave  = surface->place(point.edge, point.s);
-    const ContactProjection     projection =
+    ContactPoint           &point = points[q];
+    PointData              &fixed = point_data[q];
+    const ContactProjection projection =
       search.project(slave, search.masters(fixed.slave));
     point.x      = slave.x;
     point.master = projection.master;
     if (projection.master == invalid_index)
     {
-      point.pressure = point.shear = 0.;
-      point.gap                    = parameters.reach;
-      point.state                  = ContactState::open;
-      report.n_changes += before != point.state;
-      return;
+      point.gap = reach;
+      return projection;
     }
     point.t      = projection.t;
     point.gap    = projection.gap;
     point.normal = projection.normal;
     if (!fixed.has_angle)
     {
+      // faces that are not parallel touch over their projection only
       point.weight *= -(projection.normal * slave.normal());
       fixed.has_angle = true;
     }
@@ -347,11 +283,40 @@ namespace NMM
       point.stick_edge = projection.master;
       point.stick_t    = projection.t;
     }
+    return projection;
+  }
+
+
+  void
+  Contact::Data::add_point(const unsigned int q, const bool with_tangent)
+  {
+    ContactPoint               &point  = points[q];
+    const ContactState          before = point.state;
+    const ContactSurface::Place slave  = surface->place(point.edge, point.s);
+    const ContactProjection     projection = project(q, slave);
+    if (projection.master == invalid_index)
+    {
+      point.pressure = point.shear = 0.;
+      point.state                  = ContactState::open;
+      report.n_changes += before != point.state;
+      return;
+    }
     const ContactTraction traction =
       find_traction(point, slave, projection, report.energy);
     report.n_changes += before != point.state;
-    if (point.state == ContactState::open)
-      return;
+    if (point.state != ContactState::open)
+      hand_over(q, projection, traction, with_tangent);
+  }
+
+
+  void
+  Contact::Data::hand_over(const unsigned int       q,
+                           const ContactProjection &projection,
+                           const ContactTraction   &traction,
+                           const bool               with_tangent)
+  {
+    const ContactPoint &point = points[q];
+    const PointData    &fixed = point_data[q];
     ++(point.state == ContactState::stick ? report.n_stick : report.n_slip);
     report.largest_penetration =
       std::max(report.largest_penetration, -projection.gap);
@@ -520,24 +485,42 @@ namespace NMM
   }
 
 
-  void
+  double
   Contact::accept()
   {
-    Data &d = *data;
+    Data  &d          = *data;
+    double dissipated = 0.;
     d.stick_places.clear();
     if (!d.parameters.has_friction())
-      return;
-    for (ContactPoint &point : d.points)
+      return 0.;
+    const double eps = d.parameters.shear_stiffness;
+    for (unsigned int q = 0; q < d.points.size(); ++q)
     {
+      ContactPoint          &point = d.points[q];
+      const Data::PointData &fixed = d.point_data[q];
+      if (d.is_between)
+        dissipated +=
+          fixed.shear_work - point.weight *
+                               (point.shear * point.shear -
+                                fixed.shear_begin * fixed.shear_begin) /
+                               (2. * eps);
       if (point.master == invalid_index)
         continue;
       StickPlace place{point.s, point.master, point.t};
       if (point.state == ContactState::stick)
         place = {point.s, point.stick_edge, point.stick_t};
       else if (point.state == ContactState::slip)
-        place.t -=
-          point.shear / (d.parameters.shear_stiffness *
-                         d.surface->place(point.master, point.t).a.norm());
+      {
+        const Tensor<1, 2> a = d.surface->place(point.master, point.t).a;
+        place.t -= point.shear / (eps * a.norm());
+        if (!d.is_between)
+          dissipated +=
+            point.weight * std::abs(point.shear) *
+            std::abs(
+              (point.x - d.surface->place(point.stick_edge, point.stick_t).x) *
+                a / a.norm() -
+              point.shear / eps);
+      }
       auto &places = d.stick_places[point.edge];
       // both pieces that meet at a division have a point there
       if (places.empty() || places.back().s < point.s)
@@ -545,6 +528,7 @@ namespace NMM
       point.stick_edge = place.edge;
       point.stick_t    = place.t;
     }
+    return Parallel::sum(dissipated, d.communicator);
   }
 
 

@@ -326,6 +326,25 @@ namespace NMM
 
 
   void
+  ContactSurface::set_time(const double time_begin, const double time_end)
+  {
+    for (unsigned int i = 0; i < rigid_obstacles.size(); ++i)
+      if (rigid_obstacles[i].displacement)
+        obstacle_displacements[i] =
+          0.5 * (rigid_obstacles[i].displacement(time_begin) +
+                 rigid_obstacles[i].displacement(time_end));
+  }
+
+
+  const Tensor<1, 2> &
+  ContactSurface::obstacle_displacement(const unsigned int obstacle) const
+  {
+    AssertIndexRange(obstacle, obstacle_displacements.size());
+    return obstacle_displacements[obstacle];
+  }
+
+
+  void
   ContactSurface::set_displacements(const std::vector<double> *displacements)
   {
     nodal = displacements;

@@ -22,7 +22,7 @@ namespace NMM
     using Bytes  = std::vector<char>;
 
     constexpr char          magic[8] = {'N', 'M', 'M', 'S', 'T', 'A', 'T', 'E'};
-    constexpr std::uint32_t version  = 1;
+    constexpr std::uint32_t version  = 2;
 
     std::uint64_t
     sum(const char *bytes, const std::size_t n)
@@ -191,6 +191,10 @@ namespace NMM
     put(bytes, static_cast<std::uint64_t>(state.u.size()));
     for (const Vector *vector : {&state.u, &state.v, &state.a})
       append_global(*vector, bytes);
+    const std::vector<double> internal = model.internal_state();
+    put(bytes, static_cast<std::uint64_t>(internal.size()));
+    for (const double x : internal)
+      put(bytes, x);
     const std::uint64_t length =
       bytes.size() - length_position; // with the sum instead of itself
     std::memcpy(bytes.data() + length_position, &length, sizeof(length));
@@ -243,7 +247,7 @@ namespace NMM
     });
     const auto n = get<std::uint64_t>(position);
     if (n != state.u.size() ||
-        position + (3 * n + 1) * sizeof(double) != bytes.data() + bytes.size())
+        position + (3 * n + 2) * sizeof(double) > bytes.data() + bytes.size())
       refuse("The checkpoint has " + std::to_string(n) +
                " unknowns instead of " + std::to_string(state.u.size()),
              filename,
@@ -258,6 +262,16 @@ namespace NMM
       vector->compress(dealii::VectorOperation::insert);
       position += n * sizeof(double);
     }
+    std::vector<double> internal(get<std::uint64_t>(position));
+    if (position + (internal.size() + 1) * sizeof(double) !=
+        bytes.data() + bytes.size())
+      refuse("The checkpoint has " + std::to_string(internal.size()) +
+               " numbers of contact, which is not what its length says",
+             filename,
+             "take another one, or start anew");
+    for (double &x : internal)
+      x = get<double>(position);
+    integrator.model().restore_internal_state(internal);
     integrator.restore(state);
   }
 } // namespace NMM

@@ -51,6 +51,12 @@ namespace NMM
     {
       return scale;
     }
+
+    unsigned int
+    pattern_version() const override
+    {
+      return model->pattern_version();
+    }
     /// @}
 
     Vector
@@ -250,7 +256,8 @@ namespace NMM
                     model->mass(),
                     m + c * damping.mass,
                     damping.stiffness > 0. ? &stiffness_at_rest : nullptr,
-                    c * damping.stiffness);
+                    c * damping.stiffness,
+                    model->pattern_version());
   }
 
 
@@ -296,6 +303,7 @@ namespace NMM
     u_1.add(h, state.v, 0.5 * h * h, state.a);
     model->constraints().distribute(u_1);
     u_end = u_1;
+    model->begin_step(u_begin, u_end, state.time, h);
   }
 
 
@@ -546,6 +554,11 @@ namespace NMM
     }
     if (report.converged)
       d.measure(report);
+    if (report.converged)
+    {
+      report.reason    = d.model->find_fault(d.u_end);
+      report.converged = report.reason.empty();
+    }
     d.has_candidate = report.converged;
     return report;
   }
@@ -564,6 +577,7 @@ namespace NMM
     d.state.v.swap(d.v_1);
     d.state.a.swap(d.a_1);
     d.has_candidate = false;
+    d.state.sums.dissipated += d.model->accept_step(d.u_end, d.state.time);
     AssertThrow(d.model->assemble(d.u_end, d.state.time, Tangent::none) ==
                   Deformation::admissible,
                 NumericalFailure("An element is turned inside out",

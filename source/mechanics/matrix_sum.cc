@@ -62,16 +62,17 @@ namespace NMM
 
 
     void
-    MatrixSum::assemble(const Matrix &stiffness,
-                        const double  k,
-                        const Matrix &mass,
-                        const double  m,
-                        const Matrix *damping,
-                        const double  c)
+    MatrixSum::assemble(const Matrix      &stiffness,
+                        const double       k,
+                        const Matrix      &mass,
+                        const double       m,
+                        const Matrix      *damping,
+                        const double       c,
+                        const unsigned int version)
     {
-      if (sum.m() != stiffness.m() ||
-          sum.n_nonzero_elements() != stiffness.n_nonzero_elements())
+      if (sum.m() != stiffness.m() || version != known_version)
       {
+        known_version = version;
         sum.reinit(stiffness);
         mass_places = find_places(mass);
         damping_places.clear();

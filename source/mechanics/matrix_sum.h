@@ -18,14 +18,16 @@ namespace NMM
     public:
       using Matrix = dealii::TrilinosWrappers::SparseMatrix;
 
-      /// @p damping may be null.
+      /// @p damping may be null. @p version: another number if K has another
+      /// pattern.
       void
       assemble(const Matrix &stiffness,
                double        k,
                const Matrix &mass,
                double        m,
                const Matrix *damping,
-               double        c);
+               double        c,
+               unsigned int  version = 0);
 
       const Matrix &
       operator()() const
@@ -43,8 +45,9 @@ namespace NMM
       void
       add(const Matrix &matrix, double factor, const Places &places);
 
-      Matrix sum;
-      Places mass_places, damping_places;
+      Matrix       sum;
+      Places       mass_places, damping_places;
+      unsigned int known_version = 0;
     };
   } // namespace internal
 } // namespace NMM

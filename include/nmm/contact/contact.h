@@ -9,6 +9,7 @@
 
 #include <limits>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace NMM
@@ -142,10 +143,11 @@ namespace NMM
 
     /**
      * Find candidates and make contact points at the displacements @p u (locally
-     * relevant). Multipliers and places of sticking are carried over.
+     * relevant). Multipliers and places of sticking are carried over. Faces are
+     * looked for within the larger of @p least_reach [m] and the parameters' reach.
      */
     void
-    detect(const Vector &u);
+    detect(const Vector &u, double least_reach = 0.);
 
     /// Has something moved so far since detect() that candidates may be
     /// missing?
@@ -191,10 +193,53 @@ namespace NMM
     double
     augment();
 
-    /// The last assembly was that of an accepted state: points stick from now
-    /// on where they are.
-    void
+    /**
+     * The last assembly was that of an accepted state: points stick from now
+     * on where they are. Returns the work that friction has dissipated since the last
+     * accepted state [J/m].
+     */
+    double
     accept();
+
+    /// @name Time steps that conserve energy
+    /// @{
+
+    /// A step begins at @p u and the time @p time, where detect() was called.
+    void
+    begin_step(const Vector &u, double time);
+
+    /**
+     * Forces between the begin of the step and the displacements @p end at @p time,
+     * acting in the mean position, so that they exert no moment: the pressure
+     * @f[ \hat p = -\frac{V(g_1) - V(g_0)}{\delta},\quad
+     *     V = \tfrac{\epsilon_n}{2}\langle -g\rangle_+^2,\quad
+     *     \delta = n\cdot(\Delta x_s - \Delta x_m) @f]
+     * does the work by which the energy of the springs changes (Laursen & Chawla, Int.
+     * J. Numer. Methods Eng. 40 (1997) 863; Gonzalez 2000). tangent() is the derivative
+     * by the mean displacement at given begin; multipliers are not used.
+     */
+    void
+    assemble_between(const Vector &end, double time, bool with_tangent);
+
+    /// Work that moving obstacles do [J/m] with the forces of the last assembly
+    /// from @p time_begin to @p time_end.
+    double
+    work_of_obstacles(double time_begin, double time_end);
+    /// @}
+
+    /// Why a step to @p end is not to be trusted: points that moved
+    /// further than faces were looked for, or penetrate half as far; else
+    /// empty. The last assembly was that of @p end.
+    std::string
+    find_fault(const Vector &end);
+
+    /// Multipliers and places of sticking of all ranks.
+    std::vector<double>
+    history() const;
+
+    /// Take over what history() returned, on any number of ranks.
+    void
+    restore_history(const std::vector<double> &history);
 
     const ContactParameters &
     parameters() const;

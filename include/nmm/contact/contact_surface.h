@@ -137,6 +137,14 @@ namespace NMM
     void
     set_time(double time);
 
+    /// Obstacles move to the mean of where they are at two times.
+    void
+    set_time(double time_begin, double time_end);
+
+    /// Of an obstacle, at the time that was set [m].
+    const dealii::Tensor<1, 2> &
+    obstacle_displacement(unsigned int obstacle) const;
+
     /// Displacements: two per cover of the whole system [m].
     void
     set_displacements(const std::vector<double> *nodal);

@@ -9,6 +9,7 @@
 #include <deal.II/lac/trilinos_vector.h>
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace NMM
@@ -106,6 +107,13 @@ namespace NMM
     virtual const Matrix &
     tangent() const = 0;
 
+    /// Another number whenever tangent() has another pattern.
+    virtual unsigned int
+    pattern_version() const
+    {
+      return 0;
+    }
+
     /// Size of the forces in balance [N/m], of the last assembly.
     virtual double
     force_scale() const = 0;
@@ -114,7 +122,7 @@ namespace NMM
     {
       /// Stored in the material [J/m].
       double strain = 0.;
-      /// Of displacement conditions, ties and springs [J/m].
+      /// Of displacement conditions, ties, springs and contacts [J/m].
       double conditions = 0.;
     };
 
@@ -134,6 +142,47 @@ namespace NMM
      */
     virtual double
     work_of_supports(const Vector &u, double t, double t_0, double t_1) = 0;
+    /// @}
+
+    /// @name What forces depend on beside u and t, e.g. where contacts stick
+    /// @{
+
+    /// A step of @p h from @p begin at the time @p t is going to be tried, to about
+    /// @p predicted.
+    virtual void
+    begin_step(const Vector & /*begin*/,
+               const Vector & /*predicted*/,
+               double /*t*/,
+               double /*h*/)
+    {
+    }
+
+    /// Why the step to @p end must not be accepted; empty: it may.
+    virtual std::string
+    find_fault(const Vector & /*end*/)
+    {
+      return "";
+    }
+
+    /// The step to @p end at the time @p t is accepted. Returns the energy that
+    /// the model has dissipated in it [J/m].
+    virtual double
+    accept_step(const Vector & /*end*/, double /*t*/)
+    {
+      return 0.;
+    }
+
+    /// All that a continuation needs beside u; the same on all ranks.
+    virtual std::vector<double>
+    internal_state() const
+    {
+      return {};
+    }
+
+    virtual void
+    restore_internal_state(const std::vector<double> & /*state*/)
+    {
+    }
     /// @}
 
     /// @name Events: times at which forces jump, e.g. a support is taken away

@@ -1,0 +1,135 @@
+#ifndef nmm_dynamics_contact_model_h
+#define nmm_dynamics_contact_model_h
+
+#include <nmm/contact/contact.h>
+#include <nmm/dynamics/mechanical_model.h>
+
+#include <memory>
+
+namespace NMM
+{
+  /**
+   * A mechanical model whose faces touch: forces, energies and tangent are those of
+   * the model plus those of a Contact; obstacles are where they are at the time.
+   * Candidates are looked for at the beginning of each step, as far as the step may
+   * go. While there are none, it is the model alone, a linear one included.
+   *
+   * Energies: that of the contact's springs counts as `conditions`, friction as
+   * dissipated, what moving obstacles do as work of supports. With
+   * TimeScheme::energy_momentum() contact forces conserve, too (see
+   * Contact::assemble_between()). Other schemes let points that
+   * come into contact gain or lose energy, as penalties do.
+   *
+   * Lifetime: model and contact must outlive this object. Multipliers of the contact
+   * are not updated.
+   */
+  class ContactModel : public MechanicalModel
+  {
+  public:
+    ContactModel(MechanicalModel &model, Contact &contact);
+    ~ContactModel() override;
+
+    MPI_Comm
+    communicator() const override;
+
+    dealii::IndexSet
+    locally_owned() const override;
+
+    dealii::IndexSet
+    locally_relevant() const override;
+
+    const dealii::AffineConstraints<double> &
+    constraints() const override;
+
+    const Vector &
+    reference_positions() const override;
+
+    std::uint64_t
+    fingerprint() const override;
+
+    const Matrix &
+    mass() const override;
+
+    /// Without contact.
+    const Matrix &
+    stiffness_at_rest() override;
+
+    bool
+    is_linear() const override;
+
+    bool
+    tangent_is_symmetric() const override;
+
+    bool
+    tangent_between_is_symmetric() const override;
+
+    Deformation
+    assemble(const Vector &u,
+             double        t,
+             Tangent       tangent,
+             const Vector *increment = nullptr) override;
+
+    Deformation
+    assemble_between(const Vector &begin,
+                     const Vector &end,
+                     double        t,
+                     bool          with_tangent) override;
+
+    const Vector &
+    residual() const override;
+
+    const Matrix &
+    tangent() const override;
+
+    unsigned int
+    pattern_version() const override;
+
+    double
+    force_scale() const override;
+
+    Energies
+    energies() const override;
+
+    void
+    external_forces(const Vector &u, double t, Vector &forces) override;
+
+    double
+    work_of_supports(const Vector &u,
+                     double        t,
+                     double        t_0,
+                     double        t_1) override;
+
+    void
+    begin_step(const Vector &begin,
+               const Vector &predicted,
+               double        t,
+               double        h) override;
+
+    std::string
+    find_fault(const Vector &end) override;
+
+    double
+    accept_step(const Vector &end, double t) override;
+
+    std::vector<double>
+    internal_state() const override;
+
+    void
+    restore_internal_state(const std::vector<double> &state) override;
+
+    std::vector<double>
+    events() const override;
+
+    void
+    pass_events(double t) override;
+
+    const Contact &
+    contact() const;
+
+  private:
+    struct Data;
+    std::unique_ptr<Data> data;
+  };
+} // namespace NMM
+
+#endif

@@ -1,0 +1,114 @@
+#ifndef nmm_source_contact_contact_data_h
+#define nmm_source_contact_contact_data_h
+
+#include <nmm/contact/contact.h>
+
+#include <contact/contact_points.h>
+#include <contact/contact_search.h>
+#include <contact/contact_terms.h>
+#include <mechanics/block_system.h>
+
+namespace NMM
+{
+  struct Contact::Data
+  {
+    Data(ContactSurface                          &surface,
+         const dealii::AffineConstraints<double> &constraints,
+         const ContactParameters                 &parameters);
+
+    /// What does not change from one assembly to the next.
+    struct PointData
+    {
+      /// Position in ContactSearch::slaves().
+      unsigned int            slave;
+      ContactSurface::Weights weights;
+      /// The weight knows the angle between both faces, that of the first time
+      /// there is a master since detect().
+      bool has_angle = false;
+      /// Of a time step: gaps [m] at its ends, shear at its start [Pa], and what the
+      /// shear has done [J/m].
+      double gap_begin = 0., gap_end = 0., shear_begin = 0., shear_work = 0.;
+    };
+
+    void
+    make_points();
+
+    void
+    add_points_of(unsigned int slave);
+
+    void
+    make_pattern();
+
+    /// The nearest master of a point at the current positions; notes weight and
+    /// place of sticking when there is one for the first time.
+    internal::ContactProjection
+    project(unsigned int q, const ContactSurface::Place &slave);
+
+    /// @name One point in an assembly
+    /// @{
+    void
+    hand_over(unsigned int                       q,
+              const internal::ContactProjection &projection,
+              const internal::ContactTraction   &traction,
+              bool                               with_tangent);
+
+    void
+    add_point_between(unsigned int q, bool with_tangent);
+
+    /// Shear from the place where it sticks, not more than the pressure allows;
+    /// decides between stick and slip.
+    void
+    find_shear(ContactPoint                      &point,
+               const ContactSurface::Place       &slave,
+               const internal::ContactProjection &projection,
+               internal::ContactTraction         &traction) const;
+
+    void
+    add_point(unsigned int q, bool with_tangent);
+
+    internal::ContactTraction
+    find_traction(ContactPoint                      &point,
+                  const ContactSurface::Place       &slave,
+                  const internal::ContactProjection &projection,
+                  double                            &energy) const;
+    /// @}
+
+    void
+    reduce_report();
+
+    ContactSurface                          *surface;
+    const dealii::AffineConstraints<double> *constraints;
+    ContactParameters                        parameters;
+    MPI_Comm                                 communicator;
+    internal::ContactSearch                  search;
+    std::vector<double>                      rule_points, rule_weights;
+
+    std::vector<double>                    nodal;
+    std::vector<ContactPoint>              points;
+    std::vector<PointData>                 point_data;
+    std::unique_ptr<internal::BlockSystem> block_system;
+    bool                                   is_idle         = true;
+    unsigned int                           pattern_version = 0;
+    std::vector<unsigned int>              couplings, known_couplings;
+
+    /// Augmented Lagrangian only.
+    std::unique_ptr<internal::MultiplierSpace> multiplier_space;
+    std::vector<double>                        multipliers;
+    internal::StickPlaces                      stick_places;
+
+    internal::ContactLocalSystem local;
+    Matrix                       matrix;
+    Vector                       residual;
+    ContactReport                report;
+    /// How far faces were looked for last [m].
+    double reach = 0.;
+
+    /// Of a time step: displacements and obstacles at its ends.
+    std::vector<double>               nodal_begin, nodal_end;
+    std::vector<dealii::Tensor<1, 2>> obstacle_changes;
+    double                            time = 0., time_begin = 0.;
+    bool                              is_between = false;
+  };
+} // namespace NMM
+
+#endif

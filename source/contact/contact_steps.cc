@@ -1,0 +1,281 @@
+// Contact in time steps: conserving forces, what a continuation needs.
+#include <nmm/contact/contact.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <contact/contact_data.h>
+#include <mechanics/nodal_values.h>
+#include <sstream>
+
+namespace NMM
+{
+  using namespace internal;
+  using dealii::Tensor;
+  namespace Parallel = dealii::Utilities::MPI;
+
+  namespace
+  {
+    /// p of a spring whose gap goes from g_0 to g_1: minus the change of its energy
+    /// over that of the gap, and the derivative by g_1.
+    void
+    mean_pressure(const double eps,
+                  const double g_0,
+                  const double g_1,
+                  double      &pressure,
+                  double      &derivative)
+    {
+      if (g_0 <= 0. && g_1 <= 0.)
+      {
+        pressure   = -0.5 * eps * (g_0 + g_1);
+        derivative = -0.5 * eps;
+        return;
+      }
+      pressure = derivative = 0.;
+      if (g_0 >= 0. && g_1 >= 0.)
+        return;
+      const double change = g_1 - g_0;
+      if (g_1 < 0.)
+      {
+        pressure   = -0.5 * eps * g_1 * g_1 / change;
+        derivative = -0.5 * eps * g_1 * (g_1 - 2. * g_0) / (change * change);
+      }
+      else
+      {
+        pressure   = 0.5 * eps * g_0 * g_0 / change;
+        derivative = -pressure / change;
+      }
+    }
+  } // namespace
+
+
+  void
+  Contact::begin_step(const Vector &u, const double time)
+  {
+    Data &d      = *data;
+    d.is_between = false;
+    d.time_begin = time;
+    set_time(time);
+    assemble(u, false);
+    d.nodal_begin = d.nodal;
+    for (unsigned int q = 0; q < d.points.size(); ++q)
+    {
+      d.point_data[q].gap_begin   = d.points[q].gap;
+      d.point_data[q].shear_begin = d.points[q].shear;
+    }
+  }
+
+
+  /// A point in the mean position.
+  void
+  Contact::Data::add_point_between(const unsigned int q,
+                                   const bool         with_tangent)
+  {
+    ContactPoint               &point  = points[q];
+    PointData                  &fixed  = point_data[q];
+    const ContactState          before = point.state;
+    const ContactSurface::Place slave  = surface->place(point.edge, point.s);
+    const ContactProjection     projection = project(q, slave);
+    fixed.shear_work                       = 0.;
+    point.pressure = point.shear = 0.;
+    point.state                  = ContactState::open;
+
+    ContactTraction traction;
+    double          derivative = 0.;
+    if (projection.master != invalid_index)
+      mean_pressure(parameters.normal_stiffness,
+                    fixed.gap_begin,
+                    fixed.gap_end,
+                    point.pressure,
+                    derivative);
+    if (point.pressure > 0.)
+    {
+      ContactSurface::Weights master;
+      surface->weights(projection.master, projection.t, master);
+      Tensor<1, 2> change;
+      const auto   add = [&](const unsigned int             edge,
+                           const ContactSurface::Weights &f,
+                           const double                   sign) {
+        const auto covers = surface->covers(edge);
+        for (unsigned int i = 0; i < f.n; ++i)
+          for (unsigned int c = 0; c < 2; ++c)
+            change[c] +=
+              sign * f.w[i] *
+              (nodal_end[2 * covers[i] + c] - nodal_begin[2 * covers[i] + c]);
+      };
+      add(point.edge, fixed.weights, 1.);
+      add(projection.master, master, -1.);
+      if (surface->is_rigid(projection.master))
+        change -=
+          obstacle_changes[surface->edges()[projection.master].body -
+                           (surface->n_bodies() - obstacle_changes.size())];
+      // the gap of curved or turning faces changes not quite by this
+      const double delta = change * projection.normal;
+      const double ratio = (fixed.gap_end - fixed.gap_begin) / delta;
+      if (ratio > 0.5 && ratio < 2.)
+        point.pressure *= ratio;
+
+      point.state               = ContactState::slip;
+      traction.pressure         = point.weight * point.pressure;
+      traction.normal_stiffness = -2. * point.weight * derivative;
+      if (parameters.has_friction())
+      {
+        find_shear(point, slave, projection, traction);
+        fixed.shear_work = traction.shear * (change * projection.place.a) /
+                           projection.place.a.norm();
+      }
+    }
+    report.n_changes += before != point.state;
+    if (point.state != ContactState::open)
+      hand_over(q, projection, traction, with_tangent);
+  }
+
+
+  void
+  Contact::assemble_between(const Vector &end,
+                            const double  time,
+                            const bool    with_tangent)
+  {
+    Data &d  = *data;
+    d.report = ContactReport();
+    if (d.is_idle)
+    {
+      d.residual = 0.;
+      return;
+    }
+    const unsigned int n_obstacles = d.surface->obstacles().size();
+    d.obstacle_changes.resize(n_obstacles);
+    d.surface->set_time(time);
+    for (unsigned int i = 0; i < n_obstacles; ++i)
+      d.obstacle_changes[i] = d.surface->obstacle_displacement(i);
+    read_nodal_values(d.surface->cover_system(), end, d.nodal);
+    for (unsigned int q = 0; q < d.points.size(); ++q)
+    {
+      const ContactPoint     &point = d.points[q];
+      const ContactProjection projection =
+        d.search.project(d.surface->place(point.edge, point.s),
+                         d.search.masters(d.point_data[q].slave));
+      d.point_data[q].gap_end =
+        projection.master == invalid_index ? d.reach : projection.gap;
+    }
+    d.nodal_end = d.nodal;
+
+    d.surface->set_time(d.time_begin);
+    for (unsigned int i = 0; i < n_obstacles; ++i)
+      d.obstacle_changes[i] -= d.surface->obstacle_displacement(i);
+    d.surface->set_time(d.time_begin, time);
+    for (unsigned int i = 0; i < d.nodal.size(); ++i)
+      d.nodal[i] = 0.5 * (d.nodal_begin[i] + d.nodal_end[i]);
+    d.is_between = true;
+    d.block_system->reset(with_tangent);
+    for (unsigned int q = 0; q < d.points.size(); ++q)
+      d.add_point_between(q, with_tangent);
+    if (with_tangent)
+      d.block_system->transfer(d.matrix, d.residual);
+    else
+      d.block_system->transfer_rhs(d.residual);
+    d.reduce_report();
+  }
+
+
+  double
+  Contact::work_of_obstacles(const double time_begin, const double time_end)
+  {
+    Data              &d      = *data;
+    const unsigned int n      = d.surface->obstacles().size();
+    const unsigned int first  = d.surface->n_bodies() - n;
+    double             work   = 0.;
+    bool               is_any = false;
+    d.obstacle_changes.resize(n);
+    d.surface->set_time(time_end);
+    for (unsigned int i = 0; i < n; ++i)
+      d.obstacle_changes[i] = d.surface->obstacle_displacement(i);
+    d.surface->set_time(time_begin);
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      d.obstacle_changes[i] -= d.surface->obstacle_displacement(i);
+      is_any = is_any || d.obstacle_changes[i].norm_square() > 0.;
+    }
+    d.surface->set_time(d.time);
+    if (!is_any)
+      return 0.;
+    for (const ContactPoint &point : d.points)
+      if (point.state != ContactState::open &&
+          d.surface->is_rigid(point.master))
+      {
+        const Tensor<1, 2> tangent =
+          dealii::Point<2>(-point.normal[1], point.normal[0]);
+        work +=
+          point.weight *
+          (point.pressure * point.normal - point.shear * tangent) *
+          d.obstacle_changes[d.surface->edges()[point.master].body - first];
+      }
+    return Parallel::sum(work, d.communicator);
+  }
+
+
+  std::string
+  Contact::find_fault(const Vector &end)
+  {
+    Data &d = *data;
+    read_nodal_values(d.surface->cover_system(), end, d.nodal);
+    std::ostringstream text;
+    if (!d.is_idle && d.report.largest_penetration > 0.5 * d.reach)
+      text << "a penetration of " << d.report.largest_penetration
+           << " m, more than half of the distance of " << d.reach
+           << " m within which faces are looked for";
+    else if (d.search.movement() > d.reach)
+      text << "a point of a face that moved by " << d.search.movement()
+           << " m, further than the distance of " << d.reach
+           << " m within which faces are looked for";
+    return text.str();
+  }
+
+
+  std::vector<double>
+  Contact::history() const
+  {
+    const Data         &d = *data;
+    std::vector<double> mine;
+    for (const auto &[edge, places] : d.stick_places)
+      for (const StickPlace &place : places)
+        for (const double x :
+             {double(edge), place.s, double(place.edge), place.t})
+          mine.push_back(x);
+    std::vector<double> result{double(d.multipliers.size())};
+    result.insert(result.end(), d.multipliers.begin(), d.multipliers.end());
+    for (const auto &part : Parallel::all_gather(d.communicator, mine))
+      result.insert(result.end(), part.begin(), part.end());
+    return result;
+  }
+
+
+  void
+  Contact::restore_history(const std::vector<double> &history)
+  {
+    Data &d = *data;
+    d.stick_places.clear();
+    if (history.empty())
+      return;
+    const auto n = static_cast<unsigned int>(history[0]);
+    if (n == d.multipliers.size())
+      std::copy_n(history.begin() + 1, n, d.multipliers.begin());
+    const auto [first, last] = d.surface->locally_owned_edges();
+    for (std::size_t i = n + 1; i + 3 < history.size(); i += 4)
+    {
+      const auto edge = static_cast<unsigned int>(history[i]);
+      if (edge >= first && edge < last)
+        d.stick_places[edge].push_back(
+          {history[i + 1],
+           static_cast<unsigned int>(history[i + 2]),
+           history[i + 3]});
+    }
+    for (auto &[edge, places] : d.stick_places)
+      std::sort(places.begin(),
+                places.end(),
+                [](const StickPlace &a, const StickPlace &b) {
+                  return a.s < b.s;
+                });
+  }
+} // namespace NMM

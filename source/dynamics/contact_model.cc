@@ -1,0 +1,321 @@
+#include <nmm/dynamics/contact_model.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mechanics/matrix_sum.h>
+
+namespace NMM
+{
+  struct ContactModel::Data
+  {
+    MechanicalModel    *model;
+    Contact            *contact;
+    internal::MatrixSum matrix;
+    Vector              sum;
+    double              scale = 0.;
+    /// Of the step that is being tried [s].
+    double t_begin = 0., t_end = 0.;
+    bool   is_detected = false;
+
+    void
+    add_contact(const bool with_tangent)
+    {
+      sum = model->residual();
+      sum += contact->residual();
+      scale = std::hypot(model->force_scale(), contact->residual().l2_norm());
+      if (with_tangent)
+        matrix.assemble(contact->tangent(),
+                        1.,
+                        model->tangent(),
+                        1.,
+                        nullptr,
+                        0.,
+                        contact->pattern_version());
+    }
+  };
+
+
+  ContactModel::ContactModel(MechanicalModel &model, Contact &contact)
+    : data(std::make_unique<Data>())
+  {
+    data->model   = &model;
+    data->contact = &contact;
+    data->sum.reinit(contact.residual());
+  }
+
+
+  ContactModel::~ContactModel() = default;
+
+
+  MPI_Comm
+  ContactModel::communicator() const
+  {
+    return data->model->communicator();
+  }
+
+
+  dealii::IndexSet
+  ContactModel::locally_owned() const
+  {
+    return data->model->locally_owned();
+  }
+
+
+  dealii::IndexSet
+  ContactModel::locally_relevant() const
+  {
+    return data->model->locally_relevant();
+  }
+
+
+  const dealii::AffineConstraints<double> &
+  ContactModel::constraints() const
+  {
+    return data->model->constraints();
+  }
+
+
+  const ContactModel::Vector &
+  ContactModel::reference_positions() const
+  {
+    return data->model->reference_positions();
+  }
+
+
+  std::uint64_t
+  ContactModel::fingerprint() const
+  {
+    // a number of its own for each combination: that of a model without contact
+    // must not fit
+    return data->model->fingerprint() ^
+           (0x9e3779b97f4a7c15u *
+            (data->contact->surface().edges().size() + 1));
+  }
+
+
+  const ContactModel::Matrix &
+  ContactModel::mass() const
+  {
+    return data->model->mass();
+  }
+
+
+  const ContactModel::Matrix &
+  ContactModel::stiffness_at_rest()
+  {
+    return data->model->stiffness_at_rest();
+  }
+
+
+  bool
+  ContactModel::is_linear() const
+  {
+    return data->contact->is_idle() && data->model->is_linear();
+  }
+
+
+  bool
+  ContactModel::tangent_is_symmetric() const
+  {
+    return data->model->tangent_is_symmetric() &&
+           (data->contact->is_idle() || data->contact->tangent_is_symmetric());
+  }
+
+
+  bool
+  ContactModel::tangent_between_is_symmetric() const
+  {
+    return data->model->tangent_between_is_symmetric() &&
+           (data->contact->is_idle() || data->contact->tangent_is_symmetric());
+  }
+
+
+  Deformation
+  ContactModel::assemble(const Vector &u,
+                         const double  t,
+                         const Tangent tangent,
+                         const Vector *increment)
+  {
+    Data &d = *data;
+    d.contact->set_time(t);
+    if (!d.is_detected)
+    {
+      d.contact->detect(u);
+      d.is_detected = true;
+    }
+    const Deformation state = d.model->assemble(u, t, tangent, increment);
+    if (state != Deformation::admissible || d.contact->is_idle())
+      return state;
+    d.contact->assemble(u, tangent != Tangent::none);
+    d.add_contact(tangent != Tangent::none);
+    return state;
+  }
+
+
+  Deformation
+  ContactModel::assemble_between(const Vector &begin,
+                                 const Vector &end,
+                                 const double  t,
+                                 const bool    with_tangent)
+  {
+    Data             &d = *data;
+    const Deformation state =
+      d.model->assemble_between(begin, end, t, with_tangent);
+    if (state != Deformation::admissible || d.contact->is_idle())
+      return state;
+    d.contact->assemble_between(end, d.t_end, with_tangent);
+    d.add_contact(with_tangent);
+    return state;
+  }
+
+
+  const ContactModel::Vector &
+  ContactModel::residual() const
+  {
+    return data->contact->is_idle() ? data->model->residual() : data->sum;
+  }
+
+
+  const ContactModel::Matrix &
+  ContactModel::tangent() const
+  {
+    return data->contact->is_idle() ? data->model->tangent() : data->matrix();
+  }
+
+
+  unsigned int
+  ContactModel::pattern_version() const
+  {
+    return data->contact->is_idle() ? 0 : data->contact->pattern_version();
+  }
+
+
+  double
+  ContactModel::force_scale() const
+  {
+    return data->contact->is_idle() ? data->model->force_scale() : data->scale;
+  }
+
+
+  ContactModel::Energies
+  ContactModel::energies() const
+  {
+    Energies energies = data->model->energies();
+    if (!data->contact->is_idle())
+      energies.conditions += data->contact->report().energy;
+    return energies;
+  }
+
+
+  void
+  ContactModel::external_forces(const Vector &u, const double t, Vector &forces)
+  {
+    data->model->external_forces(u, t, forces);
+  }
+
+
+  double
+  ContactModel::work_of_supports(const Vector &u,
+                                 const double  t,
+                                 const double  t_0,
+                                 const double  t_1)
+  {
+    double work = data->model->work_of_supports(u, t, t_0, t_1);
+    if (!data->contact->is_idle())
+      work += data->contact->work_of_obstacles(t_0, t_1);
+    return work;
+  }
+
+
+  void
+  ContactModel::begin_step(const Vector &begin,
+                           const Vector &predicted,
+                           const double  t,
+                           const double  h)
+  {
+    Data &d = *data;
+    d.model->begin_step(begin, predicted, t, h);
+    d.t_begin = t;
+    d.t_end   = t + h;
+
+    // nearer faces may meet in the step; obstacles move, too
+    double     largest = 0.;
+    const auto owned   = locally_owned();
+    for (const auto i : owned)
+      largest = std::max(largest, std::abs(predicted(i) - begin(i)));
+    largest          = dealii::Utilities::MPI::max(largest, communicator());
+    double obstacles = 0.;
+    for (const RigidObstacle &obstacle : d.contact->surface().obstacles())
+      if (obstacle.displacement)
+        obstacles = std::max(
+          obstacles,
+          (obstacle.displacement(t + h) - obstacle.displacement(t)).norm());
+    constexpr double margin = 1.5;
+    d.contact->set_time(t);
+    d.contact->detect(begin,
+                      margin * (2. * std::sqrt(2.) * largest + obstacles));
+    d.is_detected = true;
+    if (!d.contact->is_idle())
+      d.contact->begin_step(begin, t);
+    d.contact->set_time(t + h);
+  }
+
+
+  std::string
+  ContactModel::find_fault(const Vector &end)
+  {
+    const std::string fault = data->model->find_fault(end);
+    return fault.empty() ? data->contact->find_fault(end) : fault;
+  }
+
+
+  double
+  ContactModel::accept_step(const Vector &end, const double t)
+  {
+    Data        &d          = *data;
+    const double dissipated = d.model->accept_step(end, t);
+    if (d.contact->is_idle())
+      return dissipated;
+    d.contact->set_time(t);
+    d.contact->assemble(end, /* with_tangent = */ false);
+    return dissipated + d.contact->accept();
+  }
+
+
+  std::vector<double>
+  ContactModel::internal_state() const
+  {
+    return data->contact->history();
+  }
+
+
+  void
+  ContactModel::restore_internal_state(const std::vector<double> &state)
+  {
+    data->contact->restore_history(state);
+    data->is_detected = false;
+  }
+
+
+  std::vector<double>
+  ContactModel::events() const
+  {
+    return data->model->events();
+  }
+
+
+  void
+  ContactModel::pass_events(const double t)
+  {
+    data->model->pass_events(t);
+  }
+
+
+  const Contact &
+  ContactModel::contact() const
+  {
+    return *data->contact;
+  }
+} // namespace NMM

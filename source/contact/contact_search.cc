@@ -22,7 +22,10 @@ namespace NMM
       using Entry  = std::pair<Box, unsigned int>;
 
       /// Parts of an edge by which it may go on beyond its ends.
-      constexpr double smooth_extension = 0.1, concave_extension = 0.5;
+      /// At convex corners just enough for faces that end together: rounding must not
+      /// decide whether their ends touch.
+      constexpr double smooth_extension = 0.1, concave_extension = 0.5,
+                       convex_extension = 1e-6;
 
 
       double
@@ -35,7 +38,7 @@ namespace NMM
           case ContactSurface::Corner::concave:
             return concave_extension;
           default:
-            return 0.;
+            return convex_extension;
         }
       }
 

@@ -64,12 +64,15 @@ namespace NMM
   Deformation
   FiniteModel::assemble_between(const Vector &begin,
                                 const Vector &end,
-                                const double  t,
-                                const bool    with_tangent)
+                                const double  t_0,
+                                const double  t_1,
+                                const Tangent tangent)
   {
+    const double         t     = 0.5 * (t_0 + t_1);
+    const LoadAmplitudes first = amplitudes_at(t_0), last = amplitudes_at(t_1);
     set_amplitudes(amplitudes_at(t));
     const Deformation state =
-      elasticity->assemble_between(begin, end, 1., with_tangent);
+      elasticity->assemble_between(begin, end, 1., tangent, &first, &last);
     if (state == Deformation::admissible)
     {
       sum = elasticity->residual();
@@ -166,6 +169,21 @@ namespace NMM
            minus.fixed_points);
     return largest > 0.
              ? energy_of_conditions(u, plus) - energy_of_conditions(u, minus)
+             : 0.;
+  }
+
+
+  double
+  FiniteModel::work_of_supports_between(const Vector &begin,
+                                        const Vector &end,
+                                        const Vector &,
+                                        const double t_0,
+                                        const double t_1)
+  {
+    return loads_change() &&
+               assemble_between(begin, end, t_0, t_1, Tangent::none) ==
+                 Deformation::admissible
+             ? elasticity->energies().work_of_conditions
              : 0.;
   }
 } // namespace NMM

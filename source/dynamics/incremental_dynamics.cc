@@ -4,6 +4,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <limits>
 #include <mechanics/matrix_sum.h>
 #include <mechanics/mumps_solver.h>
 
@@ -18,6 +20,24 @@ namespace NMM
     internal::MatrixSum                      matrix;
     internal::DirectSolver                   solver;
     Vector                                   velocity, momentum, rhs;
+    double time = 0., next_step = 0., initial_energy = 0.;
+
+    void
+    set_velocity(const Vector &v)
+    {
+      velocity = v;
+      constraints->distribute(velocity);
+      mass.vmult(momentum, velocity);
+      constraints->set_zero(momentum);
+    }
+
+    /// Kinetic and of strain, less the work of loads.
+    double
+    energy() const
+    {
+      return 0.5 * (momentum * velocity) + elasticity->strain_energy() -
+             elasticity->work_of_loads();
+    }
   };
 
 
@@ -55,24 +75,33 @@ namespace NMM
   void
   IncrementalDynamics::set_velocity(const Vector &velocity)
   {
-    data->velocity = velocity;
-    data->constraints->distribute(data->velocity);
-    data->mass.vmult(data->momentum, data->velocity);
-    data->constraints->set_zero(data->momentum);
+    data->set_velocity(velocity);
+    data->initial_energy = data->energy();
   }
 
 
   double
   IncrementalDynamics::step(const double h, const double load_factor)
   {
+    return try_step(h, load_factor, std::numeric_limits<double>::infinity())
+      .largest_displacement;
+  }
+
+
+  IncrementalElasticity::StepResult
+  IncrementalDynamics::try_step(const double h,
+                                const double load_factor,
+                                const double max_displacement)
+  {
     Data &d = *data;
     AssertThrow(h > 0.,
                 InputError("The time step is " + std::to_string(h) + " s",
                            "step-by-step dynamics",
                            "choose it above 0"));
-    Vector       next(d.velocity);
-    const double largest = d.elasticity->step(
+    Vector                                  next(d.velocity);
+    const IncrementalElasticity::StepResult result = d.elasticity->try_step(
       load_factor,
+      max_displacement,
       [&](const IncrementalElasticity::Matrix &stiffness,
           const Vector                        &residual,
           Vector                              &correction) {
@@ -84,8 +113,115 @@ namespace NMM
         // v = 2 du / h - v, du = -correction
         next.sadd(-1., -2. / h, correction);
       });
-    set_velocity(next);
-    return largest;
+    if (result.is_taken)
+    {
+      d.set_velocity(next);
+      d.time += h;
+    }
+    return result;
+  }
+
+
+  IncrementalDynamics::Advance
+  IncrementalDynamics::advance(const double                         end,
+                               const Control                       &control,
+                               const std::function<double(double)> &load_factor)
+  {
+    Data &d = *data;
+    AssertThrow(control.min_step > 0. && control.min_step <= control.max_step &&
+                  control.max_displacement > 0.,
+                InputError("Steps from " + std::to_string(control.min_step) +
+                             " s to " + std::to_string(control.max_step) +
+                             " s, displacements up to " +
+                             std::to_string(control.max_displacement) + " m",
+                           "step-by-step dynamics",
+                           "give 0 < smallest step <= largest step and a "
+                           "displacement above 0"));
+    AssertThrow(end > d.time,
+                InputError("The time " + std::to_string(end) +
+                             " s is reached already",
+                           "step-by-step dynamics",
+                           "choose a later end"));
+    constexpr double aim = 0.9;
+    double  h = d.next_step > 0. ? std::min(d.next_step, control.max_step)
+                                 : control.max_step;
+    Advance advance;
+    for (;; ++advance.n_cuts)
+    {
+      const bool   is_last = d.time + h >= end * (1. - 1e-12);
+      const double tried   = is_last ? end - d.time : h;
+      const IncrementalElasticity::StepResult result =
+        try_step(tried,
+                 load_factor ? load_factor(d.time + tried) : 1.,
+                 control.max_displacement);
+      advance.step                 = tried;
+      advance.largest_displacement = result.largest_displacement;
+      const double ratio           = aim * control.max_displacement /
+                           std::max(result.largest_displacement,
+                                    1e-3 * aim * control.max_displacement);
+      if (result.is_taken)
+      {
+        if (is_last)
+          d.time = end;
+        // a last step that was short says nothing of those that follow
+        d.next_step =
+          std::max(is_last ? h : 0.,
+                   std::max(control.min_step, tried * std::min(2., ratio)));
+        return advance;
+      }
+      h = tried * std::max(0.1, std::min(aim, ratio));
+      AssertThrow(h >= control.min_step,
+                  NumericalFailure(
+                    "A step of " + std::to_string(tried) +
+                      " s moves a cover by " +
+                      std::to_string(result.largest_displacement) +
+                      " m, and a smaller step than " +
+                      std::to_string(control.min_step) + " s is not allowed",
+                    "the time " + std::to_string(d.time) + " s",
+                    "allow larger displacements or smaller steps"));
+    }
+  }
+
+
+  double
+  IncrementalDynamics::time() const
+  {
+    return data->time;
+  }
+
+
+  IncrementalDynamics::Account
+  IncrementalDynamics::account() const
+  {
+    Account account;
+    account.kinetic = kinetic_energy();
+    account.strain  = data->elasticity->strain_energy();
+    account.work    = data->elasticity->work_of_loads();
+    account.balance =
+      account.kinetic + account.strain - account.work - data->initial_energy;
+    return account;
+  }
+
+
+  IncrementalDynamics::State
+  IncrementalDynamics::state() const
+  {
+    return {data->elasticity->state(),
+            data->velocity,
+            data->time,
+            data->next_step,
+            data->initial_energy};
+  }
+
+
+  void
+  IncrementalDynamics::restore(const State &state)
+  {
+    data->elasticity->restore(state.elasticity);
+    data->set_velocity(state.velocity);
+    data->time           = state.time;
+    data->next_step      = state.next_step;
+    data->initial_energy = state.initial_energy;
   }
 
 

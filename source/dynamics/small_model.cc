@@ -95,13 +95,14 @@ namespace NMM
   Deformation
   SmallModel::assemble_between(const Vector &begin,
                                const Vector &end,
-                               const double  t,
-                               const bool)
+                               const double  t_0,
+                               const double  t_1,
+                               const Tangent)
   {
     owned  = begin;
     forces = end;
     owned.sadd(0.5, 0.5, forces);
-    return assemble_owned(t);
+    return assemble_owned(0.5 * (t_0 + t_1));
   }
 
 

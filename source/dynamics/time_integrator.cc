@@ -235,7 +235,8 @@ namespace NMM
   {
     const double t = state.time + (1. - scheme.alpha_f) * h;
     if (scheme.is_conserving)
-      return model->assemble_between(u_begin, u, t, tangent != Tangent::none);
+      return model->assemble_between(
+        u_begin, u, state.time, state.time + h, tangent);
     if (scheme.alpha_f == 0.)
       return model->assemble(u, t, tangent, increment);
     scratch = u_1;
@@ -430,10 +431,8 @@ namespace NMM
       u_middle = mean;
       model->external_forces(u_middle, state.time + 0.5 * h, loads);
       work += loads * change;
-      work += model->work_of_supports(u_middle,
-                                      state.time + 0.5 * h,
-                                      state.time,
-                                      t_1);
+      work += model->work_of_supports_between(
+        u_begin, u_end, u_middle, state.time, t_1);
       model->external_forces(u_end, t_1, external);
     }
     else

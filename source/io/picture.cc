@@ -40,19 +40,10 @@ namespace NMM
 
 
     Layout
-    make_layout(const PictureData &data, const unsigned int width)
+    make_layout(const std::pair<Point<2>, Point<2>> &view,
+                const unsigned int                   width)
     {
-      Point<2> lower(1e300, 1e300), upper(-1e300, -1e300);
-      for (const PictureData::Triangle &triangle : data.triangles)
-        for (const Point<2> &x : triangle.nodes)
-          for (unsigned int d = 0; d < 2; ++d)
-          {
-            lower[d] = std::min(lower[d], x[d]);
-            upper[d] = std::max(upper[d], x[d]);
-          }
-      if (data.triangles.empty())
-        lower = upper = Point<2>();
-
+      const auto &[lower, upper] = view;
       Layout layout;
       layout.unit       = width / 1000.;
       layout.left       = 30. * layout.unit;
@@ -83,7 +74,9 @@ namespace NMM
     struct Canvas
     {
       unsigned char *pixels;
-      int            width, height, stride;
+      int            stride;
+      /// First and last pixels that may be set.
+      int left, right, top, bottom;
 
       void
       set(const int x, const int y, const std::uint32_t colour)
@@ -94,9 +87,9 @@ namespace NMM
 
 
     std::vector<std::uint32_t>
-    make_colour_table()
+    make_colour_table(const unsigned int n_colours)
     {
-      std::vector<std::uint32_t> table(1024);
+      std::vector<std::uint32_t> table(std::max(2u, n_colours));
       for (std::size_t i = 0; i < table.size(); ++i)
       {
         const auto    rgb    = colour_map(static_cast<double>(i) /
@@ -130,12 +123,15 @@ namespace NMM
       const auto [x_min, x_max] = std::minmax({p[0][0], p[1][0], p[2][0]});
       const auto [y_min, y_max] = std::minmax({p[0][1], p[1][1], p[2][1]});
       // Pixel i covers [i, i + 1].
-      const int first_x = std::max(0, static_cast<int>(std::floor(x_min)));
-      const int last_x =
-        std::min(canvas.width - 1, static_cast<int>(std::floor(x_max)));
-      const int first_y = std::max(0, static_cast<int>(std::floor(y_min)));
-      const int last_y =
-        std::min(canvas.height - 1, static_cast<int>(std::floor(y_max)));
+      const auto pixel = [](const double x, const int first, const int last) {
+        // clamped as a number: far outside it does not fit an int
+        return static_cast<int>(
+          std::floor(std::min<double>(std::max<double>(x, first), last)));
+      };
+      const int first_x = pixel(x_min, canvas.left, canvas.right + 1);
+      const int last_x  = pixel(x_max, canvas.left - 1, canvas.right);
+      const int first_y = pixel(y_min, canvas.top, canvas.bottom + 1);
+      const int last_y  = pixel(y_max, canvas.top - 1, canvas.bottom);
       // Half a pixel as barycentric coordinate of the corner opposite an edge.
       const auto slack = [&](const unsigned int i, const unsigned int j) {
         return 0.5 * p[i].distance(p[j]) / std::abs(determinant);
@@ -182,16 +178,20 @@ namespace NMM
     void
     fill_quadratic_triangle(const PictureData::Triangle      &triangle,
                             const Layout                     &layout,
+                            const double                      scale,
                             const double                      minimum,
                             const double                      range,
                             const std::vector<std::uint32_t> &colours,
                             Canvas                           &canvas)
     {
+      std::array<Point<2>, 6> nodes;
+      for (unsigned int k = 0; k < 6; ++k)
+        nodes[k] = triangle.vertices[k].at(scale);
       double longest = 0.;
       for (unsigned int i = 0; i < 3; ++i)
-        longest = std::max(longest,
-                           layout.scale * triangle.nodes[i].distance(
-                                            triangle.nodes[(i + 1) % 3]));
+        longest =
+          std::max(longest,
+                   layout.scale * nodes[i].distance(nodes[(i + 1) % 3]));
       const int n =
         std::min(12, std::max(2, static_cast<int>(std::ceil(longest / 10.))));
 
@@ -202,7 +202,7 @@ namespace NMM
         double     value = 0.;
         for (unsigned int k = 0; k < 6; ++k)
         {
-          x += shape[k] * triangle.nodes[k];
+          x += shape[k] * nodes[k];
           value += shape[k] * triangle.values[k];
         }
         return std::make_pair(layout(x), (value - minimum) / range);
@@ -231,6 +231,7 @@ namespace NMM
     draw_lines(cairo_t                                  *cr,
                const std::vector<PictureData::Polyline> &lines,
                const Layout                             &layout,
+               const double                              scale,
                const double                              width,
                const cairo_line_cap_t                    cap,
                const std::array<double, 4>              &colour)
@@ -243,7 +244,7 @@ namespace NMM
       {
         for (std::size_t i = 0; i < line.size(); ++i)
         {
-          const Point<2> x = layout(line[i]);
+          const Point<2> x = layout(line[i].at(scale));
           if (i == 0)
             cairo_move_to(cr, x[0], x[1]);
           else
@@ -261,7 +262,8 @@ namespace NMM
               const double       y,
               const double       size,
               const double       max_width,
-              const bool         bold = false)
+              const bool         bold           = false,
+              const bool         right_adjusted = false)
     {
       cairo_select_font_face(cr,
                              "sans-serif",
@@ -274,7 +276,11 @@ namespace NMM
       if (extents.x_advance > max_width)
         cairo_set_font_size(cr, size * max_width / extents.x_advance);
       cairo_set_source_rgb(cr, 0.1, 0.1, 0.1);
-      cairo_move_to(cr, x, y);
+      cairo_move_to(cr,
+                    right_adjusted
+                      ? x + std::max(0., max_width - extents.x_advance)
+                      : x,
+                    y);
       cairo_show_text(cr, text.c_str());
     }
 
@@ -391,24 +397,153 @@ namespace NMM
 
     /// Values at the ends of the colour bar.
     std::pair<double, double>
-    value_range(const PictureData &data, const OutputParameters &parameters)
+    value_range(const PictureExtents   &extents,
+                const OutputParameters &parameters,
+                const PictureFrame     &frame)
     {
+      if (frame.range)
+        return *frame.range;
       if (parameters.range_min < parameters.range_max)
         return {parameters.range_min, parameters.range_max};
-      double minimum = 1e300, maximum = -1e300;
+      return extents.range();
+    }
+
+
+    using Surface =
+      std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
+
+    void
+    fill(cairo_surface_t   *surface,
+         const PictureData &data,
+         const Layout      &layout,
+         const double       minimum,
+         const double       range,
+         const unsigned int n_colours)
+    {
+      cairo_surface_flush(surface);
+      const double margin = 10. * layout.unit;
+      Canvas       canvas{cairo_image_surface_get_data(surface),
+                    cairo_image_surface_get_stride(surface),
+                    static_cast<int>(layout.left - margin),
+                    static_cast<int>(layout.left + layout.plot_width + margin),
+                    static_cast<int>(layout.top - margin),
+                    static_cast<int>(layout.top + layout.plot_height + margin)};
+      canvas.left        = std::max(canvas.left, 0);
+      canvas.top         = std::max(canvas.top, 0);
+      canvas.right       = std::min(canvas.right, layout.width - 1);
+      canvas.bottom      = std::min(canvas.bottom, layout.height - 1);
+      const auto colours = make_colour_table(n_colours);
       for (const PictureData::Triangle &triangle : data.triangles)
-        for (const double value : triangle.values)
-        {
-          minimum = std::min(minimum, value);
-          maximum = std::max(maximum, value);
-        }
-      if (!(minimum <= maximum))
-        return {0., 0.};
-      // A constant must not be coloured by its rounding errors.
-      if (maximum - minimum <=
-          1e-9 * std::max(std::abs(minimum), std::abs(maximum)))
-        return {minimum, minimum};
-      return {minimum, maximum};
+        fill_quadratic_triangle(triangle,
+                                layout,
+                                data.deformation_scale,
+                                minimum,
+                                range,
+                                colours,
+                                canvas);
+      cairo_surface_mark_dirty(surface);
+    }
+
+
+    void
+    draw_all_lines(cairo_t *cr, const PictureData &data, const Layout &layout)
+    {
+      const double scale  = data.deformation_scale;
+      const double margin = 10. * layout.unit;
+      cairo_save(cr);
+      cairo_rectangle(cr,
+                      layout.left - margin,
+                      layout.top - margin,
+                      layout.plot_width + 2. * margin,
+                      layout.plot_height + 2. * margin);
+      cairo_clip(cr);
+      draw_lines(cr,
+                 data.mesh_lines,
+                 layout,
+                 scale,
+                 0.4,
+                 CAIRO_LINE_CAP_BUTT,
+                 {{1., 1., 1., 0.35}});
+      draw_lines(cr,
+                 data.interfaces,
+                 layout,
+                 scale,
+                 1.,
+                 CAIRO_LINE_CAP_BUTT,
+                 {{0.9, 0.9, 0.9, 0.9}});
+      draw_lines(cr,
+                 data.outlines,
+                 layout,
+                 scale,
+                 1.4,
+                 CAIRO_LINE_CAP_ROUND,
+                 {{0.05, 0.05, 0.05, 1.}});
+      cairo_restore(cr);
+    }
+
+
+    Surface
+    draw(const PictureData      &data,
+         const OutputParameters &parameters,
+         const std::string      &title,
+         const PictureFrame     &frame,
+         const unsigned int      n_colours)
+    {
+      PictureExtents extents;
+      extents.add(data, data.deformation_scale);
+      const Layout layout =
+        make_layout(frame.view ? *frame.view : extents.view(),
+                    parameters.picture_width);
+      const auto [minimum, maximum] = value_range(extents, parameters, frame);
+
+      Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24,
+                                                 layout.width,
+                                                 layout.height),
+                      &cairo_surface_destroy);
+      const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cr(
+        cairo_create(surface.get()), &cairo_destroy);
+      cairo_set_source_rgb(cr.get(), 1., 1., 1.);
+      cairo_paint(cr.get());
+      fill(surface.get(),
+           data,
+           layout,
+           minimum,
+           maximum > minimum ? maximum - minimum : 1.,
+           n_colours);
+      draw_all_lines(cr.get(), data, layout);
+
+      const double u          = layout.unit;
+      const double width      = layout.width - 60. * u;
+      const double note_width = frame.note.empty() ? 0. : 0.35 * width;
+      draw_text(
+        cr.get(), title, 30. * u, 36. * u, 24. * u, width - note_width, true);
+      if (!frame.note.empty())
+        draw_text(cr.get(),
+                  frame.note,
+                  30. * u + width - note_width + 10. * u,
+                  36. * u,
+                  22. * u,
+                  note_width - 10. * u,
+                  false,
+                  true);
+      draw_text(cr.get(),
+                subtitle(data, parameters, choose_exponent(minimum, maximum)),
+                30. * u,
+                63. * u,
+                17. * u,
+                width);
+      draw_colour_bar(cr.get(), layout, minimum, maximum);
+      cairo_surface_flush(surface.get());
+      return surface;
+    }
+
+
+    cairo_status_t
+    append(void *closure, const unsigned char *data, const unsigned int length)
+    {
+      static_cast<std::string *>(closure)->append(
+        reinterpret_cast<const char *>(data), length);
+      return CAIRO_STATUS_SUCCESS;
     }
   } // namespace
 
@@ -465,72 +600,33 @@ namespace NMM
   draw_picture(const PictureData      &data,
                const OutputParameters &parameters,
                const std::string      &title,
-               const std::string      &file_name)
+               const std::string      &file_name,
+               const PictureFrame     &frame)
   {
-    const Layout layout           = make_layout(data, parameters.picture_width);
-    const auto [minimum, maximum] = value_range(data, parameters);
-
-    const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>
-      surface(cairo_image_surface_create(CAIRO_FORMAT_ARGB32,
-                                         layout.width,
-                                         layout.height),
-              &cairo_surface_destroy);
-    const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cr(
-      cairo_create(surface.get()), &cairo_destroy);
-    cairo_set_source_rgb(cr.get(), 1., 1., 1.);
-    cairo_paint(cr.get());
-    cairo_surface_flush(surface.get());
-
-    Canvas     canvas{cairo_image_surface_get_data(surface.get()),
-                  layout.width,
-                  layout.height,
-                  cairo_image_surface_get_stride(surface.get())};
-    const auto colours = make_colour_table();
-    for (const PictureData::Triangle &triangle : data.triangles)
-      fill_quadratic_triangle(triangle,
-                              layout,
-                              minimum,
-                              maximum > minimum ? maximum - minimum : 1.,
-                              colours,
-                              canvas);
-    cairo_surface_mark_dirty(surface.get());
-
-    draw_lines(cr.get(),
-               data.mesh_lines,
-               layout,
-               0.4,
-               CAIRO_LINE_CAP_BUTT,
-               {{1., 1., 1., 0.35}});
-    draw_lines(cr.get(),
-               data.interfaces,
-               layout,
-               1.,
-               CAIRO_LINE_CAP_BUTT,
-               {{0.9, 0.9, 0.9, 0.9}});
-    draw_lines(cr.get(),
-               data.outlines,
-               layout,
-               1.4,
-               CAIRO_LINE_CAP_ROUND,
-               {{0.05, 0.05, 0.05, 1.}});
-
-    const double u = layout.unit;
-    draw_text(
-      cr.get(), title, 30. * u, 36. * u, 24. * u, layout.width - 60. * u, true);
-    draw_text(cr.get(),
-              subtitle(data, parameters, choose_exponent(minimum, maximum)),
-              30. * u,
-              63. * u,
-              17. * u,
-              layout.width - 60. * u);
-    draw_colour_bar(cr.get(), layout, minimum, maximum);
-
-    cairo_surface_flush(surface.get());
+    const Surface        surface = draw(data, parameters, title, frame, 1024);
     const cairo_status_t status =
       cairo_surface_write_to_png(surface.get(), file_name.c_str());
     AssertThrow(status == CAIRO_STATUS_SUCCESS,
                 dealii::ExcMessage(
                   "The picture '" + file_name +
                   "' cannot be written: " + cairo_status_to_string(status)));
+  }
+
+
+  std::string
+  draw_picture_in_memory(const PictureData      &data,
+                         const OutputParameters &parameters,
+                         const std::string      &title,
+                         const PictureFrame     &frame,
+                         const unsigned int      n_colours)
+  {
+    const Surface surface = draw(data, parameters, title, frame, n_colours);
+    std::string   bytes;
+    const cairo_status_t status =
+      cairo_surface_write_to_png_stream(surface.get(), &append, &bytes);
+    AssertThrow(status == CAIRO_STATUS_SUCCESS,
+                dealii::ExcMessage(std::string("A picture cannot be made: ") +
+                                   cairo_status_to_string(status)));
+    return bytes;
   }
 } // namespace NMM

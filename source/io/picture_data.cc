@@ -12,18 +12,7 @@ namespace NMM
   {
     using dealii::Point;
     using Polyline = PictureData::Polyline;
-
-    /// 1, 2 or 5 times a power of ten, not larger than @p value.
-    double
-    rounded_down(const double value)
-    {
-      const double power = std::pow(10., std::floor(std::log10(value)));
-      for (const double factor : {5., 2.})
-        if (factor * power <= value)
-          return factor * power;
-      return power;
-    }
-
+    using Vertex   = PictureData::Vertex;
 
     double
     choose_scale(const CoverSystem      &covers,
@@ -38,17 +27,16 @@ namespace NMM
                               .bounding_box()
                               .get_boundary_points();
       const double size = corners.first.distance(corners.second);
-      // Below that, displacements are rounding errors.
-      return largest > 1e-14 * size ? rounded_down(0.05 * size / largest) : 0.;
+      return choose_deformation_scale(largest, size);
     }
 
 
     /// Points along an edge, ends included, close enough to show its curvature
     /// and the displacement's.
-    Polyline
+    std::vector<Point<2>>
     sample_edge(const ElementEdge &edge)
     {
-      Polyline line;
+      std::vector<Point<2>> line;
       if (!edge.is_arc())
       {
         constexpr unsigned int n = 4;
@@ -85,6 +73,30 @@ namespace NMM
     }
 
 
+    void
+    insert(std::vector<double> &numbers, const Vertex &vertex)
+    {
+      numbers.insert(numbers.end(),
+                     {vertex.position[0],
+                      vertex.position[1],
+                      vertex.displacement[0],
+                      vertex.displacement[1]});
+    }
+
+
+    /// Read four numbers from @p i on and move @p i behind them.
+    Vertex
+    extract(const std::vector<double> &numbers, std::size_t &i)
+    {
+      Vertex vertex;
+      vertex.position        = Point<2>(numbers[i], numbers[i + 1]);
+      vertex.displacement[0] = numbers[i + 2];
+      vertex.displacement[1] = numbers[i + 3];
+      i += 4;
+      return vertex;
+    }
+
+
     /// Lines as numbers: count and coordinates of each.
     std::vector<double>
     pack(const std::vector<Polyline> &lines)
@@ -93,8 +105,8 @@ namespace NMM
       for (const Polyline &line : lines)
       {
         numbers.push_back(static_cast<double>(line.size()));
-        for (const Point<2> &x : line)
-          numbers.insert(numbers.end(), {x[0], x[1]});
+        for (const Vertex &vertex : line)
+          insert(numbers, vertex);
       }
       return numbers;
     }
@@ -111,8 +123,8 @@ namespace NMM
         {
           const auto n = static_cast<std::size_t>(numbers[i++]);
           lines.emplace_back();
-          for (std::size_t k = 0; k < n; ++k, i += 2)
-            lines.back().emplace_back(numbers[i], numbers[i + 1]);
+          for (std::size_t k = 0; k < n; ++k)
+            lines.back().push_back(extract(numbers, i));
         }
     }
 
@@ -124,38 +136,39 @@ namespace NMM
       std::vector<double> numbers;
       for (const PictureData::Triangle &triangle : triangles)
         for (unsigned int i = 0; i < 6; ++i)
-          numbers.insert(numbers.end(),
-                         {triangle.nodes[i][0],
-                          triangle.nodes[i][1],
-                          triangle.values[i]});
+        {
+          insert(numbers, triangle.vertices[i]);
+          numbers.push_back(triangle.values[i]);
+        }
       const auto all = dealii::Utilities::MPI::gather(communicator, numbers);
       triangles.clear();
       for (const std::vector<double> &part : all)
         for (std::size_t i = 0; i < part.size();)
         {
           PictureData::Triangle triangle;
-          for (unsigned int k = 0; k < 6; ++k, i += 3)
+          for (unsigned int k = 0; k < 6; ++k)
           {
-            triangle.nodes[k]  = Point<2>(part[i], part[i + 1]);
-            triangle.values[k] = part[i + 2];
+            triangle.vertices[k] = extract(part, i);
+            triangle.values[k]   = part[i++];
           }
           triangles.push_back(triangle);
         }
     }
 
 
-    /// Add the lines of one element, on the deformed shape.
-    template <typename Deform>
+    /// Add the lines of one element.
+    template <typename Displacement>
     void
     add_lines(const ManifoldMesh &mesh,
               const unsigned int  element,
               const bool          with_mesh_lines,
-              const Deform       &deform,
+              const Displacement &displacement,
               PictureData        &data)
     {
-      const auto deformed = [&](Polyline line) {
-        for (Point<2> &x : line)
-          x = deform(element, x);
+      const auto with_displacements = [&](const std::vector<Point<2>> &points) {
+        Polyline line;
+        for (const Point<2> &x : points)
+          line.push_back({x, displacement(element, x)});
         return line;
       };
       for (const ElementEdge &edge : mesh.edges(element))
@@ -166,7 +179,7 @@ namespace NMM
         auto &lines = !is_physical               ? data.mesh_lines
                       : is_interface(mesh, edge) ? data.interfaces
                                                  : data.outlines;
-        lines.push_back(deformed(sample_edge(edge)));
+        lines.push_back(with_displacements(sample_edge(edge)));
       }
       if (mesh.edges(element).size() == 0 && with_mesh_lines)
       {
@@ -177,7 +190,7 @@ namespace NMM
           ElementEdge edge;
           edge.start = mathematical_mesh.vertices()[v[i]];
           edge.end   = mathematical_mesh.vertices()[v[(i + 1) % 3]];
-          data.mesh_lines.push_back(deformed(sample_edge(edge)));
+          data.mesh_lines.push_back(with_displacements(sample_edge(edge)));
         }
       }
     }
@@ -202,21 +215,20 @@ namespace NMM
       {
         const FieldSample &sample = triangles.samples[t][i];
         const Point<2>    &x      = triangles.nodes[t][i];
-        triangle.nodes[i]  = x + data.deformation_scale * sample.displacement;
-        triangle.values[i] = quantity_value(sample, ids, x, parameters);
+        triangle.vertices[i]      = {x, sample.displacement};
+        triangle.values[i]        = quantity_value(sample, ids, x, parameters);
       }
       data.triangles.push_back(triangle);
     }
 
-    const auto deform = [&](const unsigned int element, const Point<2> &x) {
-      return evaluator == nullptr || data.deformation_scale == 0.
-               ? x
-               : Point<2>(x + data.deformation_scale *
-                                evaluator->displacement(element, x));
+    const auto displacement = [&](const unsigned int element,
+                                  const Point<2>    &x) {
+      return evaluator == nullptr ? dealii::Tensor<1, 2>()
+                                  : evaluator->displacement(element, x);
     };
     const auto [first, last] = covers.locally_owned_elements();
     for (unsigned int element = first; element < last; ++element)
-      add_lines(mesh, element, parameters.mesh_lines, deform, data);
+      add_lines(mesh, element, parameters.mesh_lines, displacement, data);
 
     if (dealii::Utilities::MPI::n_mpi_processes(covers.communicator()) > 1)
     {

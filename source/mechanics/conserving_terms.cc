@@ -11,6 +11,15 @@ namespace NMM
 
     namespace
     {
+      /// Of E_1 - E_0, below which nothing is added to the means over the way.
+      constexpr double least_change = 1e-2;
+      /// The Gauss rule on [0, 1].
+      constexpr double positions[3] = {0.11270166537925831,
+                                       0.5,
+                                       0.88729833462074169};
+      constexpr double weights[3]   = {5. / 18., 8. / 18., 5. / 18.};
+
+
       SymmetricTensor<2, 2>
       green_strain(const Tensor<2, 2> &F)
       {
@@ -39,6 +48,7 @@ namespace NMM
         C[1][1] += d;
         return C / t;
       }
+
     } // namespace
 
 
@@ -94,12 +104,6 @@ namespace NMM
                                      SymmetricTensor<2, 2> &S,
                                      double (&D)[4][4]) const
     {
-      constexpr double least_change = 1e-2;
-      constexpr double positions[3] = {0.11270166537925831,
-                                       0.5,
-                                       0.88729833462074169};
-      constexpr double weights[3]   = {5. / 18., 8. / 18., 5. / 18.};
-
       if (!(dealii::determinant(F_0) > 0.) || !(dealii::determinant(F_1) > 0.))
         return Deformation::inverted;
       const SymmetricTensor<2, 2> E_0    = green_strain(F_0);
@@ -157,6 +161,114 @@ namespace NMM
                 change[M][J] * slope[N][L] +
                 factor *
                   ((M == N && J == L ? 1. : 0.) + (M == L && J == N ? 1. : 0.));
+      return Deformation::admissible;
+    }
+
+
+    Deformation
+    ConservingLaw::secant_moduli(const SymmetricTensor<2, 2> &E_0,
+                                 const SymmetricTensor<2, 2> &E_1,
+                                 double (&moduli)[4][4]) const
+    {
+      const SymmetricTensor<2, 2> change = E_1 - E_0;
+      SymmetricTensor<2, 2>       S;
+      double                      D[4][4];
+      for (auto &row : moduli)
+        std::fill_n(row, 4, 0.);
+      for (unsigned int g = 0; g < 3; ++g)
+      {
+        if (second_stress(E_0 + positions[g] * change,
+                          /* with_tangent = */ true,
+                          S,
+                          D) != Deformation::admissible)
+          return Deformation::inverted;
+        for (unsigned int a = 0; a < 4; ++a)
+          for (unsigned int b = 0; b < 4; ++b)
+            moduli[a][b] += weights[g] * D[a][b];
+      }
+      const double square = change * change;
+      if (square < least_change * least_change)
+        return Deformation::admissible;
+
+      SymmetricTensor<2, 2> S_0, S_1;
+      if (second_stress(E_0, false, S_0, D) != Deformation::admissible ||
+          second_stress(E_1, false, S_1, D) != Deformation::admissible)
+        return Deformation::inverted;
+      const Tensor<2, 2> missing =
+        S_1 - S_0 - multiply(moduli, Tensor<2, 2>(change));
+      for (unsigned int a = 0; a < 4; ++a)
+        for (unsigned int b = 0; b < 4; ++b)
+          moduli[a][b] += missing[a / 2][a % 2] * change[b / 2][b % 2] / square;
+      return Deformation::admissible;
+    }
+
+
+    Deformation
+    ConservingLaw::secant(const Tensor<2, 2> &F_0,
+                          const Tensor<2, 2> &F_1,
+                          Secant             &result) const
+    {
+      result.E_0 = green_strain(F_0);
+      result.E_1 = green_strain(F_1);
+      if (is_neo_hookean)
+      {
+        if (!(dealii::determinant(F_0) > 0.) ||
+            !(dealii::determinant(F_1) > 0.))
+          return Deformation::inverted;
+        SymmetricTensor<2, 2> S_0, S_1;
+        double                D[4][4];
+        if (second_stress(result.E_0, false, S_0, D) !=
+              Deformation::admissible ||
+            second_stress(result.E_1, true, S_1, result.end_moduli) !=
+              Deformation::admissible)
+          return Deformation::inverted;
+        result.mean_stress = 0.5 * (S_0 + S_1);
+        return secant_moduli(result.E_0, result.E_1, result.moduli);
+      }
+
+      for (unsigned int M = 0; M < 2; ++M)
+        for (unsigned int J = 0; J < 2; ++J)
+          for (unsigned int N = 0; N < 2; ++N)
+            for (unsigned int L = 0; L < 2; ++L)
+              result.moduli[2 * M + J][2 * N + L] =
+                (M == J && N == L ? elasticity.lambda : 0.) +
+                elasticity.mu *
+                  ((M == N && J == L ? 1. : 0.) + (M == L && J == N ? 1. : 0.));
+      std::copy(&result.moduli[0][0],
+                &result.moduli[0][0] + 16,
+                &result.end_moduli[0][0]);
+      result.mean_stress =
+        initial_stress +
+        dealii::symmetrize(
+          multiply(result.moduli,
+                   Tensor<2, 2>(0.5 * (result.E_0 + result.E_1))));
+      return Deformation::admissible;
+    }
+
+
+    Deformation
+    ConservingLaw::secant_derivative(const Secant       &secant,
+                                     const Tensor<2, 2> &X,
+                                     double (&derivative)[4][3]) const
+    {
+      for (auto &row : derivative)
+        std::fill_n(row, 3, 0.);
+      if (!is_neo_hookean)
+        return Deformation::admissible;
+      // of central differences: 1e-10 of truncation and of rounding
+      constexpr double step = 1e-5;
+      for (unsigned int c = 0; c < 3; ++c)
+        for (const double sign : {1., -1.})
+        {
+          SymmetricTensor<2, 2> E_1 = secant.E_1;
+          E_1[c == 1 ? 1 : 0][c == 0 ? 0 : 1] += sign * step;
+          double moduli[4][4];
+          if (secant_moduli(secant.E_0, E_1, moduli) != Deformation::admissible)
+            return Deformation::inverted;
+          const Tensor<2, 2> value = multiply(moduli, X);
+          for (unsigned int a = 0; a < 4; ++a)
+            derivative[a][c] += sign * value[a / 2][a % 2] / (2. * step);
+        }
       return Deformation::admissible;
     }
 

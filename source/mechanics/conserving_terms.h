@@ -3,6 +3,7 @@
 
 #include <nmm/mechanics/hyperelasticity.h>
 
+#include <array>
 #include <mechanics/element_tables.h>
 #include <mechanics/finite_terms.h>
 #include <mechanics/local_system.h>
@@ -11,6 +12,22 @@ namespace NMM
 {
   namespace internal
   {
+    /// sum over (N, L) of C_MJNL X_NL, C at [2M + J][2N + L].
+    inline dealii::Tensor<2, 2>
+    multiply(const double (&C)[4][4], const dealii::Tensor<2, 2> &X)
+    {
+      dealii::Tensor<2, 2> result;
+      for (unsigned int M = 0; M < 2; ++M)
+        for (unsigned int J = 0; J < 2; ++J)
+        {
+          const double(&row)[4] = C[2 * M + J];
+          result[M][J]          = row[0] * X[0][0] + row[1] * X[0][1] +
+                         row[2] * X[1][0] + row[3] * X[1][1];
+        }
+      return result;
+    }
+
+
     /**
      * The stress between two states that does exactly the work by which the energy
      * W changes: with F_m = (F_0 + F_1) / 2 and E the Green-Lagrange strain
@@ -45,7 +62,37 @@ namespace NMM
                dealii::Tensor<2, 2>       &P,
                double (&A)[4][4]) const;
 
+      /// How S changes with E between two states, each at [2M + J][2N + L].
+      struct Secant
+      {
+        dealii::SymmetricTensor<2, 2> E_0, E_1;
+        /// (S_0 + S_1) / 2
+        dealii::SymmetricTensor<2, 2> mean_stress;
+        /// C with C : (E_1 - E_0) = S_1 - S_0 exactly: the mean of dS/dE over the
+        /// way as above, and what is missing along E_1 - E_0.
+        double moduli[4][4];
+        /// dS/dE at E_1
+        double end_moduli[4][4];
+      };
+
+      Deformation
+      secant(const dealii::Tensor<2, 2> &F_0,
+             const dealii::Tensor<2, 2> &F_1,
+             Secant                     &result) const;
+
+      /// Derivative of `moduli` : @p X by E_1, at [2M + J] and the components 00,
+      /// 11 and 01 (with 10); by difference quotients, 0 for a linear S.
+      Deformation
+      secant_derivative(const Secant               &secant,
+                        const dealii::Tensor<2, 2> &X,
+                        double (&derivative)[4][3]) const;
+
     private:
+      Deformation
+      secant_moduli(const dealii::SymmetricTensor<2, 2> &E_0,
+                    const dealii::SymmetricTensor<2, 2> &E_1,
+                    double (&moduli)[4][4]) const;
+
       /// S and D = dS/dE at [2M + J][2N + L].
       Deformation
       second_stress(const dealii::SymmetricTensor<2, 2> &E,
@@ -81,6 +128,40 @@ namespace NMM
                          const LocalDisplacement   &end,
                          bool                       with_tangent,
                          LocalSystem               &local);
+
+
+    /**
+     * Displacement condition or tie at a point between two states: forces that do
+     * exactly the work by which the energy of add_weak_point() changes,
+     * @f[ \Pi = \int -\sum_s \text{share}_s\,a_s\cdot S(E_s)N
+     *      + \frac{\gamma}{2}|d|^2, \qquad a_s = F_s^T d, @f]
+     * but for the work of moving supports. E, a and |d|^2 are quadratic in F and d, so
+     * that their change is their derivative in the middle of the step times that of F
+     * and d; and they do not notice a rotation of a tied pair. With means (m) of both states,
+     * and C : (E_1 - E_0) = S_1 - S_0 (ConservingLaw::Secant), M = C : (a_m (x) N)
+     * @f[ r(v) = \int \gamma\,d_m\cdot v - \sum_s \text{share}_s
+     *      \left((d_m\otimes S_m N + F_m M):\nabla v
+     *      + F_m S_m N\cdot Bv\right) @f]
+     * conserves the momenta where the condition's derivative does, as
+     * Gonzalez' G-equivariant discrete gradient (J. Nonlinear Sci. 6 (1996)
+     * 449), but point by point. Derivative as for add_conserving_terms(). Arguments
+     * as for add_weak_point(), Tangent::robust leaves out all of the derivative that is
+     * zero with the jumps. What is prescribed, B g, is given for both
+     * states; by its change the supports do the @p work that is added to.
+     */
+    Deformation
+    add_conserving_weak_point(
+      const EdgeTables::WeakPoint               &point,
+      const std::vector<ConservingLaw>          &region_to_law,
+      unsigned int                               n_per_cell,
+      const std::array<dealii::Tensor<1, 2>, 2> &prescribed,
+      double                                     growth,
+      const LocalDisplacement                   &begin,
+      const LocalDisplacement                   &end,
+      Tangent                                    tangent,
+      LocalSystem                               &local,
+      double                                    &work,
+      double                                    &largest_jump);
   } // namespace internal
 } // namespace NMM
 

@@ -3,6 +3,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <array>
 #include <cmath>
 #include <mechanics/block_system.h>
 #include <mechanics/conserving_terms.h>
@@ -33,8 +34,9 @@ namespace NMM
       double  load_factor;
       Tangent tangent;
       bool    with_tangent, has_increment;
-      /// Volume terms between two states, see assemble_between().
-      bool is_between = false;
+      /// Between two states, see assemble_between().
+      bool                  is_between = false;
+      const LoadAmplitudes *first = nullptr, *last = nullptr;
     };
 
     /// Amplitude of a condition times the load factor.
@@ -44,6 +46,21 @@ namespace NMM
       return task.load_factor * (amplitudes.boundary_conditions.empty()
                                    ? 1.
                                    : amplitudes.boundary_conditions[condition]);
+    }
+
+    /// What displacements are multiplied by at the beginning and at the end of a
+    /// step; the same if there is none.
+    std::array<double, 2>
+    factors(std::vector<double> LoadAmplitudes::*list,
+            const unsigned int                   index,
+            const Task                          &task) const
+    {
+      const auto at = [&](const LoadAmplitudes *given) {
+        const std::vector<double> &values =
+          (given == nullptr ? amplitudes : *given).*list;
+        return task.load_factor * (values.empty() ? 1. : values[index]);
+      };
+      return {{at(task.first), at(task.last)}};
     }
 
     double
@@ -99,6 +116,17 @@ namespace NMM
         force_square += change * change;
         known[i] = local.rhs[i];
       }
+    }
+
+    /// Displacements of the covers of a site's element, then of its neighbor.
+    void
+    gather(const EdgeTables::Site    &site,
+           const std::vector<double> &from,
+           LocalDisplacement         &u) const
+    {
+      u.gather(covers->covers(site.element), from);
+      if (site.neighbor != invalid_index)
+        u.gather(covers->covers(site.neighbor), from, n_per_cell);
     }
 
     void
@@ -227,27 +255,49 @@ namespace NMM
                                           const LocalDisplacement &u,
                                           LocalSystem             &local)
   {
+    LocalDisplacement begin, end;
+    if (task.is_between)
+    {
+      gather(site, nodal_begin, begin);
+      gather(site, nodal_end, end);
+    }
     for (unsigned int q = site.first_point; q < site.last_point; ++q)
     {
       const EdgeTables::WeakPoint &point  = edges->weak_points[q];
-      double                       factor = 0.;
+      std::array<double, 2>        factor = {};
       if (point.condition != invalid_index)
       {
         if (!amplitudes.released_conditions.empty() &&
             amplitudes.released_conditions[point.condition])
           continue;
-        factor = condition_factor(point.condition, task);
+        factor =
+          factors(&LoadAmplitudes::boundary_conditions, point.condition, task);
       }
-      if (add_weak_point(point,
-                         region_to_law,
-                         n_per_cell,
-                         factor * point.prescribed,
-                         penalty_growth[q],
-                         u,
-                         task.tangent,
-                         local,
-                         energies.conditions,
-                         largest_jump) != Deformation::admissible)
+      const Deformation state =
+        task.is_between
+          ? add_conserving_weak_point(point,
+                                      region_to_conserving_law,
+                                      n_per_cell,
+                                      {{factor[0] * point.prescribed,
+                                        factor[1] * point.prescribed}},
+                                      penalty_growth[q],
+                                      begin,
+                                      end,
+                                      task.tangent,
+                                      local,
+                                      energies.work_of_conditions,
+                                      largest_jump)
+          : add_weak_point(point,
+                           region_to_law,
+                           n_per_cell,
+                           factor[0] * point.prescribed,
+                           penalty_growth[q],
+                           u,
+                           task.tangent,
+                           local,
+                           energies.conditions,
+                           largest_jump);
+      if (state != Deformation::admissible)
         return Deformation::inverted;
     }
     return Deformation::admissible;
@@ -264,17 +314,32 @@ namespace NMM
       if (points.fixed_point_elements()[f] == element &&
           (amplitudes.released_fixed_points.empty() ||
            !amplitudes.released_fixed_points[f]))
+      {
+        const auto [first, last] =
+          factors(&LoadAmplitudes::fixed_points, f, task);
+        const auto add =
+          [&](const double factor, const bool with_tangent, LocalSystem &to) {
+            return add_fixed_point(*covers,
+                                   element,
+                                   problem->fixed_points[f],
+                                   points.stiffness(f),
+                                   factor,
+                                   u,
+                                   with_tangent,
+                                   to);
+          };
         energies.conditions +=
-          add_fixed_point(*covers,
-                          element,
-                          problem->fixed_points[f],
-                          points.stiffness(f),
-                          task.load_factor * (amplitudes.fixed_points.empty()
-                                                ? 1.
-                                                : amplitudes.fixed_points[f]),
-                          u,
-                          task.with_tangent,
-                          local);
+          add(0.5 * (first + last), task.with_tangent, local);
+        if (first != last)
+        {
+          // the energy is quadratic in the factor: its derivative times the
+          // change
+          LocalSystem unused;
+          unused.reset(n_per_cell);
+          energies.work_of_conditions +=
+            add(last, false, unused) - add(first, false, unused);
+        }
+      }
   }
 
 
@@ -380,8 +445,8 @@ namespace NMM
         std::copy(side_covers.begin(),
                   side_covers.end(),
                   both + side * n_per_cell);
-        u.gather(side_covers, nodal, side * n_per_cell);
       }
+      gather(tie, nodal, u);
       local.reset(2 * n_per_cell);
       if (add_weak_points(tie, task, u, local) != Deformation::admissible)
         return Deformation::inverted;
@@ -433,20 +498,22 @@ namespace NMM
     add_dead_loads(task);
 
     // inverted somewhere is inverted for all
-    double sums[5] = {state == Deformation::inverted ? 1. : 0.,
+    double sums[6] = {state == Deformation::inverted ? 1. : 0.,
                       force_square,
                       energies.strain,
                       energies.conditions,
-                      energies.loads};
-    dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums, 5),
+                      energies.loads,
+                      energies.work_of_conditions};
+    dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums, 6),
                                 covers->communicator(),
-                                dealii::ArrayView<double>(sums, 5));
+                                dealii::ArrayView<double>(sums, 6));
     if (sums[0] > 0.)
       return Deformation::inverted;
     force_scale         = std::hypot(std::sqrt(sums[1]), least_force_scale);
     energies.strain     = sums[2];
     energies.conditions = sums[3];
     energies.loads      = sums[4];
+    energies.work_of_conditions = sums[5];
     largest_jump =
       dealii::Utilities::MPI::max(largest_jump, covers->communicator());
 
@@ -496,10 +563,12 @@ namespace NMM
 
 
   Deformation
-  FiniteElasticity::assemble_between(const Vector &begin,
-                                     const Vector &end,
-                                     const double  load_factor,
-                                     const bool    with_tangent)
+  FiniteElasticity::assemble_between(const Vector         &begin,
+                                     const Vector         &end,
+                                     const double          load_factor,
+                                     const Tangent         tangent,
+                                     const LoadAmplitudes *first,
+                                     const LoadAmplitudes *last)
   {
     read_nodal_values(*data->covers, begin, data->nodal_begin);
     read_nodal_values(*data->covers, end, data->nodal_end);
@@ -507,10 +576,12 @@ namespace NMM
     for (unsigned int i = 0; i < data->nodal.size(); ++i)
       data->nodal[i] = 0.5 * (data->nodal_begin[i] + data->nodal_end[i]);
     Data::Task task{load_factor,
-                    with_tangent ? Tangent::consistent : Tangent::none,
-                    with_tangent,
+                    tangent,
+                    tangent != Tangent::none,
                     /* has_increment = */ false};
     task.is_between = true;
+    task.first      = first;
+    task.last       = last;
     return data->assemble(task);
   }
 
@@ -523,11 +594,7 @@ namespace NMM
     for (const auto *sites : {&data->edges->conditions, &data->edges->ties})
       for (const EdgeTables::Site &site : *sites)
       {
-        local.gather(data->covers->covers(site.element), data->nodal);
-        if (site.neighbor != invalid_index)
-          local.gather(data->covers->covers(site.neighbor),
-                       data->nodal,
-                       data->n_per_cell);
+        data->gather(site, data->nodal, local);
         for (unsigned int q = site.first_point; q < site.last_point; ++q)
         {
           // nothing below 2, then faster than the moduli: those inside the

@@ -179,10 +179,9 @@ namespace NMM
       const double relative_jump = d.norm() * point.trace_constant;
       if (std::isfinite(relative_jump))
         largest_jump = std::max(largest_jump, relative_jump);
-      constexpr double close = 0.1;
-      const bool       with_third_derivative =
+      const bool with_third_derivative =
         tangent == Tangent::consistent ||
-        (with_tangent && relative_jump < close);
+        (with_tangent && relative_jump < close_jump);
 
       // traction, and its derivative by unknown c of cover k
       Tensor<1, 2> traction;

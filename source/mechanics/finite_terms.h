@@ -34,6 +34,10 @@ namespace NMM
     };
 
 
+    /// Largest |d| Lambda at which Tangent::robust is the whole derivative [-].
+    constexpr double close_jump = 0.1;
+
+
     /// Add sum over (J, L) of weight g_iJ A_cJdL g_jL to the blocks j >= i of a
     /// matrix of @p n_per_cell covers.
     void

@@ -4,6 +4,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <cmath>
+#include <limits>
 #include <mechanics/block_system.h>
 #include <mechanics/curve_conditions.h>
 #include <mechanics/edge_tables.h>
@@ -133,6 +134,9 @@ namespace NMM
     void
     update_stress();
 
+    void
+    add_work(double load_factor);
+
     /// The covers of a tie, and their values.
     dealii::ArrayView<const unsigned int>
     gather(const EdgeTables::Site    &site,
@@ -160,6 +164,7 @@ namespace NMM
 
     dealii::TrilinosWrappers::SparseMatrix matrix;
     Vector residual, correction, owned, solution;
+    double work_of_loads = 0.;
   };
 
 
@@ -522,17 +527,24 @@ namespace NMM
   double
   IncrementalElasticity::step(const double load_factor)
   {
-    return step(load_factor,
-                [&](const Matrix &matrix, const Vector &rhs, Vector &solution) {
-                  data->direct_solver.factorize(matrix);
-                  data->direct_solver.solve(rhs, solution);
-                });
+    return step(load_factor, {});
   }
 
 
   double
   IncrementalElasticity::step(
     const double load_factor,
+    const std::function<void(const Matrix &, const Vector &, Vector &)> &solve)
+  {
+    return try_step(load_factor, std::numeric_limits<double>::infinity(), solve)
+      .largest_displacement;
+  }
+
+
+  IncrementalElasticity::StepResult
+  IncrementalElasticity::try_step(
+    const double load_factor,
+    const double max_displacement,
     const std::function<void(const Matrix &, const Vector &, Vector &)> &solve)
   {
     Data          &d            = *data;
@@ -546,23 +558,122 @@ namespace NMM
                                  "take smaller steps, or finite kinematics"));
     d.block_system.transfer(d.matrix, d.residual);
     d.correction.reinit(d.residual);
-    solve(d.matrix, d.residual, d.correction);
+    if (solve)
+      solve(d.matrix, d.residual, d.correction);
+    else
+    {
+      d.direct_solver.factorize(d.matrix);
+      d.direct_solver.solve(d.residual, d.correction);
+    }
 
-    d.owned -= d.correction;
-    d.constraints->distribute(d.owned);
-    const Vector before(d.solution);
-    d.solution = d.owned;
-    Vector increment(d.solution);
-    increment -= before;
+    Vector end(d.owned);
+    end -= d.correction;
+    d.constraints->distribute(end);
+    Vector increment(d.solution), owned_increment(end);
+    owned_increment -= d.owned;
+    increment = owned_increment;
     read_nodal_values(*d.covers, increment, d.nodal_increment);
-    d.update_stress();
 
     double largest = 0.;
     for (const auto k : d.covers->locally_owned_covers())
       largest = std::max(largest,
                          std::hypot(d.nodal_increment[2 * k],
                                     d.nodal_increment[2 * k + 1]));
-    return dealii::Utilities::MPI::max(largest, communicator);
+    StepResult result;
+    result.largest_displacement =
+      dealii::Utilities::MPI::max(largest, communicator);
+    AssertThrow(std::isfinite(result.largest_displacement),
+                NumericalFailure("The displacements are not finite",
+                                 "load factor " + std::to_string(load_factor),
+                                 "see whether the solid is held, and take "
+                                 "smaller steps"));
+    result.is_taken = result.largest_displacement <= max_displacement;
+    if (result.is_taken)
+    {
+      d.owned    = end;
+      d.solution = d.owned;
+      d.update_stress();
+      d.add_work(load_factor);
+    }
+    return result;
+  }
+
+
+  void
+  IncrementalElasticity::Data::add_work(const double load_factor)
+  {
+    double work = 0.;
+    dead_loads.for_each_force(
+      [&](const unsigned int k, const Tensor<1, 2> &force) {
+        work += load_factor * (force[0] * nodal_increment[2 * k] +
+                               force[1] * nodal_increment[2 * k + 1]);
+      });
+    work_of_loads += dealii::Utilities::MPI::sum(work, covers->communicator());
+  }
+
+
+  IncrementalElasticity::State
+  IncrementalElasticity::state() const
+  {
+    return {data->owned, data->stress, data->weak_stress, data->work_of_loads};
+  }
+
+
+  void
+  IncrementalElasticity::restore(const State &state)
+  {
+    AssertThrow(state.solution.size() == data->owned.size() &&
+                  state.stress.size() == data->stress.size() &&
+                  state.weak_stress.size() == data->weak_stress.size(),
+                InputError("The state of another problem",
+                           "incremental kinematics",
+                           "restore a state of the same one"));
+    data->owned         = state.solution;
+    data->solution      = data->owned;
+    data->stress        = state.stress;
+    data->weak_stress   = state.weak_stress;
+    data->work_of_loads = state.work_of_loads;
+  }
+
+
+  double
+  IncrementalElasticity::work_of_loads() const
+  {
+    return data->work_of_loads;
+  }
+
+
+  double
+  IncrementalElasticity::strain_energy() const
+  {
+    const Data         &d = *data;
+    std::vector<double> nodal;
+    read_nodal_values(*d.covers, d.solution, nodal);
+    LocalDisplacement u;
+    double            energy = 0.;
+    const auto [first, last] = d.covers->locally_owned_elements();
+    for (unsigned int e = first; e < last; ++e)
+    {
+      u.gather(d.covers->covers(e), nodal);
+      const ElementTables::View table = d.tables(e);
+      const PlaneElasticity    &elasticity =
+        d.region_to_elasticity[d.covers->manifold_mesh().region(e)];
+      const double share =
+        elasticity.lambda / (2. * (elasticity.lambda + elasticity.mu));
+      for (unsigned int q = 0; q < table.n_points; ++q)
+      {
+        const SymmetricTensor<2, 2> &sigma =
+          d.stress[d.tables.first_point(e) + q];
+        const double trace = dealii::trace(sigma);
+        const double area =
+          table.weights[q] *
+          dealii::determinant(deformation_gradient(
+            d.n_per_cell, u.values, table.gradients + q * d.n_per_cell));
+        energy +=
+          area * (sigma * sigma - share * trace * trace) / (4. * elasticity.mu);
+      }
+    }
+    return dealii::Utilities::MPI::sum(energy, d.covers->communicator());
   }
 
 

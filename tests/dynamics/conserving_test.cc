@@ -150,8 +150,13 @@ namespace
         const auto residual = [&](const double share, const bool with_tangent) {
           Vector at(end);
           at.add(share, direction);
-          EXPECT_EQ(body.mechanics->assemble_between(
-                      relevant(begin), relevant(at), 0., with_tangent),
+          EXPECT_EQ(body.mechanics->assemble_between(relevant(begin),
+                                                     relevant(at),
+                                                     0.,
+                                                     0.,
+                                                     with_tangent
+                                                       ? Tangent::consistent
+                                                       : Tangent::none),
                     Deformation::admissible);
           return body.mechanics->residual();
         };

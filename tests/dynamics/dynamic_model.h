@@ -228,12 +228,13 @@ namespace NMM
       Deformation
       assemble_between(const Vector &begin,
                        const Vector &end,
-                       double        t,
-                       bool) override
+                       double        t_0,
+                       double        t_1,
+                       Tangent) override
       {
         Vector mean(begin);
         mean.sadd(0.5, 0.5, end);
-        return assemble(mean, t, Tangent::none, nullptr);
+        return assemble(mean, 0.5 * (t_0 + t_1), Tangent::none, nullptr);
       }
       const Vector &
       residual() const override

@@ -359,4 +359,13 @@ namespace
     check_pulse(body, trapezoidal, 1e-3);
     check_pulse(body, TimeScheme::energy_momentum(), 1e-3);
   }
+
+
+  TEST(Bar, PulseIsReflectedWithoutLossInFiniteKinematics)
+  {
+    Body body = bar(10., 0.4, 0.3);
+    body.make_finite();
+    // St. Venant-Kirchhoff's waves are faster by 3/2 of the strain
+    check_pulse(body, TimeScheme::energy_momentum(), 1e-4);
+  }
 } // namespace

@@ -50,12 +50,9 @@ namespace
     const std::string     name = NMM_TEST_OUTPUT_DIR "/degenerate.png";
     PictureData           data;
     PictureData::Triangle flat;
-    flat.nodes  = {{Point<2>(0., 0.),
-                    Point<2>(1., 0.),
-                    Point<2>(2., 0.),
-                    Point<2>(0.5, 0.),
-                    Point<2>(1.5, 0.),
-                    Point<2>(1., 0.)}};
+    const double          x[6] = {0., 1., 2., 0.5, 1.5, 1.};
+    for (unsigned int i = 0; i < 6; ++i)
+      flat.vertices[i].position = Point<2>(x[i], 0.);
     flat.values = {{1., 1., 1., 1., 1., 1.}};
     for (const bool with_triangle : {false, true})
     {

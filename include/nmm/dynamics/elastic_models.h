@@ -127,8 +127,9 @@ namespace NMM
     Deformation
     assemble_between(const Vector &begin,
                      const Vector &end,
-                     double        t,
-                     bool          with_tangent) override;
+                     double        t_0,
+                     double        t_1,
+                     Tangent       tangent) override;
 
     const Vector &
     residual() const override;
@@ -144,6 +145,13 @@ namespace NMM
                      double        t,
                      double        t_0,
                      double        t_1) override;
+
+    double
+    work_of_supports_between(const Vector &begin,
+                             const Vector &end,
+                             const Vector &mean,
+                             double        t_0,
+                             double        t_1) override;
 
   private:
     double
@@ -194,8 +202,9 @@ namespace NMM
     Deformation
     assemble_between(const Vector &begin,
                      const Vector &end,
-                     double        t,
-                     bool          with_tangent) override;
+                     double        t_0,
+                     double        t_1,
+                     Tangent       tangent) override;
 
     const Vector &
     residual() const override;

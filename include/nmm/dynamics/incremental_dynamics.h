@@ -5,6 +5,7 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <functional>
 #include <memory>
 
 namespace NMM
@@ -37,7 +38,7 @@ namespace NMM
                         const ElasticityProblem                 &problem);
     ~IncrementalDynamics();
 
-    /// Owned unknowns [m/s].
+    /// Owned unknowns [m/s]. The account of energies starts anew.
     void
     set_velocity(const Vector &velocity);
 
@@ -46,6 +47,75 @@ namespace NMM
     /// IncrementalElasticity::step().
     double
     step(double h, double load_factor = 1.);
+
+    /// The same, unless a cover would move by more than @p max_displacement [m]:
+    /// then nothing changes.
+    [[nodiscard]] IncrementalElasticity::StepResult
+    try_step(double h, double load_factor, double max_displacement);
+
+    /// How advance() chooses its steps.
+    struct Control
+    {
+      /// The largest step, and the first one tried; the smallest allowed [s].
+      double max_step, min_step;
+      /// Of a cover in a step [m].
+      double max_displacement;
+    };
+
+    /// What advance() did.
+    struct Advance
+    {
+      /// [s]
+      double step = 0.;
+      /// [m]
+      double       largest_displacement = 0.;
+      unsigned int n_cuts               = 0;
+    };
+
+    /**
+     * One step towards the time @p end [s], as large as @p control allows: it is cut
+     * and tried again from the same state until no cover moves by more than allowed,
+     * and the next one is at most twice as large. @p load_factor at the end of the step
+     * acts. @throws NumericalFailure if a step would be smaller than allowed.
+     */
+    Advance
+    advance(double                                 end,
+            const Control                         &control,
+            const std::function<double(double t)> &load_factor = {});
+
+    /// Since the start [s].
+    double
+    time() const;
+
+    /// [J/m]
+    struct Account
+    {
+      double kinetic = 0., strain = 0.;
+      /// Of loads that keep their direction, IncrementalElasticity::work_of_loads().
+      double work = 0.;
+      /// kinetic + strain - work less that at the start: what the scheme, supports and
+      /// follower pressure add (> 0) or take away.
+      double balance = 0.;
+    };
+
+    Account
+    account() const;
+
+    /// All that steps change; to go back to, or to continue from.
+    struct State
+    {
+      IncrementalElasticity::State elasticity;
+      /// Owned unknowns [m/s].
+      Vector velocity;
+      double time = 0., next_step = 0., initial_energy = 0.;
+    };
+
+    State
+    state() const;
+
+    /// The same bits follow.
+    void
+    restore(const State &state);
 
     /// Owned unknowns [m/s].
     const Vector &

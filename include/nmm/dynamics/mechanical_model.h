@@ -89,16 +89,17 @@ namespace NMM
              const Vector *increment = nullptr) = 0;
 
     /**
-     * Forces between two states with loads at the time @p t, such that internal
-     * forces times (@p end - @p begin) is the change of the strain
-     * energy and they exert no moment in the mean position. K is the derivative by
-     * the mean displacement at given @p begin.
+     * Forces between the states @p begin at @p t_0 and @p end at @p t_1, loads
+     * being those of the mean time: internal forces times (@p end - @p begin) is the
+     * change of the strain energy and they exert no moment in the mean
+     * position. K is the derivative by the mean displacement at given @p begin.
      */
     virtual Deformation
     assemble_between(const Vector &begin,
                      const Vector &end,
-                     double        t,
-                     bool          with_tangent) = 0;
+                     double        t_0,
+                     double        t_1,
+                     Tangent       tangent) = 0;
 
     /// r of the last assembly [N/m]; owned unknowns, 0 for constrained ones.
     virtual const Vector &
@@ -142,6 +143,24 @@ namespace NMM
      */
     virtual double
     work_of_supports(const Vector &u, double t, double t_0, double t_1) = 0;
+
+    /**
+     * The same for a step from @p begin at @p t_0 to @p end at @p t_1 with the
+     * forces of assemble_between(): the account is exact if these forces and this
+     * work together make the change of the energy of conditions. Unless overridden,
+     * work_of_supports() in the mean position @p mean.
+     */
+    virtual double
+    work_of_supports_between(const Vector &begin,
+                             const Vector &end,
+                             const Vector &mean,
+                             double        t_0,
+                             double        t_1)
+    {
+      (void)begin;
+      (void)end;
+      return work_of_supports(mean, 0.5 * (t_0 + t_1), t_0, t_1);
+    }
     /// @}
 
     /// @name What forces depend on beside u and t, e.g. where contacts stick

@@ -98,18 +98,25 @@ namespace NMM
 
     /**
      * Residual between the displacements @p begin and @p end of a time step, of
-     * the energy-momentum conserving scheme: internal forces are those of
-     * ConservingLaw (source/mechanics/conserving_terms.h), which do the work by
-     * which the strain energy changes and exert no moment in the mean position;
-     * all other terms are those at the mean displacement. tangent() is the
+     * the energy-momentum conserving scheme. Internal forces and those of
+     * conditions and ties (source/mechanics/conserving_terms.h) do the work by
+     * which the strain energy and the energy of conditions change, but for the
+     * work of moving supports; internal forces and ties exert no moment in the mean
+     * position. All other terms are those at the mean displacement. Prescribed
+     * displacements are multiplied by what @p first and @p last say of them at
+     * the beginning and at the end, where these are given, else by the amplitudes
+     * that were set. tangent() is the
      * derivative by the mean displacement at given @p begin, i.e. twice that by
-     * @p end, and not symmetric. energies().strain is not set.
+     * @p end, and not symmetric. Of energies() only `loads` and
+     * `work_of_conditions` are set.
      */
     Deformation
-    assemble_between(const Vector &begin,
-                     const Vector &end,
-                     double        load_factor,
-                     bool          with_tangent);
+    assemble_between(const Vector         &begin,
+                     const Vector         &end,
+                     double                load_factor,
+                     Tangent               tangent,
+                     const LoadAmplitudes *first = nullptr,
+                     const LoadAmplitudes *last  = nullptr);
 
     /**
      * Let the penalties gamma grow with the moduli A(u) at the boundary once these
@@ -145,6 +152,8 @@ namespace NMM
       /// Minus the work of loads that keep direction and size, at the current
       /// factor [J/m].
       double loads = 0.;
+      /// Done in assemble_between() by the change of what is prescribed [J/m].
+      double work_of_conditions = 0.;
     };
 
     const Energies &

@@ -66,6 +66,13 @@ namespace NMM
     double
     step(double load_factor);
 
+    struct StepResult
+    {
+      /// Largest displacement of a cover [m].
+      double largest_displacement = 0.;
+      bool   is_taken             = false;
+    };
+
     using Matrix = dealii::TrilinosWrappers::SparseMatrix;
 
     /// The same with equations of the caller's: @p solve is handed stiffness
@@ -76,6 +83,46 @@ namespace NMM
          const std::function<void(const Matrix &stiffness,
                                   const Vector &residual,
                                   Vector       &correction)> &solve);
+
+    /**
+     * The same, unless a cover would move by more than @p max_displacement [m]:
+     * then nothing changes, and a smaller step is to be tried. Without @p solve
+     * the static step.
+     */
+    [[nodiscard]] StepResult
+    try_step(double                                         load_factor,
+             double                                         max_displacement,
+             const std::function<void(const Matrix &stiffness,
+                                      const Vector &residual,
+                                      Vector       &correction)> &solve = {});
+
+    /// All that steps change.
+    struct State
+    {
+      /// Owned unknowns [m].
+      Vector solution;
+      /// At the quadrature points and at points of displacement conditions and
+      /// ties [Pa].
+      std::vector<dealii::SymmetricTensor<2, 2>> stress, weak_stress;
+      double                                     work_of_loads = 0.;
+    };
+
+    State
+    state() const;
+
+    /// Continue from @p state, one of this object or of an equal one.
+    void
+    restore(const State &state);
+
+    /// Of the stress on the current geometry, by the law of small strain,
+    /// initial stress included [J/m].
+    double
+    strain_energy() const;
+
+    /// Done in all steps by loads that keep their direction, gravity, body force,
+    /// tractions and point forces [J/m].
+    double
+    work_of_loads() const;
 
     /// Sum of all steps [m], locally relevant.
     const Vector &

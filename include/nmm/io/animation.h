@@ -1,0 +1,139 @@
+#ifndef nmm_io_animation_h
+#define nmm_io_animation_h
+
+#include <nmm/io/picture.h>
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace NMM
+{
+  /**
+   * A page that shows a series of pictures in any browser, without a network: all
+   * is in one file, the pictures as base64. Buttons and keys play, stop and step,
+   * a slider goes anywhere; frames follow each other in proportion to their times.
+   *
+   * Each frame is a script element of its own,
+   * `<script>frame({"time":0.1,"label":"t = 0.1 s","png":"iVBOR..."})</script>`, so
+   * that a page that ends after any frame is a whole one.
+   *
+   * Lifetime: the stream must outlive this object. Memory: one frame.
+   */
+  class AnimationPage
+  {
+  public:
+    /// Writes all but the frames.
+    AnimationPage(std::ostream &out, const std::string &title);
+
+    /// @p png are the bytes of a PNG file, of the same size in pixels as the
+    /// first one's; @p time must not be less than the last one's.
+    /// @throws InputError otherwise.
+    void
+    add_frame(double time, const std::string &label, const std::string &png);
+
+    unsigned int
+    n_frames() const;
+
+  private:
+    std::ostream *out;
+    unsigned int  n_written = 0;
+    double        last_time = -std::numeric_limits<double>::infinity();
+    std::pair<std::uint32_t, std::uint32_t> size;
+  };
+
+
+  struct AnimationParameters
+  {
+    /// Of the pictures, at most [pixels].
+    unsigned int width = 800;
+    /// Where there are more, so many are chosen, evenly; the last one is kept.
+    unsigned int max_frames = 300;
+    /// Steps of the colour map: with fewer the page is smaller.
+    unsigned int n_colours = 256;
+    /// What frames follow each other by: "t = 0.25 s".
+    std::string time_name = "t", time_unit = "s";
+    /// As in PictureFrame, for all frames; else what contains all of them.
+    std::optional<std::pair<dealii::Point<2>, dealii::Point<2>>> view;
+    std::optional<std::pair<double, double>>                     range;
+
+    /// @throws InputError naming the value.
+    void
+    check() const;
+  };
+
+
+  /**
+   * A moving picture in the making. Frames are kept in a file while the analysis
+   * goes on, as view, colours and the factor on displacements that suit all of
+   * them are known only at the end. In single precision: about 0.1 kB per
+   * triangle and frame. Memory: one frame.
+   *
+   * For use on one rank.
+   */
+  class Animation
+  {
+  public:
+    /**
+     * Keeps frames in @p file_name. If there are such already, of times up to
+     * @p keep_until, they are the first ones (a run that continues); a frame that
+     * was not written to its end and all later ones are dropped.
+     * @throws InputError if the file cannot be written.
+     */
+    explicit Animation(
+      std::string file_name,
+      double      keep_until = -std::numeric_limits<double>::infinity());
+
+    /// @p time must not be less than that of the last frame.
+    void
+    add_frame(double time, const PictureData &data);
+
+    unsigned int
+    n_frames() const;
+
+    /**
+     * Draw all frames: displacements times `parameters.deformation_scale` or, if
+     * that is negative, the factor for the largest one in any frame; colours of
+     * `animation.range`, the range in @p parameters or that of all frames.
+     * `parameters.picture_width` is not used.
+     * @throws InputError if there are no frames.
+     */
+    void
+    write(std::ostream              &out,
+          const std::string         &title,
+          const OutputParameters    &parameters,
+          const AnimationParameters &animation = {}) const;
+
+    /// Remove the file. No more calls after that.
+    void
+    discard();
+
+  private:
+    struct Record
+    {
+      double         time;
+      std::streamoff position;
+      std::uint64_t  n_bytes;
+    };
+
+    void
+    find_records(double keep_until);
+
+    PictureData
+    read(const Record &record) const;
+
+    /// The records that write() shows.
+    std::vector<Record>
+    chosen_records(unsigned int max_frames) const;
+
+    std::string         file_name;
+    std::vector<Record> records;
+    std::streamoff      end = 0;
+  };
+} // namespace NMM
+
+#endif

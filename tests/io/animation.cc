@@ -1,0 +1,308 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/io/animation.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <sstream>
+
+using namespace NMM;
+using dealii::Point;
+using dealii::Tensor;
+
+namespace
+{
+  const std::string spool = NMM_TEST_OUTPUT_DIR "/animation.frames";
+
+
+  /// A unit square of two triangles at (1000, 1000), displaced by
+  /// @p displacement; values from 0 to @p largest.
+  PictureData
+  square(const double largest, const Tensor<1, 2> &displacement)
+  {
+    const Point<2> corner(1000., 1000.);
+    PictureData    data;
+    for (const bool upper : {false, true})
+    {
+      const Point<2>        p[3] = {Point<2>(upper ? 1. : 0., upper ? 1. : 0.),
+                                    Point<2>(upper ? 0. : 1., upper ? 1. : 0.),
+                                    Point<2>(upper ? 0. : 1., upper ? 0. : 1.)};
+      PictureData::Triangle triangle;
+      for (unsigned int i = 0; i < 6; ++i)
+      {
+        const Point<2> x =
+          i < 3 ? p[i] : Point<2>(0.5 * (p[i - 3] + p[(i - 2) % 3]));
+        triangle.vertices[i] = {corner + x, displacement};
+        triangle.values[i]   = largest * x[0];
+      }
+      data.triangles.push_back(triangle);
+      data.outlines.push_back({triangle.vertices[0], triangle.vertices[1]});
+    }
+    return data;
+  }
+
+
+  Tensor<1, 2>
+  shift(const double x, const double y)
+  {
+    Tensor<1, 2> d;
+    d[0] = x;
+    d[1] = y;
+    return d;
+  }
+
+
+  struct Frame
+  {
+    double      time;
+    std::string label, png;
+  };
+
+
+  std::string
+  decode(const std::string &text)
+  {
+    const std::string digits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string   bytes;
+    std::uint32_t bits   = 0;
+    unsigned int  n_bits = 0;
+    EXPECT_EQ(text.size() % 4, 0u);
+    for (const char c : text)
+    {
+      if (c == '=')
+        break;
+      const auto digit = digits.find(c);
+      EXPECT_NE(digit, std::string::npos);
+      bits = (bits << 6) | static_cast<std::uint32_t>(digit);
+      n_bits += 6;
+      if (n_bits >= 8)
+      {
+        n_bits -= 8;
+        bytes += static_cast<char>((bits >> n_bits) & 0xff);
+      }
+    }
+    return bytes;
+  }
+
+
+  /// What the page holds, by the form that its documentation promises.
+  std::vector<Frame>
+  frames_of(const std::string &page)
+  {
+    std::vector<Frame> frames;
+    const std::string  start = "<script>frame({\"time\":",
+                      label = ",\"label\":\"", png = "\",\"png\":\"",
+                      end = "\"})</script>\n";
+    for (auto i = page.find(start); i != std::string::npos;
+         i      = page.find(start, i + 1))
+    {
+      const auto a = i + start.size(), b = page.find(label, a),
+                 c = page.find(png, b), d = page.find(end, c);
+      EXPECT_NE(d, std::string::npos);
+      frames.push_back(
+        {std::stod(page.substr(a, b - a)),
+         page.substr(b + label.size(), c - b - label.size()),
+         decode(page.substr(c + png.size(), d - c - png.size()))});
+    }
+    return frames;
+  }
+
+
+  std::string
+  write(const Animation           &animation,
+        const OutputParameters    &parameters = {},
+        const AnimationParameters &how        = {})
+  {
+    std::ostringstream page;
+    animation.write(page, "a <title> & \"more\"", parameters, how);
+    return page.str();
+  }
+
+
+  TEST(Animation, PageHoldsAllFramesInOneSize)
+  {
+    std::filesystem::remove(spool);
+    Animation animation(spool);
+    for (unsigned int k = 0; k < 7; ++k)
+      animation.add_frame(0.125 * k, square(1. + k, shift(0.5 * k, 0.)));
+    EXPECT_EQ(animation.n_frames(), 7u);
+    const std::string page   = write(animation);
+    const auto        frames = frames_of(page);
+    ASSERT_EQ(frames.size(), 7u);
+    for (unsigned int k = 0; k < 7; ++k)
+    {
+      EXPECT_EQ(frames[k].time, 0.125 * k);
+      EXPECT_EQ(frames[k].png.substr(1, 3), "PNG");
+      EXPECT_EQ(frames[k].png.substr(frames[k].png.size() - 8, 4), "IEND");
+      // width and height
+      EXPECT_EQ(frames[k].png.substr(16, 8), frames[0].png.substr(16, 8));
+      if (k > 0)
+      {
+        EXPECT_NE(frames[k].png, frames[k - 1].png);
+      }
+    }
+    // two places tell 0.125 from 0.25
+    EXPECT_EQ(frames[1].label, "t = 0.12 s");
+    // at most the width asked for, and not much less
+    const auto width = static_cast<unsigned char>(frames[0].png[18]) * 256 +
+                       static_cast<unsigned char>(frames[0].png[19]);
+    EXPECT_LE(width, 801);
+    EXPECT_GE(width, 780);
+
+    // offline: nothing is loaded; the title is text
+    for (const char *forbidden : {"http:", "https:", "src=", "<title> &"})
+      EXPECT_EQ(page.find(forbidden), std::string::npos) << forbidden;
+    EXPECT_NE(page.find("a &lt;title&gt; &amp;"), std::string::npos);
+    animation.discard();
+    EXPECT_FALSE(std::filesystem::exists(spool));
+  }
+
+
+  TEST(Animation, ViewColoursAndScaleSuitAllFrames)
+  {
+    std::filesystem::remove(spool);
+    Animation        animation(spool);
+    OutputParameters parameters;
+    parameters.deformation_scale = 1.;
+    animation.add_frame(0., square(1., shift(0., 0.)));
+    animation.add_frame(1., square(1., shift(0., 0.)));
+    animation.add_frame(2., square(4., shift(9., 2.)));
+    const auto all = frames_of(write(animation, parameters));
+
+    // the same by hand
+    PictureFrame frame;
+    frame.view  = {{Point<2>(999.9, 999.9), Point<2>(1010.1, 1003.1)}};
+    frame.range = {{0., 4.}};
+    frame.note  = "t = 2.0 s";
+
+    PictureData data             = square(4., shift(9., 2.));
+    data.deformation_scale       = 1.;
+    OutputParameters of_frames   = parameters;
+    of_frames.picture_width      = 800;
+    const std::string title      = "a <title> & \"more\"";
+    const auto        same_as_by = [&](const std::size_t k) {
+      return all[k].png ==
+             draw_picture_in_memory(data, of_frames, title, frame, 256);
+    };
+    ASSERT_EQ(all.size(), 3u);
+    EXPECT_TRUE(same_as_by(2));
+    frame.range = {{0., 1.}};
+    EXPECT_FALSE(same_as_by(2));
+
+    // given ones win
+    AnimationParameters how;
+    how.view         = {{Point<2>(0., 0.), Point<2>(2000., 3000.)}};
+    how.range        = {{-1., 1.}};
+    how.time_name    = "load factor";
+    how.time_unit    = "";
+    const auto given = frames_of(write(animation, parameters, how));
+    frame.view       = how.view;
+    frame.range      = how.range;
+    frame.note       = "load factor = 2.0";
+    EXPECT_EQ(given[2].label, frame.note);
+    EXPECT_EQ(given[2].png,
+              draw_picture_in_memory(data, of_frames, title, frame, 256));
+
+    // a chosen factor: 5 % of the box of the solid at rest
+    parameters.deformation_scale = -1.;
+    const auto scaled            = frames_of(write(animation, parameters));
+    data.deformation_scale =
+      choose_deformation_scale(std::hypot(9., 2.), std::sqrt(2.));
+    EXPECT_EQ(data.deformation_scale, 0.005);
+    PictureExtents extents;
+    extents.add(data, 0.);
+    extents.add(data, data.deformation_scale);
+    frame.view  = extents.view(0.01);
+    frame.range = {{0., 4.}};
+    frame.note  = "t = 2.0 s";
+    EXPECT_EQ(scaled[2].png,
+              draw_picture_in_memory(data, of_frames, title, frame, 256));
+    animation.discard();
+  }
+
+
+  TEST(Animation, GoesOnWhereItWasKilled)
+  {
+    std::filesystem::remove(spool);
+    std::string whole;
+    {
+      Animation animation(spool);
+      for (unsigned int k = 0; k < 6; ++k)
+        animation.add_frame(k, square(1., shift(0.1 * k, 0.)));
+      whole = write(animation);
+    }
+    // killed in the middle of the sixth frame; the last checkpoint is of time 3
+    std::filesystem::resize_file(spool, std::filesystem::file_size(spool) - 7);
+    {
+      Animation animation(spool, 3.);
+      EXPECT_EQ(animation.n_frames(), 4u);
+      for (unsigned int k = 4; k < 6; ++k)
+        animation.add_frame(k, square(1., shift(0.1 * k, 0.)));
+      EXPECT_EQ(write(animation), whole);
+    }
+    {
+      // the damaged one is dropped
+      std::filesystem::resize_file(spool,
+                                   std::filesystem::file_size(spool) - 7);
+      Animation animation(spool, 10.);
+      EXPECT_EQ(animation.n_frames(), 5u);
+    }
+    {
+      Animation animation(spool);
+      EXPECT_EQ(animation.n_frames(), 0u);
+      EXPECT_EQ(std::filesystem::file_size(spool), 0u);
+      animation.discard();
+    }
+  }
+
+
+  TEST(Animation, ManyFramesAreThinnedOut)
+  {
+    std::filesystem::remove(spool);
+    Animation animation(spool);
+    for (unsigned int k = 0; k <= 100; ++k)
+      animation.add_frame(k, square(1., shift(0., 0.)));
+    AnimationParameters how;
+    how.max_frames    = 11;
+    how.width         = 200;
+    const auto frames = frames_of(write(animation, {}, how));
+    ASSERT_EQ(frames.size(), 11u);
+    for (unsigned int k = 0; k <= 10; ++k)
+      EXPECT_EQ(frames[k].time, 10. * k);
+    animation.discard();
+  }
+
+
+  TEST(Animation, BadInputIsRefused)
+  {
+    std::filesystem::remove(spool);
+    Animation animation(spool);
+    EXPECT_THROW(write(animation), InputError);
+    animation.add_frame(1., square(1., shift(0., 0.)));
+    EXPECT_THROW(animation.add_frame(0.5, square(1., shift(0., 0.))),
+                 InputError);
+    AnimationParameters how;
+    how.range = {{1., 1.}};
+    EXPECT_THROW(write(animation, {}, how), InputError);
+    how       = {};
+    how.width = 10;
+    EXPECT_THROW(write(animation, {}, how), InputError);
+    EXPECT_THROW(Animation("/nowhere/at/all"), InputError);
+    animation.discard();
+
+    std::ostringstream out;
+    AnimationPage      page(out, "title");
+    EXPECT_THROW(page.add_frame(0., "", "no picture"), InputError);
+    const PictureData data = square(1., shift(0., 0.));
+    OutputParameters  parameters;
+    page.add_frame(0., "", draw_picture_in_memory(data, parameters, ""));
+    parameters.picture_width = 500;
+    EXPECT_THROW(page.add_frame(1.,
+                                "",
+                                draw_picture_in_memory(data, parameters, "")),
+                 InputError);
+    EXPECT_EQ(page.n_frames(), 1u);
+  }
+} // namespace

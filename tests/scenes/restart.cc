@@ -110,18 +110,14 @@ namespace
   {
     for (const unsigned int n_ranks : {1, 2})
     {
-      check_stop("axial-bar-base-acceleration-file/scene.prm",
-                 "1",
-                 {},
-                 n_ranks);
       // The release is in the second part.
       check_stop("released-bar/scene.prm",
                  "0.4",
-                 {"--set", "Time/End time=1"},
+                 {"--set", "Time/End time=0.7"},
                  n_ranks);
       check_stop("spinning-block/scene.prm",
                  "0.5",
-                 {"--set", "Time/End time=1"},
+                 {"--set", "Time/End time=0.8"},
                  n_ranks);
     }
   }

@@ -8,6 +8,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include "dynamic_analysis.h"
 #include "nonlinear_analysis.h"
 #include "static_analysis.h"
 #include <boost/program_options.hpp>
@@ -33,8 +34,10 @@ namespace
 
   struct Options
   {
-    std::string              scene;
-    std::string              output;
+    std::string scene;
+    std::string output;
+    /// Checkpoint to continue from; empty: none.
+    std::string              restart;
     std::vector<std::string> overrides;
     bool                     check_only       = false;
     bool                     print_parameters = false;
@@ -56,6 +59,11 @@ namespace
     add("set,s",
         po::value<std::vector<std::string>>()->composing(),
         "Section/Key=value, replaces a value of the scene; may be repeated");
+    add(
+      "restart,r",
+      po::value<std::string>(),
+      "continue a dynamic analysis from this checkpoint; histories and series "
+      "in the folder for the results are continued");
     add("check,c",
         po::bool_switch(),
         "read, cut and report, but do not solve and write nothing");
@@ -73,15 +81,16 @@ namespace
   help_text()
   {
     std::ostringstream text;
-    text << "nmm solves a scene with the second-order numerical manifold "
-            "method.\n\n"
-            "Usage: nmm [options] scene.prm\n\n"
-         << visible_options()
-         << "\nWrites summary.csv, probes.csv, fields.vtu and picture.png, and "
-            "history.csv of\nload steps. Scene files are explained in "
-            "doc/scene-format.md.\n\n"
-            "Exit codes: 0 success, 1 internal error, 2 bad input (nothing "
-            "is written),\n3 no solution (what is known is written).\n";
+    text
+      << "nmm solves a scene with the second-order numerical manifold "
+         "method.\n\n"
+         "Usage: nmm [options] scene.prm\n\n"
+      << visible_options()
+      << "\nWrites summary.csv, probes.csv, fields.vtu and picture.png, and "
+         "history.csv of\nsteps of load or time. Scene files are explained in "
+         "doc/scene-format.md.\n\n"
+         "Exit codes: 0 success, 1 internal error, 2 bad input (nothing "
+         "is written),\n3 no solution (what is known is written).\n";
     return text.str();
   }
 
@@ -138,6 +147,14 @@ namespace
     std::vector<std::string> scenes;
     if (variables.count("scene") > 0)
       scenes = variables["scene"].as<std::vector<std::string>>();
+    if (variables.count("restart") > 0)
+    {
+      options.restart = variables["restart"].as<std::string>();
+      AssertThrow(!options.restart.empty(),
+                  NMM::InputError("the checkpoint has no name",
+                                  "--restart",
+                                  "name the file to continue from"));
+    }
     if (variables.count("set") > 0)
       options.overrides = variables["set"].as<std::vector<std::string>>();
     options.check_only       = variables["check"].as<bool>();
@@ -170,10 +187,26 @@ namespace
 
 
   std::unique_ptr<SceneAnalysis>
-  make_analysis(const NMM::Scene &scene,
-                NMM::Progress    &progress,
-                const MPI_Comm    communicator)
+  make_analysis(const NMM::Scene  &scene,
+                NMM::Progress     &progress,
+                const MPI_Comm     communicator,
+                const std::string &restart)
   {
+    const NMM::ModelParameters &model = scene.parameters().model;
+    const bool is_dynamic = model.analysis == NMM::Analysis::dynamics;
+    AssertThrow(restart.empty() ||
+                  (is_dynamic &&
+                   model.kinematics != NMM::Kinematics::incremental),
+                NMM::InputError("the scene has no dynamic analysis of small or "
+                                "finite kinematics to continue",
+                                "--restart " + restart,
+                                "give the scene the checkpoint was written "
+                                "with"));
+    if (model.analysis != NMM::Analysis::statics)
+      return std::make_unique<DynamicAnalysis>(scene,
+                                               progress,
+                                               communicator,
+                                               restart);
     if (scene.parameters().model.kinematics == NMM::Kinematics::small)
       return std::make_unique<StaticAnalysis>(scene, progress, communicator);
     return std::make_unique<NonlinearAnalysis>(scene, progress, communicator);
@@ -194,23 +227,25 @@ namespace
       directory.check();
 
     progress.message(scene.title());
-    const auto analysis = make_analysis(scene, progress, communicator);
+    const auto analysis =
+      make_analysis(scene, progress, communicator, options.restart);
     analysis->build();
     analysis->print_report();
     if (options.check_only)
       return success;
 
+    analysis->open(directory);
     try
     {
       analysis->solve();
     }
     catch (const NMM::NumericalFailure &)
     {
-      analysis->write(directory);
+      analysis->write();
       throw;
     }
     analysis->verify();
-    analysis->write(directory);
+    analysis->write();
     progress.message("Results are in " + directory.path().string());
     return success;
   }

@@ -30,7 +30,6 @@ public:
 
 private:
   using Vector = NMM::FiniteElasticity::Vector;
-  using Stress = dealii::SymmetricTensor<2, 2>;
 
   /// A row of history.csv.
   struct HistoryRow
@@ -49,38 +48,20 @@ private:
     std::vector<dealii::Tensor<1, 2>> probe_displacements;
   };
 
-  /// A solution to be written.
-  struct State
-  {
-    double load_factor;
-    Vector solution;
-    /// IncrementalElasticity::stresses(); empty in finite kinematics.
-    std::vector<Stress> stresses;
-  };
-
-  /// Stress of an element as a linear function of reference coordinates [Pa].
-  struct LinearStress
-  {
-    Stress           mean, slope[2];
-    dealii::Point<2> center;
-  };
-
   std::unique_ptr<NMM::FiniteElasticity>      finite;
   std::unique_ptr<NMM::IncrementalElasticity> incremental;
   /// Why there are no equations: a block floats. Not an input error, so it waits
   /// until solve().
-  std::exception_ptr        failure;
-  std::vector<unsigned int> region_to_material;
+  std::exception_ptr failure;
   /// Where the largest displacement is looked for: elements and reference
   /// coordinates.
   std::vector<std::pair<unsigned int, dealii::Point<2>>> output_points;
 
   std::vector<HistoryRow> history;
-  /// The last state, and those of the series of fields.
-  std::unique_ptr<State> last_state;
-  std::vector<State>     series;
-  /// Of the state the evaluator shows, per owned element.
-  std::vector<LinearStress> linear_stresses;
+  /// Cuts and iterations of a step that was given up at last.
+  unsigned int n_last_cuts = 0, n_last_iterations = 0;
+  /// Of the last step that converged.
+  Vector last_solution;
 
   void
   make_system() override;
@@ -95,26 +76,19 @@ private:
   void
   add_step(HistoryRow row, const Vector &solution);
 
-  /// Make field, recovery and evaluator those of @p state.
+  /// Make field, recovery and evaluator those of the last step that converged.
   void
-  show(const State &state);
+  show();
 
-  void
-  fit_stresses(const State &state);
-
-  NMM::FieldSample::Stress
-  finite_stress(unsigned int                element,
-                const dealii::Tensor<2, 2> &gradient) const;
-
-  NMM::FieldSample::Stress
-  incremental_stress(unsigned int element, const dealii::Point<2> &xi) const;
-
-  /// In incremental kinematics, of the stress carried along [J].
   double
-  incremental_strain_energy() const;
+  last_value() const override;
 
+  std::string
+  unsolved_note() const override;
+
+  /// history.csv as far as it goes.
   void
-  write_more(const NMM::OutputDirectory &directory) override;
+  write_history() const;
 
   void
   write_history(std::ostream &out) const;

@@ -2,10 +2,10 @@
 
 #include <nmm/base/exceptions.h>
 #include <nmm/covers/own_meshes.h>
-#include <nmm/io/picture.h>
 #include <nmm/io/vtu.h>
 
 #include <algorithm>
+#include <exception>
 #include <sstream>
 
 using namespace NMM;
@@ -172,23 +172,62 @@ SceneAnalysis::print_report()
 }
 
 
-void
-SceneAnalysis::write(const OutputDirectory &directory)
+bool
+SceneAnalysis::is_first_rank() const
 {
-  const bool is_first =
-    dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
-  OutputParameters parameters = scene.parameters().output;
+  return dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+}
+
+
+void
+SceneAnalysis::on_first_rank(const std::function<void()> &action) const
+{
+  std::string        message;
+  std::exception_ptr exception;
+  if (is_first_rank())
+    try
+    {
+      action();
+    }
+    catch (const UserError &error)
+    {
+      message   = error.message();
+      exception = std::current_exception();
+    }
+  message = dealii::Utilities::MPI::broadcast(communicator, message);
+  if (exception)
+    std::rethrow_exception(exception);
+  AssertThrow(message.empty(), InputError(message, "the first rank", ""));
+}
+
+
+void
+SceneAnalysis::open(const OutputDirectory &output_directory)
+{
+  directory = &output_directory;
+  series    = std::make_unique<StateSeries>(scene, *covers, *directory);
+  open_files();
+}
+
+
+void
+SceneAnalysis::open_files()
+{
+  on_first_rank([&]() { directory->create(); });
+}
+
+
+void
+SceneAnalysis::write()
+{
+  const OutputParameters &parameters = scene.parameters().output;
   {
     Stage stage(progress, "output");
-    if (is_first)
-      directory.create();
-    MPI_Barrier(communicator);
-
     if (evaluator && !probes->entries().empty())
     {
       const auto samples = probes->evaluate(*covers, *evaluator);
-      if (is_first)
-        directory.write_text("probes.csv", [&](std::ostream &out) {
+      if (is_first_rank())
+        directory->write_text("probes.csv", [&](std::ostream &out) {
           probes->write(out, samples);
         });
     }
@@ -198,33 +237,25 @@ SceneAnalysis::write(const OutputDirectory &directory)
                 triangles.max_displacement(communicator),
                 parameters.length_unit);
     if (parameters.fields)
-      write_fields(*covers, triangles, directory);
-    write_more(directory);
+      series->finish(
+        last_value(),
+        write_fields_of_state(*covers, triangles, *directory, "fields"));
     if (parameters.picture)
-    {
-      // Without a solution the picture still shows which block is which.
-      if (!evaluator)
-        parameters.quantity = Quantity::block;
-      if (scene.parameters().model.kinematics != Kinematics::small &&
-          parameters.deformation_scale < 0.)
-        parameters.deformation_scale = 1.;
-      const PictureData data =
-        make_picture_data(*covers, triangles, evaluator.get(), parameters);
-      if (is_first)
-        directory.write_file("picture.png", [&](const std::string &name) {
-          draw_picture(data,
-                       parameters,
-                       scene.title() + (is_solved ? "" : " (not solved)"),
-                       name);
-        });
-    }
+      write_picture(scene,
+                    *covers,
+                    triangles,
+                    evaluator.get(),
+                    scene.title() +
+                      (is_solved ? "" : " (" + unsolved_note() + ")"),
+                    "picture.png",
+                    *directory);
   }
-  write_summary(directory);
+  write_summary();
 }
 
 
 void
-SceneAnalysis::write_summary(const OutputDirectory &directory)
+SceneAnalysis::write_summary()
 {
   summary.add("solved", is_solved ? 1. : 0.);
   double total = 0.;
@@ -237,7 +268,7 @@ SceneAnalysis::write_summary(const OutputDirectory &directory)
   }
   summary.add("time_total", total, "s");
   summary.add("peak_memory", peak_memory(communicator), "MB");
-  if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-    directory.write_text("summary.csv",
-                         [&](std::ostream &out) { summary.write(out); });
+  if (is_first_rank())
+    directory->write_text("summary.csv",
+                          [&](std::ostream &out) { summary.write(out); });
 }

@@ -14,14 +14,17 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/affine_constraints.h>
 
+#include "state_series.h"
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 /**
  * A scene's analysis, from geometry to files: what all kinds have in common. The
- * order is fixed: build(), print_report(), solve(), verify(), write(). All input
- * errors come out of build(), so that nothing is written for a scene that is wrong.
+ * order is fixed: build(), print_report(), open(), solve(), verify(), write(). All
+ * input errors come out of build(), so that nothing is written for a scene that is
+ * wrong.
  *
  * Lifetime: the scene and the progress display must outlive it.
  */
@@ -43,7 +46,12 @@ public:
   void
   print_report();
 
-  /// @throws NMM::NumericalFailure.
+  /// Make the folder for results, which must outlive this object. Results of an
+  /// earlier run there are removed, unless it is continued.
+  void
+  open(const NMM::OutputDirectory &directory);
+
+  /// May write as it goes. @throws NMM::NumericalFailure.
   virtual void
   solve() = 0;
 
@@ -53,7 +61,7 @@ public:
 
   /// All files the scene asks for; without a solution those that need none.
   void
-  write(const NMM::OutputDirectory &directory);
+  write();
 
 protected:
   const NMM::Scene &scene;
@@ -80,6 +88,16 @@ protected:
   std::unique_ptr<NMM::DisplacementField>    field;
   std::unique_ptr<NMM::StressRecovery>       recovery;
   std::unique_ptr<NMM::FieldEvaluator>       evaluator;
+  /// After open().
+  const NMM::OutputDirectory  *directory = nullptr;
+  std::unique_ptr<StateSeries> series;
+
+  bool
+  is_first_rank() const;
+
+  /// Let the first rank do something that may throw: all ranks throw then.
+  void
+  on_first_rank(const std::function<void()> &action) const;
 
 private:
   /// Further checks of the problem, before anything is cut.
@@ -92,10 +110,22 @@ private:
   virtual void
   make_system() = 0;
 
-  /// Further files.
+  /// Clear the folder, and begin files that are written during solve().
   virtual void
-  write_more(const NMM::OutputDirectory &)
+  open_files();
+
+  /// Time or load factor of the last state that is known.
+  virtual double
+  last_value() const
   {
+    return 0.;
+  }
+
+  /// Words for the picture of a run that failed.
+  virtual std::string
+  unsolved_note() const
+  {
+    return "not solved";
   }
 
   void
@@ -108,7 +138,7 @@ private:
   make_covers();
 
   void
-  write_summary(const NMM::OutputDirectory &directory);
+  write_summary();
 };
 
 #endif

@@ -233,9 +233,10 @@ namespace NMM
     const char *position =
       bytes.data() + sizeof(magic) + sizeof(version) + sizeof(std::uint64_t);
     if (get<std::uint64_t>(position) != model.fingerprint())
-      refuse("The checkpoint is of another mesh, geometry or material",
-             filename,
-             "continue with the scene it was written with");
+      refuse(
+        "The checkpoint is of another mesh, geometry, material or kinematics",
+        filename,
+        "continue with the scene it was written with");
     if (get<std::uint64_t>(position) != scheme_fingerprint(integrator.scheme()))
       refuse("The checkpoint is of another time integration scheme",
              filename,

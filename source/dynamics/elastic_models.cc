@@ -186,6 +186,7 @@ namespace NMM
       hash.add(static_cast<unsigned int>(material.law));
     }
     hash.add(static_cast<unsigned int>(problem.plane_state));
+    hash.add(is_linear());
     return hash.value();
   }
 

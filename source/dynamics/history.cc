@@ -3,6 +3,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <cstdio>
 #include <iomanip>
 #include <sstream>
 #include <vector>
@@ -53,9 +54,15 @@ namespace NMM
           kept += line + "\n";
       }
     }
-    out.open(filename, std::ios::trunc);
-    out << kept << std::flush;
-    AssertThrow(out,
+    // a kill must not lose the rows kept
+    const std::string temporary = filename + ".part";
+    {
+      std::ofstream file(temporary, std::ios::trunc);
+      file << kept << std::flush;
+      if (file && std::rename(temporary.c_str(), filename.c_str()) == 0)
+        out.open(filename, std::ios::app);
+    }
+    AssertThrow(out.is_open() && out,
                 InputError("The history cannot be written",
                            filename,
                            "check folder and rights"));

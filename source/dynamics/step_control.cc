@@ -160,9 +160,12 @@ namespace NMM
 
 
   RelaxationReport
-  relax(TimeIntegrator &integrator, const RelaxationParameters &parameters)
+  relax(TimeIntegrator                                &integrator,
+        const RelaxationParameters                    &parameters,
+        const std::function<void(const StepRecord &)> &after_step)
   {
     RelaxationReport report;
+    StepRecord       record;
     double           h        = parameters.step;
     const double     least    = 1e-6 * h;
     double           previous = integrator.account().kinetic;
@@ -173,6 +176,8 @@ namespace NMM
       report.n_iterations += step.n_iterations;
       if (!step.converged)
       {
+        ++record.n_cuts;
+        record.n_lost_iterations += step.n_iterations;
         h *= 0.5;
         AssertThrow(h >= least,
                     NumericalFailure("Relaxation gave up: " + step.reason,
@@ -182,6 +187,10 @@ namespace NMM
       }
       integrator.accept();
       ++report.n_steps;
+      record.report = step;
+      if (after_step)
+        after_step(record);
+      record = StepRecord();
       h *= parameters.growth;
       const double kinetic = integrator.account().kinetic;
       if (kinetic <= previous)

@@ -48,22 +48,82 @@ namespace NMM
   }
 
 
+  namespace
+  {
+    bool
+    starts_with(const std::string &name, const std::string &prefix)
+    {
+      return name.rfind(prefix, 0) == 0;
+    }
+
+
+    bool
+    is_result(const std::string &name, const bool of_end_only)
+    {
+      const std::string extension = fs::path(name).extension().string();
+      if (name == "summary.csv" || name == "probes.csv" ||
+          name == "picture.png" ||
+          (starts_with(name, "fields.") &&
+           (extension == ".vtu" || extension == ".pvtu")))
+        return true;
+      if (of_end_only)
+        return false;
+      return name == "history.csv" || name == "probes-history.csv" ||
+             name == "checkpoint.nmm" || name == "fields.pvd" ||
+             (starts_with(name, "fields-") &&
+              (extension == ".vtu" || extension == ".pvtu")) ||
+             (starts_with(name, "picture-") && extension == ".png");
+    }
+
+
+    /// The name of what was being written when a run was killed.
+    std::string
+    without_part(std::string name)
+    {
+      const std::string part = ".part";
+      if (name.size() > part.size() &&
+          name.compare(name.size() - part.size(), part.size(), part) == 0)
+      {
+        name.resize(name.size() - part.size());
+        if (name.front() == '.')
+          name.erase(0, 1);
+      }
+      return name;
+    }
+  } // namespace
+
+
+  void
+  OutputDirectory::remove_results(const bool of_end_only) const
+  {
+    std::vector<fs::path> results;
+    for (const auto &entry : fs::directory_iterator(folder))
+    {
+      const std::string name  = entry.path().filename().string();
+      const std::string whole = without_part(name);
+      if (is_result(whole, of_end_only && whole == name))
+        results.push_back(entry.path());
+    }
+    for (const fs::path &result : results)
+      fs::remove(result);
+  }
+
+
   void
   OutputDirectory::create() const
   {
     check();
     fs::create_directories(folder);
-    for (const auto &entry : fs::directory_iterator(folder))
-    {
-      const std::string name      = entry.path().filename().string();
-      const std::string extension = entry.path().extension().string();
-      const bool        is_field =
-        (name.rfind("fields.", 0) == 0 || name.rfind("fields-", 0) == 0) &&
-        (extension == ".vtu" || extension == ".pvtu" || extension == ".pvd");
-      if (is_field || name == "summary.csv" || name == "probes.csv" ||
-          name == "history.csv" || name == "picture.png")
-        fs::remove(entry.path());
-    }
+    remove_results(/* of_end_only = */ false);
+  }
+
+
+  void
+  OutputDirectory::resume() const
+  {
+    check();
+    fs::create_directories(folder);
+    remove_results(/* of_end_only = */ true);
   }
 
 

@@ -1,6 +1,8 @@
 #ifndef nmm_source_io_parsing_h
 #define nmm_source_io_parsing_h
 
+#include <nmm/io/scene_parameters_dynamics.h>
+
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/point.h>
 #include <deal.II/base/utilities.h>
@@ -70,6 +72,27 @@ namespace NMM
       return words.front().second;
     }
 
+
+    /// With 12 digits.
+    std::string
+    to_text(double value);
+
+    /// @throws InputError if a value that differs from its default would be
+    /// ignored, @p by what.
+    void
+    expect_default(const std::string &section,
+                   const std::string &key,
+                   double             value,
+                   double             default_value,
+                   const std::string &by,
+                   const std::string &remedy);
+
+    /// Entry `Analysis` of the model.
+    void
+    declare_analysis(dealii::ParameterHandler &prm);
+
+    Analysis
+    get_analysis(const dealii::ParameterHandler &prm);
 
     /// Entry `Components` of conditions and fixed points.
     void

@@ -23,6 +23,7 @@ namespace NMM
     : progress(progress)
     , name(std::move(name))
     , start(std::chrono::steady_clock::now())
+    , last_update(start)
     , n_exceptions(std::uncaught_exceptions())
   {
     if (progress.prints && progress.is_terminal)
@@ -61,6 +62,27 @@ namespace NMM
   Progress::Stage::remark(const std::string &words)
   {
     text = words;
+  }
+
+
+  void
+  Progress::Stage::update(
+    const std::function<std::string(double seconds)> &words)
+  {
+    if (!progress.prints)
+      return;
+    const auto   now = std::chrono::steady_clock::now();
+    const double since =
+      std::chrono::duration<double>(now - last_update).count();
+    if (since < (progress.is_terminal ? 0.2 : 10.))
+      return;
+    last_update = now;
+    const std::string line =
+      words(std::chrono::duration<double>(now - start).count());
+    if (progress.is_terminal)
+      progress.out << "\r\033[K  " << name << " ... " << line << std::flush;
+    else
+      progress.out << "    " << line << std::endl;
   }
 
 

@@ -2,40 +2,17 @@
 #include <nmm/io/parameter_tree.h>
 #include <nmm/io/scene.h>
 
-#include <deal.II/base/function_parser.h>
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iostream>
-#include <regex>
-#include <sstream>
+#include <io/expression.h>
 
 namespace NMM
 {
   namespace
   {
-    /// While it lives nothing is printed on the standard error stream, where
-    /// FunctionParser repeats what it throws.
-    class SilentErrorStream
-    {
-    public:
-      SilentErrorStream()
-        : buffer(std::cerr.rdbuf(text.rdbuf()))
-      {
-      }
-
-      ~SilentErrorStream()
-      {
-        std::cerr.rdbuf(buffer);
-      }
-
-    private:
-      std::ostringstream text;
-      std::streambuf    *buffer;
-    };
-
-
     /**
      * Expressions of x and y, separated by semicolons, as a function with
      * @p n_components components; null if @p text is empty.
@@ -61,29 +38,7 @@ namespace NMM
                                ? "give one expression of x and y"
                                : "give two, separated by a semicolon"));
 
-      auto function = std::make_shared<dealii::FunctionParser<2>>(n_components);
-      try
-      {
-        function->initialize("x,y", expressions, {{"pi", dealii::numbers::PI}});
-        // Expressions are compiled when first used.
-        const SilentErrorStream silence;
-        for (unsigned int c = 0; c < n_components; ++c)
-          function->value(dealii::Point<2>(0.25, 0.25), c);
-      }
-      catch (const dealii::ExceptionBase &error)
-      {
-        std::ostringstream message;
-        error.print_info(message);
-        std::string reason = message.str();
-        reason = std::regex_replace(reason, std::regex("\\s+"), " ");
-        AssertThrow(false,
-                    InputError("'" + text + "' is no valid expression (" +
-                                 reason + ")",
-                               where,
-                               "use x, y, pi, numbers, + - * / ^ and the "
-                               "usual functions"));
-      }
-      return function;
+      return internal::parse_expressions<2>(expressions, "x,y", parameter);
     }
 
 

@@ -375,6 +375,7 @@ namespace NMM
     names.boundary_conditions = {"<condition>"};
     names.point_forces        = {"<force>"};
     names.fixed_points        = {"<fixed point>"};
+    names.initial_velocities  = {"<velocity>"};
     names.probes              = {"<probe>"};
     return names;
   }
@@ -393,6 +394,7 @@ namespace NMM
         {"Boundary conditions", &names.boundary_conditions},
         {"Point forces", &names.point_forces},
         {"Fixed points", &names.fixed_points},
+        {"Initial velocities", &names.initial_velocities},
         {"Probes", &names.probes}};
     }
   } // namespace
@@ -453,12 +455,13 @@ namespace NMM
       material.check(model.plane_state);
     for (const BoundaryConditionParameters &condition : boundary_conditions)
       condition.check();
-    load_steps.check(model.kinematics);
-    newton.check(model.kinematics);
+    load_steps.check(model.kinematics, model.analysis);
+    newton.check(model.kinematics, model.analysis);
     output.check();
     for (const ProbeParameters &probe : probes)
       probe.check();
     exact_solution.check();
     check_kinematics();
+    check_analysis();
   }
 } // namespace NMM

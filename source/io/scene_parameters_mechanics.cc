@@ -127,13 +127,14 @@ namespace NMM
   void
   ModelParameters::declare(ParameterHandler &prm)
   {
+    declare_analysis(prm);
     prm.declare_entry("Kinematics",
                       "small",
                       selection(kinematics_choices),
                       "small: displacements so small that one linear problem "
                       "tells all; finite: displacements and rotations of any "
                       "size, by Newton's method; incremental: one linear "
-                      "problem per load step, stress and geometry carried "
+                      "problem per step, stress and geometry carried "
                       "along, accurate to first order in the step.");
     prm.declare_entry("Plane state",
                       "plane stress",
@@ -154,17 +155,35 @@ namespace NMM
                       Patterns::Anything(),
                       "Further force per volume: expressions 'fx; fy' of x and "
                       "y [N/m^3]. Empty: none.");
+    for (const char *load : {"Gravity", "Body force"})
+      prm.declare_entry(std::string(load) + " amplitude",
+                        "",
+                        Patterns::Anything(),
+                        "Dynamic analysis: factor on it, an expression of the "
+                        "time t, or 'file: name' of a file with lines of time "
+                        "and factor. Empty: 1.");
+    prm.declare_entry(
+      "Base acceleration",
+      "",
+      Patterns::Anything(),
+      "Dynamic analysis: acceleration 'ax; ay' of the ground, e.g. in an "
+      "earthquake [m/s^2], each an expression of the time t or 'file: name'. "
+      "Displacements are then those relative to the ground. Empty: at rest.");
   }
 
 
   void
   ModelParameters::parse(ParameterHandler &prm)
   {
-    kinematics  = get_selection(prm, "Kinematics", kinematics_choices);
-    plane_state = get_selection(prm, "Plane state", plane_states);
-    thickness   = prm.get_double("Thickness");
-    gravity     = get_point(prm, "Gravity");
-    body_force  = prm.get("Body force");
+    kinematics           = get_selection(prm, "Kinematics", kinematics_choices);
+    plane_state          = get_selection(prm, "Plane state", plane_states);
+    thickness            = prm.get_double("Thickness");
+    gravity              = get_point(prm, "Gravity");
+    body_force           = prm.get("Body force");
+    analysis             = get_analysis(prm);
+    gravity_amplitude    = prm.get("Gravity amplitude");
+    body_force_amplitude = prm.get("Body force amplitude");
+    base_acceleration    = prm.get("Base acceleration");
     AssertThrow(thickness > 0.,
                 InputError("the thickness is 0 m",
                            "parameter 'Model/Thickness'",
@@ -199,6 +218,7 @@ namespace NMM
       "traction [Pa] and displacement [m]. Empty: zero. pi, the "
       "usual functions and if(condition, a, b) are known.");
     declare_components(prm);
+    TimeDependence::declare(prm, /* may_be_released = */ true);
   }
 
 
@@ -209,6 +229,8 @@ namespace NMM
     type       = get_selection(prm, "Type", condition_types);
     value      = prm.get("Value");
     components = get_components(prm);
+    time.name  = name;
+    time.parse(prm, /* may_be_released = */ true);
   }
 
 
@@ -241,6 +263,7 @@ namespace NMM
                       "0, 0",
                       vector_pattern(),
                       "Fx, Fy per unit thickness [N/m].");
+    TimeDependence::declare(prm, /* may_be_released = */ false);
   }
 
 
@@ -269,6 +292,7 @@ namespace NMM
                       "thickness [N/m per m]; 0: 1000 times the largest "
                       "Young's modulus.");
     declare_components(prm);
+    TimeDependence::declare(prm, /* may_be_released = */ true);
   }
 
 

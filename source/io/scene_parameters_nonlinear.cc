@@ -11,7 +11,7 @@ namespace NMM
   namespace Patterns = dealii::Patterns;
   using namespace internal;
 
-  namespace
+  namespace internal
   {
     std::string
     to_text(const double value)
@@ -23,24 +23,21 @@ namespace NMM
     }
 
 
-    /// @throws InputError if a value that differs from its default would be
-    /// ignored.
     void
     expect_default(const std::string &section,
                    const std::string &key,
                    const double       value,
                    const double       default_value,
-                   const Kinematics   kinematics,
+                   const std::string &by,
                    const std::string &remedy)
     {
       AssertThrow(value == default_value,
                   InputError("'" + key + " = " + to_text(value) +
-                               "' would not be used by " +
-                               to_string(kinematics) + " kinematics",
+                               "' would not be used by " + by,
                              "parameter '" + section + "/" + key + "'",
                              remedy));
     }
-  } // namespace
+  } // namespace internal
 
 
   void
@@ -79,35 +76,38 @@ namespace NMM
 
 
   void
-  LoadStepParameters::check(const Kinematics kinematics) const
+  LoadStepParameters::check(const Kinematics kinematics,
+                            const Analysis   analysis) const
   {
     const std::string        section = "Load steps";
     const LoadStepParameters defaults;
-    if (kinematics == Kinematics::small)
+    const bool               is_static = analysis == Analysis::statics;
+    const std::string by = is_static ? to_string(kinematics) + " kinematics"
+                                     : "a " + to_string(analysis) + " analysis";
+    if (kinematics == Kinematics::small || !is_static)
     {
       const std::string remedy =
-        "remove it, or set 'Model/Kinematics' to finite or incremental";
-      expect_default(section,
-                     "Number of steps",
-                     n_steps,
-                     defaults.n_steps,
-                     kinematics,
-                     remedy);
+        is_static
+          ? "remove it, or set 'Model/Kinematics' to finite or incremental"
+          : "remove it, or set 'Model/Analysis = static'";
+      expect_default(
+        section, "Number of steps", n_steps, defaults.n_steps, by, remedy);
       AssertThrow(
         load_factors.empty(),
         InputError("the list of " + std::to_string(load_factors.size()) +
                      " load factor(s) from " + to_text(load_factors.front()) +
-                     " on would not be used by small kinematics",
+                     " on would not be used by " + by,
                    "parameter 'Load steps/Load factors'",
                    remedy));
     }
-    if (kinematics != Kinematics::finite)
+    if (kinematics != Kinematics::finite || !is_static)
       expect_default(section,
                      "Smallest step",
                      min_step,
                      defaults.min_step,
-                     kinematics,
-                     "remove it, or set 'Model/Kinematics = finite'");
+                     by,
+                     is_static ? "remove it, or set 'Model/Kinematics = finite'"
+                               : "remove it, or set 'Model/Analysis = static'");
     AssertThrow(min_step > 0.,
                 InputError("the smallest step is 0",
                            "parameter 'Load steps/Smallest step'",
@@ -176,32 +176,46 @@ namespace NMM
 
 
   void
-  NewtonSectionParameters::check(const Kinematics kinematics) const
+  NewtonSectionParameters::check(const Kinematics kinematics,
+                                 const Analysis   analysis) const
   {
     const NewtonParameters defaults;
+    const auto             expect = [](const std::string &key,
+                           const double       value,
+                           const double       default_value,
+                           const std::string &by,
+                           const std::string &remedy) {
+      expect_default("Newton", key, value, default_value, by, remedy);
+    };
     if (kinematics != Kinematics::finite)
     {
+      const std::string by = to_string(kinematics) + " kinematics";
       const std::string remedy =
         "remove it, or set 'Model/Kinematics = finite'";
-      expect_default("Newton",
-                     "Residual tolerance",
-                     newton.residual_tolerance,
-                     defaults.residual_tolerance,
-                     kinematics,
-                     remedy);
-      expect_default("Newton",
-                     "Energy tolerance",
-                     newton.energy_tolerance,
-                     defaults.energy_tolerance,
-                     kinematics,
-                     remedy);
-      expect_default("Newton",
-                     "Maximum iterations",
-                     newton.max_iterations,
-                     defaults.max_iterations,
-                     kinematics,
-                     remedy);
+      expect("Residual tolerance",
+             newton.residual_tolerance,
+             defaults.residual_tolerance,
+             by,
+             remedy);
+      expect("Energy tolerance",
+             newton.energy_tolerance,
+             defaults.energy_tolerance,
+             by,
+             remedy);
+      expect("Maximum iterations",
+             newton.max_iterations,
+             defaults.max_iterations,
+             by,
+             remedy);
     }
+    // A time step starts so near to its end that the energy of the first
+    // correction is no measure.
+    if (analysis != Analysis::statics)
+      expect("Energy tolerance",
+             newton.energy_tolerance,
+             defaults.energy_tolerance,
+             "a " + to_string(analysis) + " analysis",
+             "remove it, or set 'Model/Analysis = static'");
     AssertThrow(newton.residual_tolerance > 0.,
                 InputError("the residual tolerance is 0",
                            "parameter 'Newton/Residual tolerance'",
@@ -216,47 +230,129 @@ namespace NMM
   void
   SceneParameters::check_kinematics() const
   {
-    const std::string name = to_string(model.kinematics);
+    const bool        is_static  = model.analysis == Analysis::statics;
+    const std::string kinematics = to_string(model.kinematics) + " kinematics";
     if (model.kinematics != Kinematics::finite)
       for (const Material &material : materials)
         AssertThrow(material.law == MaterialLaw::linear,
                     InputError("a law other than linear would not be used by " +
-                                 name + " kinematics",
+                                 kinematics,
                                "parameter 'Materials/" + material.name +
                                  "/Law'",
                                "set 'Law = linear', or 'Model/Kinematics = "
                                "finite'"));
-    if (model.kinematics == Kinematics::small)
+    if (model.kinematics == Kinematics::small && is_static)
     {
       expect_default("Output",
                      "Fields every",
                      output.fields_every,
                      0,
-                     model.kinematics,
+                     kinematics,
                      "remove it, or set 'Model/Kinematics' to finite or "
                      "incremental");
       return;
     }
 
+    const std::string name =
+      is_static ? kinematics : to_string(model.analysis) + " analysis";
     AssertThrow(covers.stabilization != Stabilization::ghost_penalty,
-                InputError("'ghost penalty' is not available with " + name +
-                             " kinematics",
+                InputError("'ghost penalty' is not available with " + name,
                            "parameter 'Covers/Stabilization'",
                            "set 'Stabilization = aggregation'"));
     AssertThrow(solver.type != LinearSolverParameters::Type::iterative,
-                InputError("'iterative' is not available with " + name +
-                             " kinematics",
+                InputError("'iterative' is not available with " + name,
                            "parameter 'Solver/Type'",
                            "set 'Type' to automatic or direct"));
     AssertThrow(!solver.estimate_condition,
-                InputError("'true' is not available with " + name +
-                             " kinematics",
+                InputError("'true' is not available with " + name,
                            "parameter 'Solver/Condition number'",
-                           "set it to false, or 'Model/Kinematics = small'"));
+                           "set it to false, or 'Model/Kinematics = small' and "
+                           "'Model/Analysis = static'"));
     AssertThrow(exact_solution.type == ExactSolutionParameters::Type::none,
-                InputError("the thick ring is no solution of " + name +
-                             " kinematics",
+                InputError("the thick ring is no solution of " + name,
                            "parameter 'Exact solution/Type'",
-                           "set it to none, or 'Model/Kinematics = small'"));
+                           "set it to none, or 'Model/Kinematics = small' and "
+                           "'Model/Analysis = static'"));
+  }
+
+
+  void
+  SceneParameters::check_analysis() const
+  {
+    time.check(model.analysis, model.kinematics);
+    relaxation.check(model.analysis);
+    check_loads_in_time();
+    const std::string analysis = to_string(model.analysis) + " analysis";
+    AssertThrow(model.analysis == Analysis::dynamics ||
+                  initial_velocities.empty(),
+                InputError("the initial velocity '" +
+                             (initial_velocities.empty()
+                                ? std::string()
+                                : initial_velocities.front().name) +
+                             "' would not be used by a " + analysis,
+                           "parameter 'Initial velocities/Names'",
+                           "remove it, or set 'Model/Analysis = dynamic'"));
+    AssertThrow(output.checkpoint_every == 0 ||
+                  (model.analysis == Analysis::dynamics &&
+                   model.kinematics != Kinematics::incremental),
+                InputError("checkpoints are not available with " +
+                             (model.analysis == Analysis::dynamics
+                                ? to_string(model.kinematics) + " kinematics"
+                                : analysis),
+                           "parameter 'Output/Checkpoint every'",
+                           "remove it, or set 'Model/Analysis = dynamic' with "
+                           "small or finite kinematics"));
+    if (model.analysis == Analysis::statics)
+      return;
+    AssertThrow(model.analysis == Analysis::dynamics ||
+                  model.kinematics != Kinematics::incremental,
+                InputError("relaxation is not available with incremental "
+                           "kinematics",
+                           "parameter 'Model/Analysis'",
+                           "set 'Model/Kinematics' to small or finite"));
+    for (const Material &material : materials)
+      AssertThrow(material.density > 0.,
+                  InputError("the density is " + to_text(material.density),
+                             "parameter 'Materials/" + material.name +
+                               "/Density'",
+                             "a " + analysis + " needs it above 0"));
+  }
+
+
+  void
+  SceneParameters::check_loads_in_time() const
+  {
+    if (model.analysis == Analysis::dynamics)
+      for (const BoundaryConditionParameters &condition : boundary_conditions)
+        AssertThrow(condition.time.release_time < 0. ||
+                      condition.type == BoundaryCondition::Type::displacement ||
+                      condition.type ==
+                        BoundaryCondition::Type::normal_displacement,
+                    InputError("a load cannot be released",
+                               "parameter 'Boundary conditions/" +
+                                 condition.name + "/Release time'",
+                               "remove it, and let 'Amplitude' become 0"));
+    if (model.analysis == Analysis::dynamics &&
+        model.kinematics != Kinematics::incremental)
+      return;
+
+    const std::string by = model.analysis == Analysis::dynamics
+                             ? "incremental kinematics"
+                             : "a " + to_string(model.analysis) + " analysis";
+    for (const BoundaryConditionParameters &condition : boundary_conditions)
+      condition.time.expect_default("Boundary conditions", by);
+    for (const TimeDependence &force : force_times)
+      force.expect_default("Point forces", by);
+    for (const TimeDependence &point : fixed_point_times)
+      point.expect_default("Fixed points", by);
+    for (const auto &[key, text] :
+         {std::make_pair("Gravity amplitude", model.gravity_amplitude),
+          std::make_pair("Body force amplitude", model.body_force_amplitude),
+          std::make_pair("Base acceleration", model.base_acceleration)})
+      AssertThrow(text.empty(),
+                  InputError("'" + text + "' would not be used by " + by,
+                             std::string("parameter 'Model/") + key + "'",
+                             "remove it, or set 'Model/Analysis = dynamic' "
+                             "with small or finite kinematics"));
   }
 } // namespace NMM

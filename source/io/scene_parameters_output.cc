@@ -69,9 +69,16 @@ namespace NMM
     prm.declare_entry("Fields every",
                       "0",
                       Patterns::Integer(0),
-                      "Finite and incremental kinematics: write the fields of "
-                      "every so many load steps too, as a series in "
-                      "fields.pvd; 0: of the last one alone.");
+                      "Where there are steps of load or time: write fields "
+                      "and pictures of every so many of them too, as they "
+                      "come, the fields as a series in fields.pvd; 0: of the "
+                      "last one alone.");
+    prm.declare_entry("Checkpoint every",
+                      "0",
+                      Patterns::Integer(0),
+                      "Dynamic analysis: write checkpoint.nmm after every so "
+                      "many steps, from which 'nmm --restart' continues; 0: "
+                      "none.");
     prm.declare_entry("Picture",
                       "true",
                       Patterns::Bool(),
@@ -126,13 +133,14 @@ namespace NMM
   void
   OutputParameters::parse(ParameterHandler &prm)
   {
-    title        = prm.get("Title");
-    fields       = prm.get_bool("Fields");
-    fields_every = prm.get_integer("Fields every");
-    picture      = prm.get_bool("Picture");
-    quantity     = get_selection(prm, "Picture quantity", quantities);
-    recovered    = get_selection(prm, "Picture stress", stress_choices);
-    center       = get_point(prm, "Picture center");
+    title            = prm.get("Title");
+    fields           = prm.get_bool("Fields");
+    fields_every     = prm.get_integer("Fields every");
+    checkpoint_every = prm.get_integer("Checkpoint every");
+    picture          = prm.get_bool("Picture");
+    quantity         = get_selection(prm, "Picture quantity", quantities);
+    recovered        = get_selection(prm, "Picture stress", stress_choices);
+    center           = get_point(prm, "Picture center");
     const dealii::Point<2> range = get_point(prm, "Picture range");
     range_min                    = range[0];
     range_max                    = range[1];
@@ -153,9 +161,10 @@ namespace NMM
                              std::to_string(range_max),
                            "parameter 'Output/Picture range'",
                            "give the smaller value first"));
-    AssertThrow(fields || fields_every == 0,
+    AssertThrow(fields || picture || fields_every == 0,
                 InputError("fields of every " + std::to_string(fields_every) +
-                             " load steps are asked for, but no fields",
+                             " steps are asked for, but neither fields nor "
+                             "pictures",
                            "parameter 'Output/Fields every'",
                            "remove it, or set 'Fields = true'"));
     for (const std::string &unit : {length_unit, stress_unit})
@@ -369,6 +378,14 @@ namespace NMM
                  names.fixed_points,
                  "Names of the points, each with a subsection of its own.",
                  &FixedPointParameters::declare);
+    declare_list(prm,
+                 "Initial velocities",
+                 names.initial_velocities,
+                 "Dynamic analysis: names of the motions it starts with, each "
+                 "with a subsection of its own; motions of a block add up.",
+                 &InitialVelocityParameters::declare);
+    declare_section(prm, "Time", &TimeParameters::declare);
+    declare_section(prm, "Relaxation", &RelaxationSectionParameters::declare);
     declare_section(prm, "Solver", &SolverParameters::declare);
     declare_section(prm, "Load steps", &LoadStepParameters::declare);
     declare_section(prm, "Newton", &NewtonSectionParameters::declare);
@@ -389,6 +406,8 @@ namespace NMM
     parse_section(prm, "Mathematical mesh", mathematical_mesh);
     parse_section(prm, "Covers", covers);
     parse_section(prm, "Model", model);
+    parse_section(prm, "Time", time);
+    parse_section(prm, "Relaxation", relaxation);
     parse_section(prm, "Load steps", load_steps);
     parse_section(prm, "Newton", newton);
     parse_section(prm, "Output", output);
@@ -397,6 +416,10 @@ namespace NMM
                "Boundary conditions",
                names.boundary_conditions,
                boundary_conditions);
+    parse_list(prm,
+               "Initial velocities",
+               names.initial_velocities,
+               initial_velocities);
     parse_list(prm, "Probes", names.probes, probes);
 
     prm.enter_subsection("Solver");
@@ -412,15 +435,23 @@ namespace NMM
 
     prm.enter_subsection("Point forces");
     point_forces.clear();
-    for_each_name(prm, names.point_forces, [&](const std::string &) {
+    force_times.clear();
+    for_each_name(prm, names.point_forces, [&](const std::string &name) {
       point_forces.push_back(PointForceParameters::parse(prm));
+      force_times.emplace_back();
+      force_times.back().name = name;
+      force_times.back().parse(prm, /* may_be_released = */ false);
     });
     prm.leave_subsection();
 
     prm.enter_subsection("Fixed points");
     fixed_points.clear();
-    for_each_name(prm, names.fixed_points, [&](const std::string &) {
+    fixed_point_times.clear();
+    for_each_name(prm, names.fixed_points, [&](const std::string &name) {
       fixed_points.push_back(FixedPointParameters::parse(prm));
+      fixed_point_times.emplace_back();
+      fixed_point_times.back().name = name;
+      fixed_point_times.back().parse(prm, /* may_be_released = */ true);
     });
     prm.leave_subsection();
   }

@@ -155,19 +155,9 @@ namespace NMM
                const OutputDirectory                             &directory)
   {
     directory.write_text("fields.pvd", [&](std::ostream &out) {
+      out.precision(12);
       dealii::DataOutBase::write_pvd_record(out, states);
     });
   }
 
-
-  void
-  write_fields(const CoverSystem     &covers,
-               const FieldTriangles  &triangles,
-               const OutputDirectory &directory)
-  {
-    const std::string name =
-      write_fields_of_state(covers, triangles, directory, "fields");
-    if (dealii::Utilities::MPI::this_mpi_process(covers.communicator()) == 0)
-      write_series({{0., name}}, directory);
-  }
 } // namespace NMM

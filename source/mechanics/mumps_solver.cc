@@ -4,6 +4,7 @@
 
 #include <Epetra_CrsMatrix.h>
 #include <algorithm>
+#include <array>
 #include <dmumps_c.h>
 #include <mechanics/mumps_solver.h>
 #include <numeric>
@@ -16,6 +17,24 @@ namespace NMM
   {
     namespace
     {
+      void
+      check(const std::array<int, 2> &info, const std::string &stage)
+      {
+        AssertThrow(info[0] >= 0,
+                    NumericalFailure(
+                      "MUMPS' " + stage + " failed with the error code " +
+                        std::to_string(info[0]) + ", " +
+                        std::to_string(info[1]),
+                      "",
+                      info[0] == -10 || info[0] == -6
+                        ? "the system is singular: check that every block is "
+                          "held and has an area above rounding"
+                        : "the system may be too large for this machine's "
+                          "memory: choose the iterative solver or a coarser "
+                          "mesh"));
+      }
+
+
       /// One MUMPS instance; control parameters by their number in the manual.
       class Mumps
       {
@@ -28,7 +47,7 @@ namespace NMM
           // Symmetric, not "positive definite": a matrix that is indefinite by
           // rounding is then reported by its residual instead of an error.
           data.sym = is_symmetric ? 2 : 0;
-          run(-1, "initialization");
+          check(run(-1), "initialization");
           for (int i = 1; i <= 4; ++i)
             control(i) = i < 4 ? -1 : 0; // no output
         }
@@ -49,23 +68,13 @@ namespace NMM
           return data.icntl[i - 1];
         }
 
-        void
-        run(const int job, const std::string &stage)
+        /// Error code and what it is about.
+        std::array<int, 2>
+        run(const int job)
         {
           data.job = job;
           dmumps_c(&data);
-          AssertThrow(data.infog[0] >= 0,
-                      NumericalFailure(
-                        "MUMPS' " + stage + " failed with the error code " +
-                          std::to_string(data.infog[0]) + ", " +
-                          std::to_string(data.infog[1]),
-                        "",
-                        data.infog[0] == -10 || data.infog[0] == -6
-                          ? "the system is singular: check that every block is "
-                            "held and has an area above rounding"
-                          : "the system may be too large for this machine's "
-                            "memory: choose the iterative solver or a coarser "
-                            "mesh"));
+          return {{data.infog[0], data.infog[1]}};
         }
 
         DMUMPS_STRUC_C data;
@@ -130,18 +139,97 @@ namespace NMM
           AssertDimension(i, values.size());
         }
       };
+
+
+      /// Pieces of all ranks in their order, on the first rank.
+      template <typename Number>
+      void
+      gather(const std::vector<Number> &local,
+             const MPI_Datatype         type,
+             const MPI_Comm             communicator,
+             std::vector<Number>       &global)
+      {
+        const int              n = local.size();
+        const std::vector<int> counts =
+          dealii::Utilities::MPI::all_gather(communicator, n);
+        std::vector<int> offsets(counts.size(), 0);
+        std::partial_sum(counts.begin(), counts.end() - 1, offsets.begin() + 1);
+        if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+          global.resize(offsets.back() + counts.back());
+        MPI_Gatherv(local.data(),
+                    n,
+                    type,
+                    global.data(),
+                    counts.data(),
+                    offsets.data(),
+                    type,
+                    0,
+                    communicator);
+      }
     } // namespace
 
 
     struct DirectSolver::Data
     {
-      bool                   is_symmetric;
+      bool is_symmetric;
+      /// Null on other ranks than the first if that one does all.
       std::unique_ptr<Mumps> mumps;
       Triplets               triplets;
-      unsigned int           n = 0;
-      MPI_Comm               communicator;
-      unsigned int           n_ranks;
+      /// Those of all ranks, on the first one, if that one does all.
+      Triplets     all_triplets;
+      unsigned int n = 0;
+      MPI_Comm     communicator;
+      unsigned int n_ranks;
+      bool         is_analyzed = false;
+      /// Does the first rank do all?
+      bool is_serial = false;
+
+      void
+      run(const int job, const std::string &stage)
+      {
+        std::array<int, 2> info = {{0, 0}};
+        if (mumps)
+          info = mumps->run(job);
+        if (is_serial)
+          info = dealii::Utilities::MPI::broadcast(communicator, info);
+        check(info, stage);
+      }
+
+      void
+      set_matrix(const dealii::TrilinosWrappers::SparseMatrix &matrix);
     };
+
+
+    void
+    DirectSolver::Data::set_matrix(
+      const dealii::TrilinosWrappers::SparseMatrix &matrix)
+    {
+      triplets.set_pattern(matrix.trilinos_matrix(), is_symmetric);
+      if (is_serial)
+      {
+        gather(triplets.rows, MPI_INT, communicator, all_triplets.rows);
+        gather(triplets.columns, MPI_INT, communicator, all_triplets.columns);
+        all_triplets.values.resize(all_triplets.rows.size());
+      }
+      if (!mumps)
+        return;
+      DMUMPS_STRUC_C &m = mumps->data;
+      m.n               = n;
+      if (n_ranks > 1 && !is_serial)
+      {
+        mumps->control(18) = 3; // distributed entries
+        m.nnz_loc          = triplets.values.size();
+        m.irn_loc          = triplets.rows.data();
+        m.jcn_loc          = triplets.columns.data();
+        m.a_loc            = triplets.values.data();
+        return;
+      }
+      Triplets &all = is_serial ? all_triplets : triplets;
+      m.nnz         = all.values.size();
+      m.irn         = all.rows.data();
+      m.jcn         = all.columns.data();
+      m.a           = all.values.data();
+    }
 
 
     DirectSolver::DirectSolver(const Symmetry symmetry)
@@ -160,29 +248,28 @@ namespace NMM
       data->communicator = matrix.get_mpi_communicator();
       data->n_ranks =
         dealii::Utilities::MPI::n_mpi_processes(data->communicator);
-      data->n = matrix.m();
-      data->mumps =
-        std::make_unique<Mumps>(data->communicator, data->is_symmetric);
-      data->triplets.set_pattern(matrix.trilinos_matrix(), data->is_symmetric);
+      data->n         = matrix.m();
+      data->is_serial = data->n_ranks > 1 && data->n < n_distributed;
+      data->mumps.reset();
+      if (!data->is_serial)
+        data->mumps =
+          std::make_unique<Mumps>(data->communicator, data->is_symmetric);
+      else if (dealii::Utilities::MPI::this_mpi_process(data->communicator) ==
+               0)
+        data->mumps =
+          std::make_unique<Mumps>(MPI_COMM_SELF, data->is_symmetric);
+      data->set_matrix(matrix);
+      if (data->mumps)
+        set_controls();
+      data->run(1, "analysis");
+      data->is_analyzed = true;
+    }
 
-      Mumps    &mumps    = *data->mumps;
-      Triplets &triplets = data->triplets;
-      mumps.data.n       = data->n;
-      if (data->n_ranks > 1)
-      {
-        mumps.control(18)  = 3; // distributed entries
-        mumps.data.nnz_loc = triplets.values.size();
-        mumps.data.irn_loc = triplets.rows.data();
-        mumps.data.jcn_loc = triplets.columns.data();
-        mumps.data.a_loc   = triplets.values.data();
-      }
-      else
-      {
-        mumps.data.nnz = triplets.values.size();
-        mumps.data.irn = triplets.rows.data();
-        mumps.data.jcn = triplets.columns.data();
-        mumps.data.a   = triplets.values.data();
-      }
+
+    void
+    DirectSolver::set_controls()
+    {
+      Mumps &mumps = *data->mumps;
       // Approximate minimum degree orders in a fifth of the time of what MUMPS
       // chooses by itself; its larger fill tells only on large systems.
       constexpr unsigned int large = 150000;
@@ -192,7 +279,6 @@ namespace NMM
       mumps.control(6)  = 0;
       mumps.control(12) = 1;
       mumps.control(14) = 30; // percent of memory to spare
-      mumps.run(1, "analysis");
     }
 
 
@@ -200,11 +286,16 @@ namespace NMM
     DirectSolver::factorize(
       const dealii::TrilinosWrappers::SparseMatrix &matrix)
     {
-      if (data->mumps == nullptr)
+      if (!data->is_analyzed)
         analyze(matrix);
       AssertDimension(matrix.m(), data->n);
       data->triplets.set_values(matrix.trilinos_matrix(), data->is_symmetric);
-      data->mumps->run(2, "factorization");
+      if (data->is_serial)
+        gather(data->triplets.values,
+               MPI_DOUBLE,
+               data->communicator,
+               data->all_triplets.values);
+      data->run(2, "factorization");
     }
 
 
@@ -212,15 +303,14 @@ namespace NMM
     DirectSolver::solve(const dealii::TrilinosWrappers::MPI::Vector &rhs,
                         dealii::TrilinosWrappers::MPI::Vector       &solution)
     {
-      Mumps &mumps = *data->mumps;
       // right-hand side and solution are on the host
       const int n_local = rhs.locally_owned_size();
       if (data->n_ranks == 1)
       {
         if (&rhs != &solution)
           std::copy(rhs.begin(), rhs.end(), solution.begin());
-        mumps.data.rhs = &*solution.begin();
-        mumps.run(3, "solution");
+        data->mumps->data.rhs = &*solution.begin();
+        data->run(3, "solution");
         return;
       }
       const MPI_Comm communicator = data->communicator;
@@ -242,8 +332,9 @@ namespace NMM
                   MPI_DOUBLE,
                   0,
                   communicator);
-      mumps.data.rhs = global.data();
-      mumps.run(3, "solution");
+      if (data->mumps)
+        data->mumps->data.rhs = global.data();
+      data->run(3, "solution");
       MPI_Scatterv(global.data(),
                    counts.data(),
                    offsets.data(),

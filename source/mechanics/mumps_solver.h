@@ -23,6 +23,11 @@ namespace NMM
      * twice the memory for 91,000 unknowns of second order. The library comes
      * with Trilinos' Amesos, so that nothing more is needed.
      *
+     * On several ranks MUMPS adds what other ranks send in the order it arrives, so
+     * that the same run has other last digits each time. Systems below
+     * n_distributed unknowns are therefore factorized by the first rank alone, which
+     * gives the same bits always and takes no longer.
+     *
      * Rows are consecutive per rank.
      */
     class DirectSolver
@@ -33,6 +38,8 @@ namespace NMM
         symmetric,
         unsymmetric
       };
+
+      static constexpr unsigned int n_distributed = 30000;
 
       explicit DirectSolver(Symmetry symmetry = Symmetry::symmetric);
       ~DirectSolver();
@@ -54,6 +61,9 @@ namespace NMM
             dealii::TrilinosWrappers::MPI::Vector       &solution);
 
     private:
+      void
+      set_controls();
+
       struct Data;
       std::unique_ptr<Data> data;
     };

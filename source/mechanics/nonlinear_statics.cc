@@ -157,8 +157,8 @@ namespace NMM
     std::vector<LoadStep> report;
     const double          min_step = steps.min_step * steps.load_factors.back();
     double                step     = steps.load_factors.back();
-    LoadStep              current;
-    auto                  wanted = steps.load_factors.begin();
+    current                        = LoadStep();
+    auto wanted                    = steps.load_factors.begin();
     while (wanted != steps.load_factors.end())
     {
       const double from   = states.back().load_factor;
@@ -228,5 +228,12 @@ namespace NMM
   NonlinearStatics::load_factor() const
   {
     return states.back().load_factor;
+  }
+
+
+  const LoadStep &
+  NonlinearStatics::last_attempt() const
+  {
+    return current;
   }
 } // namespace NMM

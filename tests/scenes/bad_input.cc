@@ -255,6 +255,243 @@ namespace
   }
 
 
+  /// The base scene with these settings and @p override.
+  void
+  expect_rejected_with(std::vector<std::string>        settings,
+                       const std::string              &override,
+                       const std::vector<std::string> &words,
+                       const unsigned int              n_ranks = 1)
+  {
+    settings.push_back(override);
+    std::vector<std::string> arguments;
+    std::string              text;
+    for (const std::string &setting : settings)
+    {
+      arguments.insert(arguments.end(), {"--set", setting});
+      text += setting + " ";
+    }
+    SCOPED_TRACE(text);
+    arguments.push_back(base_scene);
+    expect_rejected(arguments, words, n_ranks);
+  }
+
+
+  const std::vector<std::string> dynamic = {"Model/Analysis=dynamic",
+                                            "Materials/rock/Density=1",
+                                            "Time/End time=1",
+                                            "Time/Initial step=0.1"};
+
+  std::vector<std::string>
+  operator+(std::vector<std::string> a, const std::vector<std::string> &b)
+  {
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+  }
+
+
+  TEST(BadInput, TheDynamicSceneIsGood)
+  {
+    std::vector<std::string> arguments = {"--check", base_scene};
+    for (const std::string &setting : dynamic)
+      arguments.insert(arguments.end(), {"--set", setting});
+    const DriverResult result = run_driver(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+  }
+
+
+  TEST(BadInput, StaticAnalysisHasNoTime)
+  {
+    expect_rejected_override("Model/Analysis=quasistatic",
+                             {"quasistatic", "relaxation"});
+    for (const char *entry : {"Time/End time=1",
+                              "Time/Initial step=0.1",
+                              "Time/Smallest step=0.1",
+                              "Time/Largest step=0.1",
+                              "Time/Largest displacement=0.1",
+                              "Time/Largest error=0.1",
+                              "Time/Scheme=newmark",
+                              "Time/Newmark beta=0.3",
+                              "Time/Newmark gamma=0.6",
+                              "Time/Spectral radius=0.1",
+                              "Time/Mass damping=0.1",
+                              "Time/Stiffness damping=0.1",
+                              "Relaxation/Step=1",
+                              "Relaxation/Step growth=2",
+                              "Relaxation/Tolerance=1e-3",
+                              "Relaxation/Maximum steps=3",
+                              "Initial velocities/Names=start",
+                              "Boundary conditions/held/Amplitude=t",
+                              "Boundary conditions/held/Release time=1",
+                              "Fixed points/corner/Amplitude=t",
+                              "Fixed points/corner/Release time=1",
+                              "Model/Gravity amplitude=t",
+                              "Model/Body force amplitude=t",
+                              "Model/Base acceleration=t; 0",
+                              "Output/Checkpoint every=2"})
+    {
+      const std::string text = entry;
+      expect_rejected_override(text,
+                               {text.substr(0, text.find('=')),
+                                "Model/Analysis"});
+    }
+  }
+
+
+  TEST(BadInput, Dynamics)
+  {
+    using Words       = std::vector<std::string>;
+    const auto reject = [](const std::string &override, const Words &words) {
+      expect_rejected_with(dynamic, override, words);
+    };
+    reject("Materials/rock/Density=0", {"Materials/rock/Density", "above 0"});
+    reject("Time/End time=0", {"Time/End time", "above 0"});
+    reject("Time/Initial step=0", {"Time/Initial step", "above 0"});
+    reject("Time/Initial step=2", {"Time/Initial step", "'End time'"});
+    reject("Time/Smallest step=0.2", {"Time/Smallest step", "0.2"});
+    reject("Time/Largest step=0.05", {"Time/Largest step", "0.05"});
+    reject("Time/Newmark beta=0", {"Time/Newmark beta", "(0, 1]"});
+    reject("Time/Newmark gamma=0.4", {"Time/Newmark gamma", "0.4"});
+    reject("Time/Spectral radius=0.5", {"Time/Spectral radius", "newmark"});
+    reject("Time/Scheme=leapfrog", {"leapfrog", "generalized alpha"});
+    reject("Relaxation/Step=1", {"Relaxation/Step", "relaxation"});
+    reject("Load steps/Number of steps=5", {"Load steps/Number", "static"});
+    reject("Load steps/Load factors=0.5", {"Load steps/Load f", "static"});
+    reject("Load steps/Smallest step=0.5", {"Load steps/Small", "static"});
+    reject("Covers/Stabilization=ghost penalty", {"ghost penalty", "dynamic"});
+    reject("Solver/Type=iterative", {"Solver/Type", "dynamic"});
+    reject("Solver/Condition number=true", {"Solver/Condition", "dynamic"});
+    reject("Boundary conditions/held/Amplitude=t +",
+           {"Boundary conditions/held/Amplitude", "t +", "use t"});
+    reject("Boundary conditions/held/Amplitude=x", {"held/Amplitude", "'x'"});
+    reject("Boundary conditions/held/Amplitude=1/t", {"not finite", "t = 0"});
+    reject("Boundary conditions/held/Amplitude=1/(1-t)", {"t = 1 s"});
+    reject("Fixed points/corner/Amplitude=file: no-such.txt", {"no-such.txt"});
+    reject("Fixed points/corner/Amplitude=file:", {"corner/Amplitude", "name"});
+    reject("Model/Gravity amplitude=sin(", {"Model/Gravity amplitude"});
+    reject("Model/Base acceleration=t", {"Model/Base acceleration", "1 comp"});
+    reject("Model/Base acceleration=t; ", {"Model/Base acceleration"});
+    reject("Boundary conditions/held/Type=normal displacement",
+           {"held/Value", "2 expression(s)"});
+    expect_rejected_with(dynamic +
+                           Words{"Boundary conditions/held/Type=traction"},
+                         "Boundary conditions/held/Release time=0.5",
+                         {"held/Release time", "Amplitude"});
+    expect_rejected_with(dynamic + Words{"Model/Kinematics=finite"},
+                         "Newton/Energy tolerance=1e-6",
+                         {"Newton/Energy tolerance", "dynamic"});
+  }
+
+
+  TEST(BadInput, IncrementalDynamics)
+  {
+    const auto settings =
+      dynamic + std::vector<std::string>{"Model/Kinematics=incremental"};
+    for (const char *entry : {"Time/Smallest step=0.1",
+                              "Time/Largest step=0.1",
+                              "Time/Largest displacement=0.1",
+                              "Time/Largest error=0.1",
+                              "Time/Scheme=newmark",
+                              "Time/Mass damping=0.1",
+                              "Time/Stiffness damping=0.1",
+                              "Boundary conditions/held/Amplitude=t",
+                              "Boundary conditions/held/Release time=1",
+                              "Fixed points/corner/Amplitude=t",
+                              "Model/Gravity amplitude=t",
+                              "Model/Base acceleration=t; 0",
+                              "Output/Checkpoint every=2"})
+    {
+      const std::string text = entry;
+      expect_rejected_with(settings,
+                           text,
+                           {text.substr(0, text.find('=')), "small or finite"});
+    }
+  }
+
+
+  TEST(BadInput, Relaxation)
+  {
+    const std::vector<std::string> relaxation = {"Model/Analysis=relaxation",
+                                                 "Materials/rock/Density=1",
+                                                 "Relaxation/Step=1"};
+    expect_rejected_with(relaxation, "Relaxation/Step=0", {"Relaxation/Step"});
+    expect_rejected_with(relaxation,
+                         "Relaxation/Tolerance=0",
+                         {"Relaxation/Tolerance"});
+    expect_rejected_with(relaxation, "Time/End time=1", {"Time/End time"});
+    expect_rejected_with(relaxation,
+                         "Boundary conditions/held/Amplitude=t",
+                         {"held/Amplitude", "relaxation"});
+    expect_rejected_with(relaxation,
+                         "Model/Kinematics=incremental",
+                         {"Model/Analysis", "incremental"});
+    expect_rejected_with(relaxation,
+                         "Output/Checkpoint every=3",
+                         {"Output/Checkpoint every", "relaxation"});
+    expect_rejected_with(relaxation,
+                         "Materials/rock/Density=0",
+                         {"Density", "relaxation"});
+  }
+
+
+  TEST(BadInput, InitialVelocities)
+  {
+    const auto settings =
+      dynamic + std::vector<std::string>{"Initial velocities/Names=start"};
+    for (const auto &[override, word] :
+         {std::make_pair("Block=2, 2", "(2, 2) lies in no block"),
+          std::make_pair("Block=here", "'here' is no point"),
+          std::make_pair("Block=1, 2, 3", "'1, 2, 3' is no point"),
+          std::make_pair("Center=middle", "'middle' is no point")})
+    {
+      const std::string text = override;
+      expect_rejected_with(
+        settings,
+        "Initial velocities/start/" + text,
+        {"Initial velocities/start/" + text.substr(0, text.find('=')), word});
+    }
+    expect_rejected_with(settings,
+                         "Initial velocities/start/Block=2, 2",
+                         {"lies in no block"},
+                         2);
+  }
+
+
+  TEST(BadInput, TimeHistories)
+  {
+    const auto expect = [](const std::string &text, const std::string &word) {
+      const std::string name = NMM_TEST_OUTPUT_DIR "/motion.txt";
+      std::ofstream(name) << text;
+      expect_rejected_with(dynamic,
+                           // Files are relative to the scene.
+                           "Model/Base acceleration=file: " +
+                             std::filesystem::relative(
+                               name,
+                               std::filesystem::path(base_scene).parent_path())
+                               .string() +
+                             "; 0",
+                           {"motion.txt", word});
+    };
+    expect("0 1\n1 2\n1 3\n", "1");
+    expect("0 1\n0.5\n", "2");
+    expect("0 zero\n", "1");
+    expect("", "motion.txt");
+  }
+
+
+  TEST(BadInput, Restart)
+  {
+    expect_rejected({"--restart", "no-such.nmm", base_scene},
+                    {"--restart", "no dynamic analysis"});
+    std::vector<std::string> arguments = {"--restart", "no-such.nmm"};
+    for (const std::string &setting : dynamic)
+      arguments.insert(arguments.end(), {"--set", setting});
+    arguments.push_back(base_scene);
+    expect_rejected(arguments, {"no-such.nmm", "missing"});
+    expect_rejected(arguments, {"no-such.nmm", "missing"}, 2);
+    expect_rejected({"--restart", "", base_scene}, {"--restart", "name"});
+  }
+
+
   TEST(BadInput, Geometry)
   {
     // Open and self-intersecting boundaries.

@@ -96,11 +96,14 @@ namespace NMM
   /**
    * Dynamic relaxation to the static answer: the motion is stopped whenever the
    * kinetic energy has passed a peak (kinetic damping, Cundall 1976), and
-   * steps grow. Loads must not depend on time, which goes on.
+   * steps grow. Loads must not depend on time, which goes on. @p after_step is
+   * called after each step, before the motion is stopped.
    * @throws NumericalFailure if rest is not reached.
    */
   RelaxationReport
-  relax(TimeIntegrator &integrator, const RelaxationParameters &parameters);
+  relax(TimeIntegrator                                &integrator,
+        const RelaxationParameters                    &parameters,
+        const std::function<void(const StepRecord &)> &after_step = {});
 } // namespace NMM
 
 #endif

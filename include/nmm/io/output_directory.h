@@ -31,6 +31,11 @@ namespace NMM
     void
     create() const;
 
+    /// Make the folder if need be, to continue an earlier run: remove only what
+    /// that wrote at its end, not histories, series and checkpoint.
+    void
+    resume() const;
+
     /// @p write gets the temporary file's name.
     void
     write_file(const std::string                              &name,
@@ -41,6 +46,9 @@ namespace NMM
                const std::function<void(std::ostream &)> &write) const;
 
   private:
+    void
+    remove_results(bool of_end_only) const;
+
     std::filesystem::path folder;
   };
 

@@ -4,6 +4,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <chrono>
+#include <functional>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -36,10 +37,16 @@ namespace NMM
       void
       remark(const std::string &text);
 
+      /// How far long work has come: on a terminal beside the stage's name, a
+      /// few times a second; else a line every ten seconds. @p text makes
+      /// the words when they are shown, from the seconds since the start.
+      void
+      update(const std::function<std::string(double seconds)> &text);
+
     private:
       Progress                             &progress;
       std::string                           name, text;
-      std::chrono::steady_clock::time_point start;
+      std::chrono::steady_clock::time_point start, last_update;
       int                                   n_exceptions;
     };
 

@@ -1,9 +1,11 @@
 #ifndef nmm_io_scene_h
 #define nmm_io_scene_h
 
+#include <nmm/dynamics/loading.h>
 #include <nmm/geometry/physical_mesh.h>
 #include <nmm/io/scene_parameters.h>
 
+#include <functional>
 #include <memory>
 #include <ostream>
 #include <string>
@@ -60,6 +62,13 @@ namespace NMM
     ElasticityProblem
     make_problem() const;
 
+    /// How the problem's loads and conditions change in time. @throws InputError
+    /// for an expression that cannot be parsed or has no value at the start or
+    /// the end, or a file that cannot be read. Its functions throw
+    /// NumericalFailure where an expression has no value.
+    Loading
+    make_loading() const;
+
   private:
     std::string                               file_name;
     SceneNames                                names;
@@ -68,6 +77,10 @@ namespace NMM
 
     std::string
     relative_to_scene(const std::string &name) const;
+
+    /// Null if there is none.
+    std::function<dealii::Tensor<1, 2>(double)>
+    make_base_acceleration() const;
   };
 } // namespace NMM
 

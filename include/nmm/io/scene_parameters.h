@@ -4,6 +4,7 @@
 #include <nmm/covers/aggregation.h>
 #include <nmm/covers/graded_mesh.h>
 #include <nmm/covers/mathematical_mesh.h>
+#include <nmm/io/scene_parameters_dynamics.h>
 #include <nmm/mechanics/elasticity_problem.h>
 #include <nmm/mechanics/newton_solver.h>
 #include <nmm/mechanics/nonlinear_statics.h>
@@ -114,7 +115,7 @@ namespace NMM
   /// How the deformation is described.
   enum class Kinematics
   {
-    /// Small displacements: one linear problem, StaticElasticity.
+    /// Small displacements: one linear problem, StaticElasticity or SmallModel.
     small,
     /// Total Lagrangian, exact under rotation: FiniteElasticity.
     finite,
@@ -135,6 +136,11 @@ namespace NMM
     dealii::Tensor<1, 2> gravity;
     /// "fx; fy", expressions of x and y; empty: none.
     std::string body_force;
+    Analysis    analysis = Analysis::statics;
+    /// See TimeDependence::amplitude.
+    std::string gravity_amplitude, body_force_amplitude;
+    /// "ax; ay", each as an amplitude [m/s^2]; empty: none.
+    std::string base_acceleration;
 
     static void
     declare(dealii::ParameterHandler &prm);
@@ -152,6 +158,7 @@ namespace NMM
     /// Expressions of x and y, separated by semicolons.
     std::string         value;
     std::array<bool, 2> components = {{true, true}};
+    TimeDependence      time;
 
     static void
     declare(dealii::ParameterHandler &prm);
@@ -203,9 +210,9 @@ namespace NMM
     declare(dealii::ParameterHandler &prm);
     void
     parse(dealii::ParameterHandler &prm);
-    /// @throws InputError for a value that @p kinematics does not use.
+    /// @throws InputError for a value that is not used.
     void
-    check(Kinematics kinematics) const;
+    check(Kinematics kinematics, Analysis analysis) const;
 
     LoadSteps
     load_steps() const;
@@ -221,9 +228,9 @@ namespace NMM
     declare(dealii::ParameterHandler &prm);
     void
     parse(dealii::ParameterHandler &prm);
-    /// @throws InputError for a value that @p kinematics does not use.
+    /// @throws InputError for a value that is not used.
     void
-    check(Kinematics kinematics) const;
+    check(Kinematics kinematics, Analysis analysis) const;
   };
 
 
@@ -252,9 +259,11 @@ namespace NMM
   struct OutputParameters
   {
     bool fields = true;
-    /// Fields of every so many load steps too; 0: of the last one alone.
+    /// Fields and pictures of every so many steps too; 0: of the last one alone.
     unsigned int fields_every = 0;
-    bool         picture      = true;
+    /// A checkpoint after every so many steps; 0: none.
+    unsigned int checkpoint_every = 0;
+    bool         picture          = true;
     std::string  title;
     Quantity     quantity = Quantity::von_mises;
     /// Colour by the recovered instead of the direct stress.
@@ -327,7 +336,7 @@ namespace NMM
   struct SceneNames
   {
     std::vector<std::string> local_sizes, materials, boundary_conditions,
-      point_forces, fixed_points, probes;
+      point_forces, fixed_points, initial_velocities, probes;
 
     /// One name each, for the parameter reference.
     static SceneNames
@@ -354,12 +363,17 @@ namespace NMM
     std::vector<BoundaryConditionParameters> boundary_conditions;
     std::vector<PointForce>                  point_forces;
     std::vector<FixedPoint>                  fixed_points;
-    LinearSolverParameters                   solver;
-    LoadStepParameters                       load_steps;
-    NewtonSectionParameters                  newton;
-    OutputParameters                         output;
-    std::vector<ProbeParameters>             probes;
-    ExactSolutionParameters                  exact_solution;
+    /// Of point forces and fixed points, in their order.
+    std::vector<TimeDependence>            force_times, fixed_point_times;
+    TimeParameters                         time;
+    RelaxationSectionParameters            relaxation;
+    std::vector<InitialVelocityParameters> initial_velocities;
+    LinearSolverParameters                 solver;
+    LoadStepParameters                     load_steps;
+    NewtonSectionParameters                newton;
+    OutputParameters                       output;
+    std::vector<ProbeParameters>           probes;
+    ExactSolutionParameters                exact_solution;
 
     static void
     declare(dealii::ParameterHandler &prm, const SceneNames &names);
@@ -372,9 +386,13 @@ namespace NMM
     check() const;
 
   private:
-    /// What cannot be had together with the kinematics.
+    /// What cannot be had together with kinematics and analysis.
     void
     check_kinematics() const;
+    void
+    check_analysis() const;
+    void
+    check_loads_in_time() const;
   };
 } // namespace NMM
 

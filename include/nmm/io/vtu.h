@@ -11,20 +11,15 @@
 namespace NMM
 {
   /**
-   * Write fields.vtu, in parallel one fields.<rank>.vtu each and fields.pvtu,
-   * and fields.pvd: manifold elements as triangles with six nodes (VTK's Lagrange
+   * Write @p base .vtu, in parallel one .<rank>.vtu each and .pvtu: manifold
+   * elements as triangles with six nodes (VTK's Lagrange
    * triangle of order 2) with displacement, direct and recovered stress, von
    * Mises and principal stresses (of the recovered stress), block, region and
    * material numbers and the rank. Numbers are single precision. ParaView's "Warp
-   * by vector" of the displacement shows the deformed shape.
+   * by vector" of the displacement shows the deformed shape. Returns the name of
+   * the file, for write_series(); collective, but does not wait for other ranks'
+   * files.
    */
-  void
-  write_fields(const CoverSystem     &covers,
-               const FieldTriangles  &triangles,
-               const OutputDirectory &directory);
-
-  /// The same for one state of a series, as @p base .vtu or .pvtu; the name of
-  /// the file, for write_series().
   std::string
   write_fields_of_state(const CoverSystem     &covers,
                         const FieldTriangles  &triangles,

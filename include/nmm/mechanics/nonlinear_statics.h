@@ -84,6 +84,11 @@ namespace NMM
     double
     load_factor() const;
 
+    /// The step that was tried last: after a failure, how often it was cut and
+    /// the iterations lost.
+    const LoadStep &
+    last_attempt() const;
+
   private:
     struct State
     {
@@ -98,6 +103,7 @@ namespace NMM
     FiniteElasticity  *elasticity;
     NewtonSolver       newton;
     std::vector<State> states;
+    LoadStep           current;
   };
 } // namespace NMM
 

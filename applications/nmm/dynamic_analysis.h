@@ -1,0 +1,147 @@
+#ifndef nmm_applications_dynamic_analysis_h
+#define nmm_applications_dynamic_analysis_h
+
+#include <nmm/dynamics/elastic_models.h>
+#include <nmm/dynamics/history.h>
+#include <nmm/dynamics/incremental_dynamics.h>
+#include <nmm/dynamics/step_control.h>
+#include <nmm/io/time_table.h>
+
+#include "probe_history.h"
+#include "scene_analysis.h"
+#include <memory>
+#include <string>
+#include <vector>
+
+/**
+ * Motion in time, or relaxation to rest, of small, finite or incremental
+ * kinematics. Histories, series and checkpoints are written as the run goes; if
+ * it fails, the last good state is what is written.
+ */
+class DynamicAnalysis : public SceneAnalysis
+{
+public:
+  /// @p restart: checkpoint to continue from; empty: none.
+  DynamicAnalysis(const NMM::Scene  &scene,
+                  NMM::Progress     &progress,
+                  MPI_Comm           communicator,
+                  const std::string &restart);
+
+  void
+  solve() override;
+
+  void
+  verify() override;
+
+private:
+  using Vector = NMM::MechanicalModel::Vector;
+
+  std::string   restart;
+  NMM::Analysis kind;
+
+  // Each object refers to those above it.
+  std::unique_ptr<NMM::QuadratureCollection> mass_quadrature;
+  /// Small and finite kinematics.
+  std::unique_ptr<NMM::FiniteElasticity> elasticity;
+  std::unique_ptr<NMM::ElasticModel>     model;
+  std::unique_ptr<NMM::TimeIntegrator>   integrator;
+  /// Incremental kinematics.
+  std::unique_ptr<NMM::IncrementalElasticity> incremental;
+  std::unique_ptr<NMM::IncrementalDynamics>   incremental_dynamics;
+  double                                      incremental_time = 0.;
+  unsigned int                                incremental_step = 0;
+
+  /// On the first rank.
+  std::unique_ptr<NMM::History>   history;
+  std::unique_ptr<NMM::TimeTable> incremental_history;
+  std::unique_ptr<ProbeHistory>   probe_history;
+
+  /// To go back to if a step fails half-way.
+  NMM::DynamicState     last_good;
+  NMM::RelaxationReport relaxation;
+  /// Of this run, without what a checkpoint was reached by.
+  unsigned int n_steps = 0, n_iterations = 0, n_lost_iterations = 0, n_cuts = 0;
+  /// Where this run starts [s].
+  double start_time = 0.;
+  /// Largest of all steps [J/m].
+  double                largest_balance = 0., largest_energy = 0.;
+  NMM::Progress::Stage *stage = nullptr;
+
+  void
+  make_system() override;
+
+  void
+  make_integrator();
+
+  void
+  make_incremental();
+
+  /// From the scene's list. @throws NMM::InputError for a block that does not
+  /// exist.
+  Vector
+  initial_velocity() const;
+
+  /// Of a block, or of the whole solid for dealii's invalid index [m].
+  dealii::Point<2>
+  centroid(unsigned int block) const;
+
+  void
+  open_files() override;
+
+  void
+  run_dynamics();
+
+  void
+  run_relaxation();
+
+  void
+  run_incremental();
+
+  /// Write what belongs to the state reached by @p record.
+  void
+  after_step(const NMM::StepRecord &record);
+
+  void
+  write_rows(const NMM::StepRecord &record);
+
+  void
+  write_state_of_series();
+
+  void
+  write_checkpoint();
+
+  void
+  show_progress();
+
+  /// Back to the last good state after a failure, and keep it.
+  void
+  recover();
+
+  double
+  time() const;
+
+  unsigned int
+  step_number() const;
+
+  const Vector &
+  velocity() const;
+
+  /// Displacements with relevant unknowns.
+  Vector
+  displacement() const;
+
+  /// Make field, recovery and evaluator those of the current state.
+  void
+  show();
+
+  void
+  add_energies();
+
+  double
+  last_value() const override;
+
+  std::string
+  unsolved_note() const override;
+};
+
+#endif

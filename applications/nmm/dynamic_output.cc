@@ -1,0 +1,263 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/dynamics/checkpoint.h>
+
+#include "current_stress.h"
+#include "dynamic_analysis.h"
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iomanip>
+#include <sstream>
+
+using namespace NMM;
+
+void
+DynamicAnalysis::open_files()
+{
+  const std::string name         = (directory->path() / "history.csv").string();
+  const bool        is_continued = [&]() {
+    bool exists =
+      !restart.empty() && is_first_rank() && std::filesystem::exists(name);
+    return dealii::Utilities::MPI::max(exists ? 1 : 0, communicator) == 1;
+  }();
+  const int continue_after =
+    is_continued ? static_cast<int>(step_number()) : -1;
+  if (is_continued)
+    series->resume(time());
+  on_first_rank([&]() {
+    if (!is_continued)
+      directory->create();
+    if (!probe_history->is_empty())
+      probe_history->open((directory->path() / "probes-history.csv").string(),
+                          continue_after);
+    if (incremental)
+      incremental_history = std::make_unique<TimeTable>(
+        name,
+        "# per unit thickness: energies [J/m], angular momentum about the "
+        "origin [kg m/s]; time and size [s], displacement [m], area [m^2]",
+        std::vector<std::string>{"size",
+                                 "max_displacement",
+                                 "kinetic",
+                                 "strain",
+                                 "angular_momentum",
+                                 "area"},
+        MPI_COMM_SELF);
+    else
+      history = std::make_unique<History>(name, MPI_COMM_SELF, continue_after);
+    if (is_continued)
+      directory->resume();
+  });
+  if (!is_continued)
+  {
+    write_rows(StepRecord());
+    if (scene.parameters().output.fields_every > 0)
+      write_state_of_series();
+  }
+}
+
+
+void
+DynamicAnalysis::after_step(const StepRecord &record)
+{
+  ++n_steps;
+  n_iterations += record.report.n_iterations;
+  if (integrator)
+  {
+    last_good              = integrator->state();
+    const Account &account = integrator->account();
+    largest_balance = std::max(largest_balance, std::abs(account.balance));
+    largest_energy =
+      std::max({largest_energy,
+                account.kinetic + account.strain + account.conditions,
+                std::abs(account.external_work)});
+  }
+  write_rows(record);
+  const OutputParameters &output = scene.parameters().output;
+  if (output.fields_every > 0 && step_number() % output.fields_every == 0)
+    write_state_of_series();
+  // Last, so that what is written of the steps up to it is complete.
+  if (output.checkpoint_every > 0 &&
+      step_number() % output.checkpoint_every == 0)
+    write_checkpoint();
+  show_progress();
+}
+
+
+void
+DynamicAnalysis::write_rows(const StepRecord &record)
+{
+  std::vector<double> row;
+  if (incremental)
+  {
+    const DisplacementField current(*covers, problem, displacement());
+    row = {record.report.step,
+           record.report.max_displacement,
+           incremental_dynamics->kinetic_energy(),
+           CurrentStress::incremental_strain_energy(
+             current, *quadrature, problem, incremental->stresses()),
+           incremental_dynamics->angular_momentum(),
+           CurrentStress::area(current, *quadrature)};
+  }
+  std::vector<double> probe_values;
+  if (!probe_history->is_empty())
+  {
+    // Without unknowns of other ranks.
+    Vector owned(velocity());
+    owned = incremental ? incremental->solution() : integrator->state().u;
+    probe_values = probe_history->evaluate(owned, velocity());
+  }
+  on_first_rank([&]() {
+    if (incremental)
+      incremental_history->write(time(), step_number(), row);
+    else
+      history->write(*integrator, record);
+    probe_history->write(time(), step_number(), probe_values);
+  });
+}
+
+
+void
+DynamicAnalysis::write_state_of_series()
+{
+  show();
+  std::ostringstream description;
+  description << "t = " << time() << " s";
+  series->write(step_number() / scene.parameters().output.fields_every,
+                time(),
+                description.str(),
+                *evaluator);
+}
+
+
+void
+DynamicAnalysis::write_checkpoint()
+{
+  Checkpoint::write(*integrator,
+                    (directory->path() / "checkpoint.nmm").string());
+}
+
+
+void
+DynamicAnalysis::show_progress()
+{
+  stage->update([&](const double seconds) {
+    std::ostringstream line;
+    line << std::setprecision(4) << "step " << step_number()
+         << ", t = " << time();
+    if (kind == Analysis::relaxation)
+      line << " s, imbalance " << std::setprecision(2)
+           << integrator->account().imbalance;
+    else
+    {
+      const double end  = scene.parameters().time.end_time;
+      const double left = seconds * (end - time()) / (time() - start_time);
+      line << " of " << end << " s, " << std::setprecision(3)
+           << n_steps / seconds << " steps/s, about " << std::ceil(left)
+           << " s left";
+    }
+    return line.str();
+  });
+}
+
+
+void
+DynamicAnalysis::show()
+{
+  evaluator.reset();
+  recovery.reset();
+  field = std::make_unique<DisplacementField>(*covers, problem, displacement());
+  recovery = std::make_unique<StressRecovery>(*field, aggregation);
+  FieldEvaluator::StressLaw law;
+  if (incremental)
+    law = CurrentStress::incremental(*covers,
+                                     *quadrature,
+                                     problem,
+                                     incremental->stresses());
+  else if (scene.parameters().model.kinematics == Kinematics::finite)
+    law = CurrentStress::finite(*elasticity);
+  evaluator = std::make_unique<FieldEvaluator>(*field, *recovery, problem, law);
+}
+
+
+void
+DynamicAnalysis::verify()
+{
+  const std::string &length = scene.parameters().output.length_unit;
+  summary.add("time_reached", time(), "s");
+  summary.add("time_steps", step_number());
+  summary.add("newton_iterations",
+              incremental ? 0 : n_iterations + n_lost_iterations);
+  summary.add("cuts", n_cuts);
+  if (kind == Analysis::relaxation)
+  {
+    summary.add("relaxation_stops", relaxation.n_stops);
+    summary.add("imbalance", integrator->account().imbalance);
+  }
+  add_energies();
+  if (scene.parameters().model.kinematics != Kinematics::small)
+    summary.add("current_area",
+                CurrentStress::area(*field, *quadrature),
+                length + "^2");
+  if (!incremental)
+    summary.add("direct_stress_covers",
+                dealii::Utilities::MPI::sum(recovery->n_direct(),
+                                            communicator));
+}
+
+
+void
+DynamicAnalysis::add_energies()
+{
+  const OutputParameters &output = scene.parameters().output;
+  const double            t      = problem.thickness;
+  const std::string       energy =
+    output.stress_unit + "*" + output.length_unit + "^3";
+  const std::string momentum =
+    output.stress_unit + "*" + output.length_unit + "^2*s";
+  const std::string angular_momentum =
+    output.stress_unit + "*" + output.length_unit + "^3*s";
+  if (incremental)
+  {
+    summary.add("kinetic_energy",
+                t * incremental_dynamics->kinetic_energy(),
+                energy);
+    summary.add("strain_energy",
+                t * CurrentStress::incremental_strain_energy(
+                      *field, *quadrature, problem, incremental->stresses()),
+                energy);
+    summary.add("angular_momentum",
+                t * incremental_dynamics->angular_momentum(),
+                angular_momentum);
+    return;
+  }
+  const Account &account = integrator->account();
+  summary.add("kinetic_energy", t * account.kinetic, energy);
+  summary.add("strain_energy", t * account.strain, energy);
+  summary.add("conditions_energy", t * account.conditions, energy);
+  summary.add("dissipated_energy", t * account.dissipated, energy);
+  summary.add("external_work", t * account.external_work, energy);
+  summary.add("energy_balance", t * account.balance, energy);
+  summary.add("energy_balance_relative",
+              largest_energy > 0. ? largest_balance / largest_energy : 0.);
+  summary.add("momentum_x", t * account.linear_momentum[0], momentum);
+  summary.add("momentum_y", t * account.linear_momentum[1], momentum);
+  summary.add("angular_momentum",
+              t * account.angular_momentum,
+              angular_momentum);
+}
+
+
+double
+DynamicAnalysis::last_value() const
+{
+  return time();
+}
+
+
+std::string
+DynamicAnalysis::unsolved_note() const
+{
+  std::ostringstream note;
+  note << "solved up to t = " << time() << " s";
+  return note.str();
+}

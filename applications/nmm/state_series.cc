@@ -1,0 +1,130 @@
+#include "state_series.h"
+
+#include <nmm/io/picture.h>
+#include <nmm/io/vtu.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <fstream>
+#include <iomanip>
+#include <regex>
+#include <sstream>
+
+using namespace NMM;
+
+namespace
+{
+  bool
+  is_first_rank(const CoverSystem &covers)
+  {
+    return dealii::Utilities::MPI::this_mpi_process(covers.communicator()) == 0;
+  }
+} // namespace
+
+
+void
+write_picture(const Scene           &scene,
+              const CoverSystem     &covers,
+              const FieldTriangles  &triangles,
+              const FieldEvaluator  *evaluator,
+              const std::string     &title,
+              const std::string     &file_name,
+              const OutputDirectory &directory)
+{
+  OutputParameters parameters = scene.parameters().output;
+  if (evaluator == nullptr)
+    parameters.quantity = Quantity::block;
+  if (scene.parameters().model.kinematics != Kinematics::small &&
+      parameters.deformation_scale < 0.)
+    parameters.deformation_scale = 1.;
+  const PictureData data =
+    make_picture_data(covers, triangles, evaluator, parameters);
+  if (is_first_rank(covers))
+    directory.write_file(file_name, [&](const std::string &name) {
+      draw_picture(data, parameters, title, name);
+    });
+}
+
+
+StateSeries::StateSeries(const Scene           &scene,
+                         const CoverSystem     &covers,
+                         const OutputDirectory &directory)
+  : scene(&scene)
+  , covers(&covers)
+  , directory(&directory)
+{
+}
+
+
+void
+StateSeries::resume(const double last)
+{
+  files.clear();
+  if (!is_first_rank(*covers))
+    return;
+  std::ifstream    in(directory->path() / "fields.pvd");
+  const std::regex entry("timestep=\"([^\"]*)\".*file=\"(fields-[^\"]*)\"");
+  const double     limit = last + 1e-9 * std::abs(last);
+  std::smatch      match;
+  for (std::string line; std::getline(in, line);)
+    if (std::regex_search(line, match, entry))
+    {
+      const double value = std::stod(match[1]);
+      if (value <= limit)
+        files.emplace_back(value, match[2]);
+    }
+  if (!files.empty())
+    write_list();
+}
+
+
+void
+StateSeries::write(const unsigned int    number,
+                   const double          value,
+                   const std::string    &description,
+                   const FieldEvaluator &evaluator)
+{
+  const OutputParameters &output = scene->parameters().output;
+  std::ostringstream      suffix;
+  suffix << '-' << std::setw(4) << std::setfill('0') << number;
+  const FieldTriangles triangles(*covers, &evaluator);
+  if (output.fields)
+  {
+    const std::string name = write_fields_of_state(*covers,
+                                                   triangles,
+                                                   *directory,
+                                                   "fields" + suffix.str());
+    // Every rank's piece is there before the list names it.
+    MPI_Barrier(covers->communicator());
+    files.emplace_back(value, name);
+    if (is_first_rank(*covers))
+      write_list();
+  }
+  if (output.picture)
+    write_picture(*scene,
+                  *covers,
+                  triangles,
+                  &evaluator,
+                  scene->title() + ", " + description,
+                  "picture" + suffix.str() + ".png",
+                  *directory);
+}
+
+
+void
+StateSeries::finish(const double value, const std::string &file_name)
+{
+  if (files.empty() || files.back().first != value)
+    files.emplace_back(value, file_name);
+  MPI_Barrier(covers->communicator());
+  if (is_first_rank(*covers))
+    write_list();
+}
+
+
+void
+StateSeries::write_list() const
+{
+  write_series(files, *directory);
+}

@@ -1,0 +1,134 @@
+#ifndef nmm_io_scene_parameters_dynamics_h
+#define nmm_io_scene_parameters_dynamics_h
+
+#include <nmm/dynamics/step_control.h>
+#include <nmm/dynamics/time_scheme.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+
+#include <optional>
+#include <string>
+
+namespace NMM
+{
+  enum class Kinematics;
+
+  /// What is asked about the solid.
+  enum class Analysis
+  {
+    /// Equilibrium.
+    statics,
+    /// Motion in time.
+    dynamics,
+    /// Equilibrium, found by motion with kinetic damping.
+    relaxation
+  };
+
+  /// Its name in scene files.
+  const std::string &
+  to_string(Analysis analysis);
+
+
+  /// How a load or condition changes in time.
+  struct TimeDependence
+  {
+    /// Name of the load's section entry, for messages.
+    std::string name;
+    /// Expression of t or "file: name"; empty: 1.
+    std::string amplitude;
+    /// [s]; negative: never.
+    double release_time = -1.;
+
+    static void
+    declare(dealii::ParameterHandler &prm, bool may_be_released);
+    void
+    parse(dealii::ParameterHandler &prm, bool may_be_released);
+    /// @throws InputError, if something is set, that @p by makes no use of it.
+    /// @p section is that of the load.
+    void
+    expect_default(const std::string &section, const std::string &by) const;
+  };
+
+
+  /// The section `Time`.
+  struct TimeParameters
+  {
+    enum class Scheme
+    {
+      /// energy_momentum, newmark and constant_acceleration for finite, small and
+      /// incremental kinematics.
+      automatic,
+      newmark,
+      generalized_alpha,
+      constant_acceleration,
+      energy_momentum
+    };
+
+    double end_time = 0.;
+    /// StepControlParameters.
+    double initial_step = 0., min_step = 0., max_step = 0.,
+           max_displacement = 0., max_error = 0.;
+    Scheme          scheme = Scheme::automatic;
+    double          beta = 0.25, gamma = 0.5, spectral_radius = 0.8;
+    RayleighDamping damping;
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
+    /// @throws InputError naming the parameter that is wrong or would not be
+    /// used.
+    void
+    check(Analysis analysis, Kinematics kinematics) const;
+
+    StepControlParameters
+    step_control() const;
+
+    TimeScheme
+    time_scheme(Analysis analysis, Kinematics kinematics) const;
+
+  private:
+    void
+    check_scheme(Analysis analysis, Kinematics kinematics) const;
+    void
+    check_steps(Kinematics kinematics) const;
+  };
+
+
+  /// The section `Relaxation`.
+  struct RelaxationSectionParameters
+  {
+    RelaxationParameters relaxation;
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
+    /// @throws InputError as TimeParameters::check().
+    void
+    check(Analysis analysis) const;
+  };
+
+
+  /// Rigid motion that a block, or the whole solid, starts with.
+  struct InitialVelocityParameters
+  {
+    std::string name;
+    /// Empty: the whole solid, else the block with this point [m].
+    std::optional<dealii::Point<2>> block;
+    /// [m/s], [rad/s].
+    dealii::Tensor<1, 2> translation;
+    double               angular_velocity = 0.;
+    /// [m]; empty: the centroid of what moves.
+    std::optional<dealii::Point<2>> center;
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
+  };
+} // namespace NMM
+
+#endif

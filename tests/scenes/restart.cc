@@ -1,0 +1,432 @@
+#include "run_driver.h"
+#include <csignal>
+#include <cstdlib>
+#include <ctime>
+#include <fcntl.h>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <map>
+#include <random>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+#include <vector>
+
+// Runs that are stopped, killed or fail, and are continued from their checkpoint.
+namespace
+{
+  namespace fs = std::filesystem;
+
+  const std::string cases_dir = NMM_SOURCE_DIR "/tests/scenes/";
+
+  using Arguments = std::vector<std::string>;
+
+  std::string
+  read_file(const fs::path &name)
+  {
+    std::ifstream     file(name, std::ios::binary);
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+
+
+  /// All files of a folder with what is in them.
+  std::map<std::string, std::string>
+  contents(const fs::path &folder)
+  {
+    std::map<std::string, std::string> files;
+    for (const auto &entry : fs::directory_iterator(folder))
+      files[entry.path().filename().string()] = read_file(entry.path());
+    return files;
+  }
+
+
+  Arguments
+  operator+(Arguments a, const Arguments &b)
+  {
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+  }
+
+
+  void
+  run(const Arguments   &arguments,
+      const int          exit_code = 0,
+      const unsigned int n_ranks   = 1)
+  {
+    const DriverResult result = run_driver(arguments, n_ranks);
+    ASSERT_EQ(result.exit_code, exit_code) << result.output;
+  }
+
+
+  void
+  expect_same_histories(const std::string &a, const std::string &b)
+  {
+    for (const char *name : {"history.csv", "probes-history.csv"})
+    {
+      const std::string text = read_file(fs::path(a) / name);
+      EXPECT_GT(std::count(text.begin(), text.end(), '\n'), 10);
+      // Not EXPECT_EQ, which would print both.
+      EXPECT_TRUE(text == read_file(fs::path(b) / name))
+        << fs::path(a) / name << " and " << fs::path(b) / name << " differ";
+    }
+  }
+
+
+  /// To the end in one go, and with a stop at @p half.
+  void
+  check_stop(const std::string &scene,
+             const std::string &half,
+             const Arguments   &more,
+             const unsigned int n_ranks)
+  {
+    SCOPED_TRACE(scene + " on " + std::to_string(n_ranks) + " rank(s)");
+    const Arguments settings =
+      Arguments{"--set", "Output/Checkpoint every=7", cases_dir + scene} + more;
+    const std::string straight = fresh_output_dir("straight");
+    const std::string stopped  = fresh_output_dir("stopped");
+    run(settings + Arguments{"-o", straight}, 0, n_ranks);
+    run(settings + Arguments{"-o", stopped, "--set", "Time/End time=" + half},
+        0,
+        n_ranks);
+    run(settings +
+          Arguments{"-o", stopped, "--restart", stopped + "/checkpoint.nmm"},
+        0,
+        n_ranks);
+    expect_same_histories(straight, stopped);
+    EXPECT_TRUE(read_file(straight + "/checkpoint.nmm") ==
+                read_file(stopped + "/checkpoint.nmm"));
+    EXPECT_TRUE(fs::exists(stopped + "/fields.vtu") ||
+                fs::exists(stopped + "/fields.pvtu"));
+  }
+
+
+  TEST(Restart, StoppedRunsGoOnWithTheSameBits)
+  {
+    for (const unsigned int n_ranks : {1, 2})
+    {
+      // The release is in the second part.
+      check_stop("released-bar/scene.prm",
+                 "0.4",
+                 {"--set", "Time/End time=0.7"},
+                 n_ranks);
+      check_stop("spinning-block/scene.prm",
+                 "0.5",
+                 {"--set", "Time/End time=0.8"},
+                 n_ranks);
+    }
+  }
+
+
+  TEST(Restart, GoesOnInAnotherFolder)
+  {
+    const std::string first  = fresh_output_dir("first");
+    const std::string second = fresh_output_dir("second");
+    const Arguments   settings{"--set",
+                             "Output/Checkpoint every=10",
+                             cases_dir + "free-fall/scene.prm"};
+    run(settings + Arguments{"-o", first, "--set", "Time/End time=0.25"});
+    const auto before = contents(first);
+    run(settings +
+        Arguments{"-o", second, "--restart", first + "/checkpoint.nmm"});
+    EXPECT_TRUE(before == contents(first));
+    const std::string history = read_file(second + "/history.csv");
+    // Two lines of names, the state it starts from, 25 steps.
+    EXPECT_EQ(std::count(history.begin(), history.end(), '\n'), 28);
+    EXPECT_NE(history.find(",25,0,0,0,"), std::string::npos) << history;
+  }
+
+
+  void
+  expect_refused(const std::string              &checkpoint,
+                 const std::string              &scene,
+                 const Arguments                &more,
+                 const std::vector<std::string> &words,
+                 const unsigned int              n_ranks = 1)
+  {
+    SCOPED_TRACE(scene + ": " + words.front());
+    const std::string folder = fs::path(checkpoint).parent_path().string();
+    const auto        before = contents(folder);
+    const auto        result =
+      run_driver(Arguments{"-o", folder, "--restart", checkpoint} + more +
+                   Arguments{cases_dir + scene},
+                 n_ranks);
+    EXPECT_EQ(result.exit_code, 2) << result.output;
+    for (const std::string &word : words)
+      EXPECT_NE(result.output.find(word), std::string::npos)
+        << "'" << word << "' is missing in: " << result.output;
+    EXPECT_TRUE(before == contents(folder));
+  }
+
+
+  TEST(Restart, RefusesWhatDoesNotFit)
+  {
+    const std::string folder     = fresh_output_dir("refused");
+    const std::string checkpoint = folder + "/checkpoint.nmm";
+    const std::string scene      = "free-fall/scene.prm";
+    run({"-o",
+         folder,
+         "--set",
+         "Output/Checkpoint every=10",
+         "--set",
+         "Time/End time=0.2",
+         cases_dir + scene});
+
+    expect_refused(folder + "/none.nmm", scene, {}, {"none.nmm", "missing"});
+    expect_refused(checkpoint,
+                   scene,
+                   {"--set", "Mathematical mesh/Cell size=0.4"},
+                   {"another mesh", "checkpoint.nmm"});
+    expect_refused(checkpoint,
+                   scene,
+                   {"--set", "Mathematical mesh/Cell size=0.4"},
+                   {"another mesh", "checkpoint.nmm"},
+                   2);
+    expect_refused(checkpoint,
+                   scene,
+                   {"--set", "Materials/rock/Density=900"},
+                   {"material"});
+    expect_refused(checkpoint,
+                   scene,
+                   {"--set", "Time/Scheme=newmark"},
+                   {"scheme"});
+    expect_refused(checkpoint,
+                   scene,
+                   {"--set",
+                    "Model/Kinematics=small",
+                    "--set",
+                    "Time/Scheme=energy momentum"},
+                   {"kinematics"});
+    expect_refused(checkpoint,
+                   scene,
+                   {"--set", "Model/Kinematics=incremental"},
+                   {"--restart", "small or finite"});
+    expect_refused(checkpoint,
+                   scene,
+                   {"--set", "Time/End time=0.2"},
+                   {"Time/End time", "0.2"});
+    expect_refused(checkpoint, "base.prm", {}, {"--restart", "no dynamic"});
+    // Other probes: other columns.
+    expect_refused(checkpoint,
+                   scene,
+                   {"--set",
+                    "Probes/corner/Type=line",
+                    "--set",
+                    "Probes/Names=corner, more",
+                    "--set",
+                    "Probes/more/Point=0.5, 0.5",
+                    "--set",
+                    "Probes/corner/To=1, 1"},
+                   {"probes-history.csv", "columns"});
+
+    const std::string whole   = read_file(checkpoint);
+    std::string       damaged = whole;
+    damaged[damaged.size() / 2] ^= 4;
+    std::ofstream(folder + "/damaged.nmm", std::ios::binary) << damaged;
+    expect_refused(folder + "/damaged.nmm", scene, {}, {"damaged"});
+    std::ofstream(folder + "/cut.nmm", std::ios::binary)
+      << whole.substr(0, whole.size() - 8);
+    expect_refused(folder + "/cut.nmm", scene, {}, {"bytes instead of"});
+    std::ofstream(folder + "/text.nmm") << "something else altogether, of "
+                                           "some length";
+    expect_refused(folder + "/text.nmm", scene, {}, {"no checkpoint"});
+  }
+
+
+  /// Start the driver and come back at once.
+  pid_t
+  start(Arguments arguments)
+  {
+    arguments.insert(arguments.begin(), NMM_DRIVER);
+    std::vector<char *> words;
+    for (std::string &argument : arguments)
+      words.push_back(argument.data());
+    words.push_back(nullptr);
+    const pid_t child = fork();
+    if (child == 0)
+    {
+      const int null = ::open("/dev/null", O_WRONLY);
+      dup2(null, STDOUT_FILENO);
+      dup2(null, STDERR_FILENO);
+      execv(words[0], words.data());
+      _exit(127);
+    }
+    return child;
+  }
+
+
+  /// Let it run until it has written a checkpoint and a little longer, then
+  /// SIGKILL. False if it had ended before.
+  bool
+  kill_after_checkpoint(const pid_t                     child,
+                        const fs::path                 &checkpoint,
+                        const fs::file_time_type        not_before,
+                        const std::chrono::milliseconds longer)
+  {
+    const auto      deadline = time(nullptr) + 60;
+    std::error_code none;
+    while (time(nullptr) < deadline &&
+           !(fs::exists(checkpoint) &&
+             fs::last_write_time(checkpoint, none) > not_before))
+    {
+      int status = 0;
+      if (waitpid(child, &status, WNOHANG) == child)
+        return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    std::this_thread::sleep_for(longer);
+    kill(child, SIGKILL);
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
+  }
+
+
+  /// fields.pvd names only files that are there, and there are some.
+  void
+  check_series(const std::string &folder)
+  {
+    const std::string pvd = read_file(folder + "/fields.pvd");
+    EXPECT_NE(pvd.find("</VTKFile>"), std::string::npos) << pvd;
+    const std::regex file("file=\"([^\"]*)\"");
+    unsigned int     n = 0;
+    for (std::sregex_iterator i(pvd.begin(), pvd.end(), file), end; i != end;
+         ++i, ++n)
+    {
+      const std::string vtu = read_file(folder + "/" + (*i)[1].str());
+      EXPECT_NE(vtu.find("</VTKFile>"), std::string::npos) << (*i)[1];
+    }
+    EXPECT_GT(n, 1u);
+  }
+
+
+  TEST(Restart, KilledRunsGoOnWithTheSameBits)
+  {
+    const unsigned int seed = std::random_device()();
+    std::cout << "seed " << seed << std::endl;
+    std::mt19937                       generator(seed);
+    std::uniform_int_distribution<int> milliseconds(0, 150);
+    const Arguments                    settings{"--set",
+                             "Output/Checkpoint every=5",
+                             "--set",
+                             "Output/Fields every=20",
+                             "--set",
+                             "Time/Initial step=0.002",
+                             "--set",
+                             "Time/Largest step=0.004",
+                             "--set",
+                             "Time/Largest displacement=0.015",
+                             "--set",
+                             "Time/End time=2",
+                             cases_dir + "spinning-block/scene.prm"};
+    const std::string                  straight = fresh_output_dir("unbroken");
+    const std::string                  killed   = fresh_output_dir("killed");
+    run(settings + Arguments{"-o", straight});
+
+    const std::string  checkpoint = killed + "/checkpoint.nmm";
+    unsigned int       n_kills    = 0;
+    Arguments          restart;
+    fs::file_time_type last = fs::file_time_type::min();
+    for (unsigned int i = 0; i < 3; ++i)
+    {
+      const pid_t child = start(settings + Arguments{"-o", killed} + restart);
+      n_kills += kill_after_checkpoint(child,
+                                       checkpoint,
+                                       last,
+                                       std::chrono::milliseconds(
+                                         milliseconds(generator)));
+      ASSERT_TRUE(fs::exists(checkpoint));
+      last    = fs::last_write_time(checkpoint);
+      restart = {"--restart", checkpoint};
+      // What a run leaves in its last moments, see TimeTable and History.
+      std::ofstream(killed + "/history.csv", std::ios::app) << "1.99,99999,0.0";
+      std::ofstream(killed + "/probes-history.csv", std::ios::app) << "1.9";
+    }
+    ASSERT_GE(n_kills, 1u);
+    EXPECT_FALSE(fs::exists(killed + "/summary.csv"));
+    run(settings + Arguments{"-o", killed} + restart);
+    expect_same_histories(straight, killed);
+    check_series(killed);
+    for (const auto &entry : fs::directory_iterator(killed))
+      EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+
+    // The same fields, numbers and times.
+    const auto list = [](const std::string &folder) {
+      const std::string pvd = read_file(folder + "/fields.pvd");
+      return pvd.substr(pvd.find("<VTKFile"));
+    };
+    EXPECT_EQ(list(straight), list(killed));
+  }
+
+
+  TEST(Restart, FailedRunsGoOnFromTheLastGoodState)
+  {
+    const std::string output = fresh_output_dir("failed");
+    const Arguments   settings{"-o",
+                             output,
+                             "--set",
+                             "Time/Largest displacement=0.0208",
+                             "--set",
+                             "Initial velocities/throw/Translation=0, 0",
+                             "--set",
+                             "Output/Picture=true",
+                             cases_dir + "free-fall/scene.prm"};
+    run(settings + Arguments{"--set", "Time/Smallest step=0.01"}, 3);
+    for (const char *name : {"summary.csv",
+                             "history.csv",
+                             "probes-history.csv",
+                             "probes.csv",
+                             "fields.vtu",
+                             "picture.png",
+                             "checkpoint.nmm"})
+      EXPECT_TRUE(fs::exists(output + "/" + name)) << name;
+    run(settings + Arguments{"--restart", output + "/checkpoint.nmm"});
+    // A parabola, however steps are cut.
+    const std::string  history = read_file(output + "/probes-history.csv");
+    std::istringstream row(
+      history.substr(history.rfind('\n', history.size() - 2) + 1));
+    double time = 0., x = 0., y = 0.;
+    int    step = 0;
+    char   comma;
+    row >> time >> comma >> step >> comma >> x >> comma >> y;
+    EXPECT_NEAR(time, 0.5, 1e-12);
+    EXPECT_NEAR(y, -1.25, 1e-8);
+    EXPECT_GT(step, 50);
+  }
+
+
+  TEST(Restart, StaticSeriesIsThereWhenTheNextStepFails)
+  {
+    const std::string output = fresh_output_dir("static-series");
+    Arguments         arguments{"-o",
+                        output,
+                        "--set",
+                        "Output/Fields every=1",
+                        "--set",
+                        "Load steps/Load factors=0.1, 0.2, 1000",
+                        "--set",
+                        "Load steps/Smallest step=0.9",
+                        "--set",
+                        "Mathematical mesh/Cell size=0.5",
+                        NMM_SOURCE_DIR
+                        "/applications/nmm/scenes/cantilever.prm"};
+    for (const char *side : {"top", "bottom"})
+      for (const std::string value :
+           {"Type=follower pressure",
+            side[0] == 't' ? "Value=50" : "Value=-50"})
+        arguments =
+          arguments + Arguments{"--set",
+                                "Boundary conditions/" + std::string(side) +
+                                  " load/" + value};
+    run(arguments, 3);
+    check_series(output);
+    for (const char *name :
+         {"fields-0002.vtu", "picture-0002.png", "history.csv"})
+      EXPECT_TRUE(fs::exists(output + "/" + name)) << name;
+  }
+} // namespace

@@ -110,16 +110,22 @@ NonlinearAnalysis::run_finite()
 void
 NonlinearAnalysis::run_incremental()
 {
-  for (const double factor :
-       scene.parameters().load_steps.load_steps().load_factors)
-  {
-    incremental->step(factor);
+  const LoadStepParameters &parameters = scene.parameters().load_steps;
+  IncrementalSteps          steps;
+  steps.load_factors = parameters.load_steps().load_factors;
+  steps.min_step     = parameters.min_step;
+  if (parameters.max_displacement > 0.)
+    steps.max_displacement = parameters.max_displacement;
+  IncrementalStatics statics(*incremental);
+  statics.run(steps, [&](const IncrementalStep &step, const Vector &solution) {
     HistoryRow row;
-    row.load_factor       = factor;
+    row.load_factor       = step.load_factor;
     row.n_iterations      = 1;
+    row.n_cuts            = step.n_cuts;
+    row.n_lost_iterations = step.n_cuts;
     row.relative_residual = std::numeric_limits<double>::quiet_NaN();
-    add_step(row, incremental->solution());
-  }
+    add_step(row, solution);
+  });
 }
 
 

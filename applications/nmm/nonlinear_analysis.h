@@ -3,6 +3,7 @@
 
 #include <nmm/mechanics/finite_elasticity.h>
 #include <nmm/mechanics/incremental_elasticity.h>
+#include <nmm/mechanics/incremental_statics.h>
 #include <nmm/mechanics/nonlinear_statics.h>
 
 #include "scene_analysis.h"

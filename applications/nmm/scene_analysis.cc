@@ -249,6 +249,7 @@ SceneAnalysis::write()
                       (is_solved ? "" : " (" + unsolved_note() + ")"),
                     "picture.png",
                     *directory);
+    on_first_rank([&]() { series->write_animation(); });
   }
   write_summary();
 }

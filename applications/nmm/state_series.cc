@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fstream>
 #include <iomanip>
+#include <limits>
 #include <regex>
 #include <sstream>
 
@@ -30,7 +31,8 @@ write_picture(const Scene           &scene,
               const FieldEvaluator  *evaluator,
               const std::string     &title,
               const std::string     &file_name,
-              const OutputDirectory &directory)
+              const OutputDirectory &directory,
+              PictureData           *drawn)
 {
   OutputParameters parameters = scene.parameters().output;
   if (evaluator == nullptr)
@@ -38,12 +40,14 @@ write_picture(const Scene           &scene,
   if (scene.parameters().model.kinematics != Kinematics::small &&
       parameters.deformation_scale < 0.)
     parameters.deformation_scale = 1.;
-  const PictureData data =
+  PictureData data =
     make_picture_data(covers, triangles, evaluator, parameters);
   if (is_first_rank(covers))
     directory.write_file(file_name, [&](const std::string &name) {
       draw_picture(data, parameters, title, name);
     });
+  if (drawn != nullptr)
+    *drawn = std::move(data);
 }
 
 
@@ -76,6 +80,9 @@ StateSeries::resume(const double last)
     }
   if (!files.empty())
     write_list();
+  const OutputParameters &output = scene->parameters().output;
+  if (output.animation && output.picture && output.fields_every > 0)
+    open_animation(limit);
 }
 
 
@@ -101,14 +108,51 @@ StateSeries::write(const unsigned int    number,
     if (is_first_rank(*covers))
       write_list();
   }
-  if (output.picture)
-    write_picture(*scene,
-                  *covers,
-                  triangles,
-                  &evaluator,
-                  scene->title() + ", " + description,
-                  "picture" + suffix.str() + ".png",
-                  *directory);
+  if (!output.picture)
+    return;
+  PictureData data;
+  write_picture(*scene,
+                *covers,
+                triangles,
+                &evaluator,
+                scene->title() + ", " + description,
+                "picture" + suffix.str() + ".png",
+                *directory,
+                &data);
+  if (output.animation && is_first_rank(*covers))
+  {
+    if (animation == nullptr)
+      open_animation(-std::numeric_limits<double>::infinity());
+    animation->add_frame(value, data);
+  }
+}
+
+
+void
+StateSeries::open_animation(const double last)
+{
+  animation = std::make_unique<Animation>(
+    (directory->path() / "animation.frames").string(), last);
+}
+
+
+void
+StateSeries::write_animation()
+{
+  if (animation == nullptr || animation->n_frames() == 0)
+    return;
+  OutputParameters output = scene->parameters().output;
+  const bool       is_dynamic =
+    scene->parameters().model.analysis != Analysis::statics;
+  AnimationParameters parameters;
+  parameters.time_name = is_dynamic ? "t" : "load factor";
+  parameters.time_unit = is_dynamic ? "s" : "";
+  if (scene->parameters().model.kinematics != Kinematics::small &&
+      output.deformation_scale < 0.)
+    output.deformation_scale = 1.;
+  directory->write_text("animation.html", [&](std::ostream &out) {
+    animation->write(out, scene->title(), output, parameters);
+  });
 }
 
 

@@ -2,16 +2,19 @@
 #define nmm_applications_state_series_h
 
 #include <nmm/covers/cover_system.h>
+#include <nmm/io/animation.h>
 #include <nmm/io/field_samples.h>
 #include <nmm/io/output_directory.h>
 #include <nmm/io/scene.h>
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 /// Draw picture.png or one of a series, as the scene says; without @p evaluator
-/// which block is which. Collective.
+/// which block is which. What was drawn is kept in @p drawn, on the first rank.
+/// Collective.
 void
 write_picture(const NMM::Scene           &scene,
               const NMM::CoverSystem     &covers,
@@ -19,12 +22,14 @@ write_picture(const NMM::Scene           &scene,
               const NMM::FieldEvaluator  *evaluator,
               const std::string          &title,
               const std::string          &file_name,
-              const NMM::OutputDirectory &directory);
+              const NMM::OutputDirectory &directory,
+              NMM::PictureData           *drawn = nullptr);
 
 /**
  * Fields and pictures of states of a run, written as they come: fields-NNNN.vtu,
  * picture-NNNN.png, and fields.pvd, which at any time lists the fields that are
- * there. All functions are collective.
+ * there; at the end animation.html, for which frames are kept in
+ * animation.frames meanwhile. All functions are collective.
  *
  * Lifetime: the arguments of the constructor must outlive this object.
  */
@@ -52,14 +57,24 @@ public:
   void
   finish(double value, const std::string &file_name);
 
+  /// Write animation.html, if there are frames for it.
+  void
+  write_animation();
+
 private:
   void
   write_list() const;
+
+  /// Begin to keep frames, after those of an earlier run up to @p last.
+  void
+  open_animation(double last);
 
   const NMM::Scene                           *scene;
   const NMM::CoverSystem                     *covers;
   const NMM::OutputDirectory                 *directory;
   std::vector<std::pair<double, std::string>> files;
+  /// On the first rank.
+  std::unique_ptr<NMM::Animation> animation;
 };
 
 #endif

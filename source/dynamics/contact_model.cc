@@ -14,10 +14,8 @@ namespace NMM
     Contact            *contact;
     internal::MatrixSum matrix;
     Vector              sum;
-    double              scale = 0.;
-    /// Of the step that is being tried [s].
-    double t_begin = 0., t_end = 0.;
-    bool   is_detected = false;
+    double              scale       = 0.;
+    bool                is_detected = false;
 
     void
     add_contact(const bool with_tangent)
@@ -157,15 +155,17 @@ namespace NMM
   Deformation
   ContactModel::assemble_between(const Vector &begin,
                                  const Vector &end,
-                                 const double  t,
-                                 const bool    with_tangent)
+                                 const double  t_0,
+                                 const double  t_1,
+                                 const Tangent tangent)
   {
     Data             &d = *data;
     const Deformation state =
-      d.model->assemble_between(begin, end, t, with_tangent);
+      d.model->assemble_between(begin, end, t_0, t_1, tangent);
     if (state != Deformation::admissible || d.contact->is_idle())
       return state;
-    d.contact->assemble_between(end, d.t_end, with_tangent);
+    const bool with_tangent = tangent != Tangent::none;
+    d.contact->assemble_between(end, t_1, with_tangent);
     d.add_contact(with_tangent);
     return state;
   }
@@ -229,6 +229,21 @@ namespace NMM
   }
 
 
+  double
+  ContactModel::work_of_supports_between(const Vector &begin,
+                                         const Vector &end,
+                                         const Vector &mean,
+                                         const double  t_0,
+                                         const double  t_1)
+  {
+    double work =
+      data->model->work_of_supports_between(begin, end, mean, t_0, t_1);
+    if (!data->contact->is_idle())
+      work += data->contact->work_of_obstacles(t_0, t_1);
+    return work;
+  }
+
+
   void
   ContactModel::begin_step(const Vector &begin,
                            const Vector &predicted,
@@ -237,8 +252,6 @@ namespace NMM
   {
     Data &d = *data;
     d.model->begin_step(begin, predicted, t, h);
-    d.t_begin = t;
-    d.t_end   = t + h;
 
     // nearer faces may meet in the step; obstacles move, too
     double     largest = 0.;

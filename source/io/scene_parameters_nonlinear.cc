@@ -53,9 +53,16 @@ namespace NMM
     prm.declare_entry("Smallest step",
                       dealii::Patterns::Tools::to_string(defaults.min_step),
                       Patterns::Double(0, 1),
-                      "Finite kinematics: a step that does not converge is "
-                      "halved, but not below this part of the last load "
+                      "Finite and incremental kinematics: a step that does not "
+                      "converge, or moves too far, is divided, but not below "
+                      "this part of the last load "
                       "factor, > 0 [-].");
+    prm.declare_entry(
+      "Maximum displacement",
+      "0",
+      Patterns::Double(0),
+      "Incremental kinematics: no cover moves further in a step, "
+      "steps are divided for it [m]; 0: no bound.");
     prm.declare_entry("Load factors",
                       "",
                       Patterns::List(Patterns::Double(0), 0),
@@ -68,8 +75,9 @@ namespace NMM
   void
   LoadStepParameters::parse(ParameterHandler &prm)
   {
-    n_steps  = prm.get_integer("Number of steps");
-    min_step = prm.get_double("Smallest step");
+    n_steps          = prm.get_integer("Number of steps");
+    min_step         = prm.get_double("Smallest step");
+    max_displacement = prm.get_double("Maximum displacement");
     load_factors =
       dealii::Utilities::string_to_double(get_names(prm, "Load factors"));
   }
@@ -100,7 +108,19 @@ namespace NMM
                    "parameter 'Load steps/Load factors'",
                    remedy));
     }
-    if (kinematics != Kinematics::finite || !is_static)
+    if (kinematics != Kinematics::incremental || !is_static)
+      expect_default(section,
+                     "Maximum displacement",
+                     max_displacement,
+                     defaults.max_displacement,
+                     by,
+                     is_static
+                       ? "remove it, or set 'Model/Kinematics = incremental'"
+                       : "give 'Time/Maximum displacement' instead");
+    const bool is_divided =
+      kinematics == Kinematics::finite ||
+      (kinematics == Kinematics::incremental && max_displacement > 0.);
+    if (!is_divided || !is_static)
       expect_default(section,
                      "Smallest step",
                      min_step,

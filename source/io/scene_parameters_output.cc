@@ -73,6 +73,13 @@ namespace NMM
                       "and pictures of every so many of them too, as they "
                       "come, the fields as a series in fields.pvd; 0: of the "
                       "last one alone.");
+    prm.declare_entry(
+      "Animation",
+      "true",
+      Patterns::Bool(),
+      "With a series of pictures: write animation.html as well, "
+      "a page that plays them in any browser, all in one "
+      "view and one range of colours.");
     prm.declare_entry("Checkpoint every",
                       "0",
                       Patterns::Integer(0),
@@ -137,6 +144,7 @@ namespace NMM
     fields           = prm.get_bool("Fields");
     fields_every     = prm.get_integer("Fields every");
     checkpoint_every = prm.get_integer("Checkpoint every");
+    animation        = prm.get_bool("Animation");
     picture          = prm.get_bool("Picture");
     quantity         = get_selection(prm, "Picture quantity", quantities);
     recovered        = get_selection(prm, "Picture stress", stress_choices);

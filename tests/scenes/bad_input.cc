@@ -238,6 +238,9 @@ namespace
     expect_rejected_with("incremental",
                          "Load steps/Smallest step=0.25",
                          {"Load steps/Smallest step", "incremental"});
+    expect_rejected_with("finite",
+                         "Load steps/Maximum displacement=0.25",
+                         {"Load steps/Maximum displacement", "0.25", "finite"});
     expect_rejected_with("incremental",
                          "Newton/Maximum iterations=30",
                          {"Newton/Maximum iterations", "incremental"});

@@ -72,8 +72,9 @@ namespace NMM
     Deformation
     assemble_between(const Vector &begin,
                      const Vector &end,
-                     double        t,
-                     bool          with_tangent) override;
+                     double        t_0,
+                     double        t_1,
+                     Tangent       tangent) override;
 
     const Vector &
     residual() const override;
@@ -98,6 +99,13 @@ namespace NMM
                      double        t,
                      double        t_0,
                      double        t_1) override;
+
+    double
+    work_of_supports_between(const Vector &begin,
+                             const Vector &end,
+                             const Vector &mean,
+                             double        t_0,
+                             double        t_1) override;
 
     void
     begin_step(const Vector &begin,

@@ -201,6 +201,8 @@ namespace NMM
   {
     unsigned int n_steps  = default_n_steps;
     double       min_step = LoadSteps().min_step;
+    /// Incremental kinematics: bound on the displacement of a step [m]; 0: none.
+    double max_displacement = 0.;
     /// Load factors [-]; empty: n_steps equal steps up to 1.
     std::vector<double> load_factors;
 
@@ -263,9 +265,11 @@ namespace NMM
     unsigned int fields_every = 0;
     /// A checkpoint after every so many steps; 0: none.
     unsigned int checkpoint_every = 0;
-    bool         picture          = true;
-    std::string  title;
-    Quantity     quantity = Quantity::von_mises;
+    /// With a series of pictures: animation.html as well.
+    bool        animation = true;
+    bool        picture   = true;
+    std::string title;
+    Quantity    quantity = Quantity::von_mises;
     /// Colour by the recovered instead of the direct stress.
     bool recovered = true;
     /// Centre of the polar coordinates of radial and hoop stress [m].

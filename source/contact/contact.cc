@@ -30,6 +30,8 @@ namespace NMM
       /// Position in ContactSearch::slaves().
       unsigned int            slave;
       ContactSurface::Weights weights;
+      /// See ContactSearch::end_slack().
+      double slack = 0.;
       /// The weight knows the angle between both faces, that of the first time
       /// there is a master since detect().
       bool has_angle = false;
@@ -193,7 +195,11 @@ namespace NMM
                        ? divisions[i + 1]
                        : divisions[i] + rule_points[q] * length;
         PointData fixed;
-        fixed.slave      = slave;
+        fixed.slave = slave;
+        if (q == 0)
+          fixed.slack = search.end_slack(slave, point.s, divisions[i + 1]);
+        else if (q + 1 == rule_points.size())
+          fixed.slack = search.end_slack(slave, point.s, divisions[i]);
         const auto place = surface->reference_place(edge, point.s);
         surface->weights(edge, point.s, fixed.weights);
         point.weight = rule_weights[q] * length * place.a.norm();
@@ -270,15 +276,20 @@ namespace NMM
                                const ContactProjection     &projection,
                                double                      &energy) const
   {
+    // faces that touch are in contact, whatever rounding makes of their gap:
+    // a block that lies on another one is held by it from the start
+    constexpr double touching = 1e-9;
+
     ContactTraction traction;
     const double    eps = parameters.normal_stiffness;
     point.pressure      = point.multiplier - eps * projection.gap;
-    if (point.pressure <= 0.)
+    if (point.pressure < -eps * touching * parameters.reach)
     {
       point.pressure = point.shear = 0.;
       point.state                  = ContactState::open;
       return traction;
     }
+    point.pressure            = std::max(point.pressure, 0.);
     traction.pressure         = point.weight * point.pressure;
     traction.normal_stiffness = point.weight * eps;
     energy +=
@@ -323,7 +334,7 @@ namespace NMM
     const ContactState          before = point.state;
     const ContactSurface::Place slave  = surface->place(point.edge, point.s);
     const ContactProjection     projection =
-      search.project(slave, search.masters(fixed.slave));
+      search.project(slave, search.masters(fixed.slave), fixed.slack);
     point.x      = slave.x;
     point.master = projection.master;
     if (projection.master == invalid_index)
@@ -491,10 +502,13 @@ namespace NMM
         d.surface->edges()[d.points[begin].edge].length;
       for (unsigned int q = 0; q < n_rule; ++q)
       {
-        const ContactPoint &point  = d.points[begin + q];
-        const auto         &f      = space[point.edge];
-        const double        share  = f.share(point.s);
-        const double        weight = d.rule_weights[q] * length;
+        const ContactPoint &point = d.points[begin + q];
+        // beside the master, where there is nothing to penetrate
+        if (point.master == invalid_index)
+          continue;
+        const auto  &f      = space[point.edge];
+        const double share  = f.share(point.s);
+        const double weight = d.rule_weights[q] * length;
         sums[f.first] -= weight * (1. - share) * point.gap;
         sums[f.second] -= weight * share * point.gap;
         sums[n + f.first] += weight * (1. - share);

@@ -23,10 +23,12 @@ namespace NMM
 
       /// Parts of an edge by which it may go on beyond its ends.
       constexpr double smooth_extension = 0.1, concave_extension = 0.5;
+      /// The same at convex corners, for points where a piece of a slave ends.
+      constexpr double largest_slack = 0.1;
 
 
       double
-      extension(const ContactSurface::Corner corner)
+      extension(const ContactSurface::Corner corner, const double slack)
       {
         switch (corner)
         {
@@ -35,7 +37,7 @@ namespace NMM
           case ContactSurface::Corner::concave:
             return concave_extension;
           default:
-            return 0.;
+            return slack;
         }
       }
 
@@ -249,9 +251,35 @@ namespace NMM
 
 
     ContactProjection
-    ContactSearch::project(
+    ContactSearch::project(const Place                                &place,
+                           const dealii::ArrayView<const unsigned int> masters,
+                           const double slack) const
+    {
+      return project_within(place, masters, slack, reach);
+    }
+
+
+    double
+    ContactSearch::end_slack(const unsigned int position,
+                             const double       s,
+                             const double       s_inside) const
+    {
+      // next to the end, and however far away
+      constexpr double near = 1e-3, far = 2.;
+      const Place      place =
+        surface->place(slave_edges[position], s + near * (s_inside - s));
+      const unsigned int nearest =
+        project_within(place, masters(position), 0., far * reach).master;
+      return nearest == invalid_index ? -largest_slack : largest_slack;
+    }
+
+
+    ContactProjection
+    ContactSearch::project_within(
       const Place                                &slave_place,
-      const dealii::ArrayView<const unsigned int> masters) const
+      const dealii::ArrayView<const unsigned int> masters,
+      const double                                slack,
+      const double                                largest_gap) const
     {
       // gaps that differ by less than this part of the reach are equal
       constexpr double same = 1e-9;
@@ -268,13 +296,13 @@ namespace NMM
         ContactProjection           now;
         now.master = master;
         if (!find_nearest(master, slave_place.x, now.t, now.place) ||
-            now.t < -extension(edge.at_start) ||
-            now.t > 1. + extension(edge.at_end))
+            now.t < -extension(edge.at_start, slack) ||
+            now.t > 1. + extension(edge.at_end, slack))
           continue;
         now.normal          = now.place.normal();
         const double facing = -(now.normal * slave_normal);
         now.gap             = (slave_place.x - now.place.x) * now.normal;
-        if (facing <= least_facing || std::abs(now.gap) > reach)
+        if (facing <= least_facing || std::abs(now.gap) > largest_gap)
           continue;
         const bool is_inside = now.t >= 0. && now.t <= 1.;
         bool       is_better = best.master == invalid_index;

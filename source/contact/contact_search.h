@@ -71,15 +71,33 @@ namespace NMM
        * if there is none. Of two at equal distance: the one that
        * faces it more (Shi's entrance edge), then the lower number. Beyond a
        * convex corner or an open end there is no master, beyond a smooth joint or a concave
-       * corner an edge goes on.
+       * corner an edge goes on. @p slack: part of an edge by which it goes on
+       * (negative: ends earlier) at convex corners and open ends, see end_slack().
        */
       ContactProjection
       project(const ContactSurface::Place          &slave_place,
-              dealii::ArrayView<const unsigned int> masters) const;
+              dealii::ArrayView<const unsigned int> masters,
+              double                                slack = 0.) const;
+
+      /**
+       * For the point @p s at which a piece of a slave begins or ends: it lies
+       * where a master's corner lies, and rounding and small motions must not
+       * decide whether it has a master. The piece does: if there is a master
+       * next to the end of the piece, which goes on to @p s_inside, the result is
+       * positive, else negative.
+       */
+      double
+      end_slack(unsigned int position, double s, double s_inside) const;
 
     private:
       bool
       may_be_master(unsigned int slave, unsigned int edge) const;
+
+      ContactProjection
+      project_within(const ContactSurface::Place          &slave_place,
+                     dealii::ArrayView<const unsigned int> masters,
+                     double                                slack,
+                     double                                largest_gap) const;
 
       bool
       find_nearest(unsigned int            edge,

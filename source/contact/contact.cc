@@ -326,6 +326,21 @@ namespace NMM
   }
 
 
+  namespace
+  {
+    /// Does one of the edges follow the other without a corner?
+    bool
+    goes_on_smoothly(const std::vector<ContactSurface::Edge> &edges,
+                     const unsigned int                       edge,
+                     const unsigned int                       other)
+    {
+      constexpr auto smooth = ContactSurface::Corner::smooth;
+      return (edges[edge].next == other && edges[edge].at_end == smooth) ||
+             (edges[edge].previous == other && edges[edge].at_start == smooth);
+    }
+  } // namespace
+
+
   void
   Contact::Data::add_point(const unsigned int q, const bool with_tangent)
   {
@@ -333,8 +348,20 @@ namespace NMM
     PointData                  &fixed  = point_data[q];
     const ContactState          before = point.state;
     const ContactSurface::Place slave  = surface->place(point.edge, point.s);
-    const ContactProjection     projection =
+    ContactProjection           projection =
       search.project(slave, search.masters(fixed.slave), fixed.slack);
+    // a piece ends where two edges of the master meet; its end stays with one of
+    // them, since their normals differ a little and the iteration would not end
+    if (point.master != invalid_index && projection.master != invalid_index &&
+        goes_on_smoothly(surface->edges(), point.master, projection.master))
+    {
+      const ContactProjection last =
+        search.project(slave,
+                       dealii::ArrayView<const unsigned int>(&point.master, 1),
+                       fixed.slack);
+      if (last.master != invalid_index)
+        projection = last;
+    }
     point.x      = slave.x;
     point.master = projection.master;
     if (projection.master == invalid_index)

@@ -28,13 +28,13 @@ set yrange [0:1.1]
 set samples 2000
 set key bottom left
 plot (x < 1 ? sqrt(1 - x*x) : 0) with lines lw 2 lc 'gray60' title 'Hertz', \
-     f skip 1 using 1:(pick($2, 'augmented', 0.3)) with points pt 6 ps 0.8 lc 'orange' title 'edges 0.3 b', \
+     f skip 1 using 1:(pick($2, 'augmented', 0.2)) with points pt 6 ps 0.8 lc 'orange' title 'edges 0.2 b', \
      f skip 1 using 1:(pick($2, 'augmented', 0.1)) with points pt 7 ps 0.4 lc 'blue' title 'edges 0.1 b'
 set ylabel '(p - p of Hertz) / p0'
-set yrange [-0.1:0.1]
-set key top left
+set yrange [-0.06:0.06]
+set key bottom left
 plot f skip 1 using 1:(pick($6, 'penalty', 0.1)) with points pt 8 ps 0.6 lc 'dark-red' title 'penalty, edges 0.1 b', \
-     f skip 1 using 1:(pick($6, 'augmented', 0.3)) with points pt 6 ps 0.8 lc 'orange' title 'augmented, 0.3 b', \
+     f skip 1 using 1:(pick($6, 'augmented', 0.2)) with points pt 6 ps 0.8 lc 'orange' title 'augmented, 0.2 b', \
      f skip 1 using 1:(pick($6, 'augmented', 0.1)) with points pt 7 ps 0.4 lc 'blue' title 'augmented, 0.1 b'
 unset multiplot
 set autoscale
@@ -52,9 +52,10 @@ plot 'PREFIXhertz-forces.csv' skip 1 using 1:2 with lines dt 2 lc 'black' title 
      'PREFIXpress-forces.csv' skip 1 using 1:2 with points pt 2 lc 'dark-green' title 'whole cylinder, plates of 1000 E'
 set xlabel 'seconds, 20 load steps'
 set ylabel 'largest error of the force from 0.2 R on'
-set logscale xy
-set autoscale
-set format '%.0e'
+set logscale y
+set xrange [0:*]
+set yrange [1e-5:1e-2]
+set format y '%.0e'
 set key top right
 c = 'PREFIXcompression.csv'
 plot c skip 1 using 20:(strcol(1) eq 'penalty' ? $21 : NaN) with linespoints pt 8 lc 'dark-red' title 'penalty', \
@@ -72,9 +73,11 @@ set yrange [0:*]
 set key top left
 array stage[4] = ['0.1 m', '0.2 m', '0.3 m', '0.4 m']
 array colour[4] = ['orange', 'dark-green', 'blue', 'dark-red']
-plot for [i=1:4] 'PREFIXstages-hertz.csv' skip 1 index i-1 using 1:($2/1000) with lines lw 1 lc rgb colour[i] notitle, \
-     for [i=1:4] 'PREFIXstages.csv' skip 1 index i-1 using 1:($2/1000) with points pt 7 ps 0.4 lc rgb colour[i] title stage[i], \
-     NaN with lines lc 'gray30' title 'Hertz'
+plot for [i=1:4] 'PREFIXaugmented-stages-hertz.csv' skip 1 index i-1 using 1:($2/1000) with lines lw 1 lc rgb colour[i] notitle, \
+     for [i=1:4] 'PREFIXpenalty-stages.csv' skip 1 index i-1 using 1:($2/1000) with points pt 6 ps 0.4 lc 'gray60' notitle, \
+     for [i=1:4] 'PREFIXaugmented-stages.csv' skip 1 index i-1 using 1:($2/1000) with points pt 7 ps 0.4 lc rgb colour[i] title stage[i], \
+     NaN with lines lc 'gray30' title 'Hertz', \
+     NaN with points pt 6 ps 0.6 lc 'gray60' title 'springs of 200,000 t/m'
 set terminal pngcairo size 1200,1000 font 'DejaVu Sans,12'
 set output 'PREFIXshapes.png'
 set multiplot layout 2,2 title 'The cylinder between its plates (paper, Fig. 8)'
@@ -86,8 +89,8 @@ set ylabel 'y [m]'
 unset key
 do for [i=1:4] {
   set title 'top plate down by '.stage[i]
-  plot sprintf('PREFIXstage-%d-lines.csv', i) skip 1 using 1:2 with lines lc 'gray60', \
-       sprintf('PREFIXstage-%d-outlines.csv', i) skip 1 using 1:2 with lines lw 1.5 lc 'blue'
+  plot sprintf('PREFIXaugmented-stage-%d-lines.csv', i) skip 1 using 1:2 with lines lc 'gray60', \
+       sprintf('PREFIXaugmented-stage-%d-outlines.csv', i) skip 1 using 1:2 with lines lw 1.5 lc 'blue'
 }
 unset multiplot
 )";

@@ -87,10 +87,10 @@ namespace StepNMM3
                         "20",
                         Patterns::Integer(1, 1000),
                         "Equal steps up to an approach of 0.4 m.");
-      prm.declare_entry("Press sizes",
-                        "0.05, 0.025",
-                        sizes,
-                        "Edge lengths at the contacts of the whole cylinder "
+      prm.declare_entry("Press size",
+                        "0.05",
+                        positive,
+                        "Edge length at the contacts of the whole cylinder "
                         "[m].");
     }
   } // namespace
@@ -142,7 +142,7 @@ namespace StepNMM3
     parameters.n_repetitions         = prm.get_integer("Repetitions");
     parameters.compression_sizes     = numbers("Compression sizes");
     parameters.n_load_steps          = prm.get_integer("Load steps");
-    parameters.press_sizes           = numbers("Press sizes");
+    parameters.press_size            = prm.get_double("Press size");
     parameters.output_directory      = output_directory;
     return parameters;
   }
@@ -397,10 +397,10 @@ namespace StepNMM3
   print_press(const Parameters &parameters, const PressResult &press)
   {
     const Measurement &m = press.measurement;
-    std::cout << "\nThe paper's press, edges of " << m.contact_size
-              << " m at the contacts: " << m.n_unknowns << " unknowns, "
-              << m.n_steps << " steps, " << m.n_cuts << " cuts, "
-              << m.n_iterations << " iterations, " << std::fixed
+    std::cout << "\nThe paper's press, " << name(m.enforcement) << ", edges of "
+              << m.contact_size << " m at the contacts: " << m.n_unknowns
+              << " unknowns, " << m.n_steps << " steps, " << m.n_cuts
+              << " cuts, " << m.n_iterations << " iterations, " << std::fixed
               << std::setprecision(1) << m.total_time << " s\n"
               << "Force beside that of rigid plates: " << percent(m.early_error)
               << " % below 0.2 m, " << percent(m.converged_error)
@@ -530,7 +530,7 @@ namespace StepNMM3
     void
     write_forces(const Parameters               &parameters,
                  const std::vector<Measurement> &compression,
-                 const PressResult              &press,
+                 const std::vector<PressResult> &press,
                  const std::string              &prefix)
     {
       const double  unit = parameters.youngs_modulus * parameters.radius;
@@ -546,7 +546,7 @@ namespace StepNMM3
       }
       std::ofstream whole(prefix + "press-forces.csv");
       whole << "approach_over_R,F_over_ER\n" << std::setprecision(7);
-      for (const auto &[approach, force] : press.measurement.forces)
+      for (const auto &[approach, force] : press.back().measurement.forces)
         whole << approach / parameters.radius << ',' << force / unit << '\n';
       std::ofstream reference(prefix + "reference.csv");
       reference << "approach_over_R,F_over_ER\n" << std::setprecision(7);
@@ -571,7 +571,7 @@ namespace StepNMM3
                 const std::vector<Measurement> &hertz,
                 const std::vector<Measurement> &placements,
                 const std::vector<Measurement> &compression,
-                const PressResult              &press)
+                const std::vector<PressResult> &press)
   {
     const std::string prefix = parameters.output_directory + "/step-nmm-3-";
     std::filesystem::create_directories(parameters.output_directory);
@@ -596,6 +596,9 @@ namespace StepNMM3
                    << '\n';
     }
     write_forces(parameters, compression, press, prefix);
-    write_press(parameters, press, prefix);
+    for (const PressResult &result : press)
+      write_press(parameters,
+                  result,
+                  prefix + name(result.measurement.enforcement) + "-");
   }
 } // namespace StepNMM3

@@ -46,7 +46,8 @@ namespace StepNMM3
 
     unsigned int n_placements = 10, seed = 1, n_repetitions = 3;
     /// Edge lengths at the contact, quarter disk to 0.4 m and the press [m].
-    std::vector<double> compression_sizes, press_sizes;
+    std::vector<double> compression_sizes;
+    double              press_size       = 0.05;
     unsigned int        n_load_steps     = 20;
     std::string         output_directory = ".";
 
@@ -173,7 +174,7 @@ namespace StepNMM3
                 const std::vector<Measurement> &hertz,
                 const std::vector<Measurement> &placements,
                 const std::vector<Measurement> &compression,
-                const PressResult              &press);
+                const std::vector<PressResult> &press);
 
   /// PNG files by gnuplot; says so if it is not there.
   void

@@ -185,6 +185,11 @@ namespace NMM
     const std::vector<double> divisions = search.divisions(slave);
     const auto                sticking  = stick_places.find(edge);
     for (unsigned int i = 0; i + 1 < divisions.size(); ++i)
+    {
+      const double at_start =
+        search.end_slack(slave, divisions[i], divisions[i + 1]);
+      const double at_end =
+        search.end_slack(slave, divisions[i + 1], divisions[i]);
       for (unsigned int q = 0; q < rule_points.size(); ++q)
       {
         const double length = divisions[i + 1] - divisions[i];
@@ -195,11 +200,11 @@ namespace NMM
                        ? divisions[i + 1]
                        : divisions[i] + rule_points[q] * length;
         PointData fixed;
-        fixed.slave = slave;
-        if (q == 0)
-          fixed.slack = search.end_slack(slave, point.s, divisions[i + 1]);
-        else if (q + 1 == rule_points.size())
-          fixed.slack = search.end_slack(slave, point.s, divisions[i]);
+        fixed.slave      = slave;
+        fixed.slack      = q == 0                        ? at_start
+                           : q + 1 == rule_points.size() ? at_end
+                           : at_start == at_end          ? at_start
+                                                         : 0.;
         const auto place = surface->reference_place(edge, point.s);
         surface->weights(edge, point.s, fixed.weights);
         point.weight = rule_weights[q] * length * place.a.norm();
@@ -219,6 +224,7 @@ namespace NMM
         points.push_back(point);
         point_data.push_back(fixed);
       }
+    }
   }
 
 

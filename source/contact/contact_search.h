@@ -68,8 +68,12 @@ namespace NMM
       /**
        * The nearest of the masters that face the normal of @p slave_place (unit
        * normals' product below -0.01), within the reach; master is invalid_index
-       * if there is none. Of two at equal distance: the one that
-       * faces it more (Shi's entrance edge), then the lower number. Beyond a
+       * if there is none. An edge that has the nearest point within its ends comes
+       * before one that has it beyond them, by however little. Of two that meet in a convex corner: the one that faces
+       * it more, whichever is nearer (Shi's entrance edge: with a corner in the other
+       * body, both are penetrated); the same for two at equal distance, then the lower
+       * number. There is none, either, if the point lies outside of the master's body,
+       * before a face that looks its own way: the far side of a thin body. Beyond a
        * convex corner or an open end there is no master, beyond a smooth joint or a concave
        * corner an edge goes on. @p slack: part of an edge by which it goes on
        * (negative: ends earlier) at convex corners and open ends, see end_slack().
@@ -98,6 +102,9 @@ namespace NMM
                      dealii::ArrayView<const unsigned int> masters,
                      double                                slack,
                      double                                largest_gap) const;
+
+      bool
+      meet_in_convex_corner(unsigned int edge, unsigned int other) const;
 
       bool
       find_nearest(unsigned int            edge,

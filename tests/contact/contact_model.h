@@ -29,12 +29,12 @@ namespace NMM
       Bodies(Geometry geometry, const Options &options)
         : physical_mesh(std::move(geometry))
         , meshes(make_own_meshes(
-            std::make_unique<MathematicalMesh>(make_regular_mesh(
-              physical_mesh,
-              mesh_parameters(options.cell_size,
-                              options.offset,
-                              options.rotation),
-              options.degree)),
+            std::make_unique<MathematicalMesh>(
+              make_regular_mesh(physical_mesh,
+                                mesh_parameters(options.cell_size,
+                                                options.offset,
+                                                options.rotation),
+                                options.degree)),
             physical_mesh,
             own_mesh_parameters(options.mesh_of_every_block)))
         , mesh(*meshes.manifold_mesh)
@@ -119,8 +119,8 @@ namespace NMM
       stress_error(const SymmetricTensor<2, 2> &expected) const
       {
         const DisplacementField field(covers, problem, statics->solution());
-        double                  error  = 0.;
-        const auto [first, last]       = covers.locally_owned_elements();
+        double                  error = 0.;
+        const auto [first, last]      = covers.locally_owned_elements();
         for (unsigned int e = first; e < last; ++e)
           for (const Point<2> &xi : sample_points(e))
             error = std::max(error, (field.stress(e, xi) - expected).norm());
@@ -131,12 +131,12 @@ namespace NMM
       double
       gradient_spread() const
       {
-        const DisplacementField field(covers, problem, statics->solution());
-        const unsigned int n_blocks = physical_mesh.n_blocks();
+        const DisplacementField   field(covers, problem, statics->solution());
+        const unsigned int        n_blocks = physical_mesh.n_blocks();
         std::vector<Tensor<2, 2>> known(n_blocks);
         std::vector<bool>         is_known(n_blocks, false);
         double                    spread = 0.;
-        const auto [first, last] = covers.locally_owned_elements();
+        const auto [first, last]         = covers.locally_owned_elements();
         for (unsigned int e = first; e < last; ++e)
           for (const Point<2> &xi : sample_points(e))
           {
@@ -150,19 +150,19 @@ namespace NMM
         return dealii::Utilities::MPI::max(spread, covers.communicator());
       }
 
-      PhysicalMesh                          physical_mesh;
-      OwnMeshes                             meshes;
-      const ManifoldMesh                   &mesh;
-      CoverSystem                           covers;
-      Aggregation                           aggregation;
-      ContactSurface                        surface;
-      dealii::AffineConstraints<double>     constraints;
-      QuadratureCollection                  quadrature;
-      ElasticityProblem                     problem;
-      std::unique_ptr<FiniteElasticity>     elasticity;
-      std::unique_ptr<ElasticSystem>        elastic_system;
-      std::unique_ptr<Contact>              contact;
-      std::unique_ptr<ContactStatics>       statics;
+      PhysicalMesh                      physical_mesh;
+      OwnMeshes                         meshes;
+      const ManifoldMesh               &mesh;
+      CoverSystem                       covers;
+      Aggregation                       aggregation;
+      ContactSurface                    surface;
+      dealii::AffineConstraints<double> constraints;
+      QuadratureCollection              quadrature;
+      ElasticityProblem                 problem;
+      std::unique_ptr<FiniteElasticity> elasticity;
+      std::unique_ptr<ElasticSystem>    elastic_system;
+      std::unique_ptr<Contact>          contact;
+      std::unique_ptr<ContactStatics>   statics;
 
     private:
       static OwnMeshParameters
@@ -234,8 +234,7 @@ namespace NMM
 
 
     inline ContactParameters
-    contact_parameters(const double normal_stiffness,
-                       const double reach = 0.05)
+    contact_parameters(const double normal_stiffness, const double reach = 0.05)
     {
       ContactParameters parameters;
       parameters.normal_stiffness = normal_stiffness;

@@ -111,6 +111,11 @@ namespace NMM
     const std::vector<double> divisions = search.divisions(slave);
     const auto                sticking  = stick_places.find(edge);
     for (unsigned int i = 0; i + 1 < divisions.size(); ++i)
+    {
+      const double at_start =
+        search.end_slack(slave, divisions[i], divisions[i + 1]);
+      const double at_end =
+        search.end_slack(slave, divisions[i + 1], divisions[i]);
       for (unsigned int q = 0; q < rule_points.size(); ++q)
       {
         const double length = divisions[i + 1] - divisions[i];
@@ -122,6 +127,10 @@ namespace NMM
                        : divisions[i] + rule_points[q] * length;
         PointData fixed;
         fixed.slave      = slave;
+        fixed.slack      = q == 0                        ? at_start
+                           : q + 1 == rule_points.size() ? at_end
+                           : at_start == at_end          ? at_start
+                                                         : 0.;
         const auto place = surface->reference_place(edge, point.s);
         surface->weights(edge, point.s, fixed.weights);
         point.weight = rule_weights[q] * length * place.a.norm();
@@ -141,6 +150,7 @@ namespace NMM
         points.push_back(point);
         point_data.push_back(fixed);
       }
+    }
   }
 
 
@@ -198,15 +208,20 @@ namespace NMM
                                const ContactProjection     &projection,
                                double                      &energy) const
   {
+    // faces that touch are in contact, whatever rounding makes of their gap:
+    // a block that lies on another one is held by it from the start
+    constexpr double touching = 1e-9;
+
     ContactTraction traction;
     const double    eps = parameters.normal_stiffness;
     point.pressure      = point.multiplier - eps * projection.gap;
-    if (point.pressure <= 0.)
+    if (point.pressure < -eps * touching * parameters.reach)
     {
       point.pressure = point.shear = 0.;
       point.state                  = ContactState::open;
       return traction;
     }
+    point.pressure            = std::max(point.pressure, 0.);
     traction.pressure         = point.weight * point.pressure;
     traction.normal_stiffness = point.weight * eps;
     energy +=
@@ -254,14 +269,41 @@ namespace NMM
   }
 
 
+  namespace
+  {
+    /// Does one of the edges follow the other without a corner?
+    bool
+    goes_on_smoothly(const std::vector<ContactSurface::Edge> &edges,
+                     const unsigned int                       edge,
+                     const unsigned int                       other)
+    {
+      constexpr auto smooth = ContactSurface::Corner::smooth;
+      return (edges[edge].next == other && edges[edge].at_end == smooth) ||
+             (edges[edge].previous == other && edges[edge].at_start == smooth);
+    }
+  } // namespace
+
+
   ContactProjection
   Contact::Data::project(const unsigned int           q,
                          const ContactSurface::Place &slave)
   {
-    ContactPoint           &point = points[q];
-    PointData              &fixed = point_data[q];
-    const ContactProjection projection =
-      search.project(slave, search.masters(fixed.slave));
+    ContactPoint     &point = points[q];
+    PointData        &fixed = point_data[q];
+    ContactProjection projection =
+      search.project(slave, search.masters(fixed.slave), fixed.slack);
+    // a piece ends where two edges of the master meet; its end stays with one of
+    // them, since their normals differ a little and the iteration would not end
+    if (point.master != invalid_index && projection.master != invalid_index &&
+        goes_on_smoothly(surface->edges(), point.master, projection.master))
+    {
+      const ContactProjection last =
+        search.project(slave,
+                       dealii::ArrayView<const unsigned int>(&point.master, 1),
+                       fixed.slack);
+      if (last.master != invalid_index)
+        projection = last;
+    }
     point.x      = slave.x;
     point.master = projection.master;
     if (projection.master == invalid_index)
@@ -456,10 +498,13 @@ namespace NMM
         d.surface->edges()[d.points[begin].edge].length;
       for (unsigned int q = 0; q < n_rule; ++q)
       {
-        const ContactPoint &point  = d.points[begin + q];
-        const auto         &f      = space[point.edge];
-        const double        share  = f.share(point.s);
-        const double        weight = d.rule_weights[q] * length;
+        const ContactPoint &point = d.points[begin + q];
+        // beside the master, where there is nothing to penetrate
+        if (point.master == invalid_index)
+          continue;
+        const auto  &f      = space[point.edge];
+        const double share  = f.share(point.s);
+        const double weight = d.rule_weights[q] * length;
         sums[f.first] -= weight * (1. - share) * point.gap;
         sums[f.second] -= weight * share * point.gap;
         sums[n + f.first] += weight * (1. - share);

@@ -22,6 +22,8 @@ namespace NMM
       /// Position in ContactSearch::slaves().
       unsigned int            slave;
       ContactSurface::Weights weights;
+      /// See ContactSearch::end_slack().
+      double slack = 0.;
       /// The weight knows the angle between both faces, that of the first time
       /// there is a master since detect().
       bool has_angle = false;

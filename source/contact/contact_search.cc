@@ -22,14 +22,13 @@ namespace NMM
       using Entry  = std::pair<Box, unsigned int>;
 
       /// Parts of an edge by which it may go on beyond its ends.
-      /// At convex corners just enough for faces that end together: rounding must not
-      /// decide whether their ends touch.
-      constexpr double smooth_extension = 0.1, concave_extension = 0.5,
-                       convex_extension = 1e-6;
+      constexpr double smooth_extension = 0.1, concave_extension = 0.5;
+      /// The same at convex corners, for points where a piece of a slave ends.
+      constexpr double largest_slack = 0.1;
 
 
       double
-      extension(const ContactSurface::Corner corner)
+      extension(const ContactSurface::Corner corner, const double slack)
       {
         switch (corner)
         {
@@ -38,8 +37,19 @@ namespace NMM
           case ContactSurface::Corner::concave:
             return concave_extension;
           default:
-            return convex_extension;
+            return slack;
         }
+      }
+
+
+      /// Part of an edge beyond a corner that is as good as the edge itself.
+      double
+      inside_slack(const ContactSurface::Corner corner, const double slack)
+      {
+        return corner == ContactSurface::Corner::convex ||
+                   corner == ContactSurface::Corner::end
+                 ? std::max(slack, 0.)
+                 : 0.;
       }
 
 
@@ -93,8 +103,23 @@ namespace NMM
         return ranks[edges[slave].body] != ranks[edges[edge].body]
                  ? ranks[edges[slave].body] < ranks[edges[edge].body]
                  : edges[slave].body < edges[edge].body;
-      if (slave > edge || edges[slave].next == edge ||
-          edges[slave].previous == edge)
+      if (slave > edge)
+        return false;
+      // neighbours do not touch, but for both faces next to the tip of a crack
+      if (edges[slave].next == edge || edges[slave].previous == edge)
+        return edges[slave].start == edges[edge].end &&
+               edges[slave].end == edges[edge].start &&
+               edges[slave].center == edges[edge].center;
+      // faces of a body that look the same way by far do not turn to face each
+      // other before candidates are looked for again
+      constexpr double same_way = 0.5;
+      bool             may_face = false;
+      for (const double s : {0., 0.5, 1.})
+        for (const double t : {0., 0.5, 1.})
+          may_face = may_face || surface->place(slave, s).normal() *
+                                     surface->place(edge, t).normal() <
+                                   same_way;
+      if (!may_face)
         return false;
       // the far side of a thin body is no neighbour: what touches later lies
       // outside of each other at rest
@@ -251,38 +276,106 @@ namespace NMM
     }
 
 
+    /// Along a few edges, since one of them may be a sliver.
+    bool
+    ContactSearch::meet_in_convex_corner(const unsigned int edge,
+                                         const unsigned int other) const
+    {
+      constexpr unsigned int n_edges = 4;
+
+      const auto &edges = surface->edges();
+      for (const auto &[from, to] :
+           {std::make_pair(edge, other), std::make_pair(other, edge)})
+      {
+        bool         is_convex = false;
+        unsigned int e         = from;
+        for (unsigned int i = 0; i < n_edges && e != invalid_index; ++i)
+        {
+          if (e == to)
+            return is_convex;
+          is_convex =
+            is_convex || edges[e].at_end == ContactSurface::Corner::convex;
+          e = edges[e].next;
+        }
+      }
+      return false;
+    }
+
+
     ContactProjection
-    ContactSearch::project(
+    ContactSearch::project(const Place                                &place,
+                           const dealii::ArrayView<const unsigned int> masters,
+                           const double slack) const
+    {
+      return project_within(place, masters, slack, reach);
+    }
+
+
+    double
+    ContactSearch::end_slack(const unsigned int position,
+                             const double       s,
+                             const double       s_inside) const
+    {
+      // next to the end, and however far away
+      constexpr double near = 1e-3, far = 2.;
+      const Place      place =
+        surface->place(slave_edges[position], s + near * (s_inside - s));
+      const unsigned int nearest =
+        project_within(place, masters(position), 0., far * reach).master;
+      return nearest == invalid_index ? -largest_slack : largest_slack;
+    }
+
+
+    ContactProjection
+    ContactSearch::project_within(
       const Place                                &slave_place,
-      const dealii::ArrayView<const unsigned int> masters) const
+      const dealii::ArrayView<const unsigned int> masters,
+      const double                                slack,
+      const double                                largest_gap) const
     {
       // gaps that differ by less than this part of the reach are equal
       constexpr double same = 1e-9;
       // faces at nearly a right angle do not touch
       constexpr double least_facing = 0.01;
+      // faces that look the same way
+      constexpr double facing_away = -0.5;
 
       const Tensor<1, 2> slave_normal = slave_place.normal();
       ContactProjection  best;
-      bool               best_is_inside = false;
+      double             best_overshoot = 0.;
       double             best_facing    = 0.;
+      // bodies that the point is outside of, before a face that looks its way
+      constexpr unsigned int          n_outside_at_most = 4;
+      std::pair<unsigned int, double> outside[n_outside_at_most];
+      unsigned int                    n_outside = 0;
       for (const unsigned int master : masters)
       {
         const ContactSurface::Edge &edge = surface->edges()[master];
         ContactProjection           now;
         now.master = master;
         if (!find_nearest(master, slave_place.x, now.t, now.place) ||
-            now.t < -extension(edge.at_start) ||
-            now.t > 1. + extension(edge.at_end))
+            now.t < -extension(edge.at_start, slack) ||
+            now.t > 1. + extension(edge.at_end, slack))
           continue;
         now.normal          = now.place.normal();
         const double facing = -(now.normal * slave_normal);
         now.gap             = (slave_place.x - now.place.x) * now.normal;
-        if (facing <= least_facing || std::abs(now.gap) > reach)
+        if (facing < facing_away && now.gap > 0. && now.t >= 0. &&
+            now.t <= 1. && n_outside < n_outside_at_most)
+          outside[n_outside++] = {edge.body, now.gap};
+        if (facing <= least_facing || std::abs(now.gap) > largest_gap)
           continue;
-        const bool is_inside = now.t >= 0. && now.t <= 1.;
-        bool       is_better = best.master == invalid_index;
-        if (!is_better && is_inside != best_is_inside)
-          is_better = is_inside;
+        // how far beyond the edge's ends [m]
+        const double overshoot =
+          edge.length *
+          std::max({0.,
+                    -now.t - inside_slack(edge.at_start, slack),
+                    now.t - 1. - inside_slack(edge.at_end, slack)});
+        bool is_better = best.master == invalid_index;
+        if (!is_better && std::abs(overshoot - best_overshoot) > same * reach)
+          is_better = overshoot < best_overshoot;
+        else if (!is_better && meet_in_convex_corner(best.master, master))
+          is_better = facing > best_facing + same;
         else if (!is_better)
         {
           const double difference = std::abs(now.gap) - std::abs(best.gap);
@@ -293,10 +386,15 @@ namespace NMM
         if (is_better)
         {
           best           = now;
-          best_is_inside = is_inside;
+          best_overshoot = overshoot;
           best_facing    = facing;
         }
       }
+      for (unsigned int i = 0; i < n_outside; ++i)
+        if (best.master != invalid_index && best.gap < 0. &&
+            outside[i].first == surface->edges()[best.master].body &&
+            outside[i].second < -best.gap)
+          return ContactProjection();
       return best;
     }
   } // namespace internal

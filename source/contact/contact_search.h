@@ -68,18 +68,43 @@ namespace NMM
       /**
        * The nearest of the masters that face the normal of @p slave_place (unit
        * normals' product below -0.01), within the reach; master is invalid_index
-       * if there is none. Of two at equal distance: the one that
-       * faces it more (Shi's entrance edge), then the lower number. Beyond a
+       * if there is none. An edge that has the nearest point within its ends comes
+       * before one that has it beyond them, by however little. Of two that meet in a convex corner: the one that faces
+       * it more, whichever is nearer (Shi's entrance edge: with a corner in the other
+       * body, both are penetrated); the same for two at equal distance, then the lower
+       * number. There is none, either, if the point lies outside of the master's body,
+       * before a face that looks its own way: the far side of a thin body. Beyond a
        * convex corner or an open end there is no master, beyond a smooth joint or a concave
-       * corner an edge goes on.
+       * corner an edge goes on. @p slack: part of an edge by which it goes on
+       * (negative: ends earlier) at convex corners and open ends, see end_slack().
        */
       ContactProjection
       project(const ContactSurface::Place          &slave_place,
-              dealii::ArrayView<const unsigned int> masters) const;
+              dealii::ArrayView<const unsigned int> masters,
+              double                                slack = 0.) const;
+
+      /**
+       * For the point @p s at which a piece of a slave begins or ends: it lies
+       * where a master's corner lies, and rounding and small motions must not
+       * decide whether it has a master. The piece does: if there is a master
+       * next to the end of the piece, which goes on to @p s_inside, the result is
+       * positive, else negative.
+       */
+      double
+      end_slack(unsigned int position, double s, double s_inside) const;
 
     private:
       bool
       may_be_master(unsigned int slave, unsigned int edge) const;
+
+      ContactProjection
+      project_within(const ContactSurface::Place          &slave_place,
+                     dealii::ArrayView<const unsigned int> masters,
+                     double                                slack,
+                     double                                largest_gap) const;
+
+      bool
+      meet_in_convex_corner(unsigned int edge, unsigned int other) const;
 
       bool
       find_nearest(unsigned int            edge,

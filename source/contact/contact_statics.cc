@@ -209,7 +209,15 @@ namespace NMM
     const std::function<void(const ContactStep &, const Vector &)> &after_step)
   {
     steps.check();
-    Data                    &d = *data;
+    Data &d = *data;
+    if (d.load_factor == 0.)
+    {
+      // rounding of arcs, in parts of the range that is looked at
+      constexpr double tolerance = 1e-6;
+      d.contact->set_time(0.);
+      d.contact->surface().check_initial_overlap(tolerance *
+                                                 d.contact->parameters().reach);
+    }
     std::vector<ContactStep> result;
     const double             least = steps.min_step * steps.load_factors.back();
     double                   length = steps.load_factors.back();

@@ -155,7 +155,8 @@ namespace NMM
       const ContactPoint     &point = d.points[q];
       const ContactProjection projection =
         d.search.project(d.surface->place(point.edge, point.s),
-                         d.search.masters(d.point_data[q].slave));
+                         d.search.masters(d.point_data[q].slave),
+                         d.point_data[q].slack);
       d.point_data[q].gap_end =
         projection.master == invalid_index ? d.reach : projection.gap;
     }

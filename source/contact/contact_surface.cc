@@ -232,6 +232,11 @@ namespace NMM
                                  "' does not start where the last one ends",
                                "the obstacle",
                                "give consecutive pieces"));
+        AssertThrow(piece.start != piece.end,
+                    InputError("A piece of the obstacle '" + obstacle.name +
+                                 "' has no length",
+                               NMM::to_string(piece.start),
+                               "leave it out"));
         Edge edge = edge_of_piece(piece);
         edge.body = n_blocks + i;
         if (!is_first)
@@ -266,8 +271,13 @@ namespace NMM
       const Tensor<1, 2> there = reference_place(edge.next, 0.).a;
       const double       angle =
         std::atan2(here[0] * there[1] - here[1] * there[0], here * there);
-      edge.at_end                   = std::abs(angle) < smooth ? Corner::smooth
-                                      : angle > 0.             ? Corner::convex
+      // both faces of a crack up to its tip: rounding may give -pi or pi
+      const Edge &next   = all_edges[edge.next];
+      const bool  is_tip = next.start == edge.end && next.end == edge.start &&
+                          next.center == edge.center;
+      edge.at_end                   = is_tip ? Corner::concave
+                                      : std::abs(angle) < smooth ? Corner::smooth
+                                      : angle > 0. ? Corner::convex
                                                    : Corner::concave;
       all_edges[edge.next].at_start = edge.at_end;
     }

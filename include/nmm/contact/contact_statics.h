@@ -87,7 +87,8 @@ namespace NMM
     static NewtonParameters
     default_newton_parameters();
 
-    /// See NonlinearStatics::run().
+    /// See NonlinearStatics::run(). @throws InputError for blocks that overlap an
+    /// obstacle before the first step.
     std::vector<ContactStep>
     run(const LoadSteps &steps,
         const std::function<void(const ContactStep &, const Vector &)>

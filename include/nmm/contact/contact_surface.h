@@ -108,8 +108,8 @@ namespace NMM
     /**
      * @p obstacles are numbered after the blocks. The covers of all edges are made
      * relevant to all ranks, so vectors have to be laid out afterwards.
-     * @throws InputError for an obstacle whose pieces do not follow each other, or
-     * are full circles.
+     * @throws InputError for an obstacle whose pieces do not follow each other,
+     * have no length or are full circles.
      */
     explicit ContactSurface(CoverSystem               &covers,
                             std::vector<RigidObstacle> obstacles = {});
@@ -144,6 +144,16 @@ namespace NMM
     /// Of an obstacle, at the time that was set [m].
     const dealii::Tensor<1, 2> &
     obstacle_displacement(unsigned int obstacle) const;
+
+    /**
+     * Blocks cannot overlap each other in the reference configuration, but obstacles
+     * can. Of an obstacle that is not closed, what lies behind it altogether is no
+     * overlap.
+     * @throws InputError if a block and an obstacle overlap by more than
+     * @p tolerance [m] at the time that was set, with how much and where.
+     */
+    void
+    check_initial_overlap(double tolerance) const;
 
     /// Displacements: two per cover of the whole system [m].
     void

@@ -1,0 +1,714 @@
+// step-nmm-3: a cylinder pressed between two plates, on a mesh that does not fit it.
+//
+// This program follows the paper's Figs. 8 and 9. While the contact is narrow,
+// Hertz's formulas hold, and the pressure can be judged point by point; then
+// the plates approach by 0.4 of the radius, and the force is compared with that
+// of two other programs; and in the end there is the paper's own set-up, a whole
+// cylinder between two plates that deform.
+
+// @sect3{Include files}
+
+#include <nmm/base/exceptions.h>
+#include <nmm/contact/contact_statics.h>
+#include <nmm/covers/aggregation.h>
+#include <nmm/covers/cover_system.h>
+#include <nmm/covers/graded_mesh.h>
+#include <nmm/covers/manifold_mesh.h>
+#include <nmm/covers/mathematical_mesh.h>
+#include <nmm/geometry/physical_mesh.h>
+#include <nmm/mechanics/displacement_field.h>
+#include <nmm/mechanics/finite_elasticity.h>
+#include <nmm/quadrature/element_quadrature.h>
+
+#include <deal.II/base/function.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/timer.h>
+
+#include "study.h"
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <random>
+
+namespace StepNMM3
+{
+  using namespace dealii;
+  using NMM::CurvePiece;
+
+  // @sect3{Geometry}
+
+  void
+  add_curve(NMM::Geometry     &geometry,
+            const std::string &name,
+            const CurvePiece  &piece,
+            const std::string &material)
+  {
+    NMM::Curve curve;
+    curve.name     = name;
+    curve.role     = NMM::CurveRole::boundary;
+    curve.pieces   = {piece};
+    curve.material = material;
+    geometry.add(std::move(curve));
+  }
+
+
+  // By symmetry a quarter is enough as long as the plates are rigid: here the
+  // lower right one. The arc stays an arc, and its normals are those of a circle.
+  NMM::Geometry
+  make_quarter_disk(const double radius)
+  {
+    const double  R = radius, s = std::sqrt(0.5) * radius;
+    NMM::Geometry geometry;
+    add_curve(geometry,
+              "arc",
+              CurvePiece::arc({0., -R}, {s, -s}, {R, 0.}),
+              "cylinder");
+    add_curve(geometry,
+              "middle",
+              CurvePiece::segment({R, 0.}, {0., 0.}),
+              "cylinder");
+    add_curve(geometry,
+              "axis",
+              CurvePiece::segment({0., 0.}, {0., -R}),
+              "cylinder");
+    return geometry;
+  }
+
+
+  // The paper's set-up. The plates touch the circle in one point each; that is
+  // no special case for an exact arrangement.
+  NMM::Geometry
+  make_press(const double radius)
+  {
+    const double  R = radius, width = 1.2 * R, thickness = 0.4 * R;
+    NMM::Geometry geometry;
+    add_curve(geometry,
+              "cylinder",
+              CurvePiece::circle({0., 0.}, R),
+              "cylinder");
+    for (const std::string plate : {"bottom", "top"})
+    {
+      // the inner side is exactly tangent
+      const double lower = plate == "bottom" ? -R - thickness : R;
+      const double upper = plate == "bottom" ? -R : R + thickness;
+
+      const Point<2> corners[4] = {{-width, lower},
+                                   {width, lower},
+                                   {width, upper},
+                                   {-width, upper}};
+      const char    *names[4]   = {" lower", " right", " upper", " left"};
+      for (unsigned int i = 0; i < 4; ++i)
+        add_curve(geometry,
+                  plate + names[i],
+                  CurvePiece::segment(corners[i], corners[(i + 1) % 4]),
+                  "plate");
+    }
+    return geometry;
+  }
+
+
+  // Small triangles where there will be contact, and nowhere else.
+  NMM::GradedMeshParameters
+  make_mesh_parameters(const Parameters          &parameters,
+                       const double               contact_size,
+                       const double               half_width,
+                       const std::vector<double> &heights)
+  {
+    NMM::GradedMeshParameters mesh;
+    mesh.cell_size = std::max(parameters.cell_size, contact_size);
+    mesh.offset    = parameters.offset;
+    mesh.rotation  = parameters.rotation;
+    for (const double y : heights)
+    {
+      NMM::LocalSize box;
+      box.kind          = NMM::LocalSize::Kind::box;
+      const double high = 0.2 * half_width;
+      box.lower         = Point<2>(-half_width, y - high);
+      box.upper         = Point<2>(half_width, y + high);
+      box.size          = contact_size;
+      box.growth        = parameters.growth;
+      mesh.local_sizes.push_back(box);
+    }
+    return mesh;
+  }
+
+
+  // @sect3{Materials and conditions}
+
+  NMM::ElasticityProblem
+  make_problem(const Parameters &parameters, const NMM::MaterialLaw law)
+  {
+    NMM::ElasticityProblem problem;
+    problem.plane_state = NMM::PlaneState::plane_strain;
+    for (const bool is_plate : {false, true})
+    {
+      NMM::Material material;
+      material.name = is_plate ? "plate" : "cylinder";
+      material.youngs_modulus =
+        is_plate ? parameters.plate_modulus : parameters.youngs_modulus;
+      material.poissons_ratio = parameters.poissons_ratio;
+      material.law            = law;
+      problem.materials.push_back(material);
+    }
+    return problem;
+  }
+
+
+  void
+  add_condition(NMM::ElasticityProblem            &problem,
+                const std::string                 &curve,
+                const NMM::BoundaryCondition::Type type,
+                const std::vector<double>         &value)
+  {
+    NMM::BoundaryCondition condition;
+    condition.name = condition.curve = curve;
+    condition.type                   = type;
+    condition.value = std::make_shared<Functions::ConstantFunction<2>>(value);
+    problem.boundary_conditions.push_back(condition);
+  }
+
+
+  // Half of the approach moves the middle of the cylinder down to the rigid plate.
+  NMM::ElasticityProblem
+  make_quarter_problem(const Parameters      &parameters,
+                       const NMM::MaterialLaw law,
+                       const double           approach)
+  {
+    NMM::ElasticityProblem problem = make_problem(parameters, law);
+    const auto type = NMM::BoundaryCondition::Type::normal_displacement;
+    add_condition(problem, "axis", type, {0.});
+    add_condition(problem, "middle", type, {-0.5 * approach});
+    return problem;
+  }
+
+
+  // Between frictionless plates nothing holds the cylinder against sideways
+  // motion and rotation, and before there is contact nothing holds it at all. By
+  // symmetry its middle moves down half as far as the top plate, and its
+  // vertical axis stays vertical. Two soft springs (12) say so. The forces in them
+  // are what the mesh lacks in symmetry.
+  NMM::ElasticityProblem
+  make_press_problem(const Parameters &parameters)
+  {
+    NMM::ElasticityProblem problem =
+      make_problem(parameters, NMM::MaterialLaw::neo_hookean);
+    const auto type = NMM::BoundaryCondition::Type::displacement;
+    add_condition(problem, "bottom lower", type, {0., 0.});
+    add_condition(problem, "top upper", type, {0., -parameters.approach});
+
+    NMM::FixedPoint middle;
+    middle.point        = Point<2>(0., 0.);
+    middle.displacement = Tensor<1, 2>({0., -0.5 * parameters.approach});
+    middle.stiffness    = parameters.youngs_modulus;
+    NMM::FixedPoint above(middle);
+    above.point          = Point<2>(0., 0.5 * parameters.radius);
+    above.components[1]  = false;
+    problem.fixed_points = {middle, above};
+    return problem;
+  }
+
+
+  // @sect3{The model}
+
+  // Everything from the curves to the solver, in the order it is made. The
+  // stages are timed, in seconds of the processor.
+  class Model
+  {
+  public:
+    struct Setup
+    {
+      NMM::Geometry                   geometry;
+      std::vector<NMM::RigidObstacle> obstacles;
+      NMM::GradedMeshParameters       mesh;
+      NMM::ElasticityProblem          problem;
+      bool                            is_linear = false;
+      NMM::ContactParameters          contact;
+    };
+
+    Model(Setup setup, Measurement &measurement);
+
+    std::vector<PressurePoint>
+    pressure_at_reference_places() const;
+
+    std::vector<PressurePoint>
+    current_pressure() const;
+
+    std::array<double, 2>
+    forces() const;
+
+    Stage
+    make_stage(const TrilinosWrappers::MPI::Vector &u) const;
+
+    const NMM::ElasticityProblem               problem;
+    std::unique_ptr<NMM::PhysicalMesh>         physical_mesh;
+    std::unique_ptr<NMM::MathematicalMesh>     mathematical_mesh;
+    std::unique_ptr<NMM::ManifoldMesh>         manifold_mesh;
+    std::unique_ptr<NMM::CoverSystem>          covers;
+    std::unique_ptr<NMM::ContactSurface>       surface;
+    AffineConstraints<double>                  constraints;
+    std::unique_ptr<NMM::QuadratureCollection> quadrature;
+    std::unique_ptr<NMM::FiniteElasticity>     elasticity;
+    std::unique_ptr<NMM::ElasticSystem>        system;
+    std::unique_ptr<NMM::Contact>              contact;
+    std::unique_ptr<NMM::ContactStatics>       statics;
+  };
+
+
+  Model::Model(Setup setup, Measurement &measurement)
+    : problem(std::move(setup.problem))
+  {
+    Timer timer;
+    physical_mesh =
+      std::make_unique<NMM::PhysicalMesh>(std::move(setup.geometry));
+    mathematical_mesh = std::make_unique<NMM::MathematicalMesh>(
+      NMM::make_graded_mesh(*physical_mesh, setup.mesh, 2));
+    manifold_mesh =
+      std::make_unique<NMM::ManifoldMesh>(*mathematical_mesh, *physical_mesh);
+    measurement.cutting_time = timer.cpu_time();
+
+    // The surface comes before the constraints: it may make more covers
+    // relevant to a rank.
+    covers = std::make_unique<NMM::CoverSystem>(*manifold_mesh, MPI_COMM_WORLD);
+    const NMM::Aggregation aggregation = NMM::aggregate(*covers);
+    surface     = std::make_unique<NMM::ContactSurface>(*covers,
+                                                    std::move(setup.obstacles));
+    constraints = NMM::make_constraints(*covers, aggregation, 2);
+    quadrature  = std::make_unique<NMM::QuadratureCollection>(
+      *manifold_mesh,
+      2,
+      setup.is_linear ? 2 : 4,
+      covers->locally_owned_elements());
+    elasticity = std::make_unique<NMM::FiniteElasticity>(*covers,
+                                                         *quadrature,
+                                                         constraints,
+                                                         problem);
+    system = std::make_unique<NMM::ElasticSystem>(*elasticity, setup.is_linear);
+
+    // Of two bodies the softer one carries the contact points: the stiff one's
+    // boundary bends less from edge to edge.
+    setup.contact.body_ranks.assign(physical_mesh->n_blocks(), 0);
+    for (const auto &region : physical_mesh->regions())
+      if (physical_mesh->material_names()[region.material] == "plate")
+        setup.contact.body_ranks[region.block] = 1;
+    contact =
+      std::make_unique<NMM::Contact>(*surface, constraints, setup.contact);
+    statics = std::make_unique<NMM::ContactStatics>(*system, *contact);
+    measurement.setup_time = timer.cpu_time() - measurement.cutting_time;
+    measurement.n_elements = manifold_mesh->n_elements();
+    measurement.n_unknowns =
+      2 * (covers->n_covers() - aggregation.cover_to_root.size());
+  }
+
+
+  // Hertz's theory is linear: it does not know whether x is where a point was or
+  // where it went, and points of the contact move inwards by 3 percent of x at
+  // a half-width of 0.1 R. In the linear problem it has to be the reference
+  // place, where the pressure acts.
+  std::vector<PressurePoint>
+  Model::pressure_at_reference_places() const
+  {
+    std::vector<PressurePoint> result;
+    for (const NMM::ContactPoint &point : contact->points())
+      if (point.master != NMM::invalid_index)
+        result.push_back(
+          {std::abs(surface->reference_place(point.edge, point.s).x[0]),
+           point.pressure,
+           point.weight});
+    return result;
+  }
+
+
+  // The springs' pressure is per reference length; what Fig. 9 shows is force
+  // over current length.
+  std::vector<PressurePoint>
+  Model::current_pressure() const
+  {
+    std::vector<PressurePoint> result;
+    for (const NMM::ContactPoint &point : contact->points())
+      if (point.pressure > 0. && point.normal[1] > 0.)
+      {
+        const double stretch =
+          surface->place(point.edge, point.s).a.norm() /
+          surface->reference_place(point.edge, point.s).a.norm();
+        result.push_back(
+          {point.x[0], point.pressure / stretch, point.weight * stretch});
+      }
+    return result;
+  }
+
+
+  // Force on the cylinder from below and from above [N/m].
+  std::array<double, 2>
+  Model::forces() const
+  {
+    std::array<double, 2> result{{0., 0.}};
+    for (const NMM::ContactPoint &point : contact->points())
+      if (point.pressure > 0.)
+        result[point.normal[1] > 0. ? 0 : 1] +=
+          point.weight * point.pressure * std::abs(point.normal[1]);
+    return result;
+  }
+
+
+  // Outlines come from the surface, which knows where its edges are; material
+  // lines from the displacement field.
+  Stage
+  Model::make_stage(const TrilinosWrappers::MPI::Vector &u) const
+  {
+    Stage       stage;
+    const auto &edges = surface->edges();
+    for (unsigned int e = 0; e < edges.size(); ++e)
+      if (!surface->is_rigid(e))
+      {
+        constexpr unsigned int n = 4;
+        stage.outlines.emplace_back();
+        for (unsigned int i = 0; i <= n; ++i)
+          stage.outlines.back().push_back(surface->place(e, i / double(n)).x);
+      }
+
+    const NMM::DisplacementField field(*covers, problem, u);
+    constexpr unsigned int       n_lines = 4, n = 80;
+    for (unsigned int direction = 0; direction < 2; ++direction)
+      for (unsigned int i = 0; i <= 2 * n_lines; ++i)
+      {
+        const double a = (i / double(n_lines) - 1.) * 0.98;
+        const double b = std::sqrt(1. - a * a);
+        stage.material_lines.emplace_back();
+        for (unsigned int k = 0; k <= n; ++k)
+        {
+          const double   c = (2. * k / n - 1.) * b * (1. - 1e-6);
+          const Point<2> x = direction == 0 ? Point<2>(a, c) : Point<2>(c, a);
+          const unsigned int element = manifold_mesh->find_element(x);
+          if (element != NMM::invalid_index)
+            stage.material_lines.back().push_back(
+              x + field.displacement(element,
+                                     mathematical_mesh->real_to_reference(
+                                       manifold_mesh->cell(element), x)));
+        }
+      }
+    return stage;
+  }
+
+
+  // @sect3{Springs}
+
+  // The penalty method needs stiff springs, and its Newton iteration more
+  // steps the stiffer they are. With multipliers, springs of ten times the
+  // stiffness of a triangle are enough.
+  NMM::ContactParameters
+  make_contact_parameters(const Parameters &parameters,
+                          const Enforcement enforcement,
+                          const double      contact_size,
+                          const double      approach)
+  {
+    const bool             is_augmented = enforcement == Enforcement::augmented;
+    NMM::ContactParameters contact;
+    contact.normal_stiffness =
+      (is_augmented ? 10. : 30.) * parameters.youngs_modulus / contact_size;
+    if (is_augmented)
+      contact.penetration_tolerance = 1e-4 * approach;
+    contact.reach = 0.05 * parameters.radius;
+    return contact;
+  }
+
+
+  NMM::RigidObstacle
+  make_rigid_plate(const double radius)
+  {
+    NMM::RigidObstacle plate;
+    plate.name   = "plate";
+    plate.pieces = {
+      CurvePiece::segment({2. * radius, -radius}, {-2. * radius, -radius})};
+    return plate;
+  }
+
+
+  // @sect3{Small strain: Hertz}
+
+  // The approach that belongs to a half-width is imposed in one step.
+  Measurement
+  run_hertz(const Parameters &parameters,
+            const double      half_width,
+            const double      contact_ratio,
+            const Enforcement enforcement)
+  {
+    const Hertz  hertz = Hertz::from_half_width(parameters, half_width);
+    const double size  = contact_ratio * half_width;
+
+    Measurement result;
+    result.enforcement  = enforcement;
+    result.half_width   = half_width;
+    result.contact_size = size;
+
+    Timer        timer;
+    Model::Setup setup;
+    setup.geometry  = make_quarter_disk(parameters.radius);
+    setup.obstacles = {make_rigid_plate(parameters.radius)};
+    setup.mesh      = make_mesh_parameters(parameters,
+                                      size,
+                                      1.1 * half_width,
+                                      {-parameters.radius});
+    setup.problem   = make_quarter_problem(parameters,
+                                         NMM::MaterialLaw::st_venant_kirchhoff,
+                                         hertz.approach);
+    setup.is_linear = true;
+    setup.contact =
+      make_contact_parameters(parameters, enforcement, size, hertz.approach);
+    Model model(std::move(setup), result);
+
+    const double set_up = timer.cpu_time();
+    for (const NMM::ContactStep &step :
+         model.statics->run(NMM::LoadSteps::equal(1)))
+    {
+      ++result.n_steps;
+      result.n_iterations += step.n_iterations + step.n_lost_iterations;
+      result.n_augmentations += step.n_augmentations;
+      result.n_cuts += step.n_cuts;
+      result.penetration = step.contact.largest_penetration;
+    }
+    result.total_time    = timer.cpu_time();
+    result.solution_time = result.total_time - set_up;
+    result.pressure      = model.pressure_at_reference_places();
+    // a quarter has half of the contact
+    compare(parameters, hertz, 2. * model.forces()[0], result);
+    return result;
+  }
+
+
+  // The fastest of some runs: others share the caches.
+  Measurement
+  run_hertz_repeatedly(const Parameters &parameters,
+                       const double      half_width,
+                       const double      contact_ratio,
+                       const Enforcement enforcement)
+  {
+    Measurement best;
+    for (unsigned int i = 0; i < parameters.n_repetitions; ++i)
+    {
+      const Measurement now =
+        run_hertz(parameters, half_width, contact_ratio, enforcement);
+      if (i == 0 || now.total_time < best.total_time)
+        best = now;
+    }
+    return best;
+  }
+
+
+  std::vector<Measurement>
+  run_hertz_study(const Parameters &parameters)
+  {
+    std::vector<Measurement> measurements;
+    for (const double half_width : parameters.half_widths)
+    {
+      print_hertz_header(Hertz::from_half_width(parameters, half_width));
+      for (const Enforcement enforcement :
+           {Enforcement::penalty, Enforcement::augmented})
+        for (const double ratio : parameters.contact_ratios)
+        {
+          measurements.push_back(
+            run_hertz_repeatedly(parameters, half_width, ratio, enforcement));
+          print_hertz(measurements.back());
+        }
+    }
+    return measurements;
+  }
+
+
+  // The mesh moved and turned at random: the error must not depend on luck.
+  std::vector<Measurement>
+  run_placements(Parameters parameters)
+  {
+    std::mt19937 engine(parameters.seed);
+    const auto   uniform = [&](const double high) {
+      return high * (engine() / 4294967296.);
+    };
+    std::vector<Measurement> measurements;
+    for (unsigned int k = 0; k < parameters.n_placements; ++k)
+    {
+      parameters.offset[0] = uniform(parameters.cell_size);
+      parameters.offset[1] = uniform(parameters.cell_size);
+      parameters.rotation  = uniform(60.);
+      for (const double ratio : parameters.contact_ratios)
+        measurements.push_back(run_hertz(parameters,
+                                         parameters.half_widths[0],
+                                         ratio,
+                                         Enforcement::augmented));
+    }
+    return measurements;
+  }
+
+
+  // @sect3{Large compression}
+
+  // Beyond small strain: the same quarter, with the neo-Hookean law and any
+  // deformation gradient, to an approach of 0.4 R.
+  Measurement
+  run_compression(const Parameters &parameters,
+                  const double      size,
+                  const Enforcement enforcement)
+  {
+    Measurement result;
+    result.enforcement  = enforcement;
+    result.contact_size = size;
+
+    Timer        timer;
+    const double step = parameters.approach / parameters.n_load_steps;
+    Model::Setup setup;
+    setup.geometry  = make_quarter_disk(parameters.radius);
+    setup.obstacles = {make_rigid_plate(parameters.radius)};
+    setup.mesh      = make_mesh_parameters(parameters,
+                                      size,
+                                      0.5 * parameters.radius,
+                                      {-parameters.radius});
+    setup.problem   = make_quarter_problem(parameters,
+                                         NMM::MaterialLaw::neo_hookean,
+                                         parameters.approach);
+    setup.contact =
+      make_contact_parameters(parameters, enforcement, size, 10. * step);
+    Model model(std::move(setup), result);
+
+    const double set_up = timer.cpu_time();
+    model.statics->run(
+      NMM::LoadSteps::equal(parameters.n_load_steps),
+      [&](const NMM::ContactStep &step, const TrilinosWrappers::MPI::Vector &) {
+        ++result.n_steps;
+        result.n_iterations += step.n_iterations + step.n_lost_iterations;
+        result.n_augmentations += step.n_augmentations;
+        result.n_cuts += step.n_cuts;
+        result.penetration = step.contact.largest_penetration;
+        if (step.is_asked)
+          result.forces[parameters.approach * step.load_factor] =
+            2. * model.forces()[0];
+      });
+    result.total_time    = timer.cpu_time();
+    result.solution_time = result.total_time - set_up;
+    compare_forces(parameters, result);
+    return result;
+  }
+
+
+  std::vector<Measurement>
+  run_compression_study(const Parameters &parameters)
+  {
+    std::vector<Measurement> measurements;
+    print_compression_header();
+    for (const Enforcement enforcement :
+         {Enforcement::penalty, Enforcement::augmented})
+      for (const double size : parameters.compression_sizes)
+      {
+        measurements.push_back(run_compression(parameters, size, enforcement));
+        print_compression(measurements.back());
+      }
+    return measurements;
+  }
+
+
+  // @sect3{The paper's press}
+
+  // A whole cylinder, two plates a thousand times as stiff, and springs as in
+  // Table 1, or multipliers. One mathematical mesh covers all three bodies: where they share a
+  // triangle, each has covers of its own.
+  PressResult
+  run_press(const Parameters &parameters,
+            const double      size,
+            const Enforcement enforcement)
+  {
+    PressResult  press;
+    Measurement &result = press.measurement;
+    result.enforcement  = enforcement;
+    result.contact_size = size;
+
+    Timer        timer;
+    const double R = parameters.radius;
+    Model::Setup setup;
+    setup.geometry = make_press(R);
+    setup.mesh     = make_mesh_parameters(parameters, size, 0.5 * R, {-R, R});
+    setup.problem  = make_press_problem(parameters);
+    const double step = parameters.approach / parameters.n_load_steps;
+    setup.contact =
+      make_contact_parameters(parameters, enforcement, size, 10. * step);
+    if (enforcement == Enforcement::penalty)
+      setup.contact.normal_stiffness = parameters.spring;
+    Model model(std::move(setup), result);
+
+    const double set_up = timer.cpu_time();
+    model.statics->run(NMM::LoadSteps::equal(parameters.n_load_steps),
+                       [&](const NMM::ContactStep              &step,
+                           const TrilinosWrappers::MPI::Vector &u) {
+                         ++result.n_steps;
+                         result.n_iterations +=
+                           step.n_iterations + step.n_lost_iterations;
+                         result.n_cuts += step.n_cuts;
+                         result.penetration = step.contact.largest_penetration;
+                         if (!step.is_asked)
+                           return;
+                         const std::array<double, 2> forces = model.forces();
+                         Stage stage = model.make_stage(u);
+                         stage.approach =
+                           parameters.approach * step.load_factor;
+                         stage.force = 0.5 * (forces[0] + forces[1]);
+                         stage.force_difference =
+                           std::abs(forces[0] - forces[1]);
+                         stage.pressure = model.current_pressure();
+                         result.forces[stage.approach] = stage.force;
+                         press.stages.push_back(std::move(stage));
+                       });
+    result.total_time    = timer.cpu_time();
+    result.solution_time = result.total_time - set_up;
+    compare_forces(parameters, result);
+    return press;
+  }
+} // namespace StepNMM3
+
+
+// @sect3{The main function}
+
+int
+main(int argc, char **argv)
+{
+  using namespace StepNMM3;
+  try
+  {
+    const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+    AssertThrow(dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1,
+                NMM::InputError("The program runs on several ranks",
+                                "step-nmm-3",
+                                "start it without mpirun: its tables are times "
+                                "of one core"));
+    const Parameters parameters =
+      read_parameters(argc > 1 ? argv[1] : "", argc > 2 ? argv[2] : ".");
+
+    const std::vector<Measurement> hertz      = run_hertz_study(parameters);
+    const std::vector<Measurement> placements = run_placements(parameters);
+    print_placements(placements);
+    const std::vector<Measurement> compression =
+      run_compression_study(parameters);
+    std::vector<PressResult> press;
+    for (const Enforcement enforcement :
+         {Enforcement::penalty, Enforcement::augmented})
+    {
+      press.push_back(
+        run_press(parameters, parameters.press_size, enforcement));
+      print_press(parameters, press.back());
+    }
+    write_results(parameters, hertz, placements, compression, press);
+    draw_figures(parameters);
+  }
+  catch (const NMM::InputError &error)
+  {
+    error.print_info(std::cerr);
+    return 2;
+  }
+  catch (const NMM::NumericalFailure &error)
+  {
+    error.print_info(std::cerr);
+    return 3;
+  }
+  catch (const std::exception &error)
+  {
+    std::cerr << error.what() << std::endl;
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,149 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/contact/contact_surface.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace NMM
+{
+  using dealii::Point;
+  using dealii::Tensor;
+
+  namespace
+  {
+    /// Nearest point of an undeformed edge and signed distance [m], positive
+    /// outside.
+    struct Nearest
+    {
+      double distance = std::numeric_limits<double>::max();
+      double gap      = 0.;
+      /// The nearest point is an end of a chain that is not closed.
+      bool is_open_end = false;
+    };
+
+
+    /// Parameter in [0, 1] of the nearest point of a segment or an arc.
+    double
+    nearest_parameter(const ContactSurface::Edge &edge, const Point<2> &x)
+    {
+      if (edge.radius == 0.)
+      {
+        const Tensor<1, 2> d = edge.end - edge.start;
+        const double       t = ((x - edge.start) * d) / d.norm_square();
+        return std::min(1., std::max(0., t));
+      }
+      const Tensor<1, 2> d     = x - edge.center;
+      const double       range = edge.last_angle - edge.first_angle;
+      const double       turn  = 2. * dealii::numbers::PI;
+      double             angle = std::atan2(d[1], d[0]) - edge.first_angle;
+      angle -= turn * std::floor(angle / turn);
+      if (range < 0.)
+        angle -= turn;
+      const double t = angle / range;
+      if (t <= 1.)
+        return std::max(0., t);
+      return x.distance(edge.start) < x.distance(edge.end) ? 0. : 1.;
+    }
+  } // namespace
+
+
+  void
+  ContactSurface::check_initial_overlap(const double tolerance) const
+  {
+    const auto nearest_of = [&](const unsigned int body, const Point<2> &x) {
+      Nearest      result;
+      Tensor<1, 2> normal;
+      for (unsigned int e = 0; e < all_edges.size(); ++e)
+        if (all_edges[e].body == body)
+        {
+          const Edge        &edge  = all_edges[e];
+          const Tensor<1, 2> shift = obstacle_displacements[body - n_blocks];
+          const double       t     = nearest_parameter(edge, x - shift);
+          const Place        place = reference_place(e, t);
+          const Tensor<1, 2> d     = x - (place.x + shift);
+          const double       same  = 1e-12 * (d.norm() + edge.length);
+          if (d.norm() < result.distance - same)
+          {
+            result.distance = d.norm();
+            normal          = Tensor<1, 2>();
+          }
+          if (d.norm() <= result.distance + same)
+          {
+            // at a corner the mean of both normals tells the side
+            normal += place.normal();
+            result.gap         = d * normal > 0. ? d.norm() : -d.norm();
+            result.is_open_end = (t == 0. && edge.previous == invalid_index) ||
+                                 (t == 1. && edge.next == invalid_index);
+          }
+        }
+      return result;
+    };
+
+    constexpr unsigned int n_samples = 4;
+    for (unsigned int i = 0; i < rigid_obstacles.size(); ++i)
+    {
+      bool is_closed = !rigid_obstacles[i].pieces.empty();
+      for (const Edge &edge : all_edges)
+        if (edge.body == n_blocks + i)
+          is_closed = is_closed && edge.next != invalid_index;
+
+      std::vector<double>   deepest(n_blocks, 0.);
+      std::vector<Point<2>> where(n_blocks);
+      std::vector<bool>     is_in_front(n_blocks, false);
+      for (unsigned int e = 0; e < all_edges.size(); ++e)
+        if (!is_rigid(e))
+          for (unsigned int k = 0; k < n_samples; ++k)
+          {
+            const Point<2>     x = reference_place(e, k / double(n_samples)).x;
+            const Nearest      nearest = nearest_of(n_blocks + i, x);
+            const unsigned int block   = all_edges[e].body;
+            if (nearest.is_open_end)
+              continue;
+            if (nearest.gap > tolerance)
+              is_in_front[block] = true;
+            if (nearest.gap < deepest[block])
+            {
+              deepest[block] = nearest.gap;
+              where[block]   = x;
+            }
+          }
+      // an obstacle inside of a block
+      for (const Edge &edge : all_edges)
+        if (edge.body == n_blocks + i)
+        {
+          const Point<2>      x    = edge.start + obstacle_displacements[i];
+          const ManifoldMesh &mesh = cover_pointer->manifold_mesh();
+          const unsigned int  e    = mesh.find_element(x);
+          if (e == invalid_index)
+            continue;
+          double distance = std::numeric_limits<double>::max();
+          for (unsigned int k = 0; k < all_edges.size(); ++k)
+            if (all_edges[k].body == mesh.block(e))
+              distance = std::min(
+                distance,
+                x.distance(
+                  reference_place(k, nearest_parameter(all_edges[k], x)).x));
+          if (distance > tolerance && -distance < deepest[mesh.block(e)])
+          {
+            deepest[mesh.block(e)]     = -distance;
+            where[mesh.block(e)]       = x;
+            is_in_front[mesh.block(e)] = true;
+          }
+        }
+      for (unsigned int block = 0; block < n_blocks; ++block)
+        if (deepest[block] < -tolerance && (is_closed || is_in_front[block]))
+        {
+          std::ostringstream text;
+          text << "Block " << block << " and the obstacle '"
+               << rigid_obstacles[i].name << "' overlap by " << -deepest[block]
+               << " m";
+          AssertThrow(
+            false,
+            InputError(text.str(),
+                       NMM::to_string(where[block]),
+                       "move one of them so that they touch at most"));
+        }
+    }
+  }
+} // namespace NMM

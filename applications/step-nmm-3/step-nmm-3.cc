@@ -471,7 +471,7 @@ namespace StepNMM3
     result.solution_time = result.total_time - set_up;
     result.pressure      = model.pressure_at_reference_places();
     // a quarter has half of the contact
-    compare(parameters, hertz, 2. * model.forces()[0], result);
+    compare(hertz, 2. * model.forces()[0], result);
     return result;
   }
 

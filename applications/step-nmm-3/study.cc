@@ -210,10 +210,7 @@ namespace StepNMM3
 
 
   void
-  compare(const Parameters &,
-          const Hertz &hertz,
-          const double force,
-          Measurement &measurement)
+  compare(const Hertz &hertz, const double force, Measurement &measurement)
   {
     double square = 0., norm = 0., peak = 0., last = 0.;
     for (const PressurePoint &point : measurement.pressure)

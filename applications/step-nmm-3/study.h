@@ -117,10 +117,7 @@ namespace StepNMM3
 
   /// Fill in the errors from the pressure and the force.
   void
-  compare(const Parameters &parameters,
-          const Hertz      &hertz,
-          double            force,
-          Measurement      &measurement);
+  compare(const Hertz &hertz, double force, Measurement &measurement);
 
   /// Fill in the errors against disk_compression.csv.
   void

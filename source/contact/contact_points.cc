@@ -121,22 +121,33 @@ namespace NMM
                          [](const StickPlace &place, const double value) {
                            return place.s < value;
                          });
-      if (after == places.begin() || (after != places.end() && after->s == s))
+      if (after != places.end() && after->s == s)
       {
         result = *after;
         return true;
       }
-      const auto before = after - 1;
-      if (after == places.end())
-        result = *before;
-      else if (before->edge == after->edge)
-      {
-        const double share = (s - before->s) / (after->s - before->s);
-        result             = *before;
-        result.t += share * (after->t - before->t);
-      }
-      else
-        result = s - before->s < after->s - s ? *before : *after;
+      // a place to the left, or the first one
+      const auto before = after == places.begin() ? after : after - 1;
+      auto       nearer = before;
+      if (after != places.end() && after->s - s < s - before->s)
+        nearer = after;
+      // on one master linear, and on from there to the next one: what is left out
+      // would be taken for elastic slip
+      result              = *nearer;
+      const auto neighbor = [&]() {
+        for (const auto &other : {before, after})
+          if (other != nearer && other != places.end() &&
+              other->edge == nearer->edge)
+            return other;
+        if (nearer != places.begin() && (nearer - 1)->edge == nearer->edge)
+          return nearer - 1;
+        if (nearer + 1 != places.end() && (nearer + 1)->edge == nearer->edge)
+          return nearer + 1;
+        return places.end();
+      }();
+      if (neighbor != places.end())
+        result.t += (s - nearer->s) / (neighbor->s - nearer->s) *
+                    (neighbor->t - nearer->t);
       result.s = s;
       return true;
     }

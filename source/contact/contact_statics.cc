@@ -217,6 +217,10 @@ namespace NMM
       d.contact->set_time(0.);
       d.contact->surface().check_initial_overlap(tolerance *
                                                  d.contact->parameters().reach);
+      // points stick where they are now, not where the first solution takes them
+      d.contact->detect(d.solution);
+      d.contact->assemble(d.solution, false);
+      d.contact->accept();
     }
     std::vector<ContactStep> result;
     const double             least = steps.min_step * steps.load_factors.back();

@@ -180,34 +180,55 @@ namespace NMM
     const ManifoldMesh    &mesh    = cover_pointer->manifold_mesh();
     constexpr unsigned int n_turns = 1000;
 
+    const MathematicalMesh &cells = mesh.mathematical_mesh();
+    const Point<2>          pivot = all_edges[edge].end;
+    // element and its edge that ends at the pivot
     unsigned int e = element, k = position;
     for (unsigned int i = 0; i < n_turns; ++i)
     {
-      const auto boundary = mesh.edges(e);
-      k                   = next_in_loop(boundary, k);
-      if (is_free(mesh, boundary[k]))
+      const unsigned int last_element = e;
+      const auto         boundary     = mesh.edges(e);
+      Point<2>           from;
+      if (boundary.size() > 0)
       {
-        const auto found =
-          std::lower_bound(position_to_edge.begin(),
-                           position_to_edge.end(),
-                           std::make_pair(std::make_pair(e, k), 0U));
-        all_edges[edge].next              = found->second;
-        all_edges[found->second].previous = edge;
-        return;
+        k = next_in_loop(boundary, k);
+        if (is_free(mesh, boundary[k]))
+        {
+          const auto found =
+            std::lower_bound(position_to_edge.begin(),
+                             position_to_edge.end(),
+                             std::make_pair(std::make_pair(e, k), 0U));
+          all_edges[edge].next              = found->second;
+          all_edges[found->second].previous = edge;
+          return;
+        }
+        e    = boundary[k].neighbor;
+        from = boundary[k].end;
       }
-      const ElementEdge &inner = boundary[k];
-      if (inner.neighbor == invalid_index)
+      else
+      {
+        // a whole cell, which touches the boundary with a corner only
+        const auto  &corners = cells.cell_vertices(mesh.cell(e));
+        unsigned int local   = 0;
+        while (local < 3 && cells.vertices()[corners[local]] != pivot)
+          ++local;
+        e = invalid_index;
+        if (local < 3)
+          from = cells.vertices()[corners[(local + 1) % 3]];
+        for (const auto &link : mesh.joined(last_element))
+          if (link.edge_here == local)
+            e = link.neighbor;
+      }
+      if (e == invalid_index)
         return;
-      const auto         other = mesh.edges(inner.neighbor);
+      const auto         other = mesh.edges(e);
       const unsigned int n     = other.size();
-      unsigned int       j     = 0;
-      while (j < n && !(other[j].start == inner.end &&
-                        other[j].end == inner.start && other[j].neighbor == e))
-        ++j;
-      if (j == n)
+      for (k = 0; k < n; ++k)
+        if (other[k].start == from && other[k].end == pivot &&
+            other[k].neighbor == last_element)
+          break;
+      if (k == n && n > 0)
         return;
-      e = inner.neighbor;
-      k = j;
     }
   }
 

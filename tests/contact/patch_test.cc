@@ -60,7 +60,7 @@ namespace
   NewtonParameters
   newton_parameters()
   {
-    NewtonParameters newton   = ContactStatics::default_newton_parameters();
+    NewtonParameters newton = ContactStatics::default_newton_parameters();
     // gaps are known to 2e-16 m, times the spring's stiffness: 1e-11 of the load
     newton.residual_tolerance = 1e-10;
     return newton;

@@ -228,10 +228,11 @@ namespace NMM
       point.weight *
       (point.pressure * point.pressure - point.multiplier * point.multiplier) /
       (2. * eps);
-    point.state = ContactState::slip;
+    const bool was_slipping = point.state == ContactState::slip;
+    point.state             = ContactState::slip;
     if (parameters.has_friction())
     {
-      find_shear(point, slave, projection, traction);
+      find_shear(point, slave, projection, was_slipping, traction);
       energy += point.weight * point.shear * point.shear /
                 (2. * parameters.shear_stiffness);
     }
@@ -243,6 +244,7 @@ namespace NMM
   Contact::Data::find_shear(ContactPoint                &point,
                             const ContactSurface::Place &slave,
                             const ContactProjection     &projection,
+                            const bool                   was_slipping,
                             ContactTraction             &traction) const
   {
     const Tensor<1, 2> tangent = projection.place.a / projection.place.a.norm();
@@ -252,6 +254,11 @@ namespace NMM
     const double limit =
       parameters.friction * point.pressure + parameters.cohesion;
     traction.normal_distance = distance * projection.normal;
+    // a residual and its tangent are two assemblies at the same displacements
+    if (trial != point.spring_shear)
+      point.has_turned = std::abs(trial) > limit && was_slipping &&
+                         trial * point.spring_shear < 0.;
+    point.spring_shear = trial;
     if (std::abs(trial) <= limit)
     {
       point.state              = ContactState::stick;
@@ -264,6 +271,10 @@ namespace NMM
       point.shear = trial > 0. ? limit : -limit;
       traction.shear_over_pressure =
         trial > 0. ? parameters.friction : -parameters.friction;
+      // it slides to and fro from one iteration to the next, because the tangent
+      // of sliding does not hold it: it sticks
+      if (point.has_turned)
+        traction.shear_stiffness = point.weight * parameters.shear_stiffness;
     }
     traction.shear = point.weight * point.shear;
   }

@@ -63,6 +63,7 @@ namespace NMM
     find_shear(ContactPoint                      &point,
                const ContactSurface::Place       &slave,
                const internal::ContactProjection &projection,
+               bool                               was_slipping,
                internal::ContactTraction         &traction) const;
 
     void

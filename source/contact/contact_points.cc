@@ -126,28 +126,33 @@ namespace NMM
         result = *after;
         return true;
       }
-      // a place to the left, or the first one
-      const auto before = after == places.begin() ? after : after - 1;
-      auto       nearer = before;
-      if (after != places.end() && after->s - s < s - before->s)
-        nearer = after;
-      // on one master linear, and on from there to the next one: what is left out
-      // would be taken for elastic slip
-      result              = *nearer;
-      const auto neighbor = [&]() {
-        for (const auto &other : {before, after})
-          if (other != nearer && other != places.end() &&
-              other->edge == nearer->edge)
-            return other;
-        if (nearer != places.begin() && (nearer - 1)->edge == nearer->edge)
-          return nearer - 1;
-        if (nearer + 1 != places.end() && (nearer + 1)->edge == nearer->edge)
-          return nearer + 1;
-        return places.end();
-      }();
-      if (neighbor != places.end())
-        result.t += (s - nearer->s) / (neighbor->s - nearer->s) *
-                    (neighbor->t - nearer->t);
+      // the nearer place first
+      const auto last  = places.end() - 1;
+      const auto right = after == places.end() ? last : after;
+      const auto left  = right == places.begin() ? right : right - 1;
+      const bool is_left_nearer =
+        std::abs(s - left->s) <= std::abs(right->s - s);
+      const auto nearer = is_left_nearer ? left : right;
+      const auto other  = is_left_nearer ? right : left;
+      result            = *nearer;
+      // on a master with two places linear, and on from there beyond its end:
+      // what is left out would be taken for elastic slip
+      for (const auto &place : {nearer, other})
+      {
+        auto neighbor = place;
+        if (nearer != other && nearer->edge == other->edge)
+          neighbor = place == nearer ? other : nearer;
+        else if (place != places.begin() && (place - 1)->edge == place->edge)
+          neighbor = place - 1;
+        else if (place != last && (place + 1)->edge == place->edge)
+          neighbor = place + 1;
+        if (neighbor == place)
+          continue;
+        result = *place;
+        result.t +=
+          (s - place->s) / (neighbor->s - place->s) * (neighbor->t - place->t);
+        break;
+      }
       result.s = s;
       return true;
     }

@@ -87,8 +87,8 @@ namespace NMM
     using StickPlaces =
       std::unordered_map<unsigned int, std::vector<StickPlace>>;
 
-    /// The place for @p s: linear in s on the nearer place's master, beyond its
-    /// last place as well; false if there are none.
+    /// The place for @p s: linear in s on the master of the nearer place that has
+    /// two, beyond its last place as well; false if there are none.
     bool
     find_stick_place(const std::vector<StickPlace> &places,
                      double                         s,

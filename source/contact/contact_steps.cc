@@ -121,7 +121,8 @@ namespace NMM
       traction.normal_stiffness = -2. * point.weight * derivative;
       if (parameters.has_friction())
       {
-        find_shear(point, slave, projection, traction);
+        find_shear(
+          point, slave, projection, before == ContactState::slip, traction);
         fixed.shear_work = traction.shear * (change * projection.place.a) /
                            projection.place.a.norm();
       }

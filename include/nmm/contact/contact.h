@@ -73,6 +73,10 @@ namespace NMM
     /// Per reference length of the slave [Pa].
     double       pressure = 0., shear = 0.;
     ContactState state = ContactState::open;
+    /// What the shear spring alone would exert [Pa], and whether the slip has just
+    /// changed its sign from one iteration to the next.
+    double spring_shear = 0.;
+    bool   has_turned   = false;
     /// Edge and parameter at which it sticks.
     unsigned int stick_edge = invalid_index;
     double       stick_t    = 0.;

@@ -179,8 +179,11 @@ namespace NMM
       if (!report.converged)
         return false;
       step.contact = contact->report();
-      if (contact->is_idle())
+      // where all has moved far, there may be candidates now
+      if (contact->is_idle() && (i > 0 || contact->find_fault(u).empty()))
         return true;
+      if (contact->is_idle())
+        continue;
       const bool is_settled =
         i > 0 && report.iterations.front().relative_residual <=
                    100. * parameters.residual_tolerance;
@@ -234,6 +237,7 @@ namespace NMM
         const double next      = is_last ? asked : d.load_factor + length;
         Vector       u(d.solution);
         ContactStep  step;
+        const std::vector<double> history = d.contact->history();
         if (d.try_step(next, u, step))
         {
           d.contact->accept();
@@ -249,6 +253,7 @@ namespace NMM
             after_step(step, d.solution);
           continue;
         }
+        d.contact->restore_history(history);
         ++n_cuts;
         n_lost += step.n_iterations;
         length = 0.5 * (next - d.load_factor);

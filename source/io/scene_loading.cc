@@ -80,20 +80,44 @@ namespace NMM
       for (const auto &[index, function] : functions)
         values[index] = function(t);
     }
+
+
+    /// All of a scene that change in time.
+    struct LoadFunctions
+    {
+      TimeFunctions conditions, forces, fixed_points;
+      TimeFunction  gravity, body_force;
+      std::size_t   n_conditions = 0, n_forces = 0, n_fixed_points = 0;
+
+      bool
+      is_empty() const
+      {
+        return conditions.empty() && forces.empty() && fixed_points.empty() &&
+               !gravity && !body_force;
+      }
+
+      LoadAmplitudes
+      amplitudes(const double t) const
+      {
+        LoadAmplitudes result;
+        evaluate(conditions, n_conditions, t, result.boundary_conditions);
+        evaluate(forces, n_forces, t, result.point_forces);
+        evaluate(fixed_points, n_fixed_points, t, result.fixed_points);
+        if (gravity)
+          result.gravity = gravity(t);
+        if (body_force)
+          result.body_force = body_force(t);
+        return result;
+      }
+    };
   } // namespace
 
 
   Loading
   Scene::make_loading() const
   {
-    struct Functions
-    {
-      TimeFunctions conditions, forces, fixed_points;
-      TimeFunction  gravity, body_force;
-      std::size_t   n_conditions = 0, n_forces = 0, n_fixed_points = 0;
-    };
     const SceneParameters &p         = scene_parameters;
-    const auto             functions = std::make_shared<Functions>();
+    const auto             functions = std::make_shared<LoadFunctions>();
     Loading                loading;
     const auto make = [&](const std::string &text, const std::string &name) {
       return make_time_function(text,
@@ -146,23 +170,9 @@ namespace NMM
     functions->body_force =
       make(p.model.body_force_amplitude, "Model/Body force amplitude");
 
-    if (!functions->conditions.empty() || !functions->forces.empty() ||
-        !functions->fixed_points.empty() || functions->gravity ||
-        functions->body_force)
+    if (!functions->is_empty())
       loading.amplitudes = [functions](const double t) {
-        const Functions &f = *functions;
-        LoadAmplitudes   amplitudes;
-        evaluate(f.conditions,
-                 f.n_conditions,
-                 t,
-                 amplitudes.boundary_conditions);
-        evaluate(f.forces, f.n_forces, t, amplitudes.point_forces);
-        evaluate(f.fixed_points, f.n_fixed_points, t, amplitudes.fixed_points);
-        if (f.gravity)
-          amplitudes.gravity = f.gravity(t);
-        if (f.body_force)
-          amplitudes.body_force = f.body_force(t);
-        return amplitudes;
+        return functions->amplitudes(t);
       };
     loading.base_acceleration = make_base_acceleration();
     return loading;

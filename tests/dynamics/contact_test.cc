@@ -93,7 +93,9 @@ namespace NMM
       EXPECT_LE(worst, 1e-6 * integrator.account().kinetic);
       const double heat =
         2500. * standard_gravity * std::cos(incline) * std::tan(friction) * way;
-      EXPECT_NEAR(integrator.account().dissipated, heat, 1e-3 * heat);
+      // the block hops by 1e-5 m on its springs, and friction acts in pulses of a
+      // few steps of 200
+      EXPECT_NEAR(integrator.account().dissipated, heat, 5e-3 * heat);
     }
 
 
@@ -141,9 +143,12 @@ namespace NMM
 
       TimeIntegrator integrator(*bars.model, TimeScheme::energy_momentum());
       integrator.initialize(
-        bars.body.zero(), bars.body.velocity([&](const Point<2> &x) {
-          return Tensor<1, 2>({x[0] < L + 0.5 * opening ? V : -V, 0.});
-        }));
+        bars.body.zero(),
+        interpolate_velocity(bars.body.model->covers,
+                             bars.body.model->constraints,
+                             [&](const Point<2> &, const unsigned int block) {
+                               return Tensor<1, 2>({block == 0 ? V : -V, 0.});
+                             }));
       const double          energy = integrator.account().kinetic;
       StepControlParameters steps;
       steps.initial_step = 0.002;

@@ -256,17 +256,33 @@ DynamicAnalysis::run_incremental()
 {
   const TimeParameters &parameters = scene.parameters().time;
   const double          h          = parameters.initial_step;
+  const double          bound      = parameters.max_displacement;
   // A remainder that is rounding is no step.
   while (parameters.end_time - incremental_time > 1e-9 * h)
   {
     StepRecord record;
-    record.report.step = std::min(h, parameters.end_time - incremental_time);
     record.report.n_iterations = 1;
-    record.report.max_displacement =
-      incremental_dynamics->step(record.report.step);
-    ++incremental_step;
-    // A product has less rounding than a sum of steps.
-    incremental_time = std::min(incremental_step * h, parameters.end_time);
+    if (bound > 0.)
+    {
+      const double least =
+        parameters.min_step > 0. ? parameters.min_step : 1e-6 * h;
+      const IncrementalDynamics::Advance taken =
+        incremental_dynamics->advance(parameters.end_time, {h, least, bound});
+      record.report.step             = taken.step;
+      record.report.max_displacement = taken.largest_displacement;
+      record.n_cuts = record.n_lost_iterations = taken.n_cuts;
+      incremental_time                         = incremental_dynamics->time();
+      ++incremental_step;
+    }
+    else
+    {
+      record.report.step = std::min(h, parameters.end_time - incremental_time);
+      record.report.max_displacement =
+        incremental_dynamics->step(record.report.step);
+      ++incremental_step;
+      // A product has less rounding than a sum of steps.
+      incremental_time = std::min(incremental_step * h, parameters.end_time);
+    }
     after_step(record);
   }
 }

@@ -394,16 +394,23 @@ namespace NMM
           "Largest step",
           max_step,
           "choose it no shorter than 'Initial step', or 0");
-    if (kinematics == Kinematics::incremental)
-      for (const NumberEntry &entry : step_entries(given))
-        if (std::string(entry.key) != "Initial step")
-          expect_default("Time",
-                         entry.key,
-                         entry.value,
-                         0.,
-                         "incremental kinematics, whose steps are equal",
-                         "remove it, or set 'Model/Kinematics' to small or "
-                         "finite");
+    if (kinematics != Kinematics::incremental)
+      return;
+    // equal steps, or steps that a bound on displacements divides
+    for (const NumberEntry &entry : step_entries(given))
+    {
+      const std::string key = entry.key;
+      if (key == "Initial step" || key == "Largest displacement" ||
+          (key == "Smallest step" && max_displacement > 0.))
+        continue;
+      expect_default("Time",
+                     key,
+                     entry.value,
+                     0.,
+                     "incremental kinematics",
+                     "remove it, or set 'Model/Kinematics' to small or "
+                     "finite");
+    }
   }
 
 

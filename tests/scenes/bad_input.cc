@@ -310,7 +310,6 @@ namespace
                               "Time/Initial step=0.1",
                               "Time/Smallest step=0.1",
                               "Time/Largest step=0.1",
-                              "Time/Largest displacement=0.1",
                               "Time/Largest error=0.1",
                               "Time/Scheme=newmark",
                               "Time/Newmark beta=0.3",

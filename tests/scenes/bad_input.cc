@@ -310,6 +310,7 @@ namespace
                               "Time/Initial step=0.1",
                               "Time/Smallest step=0.1",
                               "Time/Largest step=0.1",
+                              "Time/Largest displacement=0.1",
                               "Time/Largest error=0.1",
                               "Time/Scheme=newmark",
                               "Time/Newmark beta=0.3",
@@ -390,7 +391,6 @@ namespace
       dynamic + std::vector<std::string>{"Model/Kinematics=incremental"};
     for (const char *entry : {"Time/Smallest step=0.1",
                               "Time/Largest step=0.1",
-                              "Time/Largest displacement=0.1",
                               "Time/Largest error=0.1",
                               "Time/Scheme=newmark",
                               "Time/Mass damping=0.1",

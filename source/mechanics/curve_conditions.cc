@@ -10,9 +10,9 @@ namespace NMM
       : curve_to_conditions(mesh.physical_mesh().curves().size())
     {
       for (unsigned int c = 0; c < problem.boundary_conditions.size(); ++c)
-        curve_to_conditions[mesh.physical_mesh().find_curve(
-                              problem.boundary_conditions[c].curve)]
-          .push_back(c);
+        for (const unsigned int curve : mesh.physical_mesh().find_curves(
+               problem.boundary_conditions[c].curve))
+          curve_to_conditions[curve].push_back(c);
 
       for (unsigned int e = 0; e < mesh.n_elements(); ++e)
         for (const ElementEdge &edge : mesh.edges(e))

@@ -23,11 +23,10 @@ namespace NMM
     , parameters(parameters_in)
     , communicator(surface.cover_system().communicator())
     , search(surface, parameters_in.body_ranks)
+    , laws((parameters.check(), surface), parameters)
+    , has_friction(parameters.has_friction())
   {
-    parameters.check();
     lobatto_rule(parameters.n_points, rule_points, rule_weights);
-    if (parameters.shear_stiffness == 0.)
-      parameters.shear_stiffness = parameters.normal_stiffness;
     if (parameters.reach == 0.)
     {
       double longest = 0.;
@@ -142,6 +141,7 @@ namespace NMM
           {
             point.stick_edge = stick.edge;
             point.stick_t    = stick.t;
+            point.is_bonded  = stick.is_bonded;
           }
         }
         if (multiplier_space != nullptr)
@@ -203,78 +203,81 @@ namespace NMM
 
   /// Pressure, shear and what they depend on.
   ContactTraction
-  Contact::Data::find_traction(ContactPoint                &point,
+  Contact::Data::find_traction(const unsigned int           q,
                                const ContactSurface::Place &slave,
-                               const ContactProjection     &projection,
-                               double                      &energy) const
+                               const ContactProjection     &projection)
   {
     // faces that touch are in contact, whatever rounding makes of their gap:
     // a block that lies on another one is held by it from the start
     constexpr double touching = 1e-9;
 
-    ContactTraction traction;
-    const double    eps = parameters.normal_stiffness;
-    point.pressure      = point.multiplier - eps * projection.gap;
-    if (point.pressure < -eps * touching * parameters.reach)
+    ContactTraction   traction;
+    ContactPoint     &point = points[q];
+    const ContactLaw &law   = *point_data[q].law;
+    const double      eps   = law.normal_stiffness;
+    point.pressure          = point.multiplier - eps * projection.gap;
+    if (!point.is_bonded && point.pressure < -eps * touching * reach)
     {
       point.pressure = point.shear = 0.;
       point.state                  = ContactState::open;
       return traction;
     }
-    point.pressure            = std::max(point.pressure, 0.);
+    if (!point.is_bonded)
+      point.pressure = std::max(point.pressure, 0.);
     traction.pressure         = point.weight * point.pressure;
     traction.normal_stiffness = point.weight * eps;
-    energy +=
+    report.energy +=
       point.weight *
       (point.pressure * point.pressure - point.multiplier * point.multiplier) /
       (2. * eps);
     const bool was_slipping = point.state == ContactState::slip;
     point.state             = ContactState::slip;
-    if (parameters.has_friction())
+    if (law.has_friction())
     {
-      find_shear(point, slave, projection, was_slipping, traction);
-      energy += point.weight * point.shear * point.shear /
-                (2. * parameters.shear_stiffness);
+      find_shear(q, slave, projection, was_slipping, traction);
+      report.energy +=
+        point.weight * point.shear * point.shear / (2. * law.shear_stiffness);
     }
     return traction;
   }
 
 
   void
-  Contact::Data::find_shear(ContactPoint                &point,
+  Contact::Data::find_shear(const unsigned int           q,
                             const ContactSurface::Place &slave,
                             const ContactProjection     &projection,
                             const bool                   was_slipping,
-                            ContactTraction             &traction) const
+                            ContactTraction             &traction)
   {
+    ContactPoint      &point   = points[q];
+    const ContactLaw  &law     = *point_data[q].law;
     const Tensor<1, 2> tangent = projection.place.a / projection.place.a.norm();
     const Tensor<1, 2> distance =
       slave.x - surface->place(point.stick_edge, point.stick_t).x;
-    const double trial = parameters.shear_stiffness * (distance * tangent);
+    const double trial = law.shear_stiffness * (distance * tangent);
     const double limit =
-      parameters.friction * point.pressure + parameters.cohesion;
+      law.friction * point.pressure + (law.is_bond ? 0. : law.cohesion);
     traction.normal_distance = distance * projection.normal;
     // a residual and its tangent are two assemblies at the same displacements
     if (trial != point.spring_shear)
       point.has_turned = std::abs(trial) > limit && was_slipping &&
                          trial * point.spring_shear < 0.;
     point.spring_shear = trial;
-    if (std::abs(trial) <= limit)
+    if (point.is_bonded || std::abs(trial) <= limit)
     {
       point.state              = ContactState::stick;
       point.shear              = trial;
-      traction.shear_stiffness = point.weight * parameters.shear_stiffness;
+      traction.shear_stiffness = point.weight * law.shear_stiffness;
     }
     else
     {
-      point.state = ContactState::slip;
-      point.shear = trial > 0. ? limit : -limit;
-      traction.shear_over_pressure =
-        trial > 0. ? parameters.friction : -parameters.friction;
+      point.state                  = ContactState::slip;
+      point.shear                  = trial > 0. ? limit : -limit;
+      traction.shear_over_pressure = trial > 0. ? law.friction : -law.friction;
       // it slides to and fro from one iteration to the next, because the tangent
       // of sliding does not hold it: it sticks
       if (point.has_turned)
-        traction.shear_stiffness = point.weight * parameters.shear_stiffness;
+        traction.shear_stiffness = point.weight * law.shear_stiffness;
     }
     traction.shear = point.weight * point.shear;
   }
@@ -329,9 +332,13 @@ namespace NMM
     {
       // faces that are not parallel touch over their projection only
       point.weight *= -(projection.normal * slave.normal());
-      fixed.has_angle = true;
+      fixed.has_angle           = true;
+      constexpr double touching = 1e-6;
+      if (is_virgin && std::abs(projection.gap) <= touching * reach)
+        point.is_bonded = laws(point.edge, projection.master).is_bond;
     }
-    if (parameters.has_friction() && point.stick_edge == invalid_index)
+    fixed.law = &laws(point.edge, projection.master);
+    if (has_friction && point.stick_edge == invalid_index)
     {
       point.stick_edge = projection.master;
       point.stick_t    = projection.t;
@@ -354,8 +361,7 @@ namespace NMM
       report.n_changes += before != point.state;
       return;
     }
-    const ContactTraction traction =
-      find_traction(point, slave, projection, report.energy);
+    const ContactTraction traction = find_traction(q, slave, projection);
     report.n_changes += before != point.state;
     if (point.state != ContactState::open)
       hand_over(q, projection, traction, with_tangent);
@@ -371,12 +377,13 @@ namespace NMM
     const ContactPoint &point = points[q];
     const PointData    &fixed = point_data[q];
     ++(point.state == ContactState::stick ? report.n_stick : report.n_slip);
+    report.n_bonded += point.is_bonded;
     report.largest_penetration =
       std::max(report.largest_penetration, -projection.gap);
 
     ContactSurface::Weights master, stick;
     surface->weights(projection.master, projection.t, master);
-    const bool              with_friction = parameters.has_friction();
+    const bool              with_friction = law_of(point)->has_friction();
     const ContactKinematics kinematics(
       fixed.weights, master, projection.place, projection.gap, with_friction);
     for (unsigned int c = 0; c < 2; ++c)
@@ -418,6 +425,7 @@ namespace NMM
                                 &report.n_open,
                                 &report.n_stick,
                                 &report.n_slip,
+                                &report.n_bonded,
                                 &report.n_changes})
       *count = Parallel::sum(*count, communicator);
     report.largest_penetration =
@@ -473,7 +481,7 @@ namespace NMM
   bool
   Contact::tangent_is_symmetric() const
   {
-    return !data->parameters.has_friction();
+    return !data->has_friction;
   }
 
 
@@ -500,8 +508,9 @@ namespace NMM
     const MultiplierSpace &space  = *d.multiplier_space;
     const unsigned int     n      = space.size();
     const unsigned int     n_rule = d.rule_points.size();
-    // integrals of penetration times function, and of functions
-    std::vector<double> sums(2 * n, 0.);
+    // integrals of spring pressure times function, of functions, and of stiffness
+    // times function
+    std::vector<double> sums(3 * n, 0.);
     for (unsigned int begin = 0; begin < d.points.size(); begin += n_rule)
     {
       const double length =
@@ -516,10 +525,14 @@ namespace NMM
         const auto  &f      = space[point.edge];
         const double share  = f.share(point.s);
         const double weight = d.rule_weights[q] * length;
-        sums[f.first] -= weight * (1. - share) * point.gap;
-        sums[f.second] -= weight * share * point.gap;
-        sums[n + f.first] += weight * (1. - share);
-        sums[n + f.second] += weight * share;
+        const double eps    = d.point_data[begin + q].law->normal_stiffness;
+        const auto   add    = [&](const unsigned int i, const double value) {
+          sums[i] -= eps * value * point.gap;
+          sums[n + i] += value;
+          sums[2 * n + i] += eps * value;
+        };
+        add(f.first, weight * (1. - share));
+        add(f.second, weight * share);
       }
     }
     Parallel::sum(sums, d.communicator, sums);
@@ -529,31 +542,110 @@ namespace NMM
     {
       double value = 0.;
       if (sums[n + i] > 0.)
-        value = std::max(0.,
-                         d.multipliers[i] + d.parameters.normal_stiffness *
-                                              sums[i] / sums[n + i]);
-      change           = std::max(change, std::abs(value - d.multipliers[i]));
-      d.multipliers[i] = value;
+        value = std::max(0., d.multipliers[i] + sums[i] / sums[n + i]);
+      const double difference = std::abs(value - d.multipliers[i]);
+      const double eps        = sums[n + i] > 0. ? sums[2 * n + i] / sums[n + i]
+                                                 : d.parameters.normal_stiffness;
+      change                  = std::max(change, difference / eps);
+      d.multipliers[i]        = value;
     }
     for (ContactPoint &point : d.points)
       point.multiplier = space.value(d.multipliers, point.edge, point.s);
-    return change / d.parameters.normal_stiffness;
+    return change;
+  }
+
+
+  double
+  Contact::Data::bond_ratio(const unsigned int q) const
+  {
+    const ContactPoint &point = points[q];
+    const ContactLaw   *law   = point_data[q].law;
+    if (!point.is_bonded || law == nullptr)
+      return -1.;
+    // without strength any stress beyond rounding is too much
+    const auto ratio = [&](const double stress, const double strength) {
+      const double least = 1e-9 * reach * law->normal_stiffness;
+      return std::max(0., stress) / std::max(strength, least);
+    };
+    return std::max(ratio(-point.pressure, law->tensile_strength),
+                    ratio(std::abs(point.shear),
+                          law->cohesion +
+                            law->friction * std::max(0., point.pressure)));
+  }
+
+
+  unsigned int
+  Contact::break_bonds(const double share)
+  {
+    Data  &d       = *data;
+    double largest = 0.;
+    for (unsigned int q = 0; q < d.points.size(); ++q)
+      largest = std::max(largest, d.bond_ratio(q));
+    largest            = Parallel::max(largest, d.communicator);
+    unsigned int count = 0;
+    if (largest <= 1.)
+      return 0;
+    for (unsigned int q = 0; q < d.points.size(); ++q)
+    {
+      const double ratio = d.bond_ratio(q);
+      if (ratio <= 1. || ratio < share * largest)
+        continue;
+      ContactPoint     &point = d.points[q];
+      const ContactLaw &law   = *d.point_data[q].law;
+      const auto energy = [&](const double stress, const double stiffness) {
+        return point.weight * stress * stress / (2. * stiffness);
+      };
+      if (point.pressure < 0.)
+        d.broken_energy += energy(point.pressure, law.normal_stiffness);
+      const double limit = law.friction * std::max(0., point.pressure);
+      const double shear =
+        std::copysign(std::min(limit, std::abs(point.shear)), point.shear);
+      d.broken_energy += energy(point.shear, law.shear_stiffness) -
+                         energy(shear, law.shear_stiffness);
+      // it slides from now on: the place where it sticks is dragged along
+      const double length =
+        d.surface->place(point.stick_edge, point.stick_t).a.norm();
+      point.stick_t += (point.shear - shear) / (law.shear_stiffness * length);
+      point.shear     = shear;
+      point.is_bonded = false;
+      ++count;
+      // points are made anew from these places
+      const StickPlace place{point.s, point.stick_edge, point.stick_t, false};
+      auto            &places = d.stick_places[point.edge];
+      const auto       at =
+        std::lower_bound(places.begin(),
+                         places.end(),
+                         place,
+                         [](const StickPlace &a, const StickPlace &b) {
+                           return a.s < b.s;
+                         });
+      if (at != places.end() && at->s == place.s)
+        *at = place;
+      else
+        places.insert(at, place);
+    }
+    return Parallel::sum(count, d.communicator);
   }
 
 
   double
   Contact::accept()
   {
-    Data  &d          = *data;
-    double dissipated = 0.;
+    Data &d = *data;
     d.stick_places.clear();
-    if (!d.parameters.has_friction())
+    d.is_virgin = false;
+    if (!d.has_friction)
       return 0.;
-    const double eps = d.parameters.shear_stiffness;
+    (void)break_bonds();
+    double dissipated = d.broken_energy;
+    d.broken_energy   = 0.;
     for (unsigned int q = 0; q < d.points.size(); ++q)
     {
       ContactPoint          &point = d.points[q];
       const Data::PointData &fixed = d.point_data[q];
+      if (fixed.law == nullptr || !fixed.law->has_friction())
+        continue;
+      const double eps = fixed.law->shear_stiffness;
       if (d.is_between)
         dissipated +=
           fixed.shear_work - point.weight *
@@ -562,9 +654,9 @@ namespace NMM
                                (2. * eps);
       if (point.master == invalid_index)
         continue;
-      StickPlace place{point.s, point.master, point.t};
+      StickPlace place{point.s, point.master, point.t, point.is_bonded};
       if (point.state == ContactState::stick)
-        place = {point.s, point.stick_edge, point.stick_t};
+        place = {point.s, point.stick_edge, point.stick_t, point.is_bonded};
       else if (point.state == ContactState::slip)
       {
         const Tensor<1, 2> a = d.surface->place(point.master, point.t).a;

@@ -22,6 +22,8 @@ namespace NMM
       /// Position in ContactSearch::slaves().
       unsigned int            slave;
       ContactSurface::Weights weights;
+      /// That of the last master.
+      const ContactLaw *law = nullptr;
       /// See ContactSearch::end_slack().
       double slack = 0.;
       /// The weight knows the angle between both faces, that of the first time
@@ -60,20 +62,23 @@ namespace NMM
     /// Shear from the place where it sticks, not more than the pressure allows;
     /// decides between stick and slip.
     void
-    find_shear(ContactPoint                      &point,
+    find_shear(unsigned int                       q,
                const ContactSurface::Place       &slave,
                const internal::ContactProjection &projection,
                bool                               was_slipping,
-               internal::ContactTraction         &traction) const;
+               internal::ContactTraction         &traction);
 
     void
     add_point(unsigned int q, bool with_tangent);
 
     internal::ContactTraction
-    find_traction(ContactPoint                      &point,
+    find_traction(unsigned int                       q,
                   const ContactSurface::Place       &slave,
-                  const internal::ContactProjection &projection,
-                  double                            &energy) const;
+                  const internal::ContactProjection &projection);
+
+    /// Stress over strength of a bond; negative if there is none.
+    double
+    bond_ratio(unsigned int q) const;
     /// @}
 
     void
@@ -84,6 +89,8 @@ namespace NMM
     ContactParameters                        parameters;
     MPI_Comm                                 communicator;
     internal::ContactSearch                  search;
+    internal::ContactLaws                    laws;
+    bool                                     has_friction;
     std::vector<double>                      rule_points, rule_weights;
 
     std::vector<double>                    nodal;
@@ -98,6 +105,10 @@ namespace NMM
     std::unique_ptr<internal::MultiplierSpace> multiplier_space;
     std::vector<double>                        multipliers;
     internal::StickPlaces                      stick_places;
+    /// No state has been accepted yet: faces that touch may be bonded.
+    bool is_virgin = true;
+    /// By bonds that broke since the last accepted state [J/m].
+    double broken_energy = 0.;
 
     internal::ContactLocalSystem local;
     Matrix                       matrix;

@@ -159,43 +159,130 @@ namespace NMM
   } // namespace internal
 
 
+  namespace
+  {
+    void
+    check_value(const bool         is_good,
+                const std::string &name,
+                const double       value,
+                const std::string &where,
+                const std::string &remedy)
+    {
+      AssertThrow(is_good,
+                  InputError(name + " is " + std::to_string(value),
+                             where,
+                             remedy));
+    }
+  } // namespace
+
+
+  void
+  ContactLaw::check(const std::string &where) const
+  {
+    check_value(normal_stiffness > 0. && std::isfinite(normal_stiffness),
+                "the normal spring's stiffness",
+                normal_stiffness,
+                where,
+                "give a positive one, such as ten times Young's modulus over "
+                "the size of a cell");
+    check_value(shear_stiffness >= 0. && std::isfinite(shear_stiffness),
+                "the shear spring's stiffness",
+                shear_stiffness,
+                where,
+                "give a positive one, or 0 for that of the normal spring");
+    check_value(friction >= 0. && std::isfinite(friction),
+                "the coefficient of friction",
+                friction,
+                where,
+                "give the tangent of an angle in [0, 90) degrees");
+    check_value(cohesion >= 0. && std::isfinite(cohesion),
+                "the cohesion",
+                cohesion,
+                where,
+                "give a number that is at least 0");
+    check_value(tensile_strength >= 0. && std::isfinite(tensile_strength),
+                "the tensile strength",
+                tensile_strength,
+                where,
+                "give a number that is at least 0");
+    check_value(is_bond || tensile_strength == 0.,
+                "the tensile strength",
+                tensile_strength,
+                where,
+                "only bonded joints bear tension: say that it is a bond");
+  }
+
+
   void
   ContactParameters::check() const
   {
-    const auto check = [](const bool         is_good,
-                          const std::string &name,
-                          const double       value,
-                          const std::string &remedy) {
-      AssertThrow(is_good,
-                  InputError(name + " is " + std::to_string(value),
-                             "the contact parameters",
-                             remedy));
-    };
-    check(normal_stiffness > 0. && std::isfinite(normal_stiffness),
-          "the normal spring's stiffness",
-          normal_stiffness,
-          "give a positive one, such as ten times Young's modulus over the "
-          "size of a cell");
-    check(shear_stiffness >= 0. && std::isfinite(shear_stiffness),
-          "the shear spring's stiffness",
-          shear_stiffness,
-          "give a positive one, or 0 for that of the normal spring");
-    check(friction >= 0. && std::isfinite(friction),
-          "the coefficient of friction",
-          friction,
-          "give the tangent of an angle in [0, 90) degrees");
-    check(cohesion >= 0. && std::isfinite(cohesion),
-          "the cohesion",
-          cohesion,
-          "give a number that is at least 0");
-    check(penetration_tolerance >= 0.,
-          "the penetration that is allowed",
-          penetration_tolerance,
-          "give a length, or 0 for the penalty method");
-    check(reach >= 0., "the reach", reach, "give a length, or 0");
-    check(n_points >= 2 && n_points <= 20,
-          "the number of points",
-          n_points,
-          "give 2 to 20");
+    const std::string where = "the contact parameters";
+    ContactLaw::check(where);
+    for (const ContactPair &pair : pairs)
+      pair.law.check(where + " of \"" + pair.first + "\" and \"" + pair.second +
+                     "\"");
+    check_value(penetration_tolerance >= 0.,
+                "the penetration that is allowed",
+                penetration_tolerance,
+                where,
+                "give a length, or 0 for the penalty method");
+    check_value(reach >= 0., "the reach", reach, where, "give a length, or 0");
+    check_value(n_points >= 2 && n_points <= 20,
+                "the number of points",
+                n_points,
+                where,
+                "give 2 to 20");
   }
+
+
+  bool
+  ContactParameters::has_friction() const
+  {
+    bool has = ContactLaw::has_friction();
+    for (const ContactPair &pair : pairs)
+      has = has || pair.law.has_friction();
+    return has;
+  }
+
+
+  namespace internal
+  {
+    ContactLaws::ContactLaws(const ContactSurface    &surface,
+                             const ContactParameters &parameters)
+    {
+      laws.push_back(parameters);
+      for (const ContactPair &pair : parameters.pairs)
+        laws.push_back(pair.law);
+      for (ContactLaw &law : laws)
+        if (law.shear_stiffness == 0.)
+          law.shear_stiffness = law.normal_stiffness;
+      if (laws.size() == 1)
+        return;
+
+      std::vector<std::string> names;
+      for (unsigned int e = 0; e < surface.edges().size(); ++e)
+      {
+        const std::string name  = surface.name(e);
+        const auto        found = std::find(names.begin(), names.end(), name);
+        edge_names.push_back(found - names.begin());
+        if (found == names.end())
+          names.push_back(name);
+      }
+      n_names = names.size();
+      law_of_names.assign(n_names * n_names, 0);
+      const auto fits = [](const std::string &pattern,
+                           const std::string &name) {
+        return pattern.empty() || pattern == name;
+      };
+      for (unsigned int a = 0; a < n_names; ++a)
+        for (unsigned int b = 0; b < n_names; ++b)
+          for (unsigned int i = parameters.pairs.size(); i > 0; --i)
+          {
+            const ContactPair &pair = parameters.pairs[i - 1];
+            if ((fits(pair.first, names[a]) && fits(pair.second, names[b])) ||
+                (fits(pair.first, names[b]) && fits(pair.second, names[a])))
+              law_of_names[a * n_names + b] = i;
+          }
+    }
+  } // namespace internal
 } // namespace NMM

@@ -76,12 +76,36 @@ namespace NMM
     };
 
 
+    /// The law of each pair of edges, shear stiffnesses resolved.
+    class ContactLaws
+    {
+    public:
+      ContactLaws(const ContactSurface    &surface,
+                  const ContactParameters &parameters);
+
+      const ContactLaw &
+      operator()(const unsigned int slave, const unsigned int master) const
+      {
+        return laws.size() == 1
+                 ? laws[0]
+                 : laws[law_of_names[edge_names[slave] * n_names +
+                                     edge_names[master]]];
+      }
+
+    private:
+      std::vector<ContactLaw>   laws;
+      std::vector<unsigned int> edge_names, law_of_names;
+      unsigned int              n_names = 0;
+    };
+
+
     /// Where the points of a slave edge stick, ascending in s.
     struct StickPlace
     {
       double       s;
       unsigned int edge;
       double       t;
+      bool         is_bonded = false;
     };
 
     using StickPlaces =

@@ -168,6 +168,16 @@ namespace NMM
     step               = ContactStep();
     step.load_factor   = factor;
     double penetration = 0.;
+    // joints break where they are stressed most, and what is left finds a new
+    // equilibrium before others do
+    constexpr double       broken_at_once = 0.9;
+    constexpr unsigned int max_breaks     = 1000;
+    unsigned int           n_breaks       = 0;
+    const auto             breaks         = [&]() {
+      const bool is_broken = contact->break_bonds(broken_at_once) > 0;
+      n_breaks += is_broken;
+      return is_broken && n_breaks <= max_breaks;
+    };
     for (unsigned int i = 0; i < n; ++i)
     {
       contact->detect(u);
@@ -189,14 +199,22 @@ namespace NMM
                    100. * parameters.residual_tolerance;
       if (!is_augmented)
       {
-        if (is_settled || i + 1 == n)
+        if (!is_settled && i + 1 < n)
+          continue;
+        if (!breaks())
           return true;
+        i = 0;
         continue;
       }
       penetration = contact->augment();
-      if (penetration <= tolerance)
+      if (penetration > tolerance)
+      {
+        ++step.n_augmentations;
+        continue;
+      }
+      if (!breaks())
         return true;
-      ++step.n_augmentations;
+      i = 0;
     }
     std::ostringstream text;
     text << "a penetration of " << penetration << " m is left after "

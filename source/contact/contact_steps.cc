@@ -21,12 +21,13 @@ namespace NMM
     /// over that of the gap, and the derivative by g_1.
     void
     mean_pressure(const double eps,
+                  const bool   bears_tension,
                   const double g_0,
                   const double g_1,
                   double      &pressure,
                   double      &derivative)
     {
-      if (g_0 <= 0. && g_1 <= 0.)
+      if (bears_tension || (g_0 <= 0. && g_1 <= 0.))
       {
         pressure   = -0.5 * eps * (g_0 + g_1);
         derivative = -0.5 * eps;
@@ -84,12 +85,13 @@ namespace NMM
     ContactTraction traction;
     double          derivative = 0.;
     if (projection.master != invalid_index)
-      mean_pressure(parameters.normal_stiffness,
+      mean_pressure(fixed.law->normal_stiffness,
+                    point.is_bonded,
                     fixed.gap_begin,
                     fixed.gap_end,
                     point.pressure,
                     derivative);
-    if (point.pressure > 0.)
+    if (point.pressure > 0. || point.is_bonded)
     {
       ContactSurface::Weights master;
       surface->weights(projection.master, projection.t, master);
@@ -119,10 +121,10 @@ namespace NMM
       point.state               = ContactState::slip;
       traction.pressure         = point.weight * point.pressure;
       traction.normal_stiffness = -2. * point.weight * derivative;
-      if (parameters.has_friction())
+      if (fixed.law->has_friction())
       {
         find_shear(
-          point, slave, projection, before == ContactState::slip, traction);
+          q, slave, projection, before == ContactState::slip, traction);
         fixed.shear_work = traction.shear * (change * projection.place.a) /
                            projection.place.a.norm();
       }
@@ -242,10 +244,14 @@ namespace NMM
     std::vector<double> mine;
     for (const auto &[edge, places] : d.stick_places)
       for (const StickPlace &place : places)
-        for (const double x :
-             {double(edge), place.s, double(place.edge), place.t})
+        for (const double x : {double(edge),
+                               place.s,
+                               double(place.edge),
+                               place.t,
+                               double(place.is_bonded)})
           mine.push_back(x);
-    std::vector<double> result{double(d.multipliers.size())};
+    std::vector<double> result{double(d.is_virgin),
+                               double(d.multipliers.size())};
     result.insert(result.end(), d.multipliers.begin(), d.multipliers.end());
     for (const auto &part : Parallel::all_gather(d.communicator, mine))
       result.insert(result.end(), part.begin(), part.end());
@@ -260,18 +266,20 @@ namespace NMM
     d.stick_places.clear();
     if (history.empty())
       return;
-    const auto n = static_cast<unsigned int>(history[0]);
+    d.is_virgin  = history[0] != 0.;
+    const auto n = static_cast<unsigned int>(history[1]);
     if (n == d.multipliers.size())
-      std::copy_n(history.begin() + 1, n, d.multipliers.begin());
+      std::copy_n(history.begin() + 2, n, d.multipliers.begin());
     const auto [first, last] = d.surface->locally_owned_edges();
-    for (std::size_t i = n + 1; i + 3 < history.size(); i += 4)
+    for (std::size_t i = n + 2; i + 4 < history.size(); i += 5)
     {
       const auto edge = static_cast<unsigned int>(history[i]);
       if (edge >= first && edge < last)
         d.stick_places[edge].push_back(
           {history[i + 1],
            static_cast<unsigned int>(history[i + 2]),
-           history[i + 3]});
+           history[i + 3],
+           history[i + 4] != 0.});
     }
     for (auto &[edge, places] : d.stick_places)
       std::sort(places.begin(),

@@ -14,7 +14,8 @@
 
 namespace NMM
 {
-  struct ContactParameters
+  /// How two faces act on each other.
+  struct ContactLaw
   {
     /// Penalty eps_n: pressure over penetration [Pa/m].
     double normal_stiffness = std::numeric_limits<double>::signaling_NaN();
@@ -24,6 +25,41 @@ namespace NMM
     double friction = 0.;
     /// Shear strength without pressure [Pa], while in contact.
     double cohesion = 0.;
+    /**
+     * A joint whose faces are bonded where they touch when the computation begins.
+     * The bond bears tension up to @p tensile_strength [Pa] and shear up to
+     * p tan phi + c; where one of them is exceeded it breaks, and from then on there
+     * is neither tension nor cohesion.
+     */
+    bool   is_bond          = false;
+    double tensile_strength = 0.;
+
+    /// @throws InputError naming the value and @p where it is.
+    void
+    check(const std::string &where) const;
+
+    bool
+    has_friction() const
+    {
+      return friction > 0. || cohesion > 0. || is_bond;
+    }
+  };
+
+
+  /// The law of two faces, which may be the same one.
+  struct ContactPair
+  {
+    /// Names of curves or obstacles; empty: any.
+    std::string first, second;
+    ContactLaw  law;
+  };
+
+
+  /// The law it is itself holds for faces that no pair names.
+  struct ContactParameters : public ContactLaw
+  {
+    /// The first one that fits holds.
+    std::vector<ContactPair> pairs;
     /// Augmented Lagrangian: weighted penetration that is allowed, see Contact
     /// [m]; 0: the penalty method.
     double       penetration_tolerance = 0.;
@@ -41,11 +77,9 @@ namespace NMM
     void
     check() const;
 
+    /// Does any law have friction?
     bool
-    has_friction() const
-    {
-      return friction > 0. || cohesion > 0.;
-    }
+    has_friction() const;
   };
 
 
@@ -82,6 +116,8 @@ namespace NMM
     double       stick_t    = 0.;
     /// Multiplier of the augmented Lagrangian [Pa].
     double multiplier = 0.;
+    /// Of a joint whose strength has not been exceeded.
+    bool is_bonded = false;
     /// Current position and normal of the master.
     dealii::Point<2>     x;
     dealii::Tensor<1, 2> normal;
@@ -94,6 +130,8 @@ namespace NMM
     unsigned int n_points = 0, n_open = 0, n_stick = 0, n_slip = 0;
     /// States that differ from those of the assembly before.
     unsigned int n_changes = 0;
+    /// Points that stick because their bond holds.
+    unsigned int n_bonded = 0;
     /// [m]
     double largest_penetration = 0.;
     /// Stored in springs [J/m].
@@ -198,9 +236,17 @@ namespace NMM
     augment();
 
     /**
+     * Break bonds whose strength the last assembly exceeds: those whose stress over
+     * strength is at least @p share of the largest such ratio. What their springs held
+     * counts as dissipated. Returns the number of points of all ranks.
+     */
+    unsigned int
+    break_bonds(double share = 0.);
+
+    /**
      * The last assembly was that of an accepted state: points stick from now
-     * on where they are. Returns the work that friction has dissipated since the last
-     * accepted state [J/m].
+     * on where they are. Returns the work that friction and breaking bonds have
+     * dissipated since the last accepted state [J/m].
      */
     double
     accept();

@@ -234,7 +234,7 @@ namespace NMM
     point.state             = ContactState::slip;
     if (law.has_friction())
     {
-      find_shear(q, slave, projection, was_slipping, traction);
+      find_shear(q, slave, projection, was_slipping, 0., traction);
       report.energy +=
         point.weight * point.shear * point.shear / (2. * law.shear_stiffness);
     }
@@ -247,6 +247,7 @@ namespace NMM
                             const ContactSurface::Place &slave,
                             const ContactProjection     &projection,
                             const bool                   was_slipping,
+                            const double                 slip_rate,
                             ContactTraction             &traction)
   {
     ContactPoint      &point   = points[q];
@@ -254,9 +255,14 @@ namespace NMM
     const Tensor<1, 2> tangent = projection.place.a / projection.place.a.norm();
     const Tensor<1, 2> distance =
       slave.x - surface->place(point.stick_edge, point.stick_t).x;
-    const double trial = law.shear_stiffness * (distance * tangent);
+    const double trial = law.shear_stiffness * (distance * tangent) +
+                         law.shear_damping * slip_rate;
     const double limit =
       law.friction * point.pressure + (law.is_bond ? 0. : law.cohesion);
+    // displacements are those in the middle of the step
+    const double stiffness =
+      point.weight *
+      (law.shear_stiffness + (is_between ? 2. * law.shear_damping / step : 0.));
     traction.normal_distance = distance * projection.normal;
     // a residual and its tangent are two assemblies at the same displacements
     if (trial != point.spring_shear)
@@ -267,7 +273,7 @@ namespace NMM
     {
       point.state              = ContactState::stick;
       point.shear              = trial;
-      traction.shear_stiffness = point.weight * law.shear_stiffness;
+      traction.shear_stiffness = stiffness;
     }
     else
     {
@@ -277,7 +283,7 @@ namespace NMM
       // it slides to and fro from one iteration to the next, because the tangent
       // of sliding does not hold it: it sticks
       if (point.has_turned)
-        traction.shear_stiffness = point.weight * law.shear_stiffness;
+        traction.shear_stiffness = stiffness;
     }
     traction.shear = point.weight * point.shear;
   }
@@ -383,7 +389,7 @@ namespace NMM
 
     ContactSurface::Weights master, stick;
     surface->weights(projection.master, projection.t, master);
-    const bool              with_friction = law_of(point)->has_friction();
+    const bool              with_friction = fixed.law->has_friction();
     const ContactKinematics kinematics(
       fixed.weights, master, projection.place, projection.gap, with_friction);
     for (unsigned int c = 0; c < 2; ++c)
@@ -633,12 +639,16 @@ namespace NMM
   {
     Data &d = *data;
     d.stick_places.clear();
-    d.is_virgin = false;
+    d.is_virgin       = false;
+    double dissipated = 0.;
+    if (d.is_between)
+      for (const Data::PointData &fixed : d.point_data)
+        dissipated += fixed.normal_loss;
     if (!d.has_friction)
-      return 0.;
+      return Parallel::sum(dissipated, d.communicator);
     (void)break_bonds();
-    double dissipated = d.broken_energy;
-    d.broken_energy   = 0.;
+    dissipated += d.broken_energy;
+    d.broken_energy = 0.;
     for (unsigned int q = 0; q < d.points.size(); ++q)
     {
       ContactPoint          &point = d.points[q];

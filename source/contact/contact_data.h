@@ -29,9 +29,10 @@ namespace NMM
       /// The weight knows the angle between both faces, that of the first time
       /// there is a master since detect().
       bool has_angle = false;
-      /// Of a time step: gaps [m] at its ends, shear at its start [Pa], and what the
-      /// shear has done [J/m].
-      double gap_begin = 0., gap_end = 0., shear_begin = 0., shear_work = 0.;
+      /// Of a time step: gaps [m] at its ends, shear at its start [Pa], what the
+      /// shear has done and what the dashpot has taken [J/m].
+      double gap_begin = 0., gap_end = 0., shear_begin = 0., shear_work = 0.,
+             normal_loss = 0.;
     };
 
     void
@@ -61,11 +62,13 @@ namespace NMM
 
     /// Shear from the place where it sticks, not more than the pressure allows;
     /// decides between stick and slip.
+    /// @p slip_rate: of the slave along the master [m/s].
     void
     find_shear(unsigned int                       q,
                const ContactSurface::Place       &slave,
                const internal::ContactProjection &projection,
                bool                               was_slipping,
+               double                             slip_rate,
                internal::ContactTraction         &traction);
 
     void
@@ -120,7 +123,7 @@ namespace NMM
     /// Of a time step: displacements and obstacles at its ends.
     std::vector<double>               nodal_begin, nodal_end;
     std::vector<dealii::Tensor<1, 2>> obstacle_changes;
-    double                            time = 0., time_begin = 0.;
+    double                            time = 0., time_begin = 0., step = 0.;
     bool                              is_between = false;
   };
 } // namespace NMM

@@ -190,6 +190,12 @@ namespace NMM
                 shear_stiffness,
                 where,
                 "give a positive one, or 0 for that of the normal spring");
+    for (const double damping : {normal_damping, shear_damping})
+      check_value(damping >= 0. && std::isfinite(damping),
+                  "the damping",
+                  damping,
+                  where,
+                  "give a number that is at least 0");
     check_value(friction >= 0. && std::isfinite(friction),
                 "the coefficient of friction",
                 friction,

@@ -78,7 +78,7 @@ namespace NMM
     const ContactState          before = point.state;
     const ContactSurface::Place slave  = surface->place(point.edge, point.s);
     const ContactProjection     projection = project(q, slave);
-    fixed.shear_work                       = 0.;
+    fixed.shear_work = fixed.normal_loss = 0.;
     point.pressure = point.shear = 0.;
     point.state                  = ContactState::open;
 
@@ -91,7 +91,17 @@ namespace NMM
                     fixed.gap_end,
                     point.pressure,
                     derivative);
-    if (point.pressure > 0. || point.is_bonded)
+    const double spring_pressure = point.pressure;
+    if (point.pressure > 0. && fixed.law->normal_damping > 0.)
+    {
+      const double c = fixed.law->normal_damping / step;
+      point.pressure +=
+        c * (std::max(0., -fixed.gap_end) - std::max(0., -fixed.gap_begin));
+      derivative -= fixed.gap_end < 0. ? c : 0.;
+      if (point.pressure <= 0.)
+        point.pressure = derivative = 0.;
+    }
+    if (spring_pressure > 0. || point.is_bonded)
     {
       ContactSurface::Weights master;
       surface->weights(projection.master, projection.t, master);
@@ -113,20 +123,27 @@ namespace NMM
           obstacle_changes[surface->edges()[projection.master].body -
                            (surface->n_bodies() - obstacle_changes.size())];
       // the gap of curved or turning faces changes not quite by this
-      const double delta = change * projection.normal;
-      const double ratio = (fixed.gap_end - fixed.gap_begin) / delta;
-      if (ratio > 0.5 && ratio < 2.)
-        point.pressure *= ratio;
+      const double delta  = change * projection.normal;
+      const double ratio  = (fixed.gap_end - fixed.gap_begin) / delta;
+      const double factor = ratio > 0.5 && ratio < 2. ? ratio : 1.;
+      fixed.normal_loss =
+        point.weight * factor * (spring_pressure - point.pressure) * delta;
+      point.pressure *= factor;
 
       point.state               = ContactState::slip;
       traction.pressure         = point.weight * point.pressure;
       traction.normal_stiffness = -2. * point.weight * derivative;
       if (fixed.law->has_friction())
       {
-        find_shear(
-          q, slave, projection, before == ContactState::slip, traction);
-        fixed.shear_work = traction.shear * (change * projection.place.a) /
-                           projection.place.a.norm();
+        const double slip =
+          (change * projection.place.a) / projection.place.a.norm();
+        find_shear(q,
+                   slave,
+                   projection,
+                   before == ContactState::slip,
+                   slip / step,
+                   traction);
+        fixed.shear_work = traction.shear * slip;
       }
     }
     report.n_changes += before != point.state;
@@ -152,6 +169,7 @@ namespace NMM
     d.surface->set_time(time);
     for (unsigned int i = 0; i < n_obstacles; ++i)
       d.obstacle_changes[i] = d.surface->obstacle_displacement(i);
+    d.step = time - d.time_begin;
     read_nodal_values(d.surface->cover_system(), end, d.nodal);
     for (unsigned int q = 0; q < d.points.size(); ++q)
     {

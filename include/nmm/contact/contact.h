@@ -21,6 +21,13 @@ namespace NMM
     double normal_stiffness = std::numeric_limits<double>::signaling_NaN();
     /// eps_t: shear over elastic slip [Pa/m]; 0: that of the normal direction.
     double shear_stiffness = 0.;
+    /**
+     * Dashpots in time steps that conserve energy: pressure over the rate of
+     * penetration and shear over that of the elastic slip [Pa s/m]. Never tension.
+     * A share xi of the critical one for faces with the mass m per area is
+     * @f$ 2\xi\sqrt{\epsilon m} @f$. Other steps do without.
+     */
+    double normal_damping = 0., shear_damping = 0.;
     /// Tangent of the friction angle [-]; 0 without cohesion: no friction.
     double friction = 0.;
     /// Shear strength without pressure [Pa], while in contact.
@@ -265,8 +272,10 @@ namespace NMM
      *     V = \tfrac{\epsilon_n}{2}\langle -g\rangle_+^2,\quad
      *     \delta = n\cdot(\Delta x_s - \Delta x_m) @f]
      * does the work by which the energy of the springs changes (Laursen & Chawla, Int.
-     * J. Numer. Methods Eng. 40 (1997) 863; Gonzalez 2000). tangent() is the derivative
-     * by the mean displacement at given begin; multipliers are not used.
+     * J. Numer. Methods Eng. 40 (1997) 863; Gonzalez 2000). Dashpots add
+     * @f[ c\,(\langle -g_1\rangle - \langle -g_0\rangle)/h, @f] but not so much
+     * that there would be tension: what they do is always a loss. tangent() is the
+     * derivative by the mean displacement at given begin; multipliers are not used.
      */
     void
     assemble_between(const Vector &end, double time, bool with_tangent);

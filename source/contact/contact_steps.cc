@@ -174,16 +174,20 @@ namespace NMM
       d.point_data[q].gap_begin    = d.points[q].gap;
       d.point_data[q].master_begin = d.points[q].master;
       d.point_data[q].shear_begin  = d.points[q].shear;
-      // what bears no shear sticks where it is now, or will be when it touches
+      // what slides, or bears no shear, sticks where its shear says: places that
+      // are interpolated between those of other points may be far away
       ContactPoint &point = d.points[q];
-      if (d.has_friction && point.master != invalid_index &&
-          (point.shear == 0. || point.state == ContactState::open) &&
-          !point.is_bonded)
-      {
-        point.stick_edge            = point.master;
-        point.stick_t               = point.t;
-        d.point_data[q].shear_begin = 0.;
-      }
+      if (!d.has_friction || point.master == invalid_index ||
+          point.state == ContactState::stick || point.is_bonded)
+        continue;
+      if (point.state == ContactState::open)
+        point.shear = d.point_data[q].shear_begin = 0.;
+      const double length = d.surface->place(point.master, point.t).a.norm();
+      point.stick_edge    = point.master;
+      point.stick_t       = point.t;
+      if (point.shear != 0.)
+        point.stick_t -=
+          point.shear / (d.point_data[q].law->shear_stiffness * length);
     }
   }
 

@@ -195,10 +195,33 @@ namespace NMM
         }
         surface->weights(point.edge, point.s, fixed.weights);
         restore(point, fixed, edge);
+        if (fixed.corner > Kind::along && point.stick_edge == invalid_index)
+          take_over_place(point, fixed, edge);
         points.push_back(point);
         point_data.push_back(fixed);
       }
     }
+  }
+
+
+  /// A corner that has come onto the slave sticks where the slave's point that it
+  /// has met sticks to it, seen from the other side.
+  void
+  Contact::Data::take_over_place(ContactPoint      &point,
+                                 const PointData   &fixed,
+                                 const unsigned int slave) const
+  {
+    const auto sticking = stick_places.find(slave);
+    StickPlace stick;
+    if (sticking == stick_places.end() ||
+        !find_stick_place(sticking->second, fixed.s, stick) ||
+        stick.edge != point.edge)
+      return;
+    point.stick_edge = slave;
+    point.stick_t    = fixed.s - (point.s - stick.t) *
+                                surface->place(point.edge, point.s).a.norm() /
+                                surface->place(slave, fixed.s).a.norm();
+    point.is_bonded = stick.is_bonded;
   }
 
 

@@ -77,6 +77,11 @@ namespace NMM
             const PointData &fixed,
             unsigned int     slave) const;
 
+    void
+    take_over_place(ContactPoint    &point,
+                    const PointData &fixed,
+                    unsigned int     slave) const;
+
     /// Of the places of an edge, or of a corner.
     unsigned int
     place_key(const unsigned int edge, const unsigned int corner) const

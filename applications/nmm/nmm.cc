@@ -207,7 +207,8 @@ namespace
                                                progress,
                                                communicator,
                                                restart);
-    if (scene.parameters().model.kinematics == NMM::Kinematics::small)
+    if (model.kinematics == NMM::Kinematics::small &&
+        !scene.parameters().contact.is_present())
       return std::make_unique<StaticAnalysis>(scene, progress, communicator);
     return std::make_unique<NonlinearAnalysis>(scene, progress, communicator);
   }

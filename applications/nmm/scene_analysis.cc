@@ -91,7 +91,12 @@ SceneAnalysis::make_covers()
                           parameters.stabilization == Stabilization::aggregation
                             ? parameters.threshold
                             : 0.);
+  // The surface comes first: it may make more covers relevant to a rank.
+  if (scene.parameters().contact.is_present())
+    contact = std::make_unique<ContactAnalysis>(scene, *physical_mesh, *covers);
   constraints = make_constraints(*covers, aggregation, 2);
+  if (contact)
+    contact->make_contact(constraints, problem);
   if (parameters.stabilization == Stabilization::ghost_penalty)
     ghost_penalty = std::make_unique<GhostPenalty>(
       make_ghost_penalty(*manifold_mesh, parameters.threshold));
@@ -166,6 +171,8 @@ SceneAnalysis::print_report()
   smallest << "  smallest element area over cell area "
            << summary.value("smallest_area_fraction");
   progress.message(smallest.str());
+  if (contact)
+    progress.message("  contact: " + contact->description());
   if (summary.value("quadrature_fallbacks") > 0.)
     progress.message("  warning: " + count("quadrature_fallbacks") +
                      " quadrature rule(s) of lower quality");
@@ -205,7 +212,8 @@ void
 SceneAnalysis::open(const OutputDirectory &output_directory)
 {
   directory = &output_directory;
-  series    = std::make_unique<StateSeries>(scene, *covers, *directory);
+  series =
+    std::make_unique<StateSeries>(scene, *covers, contact.get(), *directory);
   open_files();
 }
 
@@ -240,9 +248,12 @@ SceneAnalysis::write()
       series->finish(
         last_value(),
         write_fields_of_state(*covers, triangles, *directory, "fields"));
+    if (evaluator)
+      series->finish_contact(last_value());
     if (parameters.picture)
       write_picture(scene,
                     *covers,
+                    evaluator ? contact.get() : nullptr,
                     triangles,
                     evaluator.get(),
                     scene.title() +

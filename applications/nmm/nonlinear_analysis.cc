@@ -186,6 +186,8 @@ NonlinearAnalysis::add_step(HistoryRow row, const Vector &solution)
                                                *quadrature,
                                                problem,
                                                incremental->stresses());
+  if (!has_large_displacements())
+    row.strain_energy = small_strain_energy();
   double largest = 0.;
   for (const auto &[element, xi] : output_points)
     largest = std::max(largest, field->displacement(element, xi).norm());

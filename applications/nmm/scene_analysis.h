@@ -98,6 +98,11 @@ protected:
   bool
   is_first_rank() const;
 
+  /// Elastic energy [J] of `field` in small displacements, initial stress left
+  /// out. Collective.
+  double
+  small_strain_energy() const;
+
   /// Let the first rank do something that may throw: all ranks throw then.
   void
   on_first_rank(const std::function<void()> &action) const;

@@ -238,10 +238,9 @@ namespace NMM
     }
 
 
-    /// Blocks from the softest to the stiffest; equal ones have equal ranks.
-    std::vector<unsigned int>
-    rank_by_stiffness(const PhysicalMesh      &mesh,
-                      const ElasticityProblem &problem)
+    /// Largest Young's modulus of each block [Pa].
+    std::vector<double>
+    block_moduli(const PhysicalMesh &mesh, const ElasticityProblem &problem)
     {
       const std::vector<unsigned int> region_to_material =
         problem.region_to_material(mesh);
@@ -253,11 +252,19 @@ namespace NMM
           std::max(modulus,
                    problem.materials[region_to_material[r]].youngs_modulus);
       }
-      const std::set<double>    steps(moduli.begin(), moduli.end());
-      std::vector<unsigned int> ranks;
-      for (const double modulus : moduli)
-        ranks.push_back(std::distance(steps.begin(), steps.find(modulus)));
-      return ranks;
+      return moduli;
+    }
+
+
+    /// From the smallest to the largest; equal ones have equal ranks.
+    std::vector<unsigned int>
+    ranks(const std::vector<double> &values)
+    {
+      const std::set<double>    steps(values.begin(), values.end());
+      std::vector<unsigned int> result;
+      for (const double value : values)
+        result.push_back(std::distance(steps.begin(), steps.find(value)));
+      return result;
     }
   } // namespace
 
@@ -270,10 +277,11 @@ namespace NMM
     const ContactSectionParameters &section = scene_parameters.contact;
     const bool                      is_augmented =
       section.enforcement == Enforcement::augmented_lagrangian;
-    const double size    = contact_cell_size(surface);
-    double       modulus = 0.;
-    for (const Material &material : problem.materials)
-      modulus = std::max(modulus, material.youngs_modulus);
+    const double              size = contact_cell_size(surface);
+    const std::vector<double> moduli =
+      block_moduli(surface.cover_system().manifold_mesh().physical_mesh(),
+                   problem);
+    const double modulus = *std::min_element(moduli.begin(), moduli.end());
 
     // The penalty method needs stiff springs to be accurate, and in a static
     // analysis it can have them. Stiff shear springs keep Newton's method
@@ -293,12 +301,10 @@ namespace NMM
     if (is_augmented)
       parameters.penetration_tolerance = section.penetration_tolerance > 0.
                                            ? section.penetration_tolerance
-                                           : 1e-4 * size;
-    parameters.reach    = section.reach;
-    parameters.n_points = section.n_points;
-    parameters.body_ranks =
-      rank_by_stiffness(surface.cover_system().manifold_mesh().physical_mesh(),
-                        problem);
+                                           : 1e-5 * size;
+    parameters.reach      = section.reach;
+    parameters.n_points   = section.n_points;
+    parameters.body_ranks = ranks(moduli);
     return parameters;
   }
 

@@ -31,8 +31,8 @@ namespace NMM
                       Patterns::Double(),
                       "Of the springs that keep faces apart: pressure over "
                       "penetration [Pa/m]. 0: that of section Contact; there "
-                      "10 E/h, static penalty 30 E/h, E of the stiffest "
-                      "material, h the cell size at faces.");
+                      "10 E/h, static penalty 30 E/h, E of the softest block, "
+                      "h the cell size at faces.");
     prm.declare_entry("Shear stiffness",
                       "0",
                       Patterns::Double(),
@@ -157,7 +157,7 @@ namespace NMM
                       "0",
                       Patterns::Double(),
                       "augmented Lagrangian: mean penetration that is allowed "
-                      "[m]; 0: 1e-4 of a cell.");
+                      "[m]; 0: 1e-5 of the cell size at faces.");
     prm.declare_entry("Reach",
                       "0",
                       Patterns::Double(),

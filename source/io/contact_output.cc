@@ -255,6 +255,12 @@ namespace NMM
       double             value;
       if (!(row >> value) || value > limit)
         continue;
+      // The earlier run's end is no state of the series.
+      const auto is_same = [&](const auto &file) {
+        return std::abs(file.first - value) <= 1e-9 * std::abs(value);
+      };
+      if (with_fields && std::none_of(files.begin(), files.end(), is_same))
+        continue;
       if (written.empty() || written.back() != value)
         written.push_back(value);
       kept += line + "\n";

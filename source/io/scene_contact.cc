@@ -284,13 +284,15 @@ namespace NMM
     const double modulus = *std::min_element(moduli.begin(), moduli.end());
 
     // The penalty method needs stiff springs to be accurate, and in a static
-    // analysis it can have them. Stiff shear springs keep Newton's method
-    // from deciding between stick and slip.
-    const bool is_stiff =
-      !is_augmented && scene_parameters.model.analysis == Analysis::statics;
-    ContactLaw chosen;
+    // analysis it can have them. Stiff shear springs keep Newton's method from
+    // deciding between stick and slip there; in motion soft ones make faces that
+    // hop slide too far.
+    const Analysis analysis = scene_parameters.model.analysis;
+    const bool     is_stiff = !is_augmented && analysis == Analysis::statics;
+    ContactLaw     chosen;
     chosen.normal_stiffness = (is_stiff ? 30. : 10.) * modulus / size;
-    chosen.shear_stiffness  = modulus / size;
+    chosen.shear_stiffness =
+      (analysis == Analysis::dynamics ? 10. : 1.) * modulus / size;
     ContactParameters parameters;
     static_cast<ContactLaw &>(parameters) = make_law(section.law, chosen);
     for (const ContactLawParameters &law : section.laws)

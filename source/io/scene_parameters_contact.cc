@@ -38,7 +38,15 @@ namespace NMM
                       Patterns::Double(),
                       "Of the springs that hold faces which stick: shear over "
                       "elastic slip [Pa/m]. 0: that of section Contact; there "
-                      "E/h, but not more than the normal stiffness.");
+                      "E/h, dynamic 10 E/h, but not more than the normal "
+                      "stiffness.");
+    for (const char *direction : {"Normal", "Shear"})
+      prm.declare_entry(std::string(direction) + " damping",
+                        "0",
+                        Patterns::Double(),
+                        "Dynamic analysis, energy momentum: of dashpots beside "
+                        "these springs, stress over velocity; they never pull "
+                        "[Pa s/m].");
     prm.declare_entry("Friction angle",
                       "0",
                       Patterns::Double(),
@@ -91,6 +99,8 @@ namespace NMM
     }
     normal_stiffness = prm.get_double("Normal stiffness");
     shear_stiffness  = prm.get_double("Shear stiffness");
+    normal_damping   = prm.get_double("Normal damping");
+    shear_damping    = prm.get_double("Shear damping");
     friction_angle   = prm.get_double("Friction angle");
     cohesion         = prm.get_double("Cohesion");
     is_bonded        = prm.get_bool("Bonded");
@@ -106,7 +116,7 @@ namespace NMM
 
 
   void
-  ContactLawParameters::check() const
+  ContactLawParameters::check(const bool may_be_damped) const
   {
     const auto check_size = [&](const std::string &key,
                                 const double       value,
@@ -123,6 +133,18 @@ namespace NMM
     check_size("Shear stiffness",
                shear_stiffness,
                "give a positive number, or 0 to have it chosen");
+    for (const auto &[key, value] :
+         {std::make_pair("Normal damping", normal_damping),
+          std::make_pair("Shear damping", shear_damping)})
+    {
+      check_size(key, value, "give a number that is at least 0");
+      AssertThrow(may_be_damped || value == 0.,
+                  InputError(std::string("'") + key + " = " + to_text(value) +
+                               "' would not be used",
+                             place(key),
+                             "remove it, or set 'Model/Analysis = dynamic' and "
+                             "'Time/Scheme = energy momentum'"));
+    }
     AssertThrow(friction_angle >= 0. && friction_angle < 90.,
                 InputError("the friction angle is " + to_text(friction_angle) +
                              " degrees",
@@ -235,6 +257,8 @@ namespace NMM
     expect("Number of points", n_points, defaults.n_points);
     expect("Normal stiffness", law.normal_stiffness, 0.);
     expect("Shear stiffness", law.shear_stiffness, 0.);
+    expect("Normal damping", law.normal_damping, 0.);
+    expect("Shear damping", law.shear_damping, 0.);
     expect("Friction angle", law.friction_angle, 0.);
     expect("Cohesion", law.cohesion, 0.);
     expect("Bonded", law.is_bonded ? 1. : 0., 0.);
@@ -255,7 +279,8 @@ namespace NMM
 
   void
   ContactSectionParameters::check(const Analysis   analysis,
-                                  const Kinematics kinematics) const
+                                  const Kinematics kinematics,
+                                  const bool       may_be_damped) const
   {
     if (!is_present())
     {
@@ -287,9 +312,9 @@ namespace NMM
                   InputError(std::string("'") + key + "' is " + to_text(value),
                              std::string("parameter 'Contact/") + key + "'",
                              "give a length, or 0 to have it chosen"));
-    law.check();
+    law.check(may_be_damped);
     for (const ContactLawParameters &other : laws)
-      other.check();
+      other.check(may_be_damped);
   }
 
 

@@ -304,7 +304,11 @@ namespace NMM
   void
   SceneParameters::check_contact() const
   {
-    contact.check(model.analysis, model.kinematics);
+    using Scheme             = TimeParameters::Scheme;
+    const bool may_be_damped = model.analysis == Analysis::dynamics &&
+                               (time.scheme == Scheme::automatic ||
+                                time.scheme == Scheme::energy_momentum);
+    contact.check(model.analysis, model.kinematics, may_be_damped);
     for (const ObstacleParameters &obstacle : obstacles)
     {
       AssertThrow(contact.is_present(),

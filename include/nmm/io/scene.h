@@ -77,12 +77,12 @@ namespace NMM
     make_obstacles(const PhysicalMesh &physical_mesh) const;
 
     /**
-     * How the faces of @p surface act on each other. What the scene leaves open: the
-     * normal stiffness is 10 E/h (30 in a static analysis by penalty), E being that
-     * of the softest block and h contact_cell_size(); the shear stiffness E/h,
-     * but not more than the normal one; the penetration tolerance of augmented
-     * Lagrangian 1e-5 h. Of two blocks the softer one carries the
-     * contact points.
+     * How the faces of @p surface act on each other. What the scene leaves open, E
+     * being that of the softest block and h contact_cell_size(): the normal
+     * stiffness is 10 E/h (30 in a static analysis by penalty); the shear
+     * stiffness E/h (in dynamics 10), but not more than the normal one; the
+     * penetration tolerance of augmented Lagrangian 1e-5 h. Of two blocks the
+     * softer one carries the contact points.
      * @throws InputError for a law between faces that do not exist.
      */
     ContactParameters

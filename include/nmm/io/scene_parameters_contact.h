@@ -32,6 +32,8 @@ namespace NMM
     /// [Pa/m]; 0: the section's, or chosen, see
     /// Scene::make_contact_parameters().
     double normal_stiffness = 0., shear_stiffness = 0.;
+    /// Dashpots [Pa s/m].
+    double normal_damping = 0., shear_damping = 0.;
     /// [degrees].
     double friction_angle = 0.;
     /// [Pa].
@@ -49,9 +51,10 @@ namespace NMM
     void
     parse(dealii::ParameterHandler &prm);
 
-    /// @throws InputError naming the parameter and its value.
+    /// @throws InputError naming the parameter and its value. @p may_be_damped: do
+    /// time steps know dashpots?
     void
-    check() const;
+    check(bool may_be_damped) const;
 
   private:
     /// "parameter 'Contact/.../key'".
@@ -92,7 +95,7 @@ namespace NMM
     /// @throws InputError naming the parameter that is wrong, or would not be
     /// used.
     void
-    check(Analysis analysis, Kinematics kinematics) const;
+    check(Analysis analysis, Kinematics kinematics, bool may_be_damped) const;
 
   private:
     void

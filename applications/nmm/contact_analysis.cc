@@ -71,6 +71,65 @@ ContactAnalysis::description() const
 }
 
 
+bool
+ContactAnalysis::is_in_front(const unsigned int obstacle) const
+{
+  const unsigned int body =
+    surface->n_bodies() - surface->obstacles().size() + obstacle;
+  const auto &edges = surface->edges();
+  for (unsigned int e = 0; e < edges.size(); ++e)
+  {
+    if (surface->is_rigid(e))
+      continue;
+    double distance = std::numeric_limits<double>::max();
+    double gap      = 0.;
+    for (unsigned int k = 0; k < edges.size(); ++k)
+      if (edges[k].body == body)
+      {
+        // The nearest point of a straight edge; of an arc the nearest of some.
+        std::vector<double> places;
+        if (edges[k].radius == 0.)
+        {
+          const dealii::Tensor<1, 2> d = edges[k].end - edges[k].start;
+          const double               t =
+            ((edges[e].start - edges[k].start) * d) / d.norm_square();
+          places = {std::min(1., std::max(0., t))};
+        }
+        else
+          for (unsigned int i = 0; i <= 16; ++i)
+            places.push_back(i / 16.);
+        for (const double t : places)
+        {
+          const auto                 place = surface->reference_place(k, t);
+          const dealii::Tensor<1, 2> d     = edges[e].start - place.x;
+          if (d.norm() < distance)
+          {
+            distance = d.norm();
+            gap      = d * place.normal();
+          }
+        }
+      }
+    if (gap > 1e-9 * edges[e].length)
+      return true;
+  }
+  return false;
+}
+
+
+std::vector<std::string>
+ContactAnalysis::notices() const
+{
+  std::vector<std::string> result;
+  for (unsigned int i = 0; i < surface->obstacles().size(); ++i)
+    if (!is_in_front(i))
+      result.push_back("the whole solid lies on the left of the obstacle '" +
+                       surface->obstacles()[i].name +
+                       "', which is rigid there: draw its line in the other "
+                       "direction if they are to touch");
+  return result;
+}
+
+
 void
 ContactAnalysis::remember_states()
 {

@@ -43,6 +43,10 @@ public:
   std::string
   description() const;
 
+  /// Obstacles that have the whole solid behind them, for people.
+  std::vector<std::string>
+  notices() const;
+
   /// Changes are counted from the present states on.
   void
   remember_states();
@@ -78,6 +82,10 @@ private:
     double            s;
     NMM::ContactState state;
   };
+
+  /// Does a part of the solid lie on the right of the obstacle's line?
+  bool
+  is_in_front(unsigned int obstacle) const;
 
   /// Points of all ranks whose state is not that of the nearest remembered one.
   unsigned int

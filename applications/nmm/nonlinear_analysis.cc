@@ -135,21 +135,57 @@ NonlinearAnalysis::run_contact()
 
   ContactStatics statics(*system, contact->contact(), newton);
   double         friction_work = 0.;
-  statics.run(parameters.load_steps.load_steps(),
-              [&](const ContactStep &step, const Vector &solution) {
-                HistoryRow row;
-                row.load_factor       = step.load_factor;
-                row.n_iterations      = step.n_iterations;
-                row.n_cuts            = step.n_cuts;
-                row.n_lost_iterations = step.n_lost_iterations;
-                row.relative_residual = step.relative_residual;
-                row.strain_energy = problem.thickness * system->strain_energy();
-                friction_work += step.dissipated;
-                contact->take_state(friction_work);
-                row.contact_numbers = contact->numbers();
-                contact->remember_states();
-                add_step(row, solution);
-              });
+  const auto after_step = [&](const ContactStep &step, const Vector &solution) {
+    HistoryRow row;
+    row.load_factor       = step.load_factor;
+    row.n_iterations      = step.n_iterations;
+    row.n_cuts            = step.n_cuts;
+    row.n_lost_iterations = step.n_lost_iterations;
+    row.relative_residual = step.relative_residual;
+    row.strain_energy     = problem.thickness * system->strain_energy();
+    friction_work += step.dissipated;
+    contact->take_state(friction_work);
+    row.contact_numbers = contact->numbers();
+    contact->remember_states();
+    add_step(row, solution);
+  };
+  try
+  {
+    statics.run(parameters.load_steps.load_steps(), after_step);
+  }
+  catch (const NumericalFailure &error)
+  {
+    if (history.empty())
+      explain_floating(error.message());
+    throw;
+  }
+}
+
+
+void
+NonlinearAnalysis::explain_floating(const std::string &reason) const
+{
+  std::string floating;
+  try
+  {
+    const FiniteElasticity without_contact(*covers,
+                                           *quadrature,
+                                           constraints,
+                                           problem);
+  }
+  catch (const NumericalFailure &error)
+  {
+    floating = error.message();
+  }
+  AssertThrow(
+    floating.empty(),
+    NumericalFailure(reason +
+                       ". Contact alone has to hold the solid, "
+                       "and does not do so from the start: " +
+                       floating,
+                     "the first load step",
+                     "let faces touch at the start, with friction, or "
+                     "set 'Model/Analysis = relaxation'"));
 }
 
 

@@ -81,6 +81,11 @@ private:
   void
   run_contact();
 
+  /// @throws NMM::NumericalFailure, beside @p reason naming the block, if one
+  /// floats that only contact may hold.
+  void
+  explain_floating(const std::string &reason) const;
+
   void
   run_incremental();
 

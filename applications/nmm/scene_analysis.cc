@@ -151,6 +151,9 @@ SceneAnalysis::print_report()
     progress.message("  notice: " + notice);
   for (const std::string &notice : own_mesh_notices)
     progress.message("  notice: " + notice);
+  if (contact)
+    for (const std::string &notice : contact->notices())
+      progress.message("  notice: " + notice);
 
   const auto count = [&](const std::string &name) {
     std::ostringstream text;

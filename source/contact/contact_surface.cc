@@ -33,6 +33,24 @@ namespace NMM
     }
 
 
+    /// Of the curves that lie on each other, the one that is the element's face.
+    unsigned int
+    own_curve(const ManifoldMesh &mesh,
+              const unsigned int  element,
+              const unsigned int  curve_set)
+    {
+      const PhysicalMesh              &physical_mesh = mesh.physical_mesh();
+      const std::vector<unsigned int> &pieces = mesh.curve_set(curve_set);
+      const auto                       own    = std::find_if(
+        pieces.begin(), pieces.end(), [&](const unsigned int piece) {
+          return physical_mesh.is_face_of(physical_mesh.piece_to_curve()[piece],
+                                          mesh.region(element));
+        });
+      return physical_mesh
+        .piece_to_curve()[own == pieces.end() ? pieces.front() : *own];
+    }
+
+
     /// Position of the edge that follows in the same loop.
     unsigned int
     next_in_loop(const dealii::ArrayView<const ElementEdge> &edges,
@@ -117,10 +135,9 @@ namespace NMM
   void
   ContactSurface::add_elements()
   {
-    const ManifoldMesh &mesh    = cover_pointer->manifold_mesh();
-    const auto [first, last]    = cover_pointer->locally_owned_elements();
-    const PhysicalMesh &physics = mesh.physical_mesh();
-    owned                       = {0, 0};
+    const ManifoldMesh &mesh = cover_pointer->manifold_mesh();
+    const auto [first, last] = cover_pointer->locally_owned_elements();
+    owned                    = {0, 0};
     for (unsigned int e = 0; e < mesh.n_elements(); ++e)
     {
       if (e == first)
@@ -132,13 +149,11 @@ namespace NMM
           Edge edge;
           edge.element = e;
           edge.body    = mesh.block(e);
-          edge.curve =
-            physics
-              .piece_to_curve()[mesh.curve_set(boundary[k].curve_set).front()];
-          edge.start  = boundary[k].start;
-          edge.end    = boundary[k].end;
-          edge.center = boundary[k].center;
-          edge.radius = boundary[k].radius;
+          edge.curve   = own_curve(mesh, e, boundary[k].curve_set);
+          edge.start   = boundary[k].start;
+          edge.end     = boundary[k].end;
+          edge.center  = boundary[k].center;
+          edge.radius  = boundary[k].radius;
           set_angles(edge);
 
           const MathematicalMesh &cells = mesh.mathematical_mesh();

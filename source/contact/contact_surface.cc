@@ -33,6 +33,20 @@ namespace NMM
     }
 
 
+    /// Cutting is exact, coordinates are not: an edge may have the length of their
+    /// rounding, and no direction. It is none to touch.
+    bool
+    has_length(const ManifoldMesh &mesh,
+               const unsigned int  element,
+               const ElementEdge  &edge)
+    {
+      constexpr double tolerance = 1e-12;
+      const double     size =
+        std::sqrt(mesh.mathematical_mesh().cell_area(mesh.cell(element)));
+      return edge.start.distance(edge.end) > tolerance * size;
+    }
+
+
     /// Of the curves that lie on each other, the one that is the element's face.
     unsigned int
     own_curve(const ManifoldMesh &mesh,
@@ -144,7 +158,7 @@ namespace NMM
         owned.first = all_edges.size();
       const auto boundary = mesh.edges(e);
       for (unsigned int k = 0; k < boundary.size(); ++k)
-        if (is_free(mesh, boundary[k]))
+        if (is_free(mesh, boundary[k]) && has_length(mesh, e, boundary[k]))
         {
           Edge edge;
           edge.element = e;
@@ -196,7 +210,7 @@ namespace NMM
     constexpr unsigned int n_turns = 1000;
 
     const MathematicalMesh &cells = mesh.mathematical_mesh();
-    const Point<2>          pivot = all_edges[edge].end;
+    Point<2>                pivot = all_edges[edge].end;
     // element and its edge that ends at the pivot
     unsigned int e = element, k = position;
     for (unsigned int i = 0; i < n_turns; ++i)
@@ -207,6 +221,11 @@ namespace NMM
       if (boundary.size() > 0)
       {
         k = next_in_loop(boundary, k);
+        if (is_free(mesh, boundary[k]) && !has_length(mesh, e, boundary[k]))
+        {
+          pivot = boundary[k].end;
+          continue;
+        }
         if (is_free(mesh, boundary[k]))
         {
           const auto found =

@@ -87,7 +87,7 @@ namespace
          "Usage: nmm [options] scene.prm\n\n"
       << visible_options()
       << "\nWrites summary.csv, probes.csv, fields.vtu and picture.png, and "
-         "history.csv of\nsteps of load or time. Scene files are explained in "
+         "history.csv of\nsteps of load or time; with contact contacts.csv. Scene files are explained in "
          "doc/scene-format.md.\n\n"
          "Exit codes: 0 success, 1 internal error, 2 bad input (nothing "
          "is written),\n3 no solution (what is known is written).\n";

@@ -16,12 +16,15 @@ namespace NMM
   {
     /// Where a function has no number the analysis cannot go on.
     double
-    checked(const double value, const double t, const std::string &parameter)
+    checked(const double       value,
+            const double       t,
+            const std::string &unit,
+            const std::string &parameter)
     {
       AssertThrow(std::isfinite(value),
                   NumericalFailure("the value is not finite",
                                    "parameter '" + parameter +
-                                     "' at t = " + internal::to_text(t),
+                                     "' at t = " + internal::to_text(t) + unit,
                                    "correct the expression"));
       return value;
     }
@@ -35,6 +38,7 @@ namespace NMM
       const std::string                                     &text,
       const std::string                                     &parameter,
       const double                                           end_time,
+      const std::string                                     &unit,
       const std::function<std::string(const std::string &)> &relative_to_scene)
     {
       const std::string trimmed = dealii::Utilities::trim(text);
@@ -56,12 +60,15 @@ namespace NMM
       for (const double t : {0., end_time})
         AssertThrow(std::isfinite(function->value(dealii::Point<1>(t))),
                     InputError("'" + trimmed + "' is not finite at t = " +
-                                 internal::to_text(t),
+                                 internal::to_text(t) + unit,
                                "parameter '" + parameter + "'",
                                "give an expression that has a value from 0 "
                                "to the end"));
-      return [function, parameter](const double t) {
-        return checked(function->value(dealii::Point<1>(t)), t, parameter);
+      return [function, unit, parameter](const double t) {
+        return checked(function->value(dealii::Point<1>(t)),
+                       t,
+                       unit,
+                       parameter);
       };
     }
   } // namespace internal
@@ -127,12 +134,10 @@ namespace NMM
     const auto             functions = std::make_shared<LoadFunctions>();
     Loading                loading;
     const auto make = [&](const std::string &text, const std::string &name) {
-      return make_time_function(text,
-                                name,
-                                p.time.end_time,
-                                [this](const std::string &file) {
-                                  return relative_to_scene(file);
-                                });
+      return make_time_function(
+        text, name, p.time.end_time, " s", [this](const std::string &file) {
+          return relative_to_scene(file);
+        });
     };
     const auto add = [&](const TimeDependence &time,
                          const std::string    &section,
@@ -201,16 +206,17 @@ namespace NMM
                              " component(s) instead of 2",
                            "parameter '" + name + "'",
                            "give two, separated by a semicolon"));
+    const bool is_static = scene_parameters.model.analysis == Analysis::statics;
     const double end =
-      scene_parameters.model.analysis == Analysis::statics
-        ? scene_parameters.load_steps.load_steps().load_factors.back()
-        : scene_parameters.time.end_time;
+      is_static ? scene_parameters.load_steps.load_steps().load_factors.back()
+                : scene_parameters.time.end_time;
     TimeFunction components[2];
     for (unsigned int c = 0; c < 2; ++c)
     {
       components[c] = make_time_function(parts[c],
                                          name,
                                          end,
+                                         is_static ? "" : " s",
                                          [this](const std::string &file) {
                                            return relative_to_scene(file);
                                          });

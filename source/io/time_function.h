@@ -12,7 +12,7 @@ namespace NMM
 
     /**
      * "file: name" or an expression of t as a function, null if @p text is empty.
-     * @p relative_to_scene: path of a file.
+     * @p unit of t, for messages; @p relative_to_scene: path of a file.
      * @throws InputError naming @p parameter for an expression that cannot be
      * parsed or has no value at 0 or @p end_time, or a file that cannot be read;
      * the function throws NumericalFailure where an expression has no value.
@@ -22,6 +22,7 @@ namespace NMM
       const std::string                                     &text,
       const std::string                                     &parameter,
       double                                                 end_time,
+      const std::string                                     &unit,
       const std::function<std::string(const std::string &)> &relative_to_scene);
   } // namespace internal
 } // namespace NMM

@@ -4,6 +4,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <contact/contact_data.h>
 #include <mechanics/nodal_values.h>
@@ -51,6 +52,113 @@ namespace NMM
   } // namespace
 
 
+  std::pair<unsigned int, unsigned int>
+  Contact::Data::bodies(const unsigned int q) const
+  {
+    return std::minmax(surface->edges()[points[q].edge].body,
+                       surface->edges()[points[q].master].body);
+  }
+
+
+  double
+  Contact::Data::normal_energy(const unsigned int q) const
+  {
+    const ContactPoint &point = points[q];
+    return point.state == ContactState::open
+             ? 0.
+             : point.weight * point.pressure * point.pressure /
+                 (2. * point_data[q].law->normal_stiffness);
+  }
+
+
+  double
+  Contact::Data::shear_energy(const unsigned int q) const
+  {
+    const ContactPoint &point = points[q];
+    return point.state == ContactState::open
+             ? 0.
+             : point.weight * point.shear * point.shear /
+                 (2. * point_data[q].law->shear_stiffness);
+  }
+
+
+  Contact::Data::PairEnergies
+  Contact::Data::pair_energies() const
+  {
+    PairEnergies result;
+    for (unsigned int q = 0; q < points.size(); ++q)
+      if (points[q].state != ContactState::open)
+      {
+        std::array<double, 2> &energies = result[bodies(q)];
+        energies[0] += normal_energy(q);
+        energies[1] += shear_energy(q);
+      }
+    if (Parallel::n_mpi_processes(communicator) == 1)
+      return result;
+    std::vector<double> mine;
+    for (const auto &[pair, energies] : result)
+      for (const double x :
+           {double(pair.first), double(pair.second), energies[0], energies[1]})
+        mine.push_back(x);
+    result.clear();
+    for (const auto &part : Parallel::all_gather(communicator, mine))
+      for (unsigned int i = 0; i + 3 < part.size(); i += 4)
+      {
+        auto &energies = result[{static_cast<unsigned int>(part[i]),
+                                 static_cast<unsigned int>(part[i + 1])}];
+        energies[0] += part[i + 2];
+        energies[1] += part[i + 3];
+      }
+    return result;
+  }
+
+
+  void
+  Contact::Data::keep_energies()
+  {
+    detection_loss = 0.;
+    if (is_virgin)
+      return;
+    const PairEnergies found = pair_energies();
+    for (const auto &[pair, energies] : energies_of_pairs)
+    {
+      const auto now = found.find(pair);
+      for (unsigned int i = 0; i < 2; ++i)
+        detection_loss +=
+          std::max(0.,
+                   energies[i] - (now == found.end() ? 0. : now->second[i]));
+    }
+    for (unsigned int q = 0; q < points.size(); ++q)
+    {
+      ContactPoint &point = points[q];
+      if (point.state == ContactState::open)
+        continue;
+      const auto  pair   = bodies(q);
+      const auto &now    = found.at(pair);
+      const auto  before = energies_of_pairs.find(pair);
+      double      keep[2];
+      for (unsigned int i = 0; i < 2; ++i)
+      {
+        const double old =
+          before == energies_of_pairs.end() ? 0. : before->second[i];
+        keep[i] = now[i] > old ? std::sqrt(old / now[i]) : 1.;
+      }
+      PointData &fixed = point_data[q];
+      fixed.offset     = (1. - keep[0]) * point.gap;
+      if (keep[0] == 0.)
+        point.state = ContactState::open;
+      if (keep[1] < 1. && point.shear != 0.)
+      {
+        const double length =
+          surface->place(point.stick_edge, point.stick_t).a.norm();
+        point.stick_t +=
+          (1. - keep[1]) * point.shear / (fixed.law->shear_stiffness * length);
+        point.shear *= keep[1];
+      }
+    }
+  }
+
+
   void
   Contact::begin_step(const Vector &u, const double time)
   {
@@ -59,12 +167,142 @@ namespace NMM
     d.time_begin = time;
     set_time(time);
     assemble(u, false);
+    d.keep_energies();
     d.nodal_begin = d.nodal;
     for (unsigned int q = 0; q < d.points.size(); ++q)
     {
-      d.point_data[q].gap_begin   = d.points[q].gap;
-      d.point_data[q].shear_begin = d.points[q].shear;
+      d.point_data[q].gap_begin    = d.points[q].gap;
+      d.point_data[q].master_begin = d.points[q].master;
+      d.point_data[q].shear_begin  = d.points[q].shear;
+      // what slides, or bears no shear, sticks where its shear says: places that
+      // are interpolated between those of other points may be far away
+      ContactPoint &point = d.points[q];
+      if (!d.has_friction || point.master == invalid_index ||
+          point.state == ContactState::stick || point.is_bonded)
+        continue;
+      if (point.state == ContactState::open)
+        point.shear = d.point_data[q].shear_begin = 0.;
+      const double length = d.surface->place(point.master, point.t).a.norm();
+      point.stick_edge    = point.master;
+      point.stick_t       = point.t;
+      if (point.shear != 0.)
+        point.stick_t -=
+          point.shear / (d.point_data[q].law->shear_stiffness * length);
     }
+  }
+
+
+  double
+  Contact::largest_motion(const Vector &from, const Vector &to)
+  {
+    Data                         &d = *data;
+    const unsigned int            n = 3 * d.surface->edges().size();
+    std::vector<dealii::Point<2>> positions(n);
+    read_nodal_values(d.surface->cover_system(), from, d.nodal);
+    for (unsigned int i = 0; i < n; ++i)
+      positions[i] = d.surface->place(i / 3, 0.5 * (i % 3)).x;
+    read_nodal_values(d.surface->cover_system(), to, d.nodal);
+    double square = 0.;
+    for (unsigned int i = 0; i < n; ++i)
+      square = std::max(
+        square,
+        d.surface->place(i / 3, 0.5 * (i % 3)).x.distance_square(positions[i]));
+    return std::sqrt(square);
+  }
+
+
+  Tensor<1, 2>
+  Contact::Data::relative_motion(const unsigned int       q,
+                                 const ContactProjection &projection) const
+  {
+    const unsigned int n_obstacles = obstacle_changes.size();
+    Tensor<1, 2>       motion;
+    const auto         add = [&](const unsigned int             edge,
+                         const ContactSurface::Weights &f,
+                         const double                   sign) {
+      if (surface->is_rigid(edge))
+        motion += sign * obstacle_changes[surface->edges()[edge].body -
+                                          (surface->n_bodies() - n_obstacles)];
+      const auto covers = surface->covers(edge);
+      for (unsigned int i = 0; i < f.n; ++i)
+        for (unsigned int c = 0; c < 2; ++c)
+          motion[c] +=
+            sign * f.w[i] *
+            (nodal_end[2 * covers[i] + c] - nodal_begin[2 * covers[i] + c]);
+    };
+    ContactSurface::Weights master;
+    surface->weights(projection.master, projection.t, master);
+    add(points[q].edge, point_data[q].weights, 1.);
+    add(projection.master, master, -1.);
+    return motion;
+  }
+
+
+  void
+  Contact::Data::find_pressure_between(const unsigned int q,
+                                       const double       opening,
+                                       ContactTraction   &traction)
+  {
+    ContactPoint     &point = points[q];
+    PointData        &fixed = point_data[q];
+    const ContactLaw &law   = *fixed.law;
+    // A master that comes into sight, or follows round a corner, pushes back as
+    // far as the point moves from now on, and what is stored for one that is left
+    // behind is lost: there is no energy in what appears.
+    const double least  = 1e-4 * reach;
+    double       g_0    = fixed.gap_begin - fixed.offset;
+    double       g_1    = fixed.gap_end - fixed.offset;
+    const bool   is_new = fixed.master_begin == invalid_index;
+    if (is_new)
+      g_0 = std::max(0., fixed.gap_end - opening);
+    fixed.offset_end = is_new ? 0. : fixed.offset;
+    bool is_lost     = fixed.master_end == invalid_index;
+    if (!is_lost &&
+        std::abs(g_1 - g_0 - opening) > 0.5 * std::abs(opening) + least)
+    {
+      g_1              = g_0 + opening;
+      fixed.offset_end = std::min(0., fixed.gap_end - g_1);
+      is_lost          = fixed.gap_end > g_1;
+      if (is_lost)
+        fixed.offset_end = std::min(0., fixed.gap_end);
+    }
+    if (is_lost)
+      g_1 = 0.;
+
+    double derivative = 0.;
+    mean_pressure(law.normal_stiffness,
+                  point.is_bonded,
+                  g_0,
+                  g_1,
+                  point.pressure,
+                  derivative);
+    if (is_lost && g_0 < 0.)
+    {
+      fixed.normal_loss = 0.5 * point.weight * law.normal_stiffness * g_0 * g_0;
+      point.pressure = derivative = 0.;
+    }
+    else if (is_lost)
+      point.pressure = derivative = 0.;
+    const double spring = point.pressure;
+    if (spring > 0. && law.normal_damping > 0.)
+    {
+      const double c = law.normal_damping / step;
+      point.pressure += c * (std::max(0., -g_1) - std::max(0., -g_0));
+      derivative -= g_1 < 0. ? c : 0.;
+    }
+    if (!point.is_bonded && point.pressure <= 0.)
+      point.pressure = derivative = 0.;
+
+    // the gap of curved or turning faces changes not quite by this; where
+    // nothing moves the ratio of both is rounding
+    const double more =
+      (g_1 - g_0 - opening) * opening / (opening * opening + least * least);
+    const double factor = 1. + std::min(1., std::max(-0.5, more));
+    fixed.normal_loss +=
+      point.weight * factor * (spring - point.pressure) * opening;
+    point.pressure *= factor;
+    traction.pressure         = point.weight * point.pressure;
+    traction.normal_stiffness = -2. * point.weight * derivative;
   }
 
 
@@ -78,75 +316,61 @@ namespace NMM
     const ContactState          before = point.state;
     const ContactSurface::Place slave  = surface->place(point.edge, point.s);
     const ContactProjection     projection = project(q, slave);
+    // without contact in the middle of the step nothing is stored at its end
     fixed.shear_work = fixed.normal_loss = 0.;
+    fixed.offset_end                     = std::min(0., fixed.gap_end);
     point.pressure = point.shear = 0.;
     point.state                  = ContactState::open;
 
     ContactTraction traction;
-    double          derivative = 0.;
-    if (projection.master != invalid_index)
-      mean_pressure(fixed.law->normal_stiffness,
-                    point.is_bonded,
-                    fixed.gap_begin,
-                    fixed.gap_end,
-                    point.pressure,
-                    derivative);
-    const double spring_pressure = point.pressure;
-    if (point.pressure > 0. && fixed.law->normal_damping > 0.)
+    const double    stored = std::max(0., fixed.offset - fixed.gap_begin);
+    if (projection.master == invalid_index || point.weight == 0.)
     {
-      const double c = fixed.law->normal_damping / step;
-      point.pressure +=
-        c * (std::max(0., -fixed.gap_end) - std::max(0., -fixed.gap_begin));
-      derivative -= fixed.gap_end < 0. ? c : 0.;
-      if (point.pressure <= 0.)
-        point.pressure = derivative = 0.;
+      if (fixed.law != nullptr)
+        fixed.normal_loss =
+          0.5 * point.weight * fixed.law->normal_stiffness * stored * stored;
     }
-    if (spring_pressure > 0. || point.is_bonded)
+    else if ((fixed.gap_begin < fixed.offset || fixed.gap_end < fixed.offset ||
+              point.is_bonded))
     {
-      ContactSurface::Weights master;
-      surface->weights(projection.master, projection.t, master);
-      Tensor<1, 2> change;
-      const auto   add = [&](const unsigned int             edge,
-                           const ContactSurface::Weights &f,
-                           const double                   sign) {
-        const auto covers = surface->covers(edge);
-        for (unsigned int i = 0; i < f.n; ++i)
-          for (unsigned int c = 0; c < 2; ++c)
-            change[c] +=
-              sign * f.w[i] *
-              (nodal_end[2 * covers[i] + c] - nodal_begin[2 * covers[i] + c]);
-      };
-      add(point.edge, fixed.weights, 1.);
-      add(projection.master, master, -1.);
-      if (surface->is_rigid(projection.master))
-        change -=
-          obstacle_changes[surface->edges()[projection.master].body -
-                           (surface->n_bodies() - obstacle_changes.size())];
-      // the gap of curved or turning faces changes not quite by this; where
-      // nothing moves the ratio of both is rounding
-      const double delta = change * projection.normal;
-      const double least = 1e-4 * reach;
-      const double more  = (fixed.gap_end - fixed.gap_begin - delta) * delta /
-                          (delta * delta + least * least);
-      const double factor = 1. + std::min(1., std::max(-0.5, more));
-      fixed.normal_loss =
-        point.weight * factor * (spring_pressure - point.pressure) * delta;
-      point.pressure *= factor;
-
-      point.state               = ContactState::slip;
-      traction.pressure         = point.weight * point.pressure;
-      traction.normal_stiffness = -2. * point.weight * derivative;
-      if (fixed.law->has_friction())
+      const Tensor<1, 2> motion = relative_motion(q, projection);
+      find_pressure_between(q, motion * projection.normal, traction);
+      if (point.pressure > 0. || point.is_bonded)
       {
-        const double slip =
-          (change * projection.place.a) / projection.place.a.norm();
-        find_shear(q,
-                   slave,
-                   projection,
-                   before == ContactState::slip,
-                   slip / step,
-                   traction);
-        fixed.shear_work = traction.shear * slip;
+        point.state = ContactState::slip;
+        if (fixed.law->has_friction())
+        {
+          const double length = projection.place.a.norm();
+          const double slip   = (motion * projection.place.a) / length;
+          // on a face where it has not been at the begin of the step it sticks
+          // where it came from, half of the motion back
+          if (fixed.master_begin == invalid_index ||
+              !goes_on(fixed.master_begin, projection.master))
+          {
+            point.stick_edge = projection.master;
+            point.stick_t    = projection.t - 0.5 * slip / length;
+          }
+          find_shear(q,
+                     slave,
+                     projection,
+                     before == ContactState::slip,
+                     slip / step,
+                     traction);
+          // nor does shear bring more than its spring has held
+          const double held = point.weight * fixed.shear_begin *
+                              fixed.shear_begin /
+                              (2. * fixed.law->shear_stiffness);
+          const double work = traction.shear * slip;
+          if (work < -held)
+          {
+            const double factor = -held / work;
+            point.shear *= factor;
+            traction.shear *= factor;
+            traction.shear_stiffness *= factor;
+            traction.shear_over_pressure *= factor;
+          }
+          fixed.shear_work = traction.shear * slip;
+        }
       }
     }
     report.n_changes += before != point.state;
@@ -160,8 +384,9 @@ namespace NMM
                             const double  time,
                             const bool    with_tangent)
   {
-    Data &d  = *data;
-    d.report = ContactReport();
+    Data &d   = *data;
+    d.report  = ContactReport();
+    d.deepest = 0.;
     if (d.is_idle)
     {
       d.residual = 0.;
@@ -178,9 +403,8 @@ namespace NMM
     {
       const ContactPoint     &point = d.points[q];
       const ContactProjection projection =
-        d.search.project(d.surface->place(point.edge, point.s),
-                         d.search.masters(d.point_data[q].slave),
-                         d.point_data[q].slack);
+        d.find_master(q, d.surface->place(point.edge, point.s));
+      d.point_data[q].master_end = projection.master;
       d.point_data[q].gap_end =
         projection.master == invalid_index ? d.reach : projection.gap;
     }
@@ -227,14 +451,17 @@ namespace NMM
       return 0.;
     for (const ContactPoint &point : d.points)
       if (point.state != ContactState::open &&
-          d.surface->is_rigid(point.master))
+          (d.surface->is_rigid(point.master) ||
+           d.surface->is_rigid(point.edge)))
       {
+        const bool         is_master = d.surface->is_rigid(point.master);
+        const double       sign      = is_master ? 1. : -1.;
+        const unsigned int edge      = is_master ? point.master : point.edge;
         const Tensor<1, 2> tangent =
           dealii::Point<2>(-point.normal[1], point.normal[0]);
-        work +=
-          point.weight *
-          (point.pressure * point.normal - point.shear * tangent) *
-          d.obstacle_changes[d.surface->edges()[point.master].body - first];
+        work += sign * point.weight *
+                (point.pressure * point.normal - point.shear * tangent) *
+                d.obstacle_changes[d.surface->edges()[edge].body - first];
       }
     return Parallel::sum(work, d.communicator);
   }
@@ -246,8 +473,8 @@ namespace NMM
     Data &d = *data;
     read_nodal_values(d.surface->cover_system(), end, d.nodal);
     std::ostringstream text;
-    if (!d.is_idle && d.report.largest_penetration > 0.5 * d.reach)
-      text << "a penetration of " << d.report.largest_penetration
+    if (!d.is_idle && d.deepest > 0.5 * d.reach)
+      text << "a penetration of " << d.deepest
            << " m, more than half of the distance of " << d.reach
            << " m within which faces are looked for";
     else if (d.search.movement() > d.reach)
@@ -263,14 +490,27 @@ namespace NMM
   {
     const Data         &d = *data;
     std::vector<double> mine;
-    for (const auto &[edge, places] : d.stick_places)
+    for (const auto &[key, places] : d.stick_places)
       for (const StickPlace &place : places)
-        for (const double x : {double(edge),
+        for (const double x : {double(key),
                                place.s,
                                double(place.edge),
                                place.t,
                                double(place.is_bonded)})
           mine.push_back(x);
+    // of the same length: entrances and energies have no edge to stick to;
+    // energies are the same on all ranks
+    if (Parallel::this_mpi_process(d.communicator) == 0)
+      for (const auto &[pair, energies] : d.energies_of_pairs)
+        for (const double x : {double(pair.first),
+                               double(pair.second),
+                               -2.,
+                               energies[0],
+                               energies[1]})
+          mine.push_back(x);
+    for (const auto &[key, master] : d.entrances)
+      for (const double x : {double(key), 0., -1., double(master), 0.})
+        mine.push_back(x);
     std::vector<double> result{double(d.is_virgin),
                                double(d.multipliers.size())};
     result.insert(result.end(), d.multipliers.begin(), d.multipliers.end());
@@ -285,24 +525,41 @@ namespace NMM
   {
     Data &d = *data;
     d.stick_places.clear();
+    d.entrances.clear();
+    d.energies_of_pairs.clear();
     if (history.empty())
       return;
     d.is_virgin  = history[0] != 0.;
     const auto n = static_cast<unsigned int>(history[1]);
     if (n == d.multipliers.size())
       std::copy_n(history.begin() + 2, n, d.multipliers.begin());
-    const auto [first, last] = d.surface->locally_owned_edges();
+    const auto [first, last]   = d.surface->locally_owned_edges();
+    const unsigned int n_edges = d.surface->edges().size();
+    const bool has_obstacles = Parallel::this_mpi_process(d.communicator) == 0;
     for (std::size_t i = n + 2; i + 4 < history.size(); i += 5)
     {
-      const auto edge = static_cast<unsigned int>(history[i]);
-      if (edge >= first && edge < last)
-        d.stick_places[edge].push_back(
+      if (history[i + 2] == -2.)
+      {
+        d.energies_of_pairs[{static_cast<unsigned int>(history[i]),
+                             static_cast<unsigned int>(history[i + 1])}] = {
+          {history[i + 3], history[i + 4]}};
+        continue;
+      }
+      const auto         key  = static_cast<unsigned int>(history[i]);
+      const unsigned int edge = key % n_edges;
+      if (!(edge >= first && edge < last) &&
+          !(has_obstacles && d.surface->is_rigid(edge)))
+        continue;
+      if (history[i + 2] < 0.)
+        d.entrances[key] = static_cast<unsigned int>(history[i + 3]);
+      else
+        d.stick_places[key].push_back(
           {history[i + 1],
            static_cast<unsigned int>(history[i + 2]),
            history[i + 3],
            history[i + 4] != 0.});
     }
-    for (auto &[edge, places] : d.stick_places)
+    for (auto &[key, places] : d.stick_places)
       std::sort(places.begin(),
                 places.end(),
                 [](const StickPlace &a, const StickPlace &b) {

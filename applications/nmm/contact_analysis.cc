@@ -147,19 +147,33 @@ ContactAnalysis::count_changes() const
   const auto is_before = [](const PointState &a, const PointState &b) {
     return a.edge != b.edge ? a.edge < b.edge : a.s < b.s;
   };
-  unsigned int count = 0;
+  unsigned int count    = 0;
+  bool         are_same = contact_points.size() == remembered.size();
+  for (std::size_t i = 0; are_same && i < remembered.size(); ++i)
+  {
+    are_same = contact_points[i].edge == remembered[i].edge &&
+               contact_points[i].s == remembered[i].s;
+    count += contact_points[i].state != remembered[i].state;
+  }
+  if (are_same)
+    return Parallel::sum(count, covers->communicator());
+
+  // Points have been made anew: the nearest one on the same edge; what was out of
+  // reach was open.
+  count                          = 0;
+  std::vector<PointState> sorted = remembered;
+  std::stable_sort(sorted.begin(), sorted.end(), is_before);
   for (const ContactPoint &point : contact_points)
   {
-    // the nearest one on the same edge; what was out of reach was open
     const PointState here{point.edge, point.s, point.state};
     const auto       after =
-      std::lower_bound(remembered.begin(), remembered.end(), here, is_before);
+      std::lower_bound(sorted.begin(), sorted.end(), here, is_before);
     double       distance = std::numeric_limits<double>::max();
     ContactState before   = ContactState::open;
     for (const int offset : {0, -1})
     {
-      if ((offset < 0 && after == remembered.begin()) ||
-          (offset == 0 && after == remembered.end()))
+      if ((offset < 0 && after == sorted.begin()) ||
+          (offset == 0 && after == sorted.end()))
         continue;
       const PointState &other = *(after + offset);
       if (other.edge != point.edge || std::abs(other.s - point.s) >= distance)

@@ -39,7 +39,7 @@ namespace NMM
 
 
     /// Numbers that stand for a sample between ranks.
-    constexpr unsigned int n_packed = 14;
+    constexpr unsigned int n_packed = 15;
 
 
     /// In the CSV manner where that is needed.
@@ -94,7 +94,7 @@ namespace NMM
   {
     std::vector<double> mine;
     for (const ContactPoint &point : points)
-      if (point.master != invalid_index)
+      if (point.master != invalid_index && point.weight != 0.)
       {
         const Point<2> X = surface.reference_place(point.edge, point.s).x;
         mine.insert(mine.end(),
@@ -111,7 +111,8 @@ namespace NMM
                      point.shear,
                      point.weight,
                      double(static_cast<unsigned int>(point.state)),
-                     double(point.is_bonded)});
+                     double(point.is_bonded),
+                     point.s});
       }
     const auto all = Parallel::gather(communicator(surface), mine);
     std::vector<ContactSample> result;
@@ -130,8 +131,15 @@ namespace NMM
         point.weight    = v[11];
         point.state     = static_cast<ContactState>(static_cast<int>(v[12]));
         point.is_bonded = v[13] != 0.;
+        point.s         = v[14];
         result.push_back(point);
       }
+    std::stable_sort(result.begin(),
+                     result.end(),
+                     [](const ContactSample &a, const ContactSample &b) {
+                       return std::tie(a.slave, a.s, a.master) <
+                              std::tie(b.slave, b.s, b.master);
+                     });
     return result;
   }
 
@@ -143,14 +151,22 @@ namespace NMM
     const unsigned int  n     = surface.obstacles().size();
     const unsigned int  first = surface.n_bodies() - n;
     std::vector<double> sums(2 * n, 0.);
+    const auto          add = [&](const unsigned int  edge,
+                         const double        weight,
+                         const Tensor<1, 2> &traction) {
+      if (surface.is_rigid(edge))
+        for (unsigned int c = 0; c < 2; ++c)
+          sums[2 * (surface.edges()[edge].body - first) + c] +=
+            weight * traction[c];
+    };
     for (const ContactPoint &point : points)
-      if (point.state != ContactState::open && surface.is_rigid(point.master))
+      if (point.state != ContactState::open)
       {
         const Tensor<1, 2> traction =
           traction_of(point.pressure, point.shear, point.normal);
-        const unsigned int i = surface.edges()[point.master].body - first;
-        for (unsigned int c = 0; c < 2; ++c)
-          sums[2 * i + c] -= point.weight * traction[c];
+        // corners of obstacles are slaves
+        add(point.edge, point.weight, traction);
+        add(point.master, -point.weight, traction);
       }
     if (n > 0)
       Parallel::sum(sums, communicator(surface), sums);
@@ -167,7 +183,7 @@ namespace NMM
   {
     double largest = 0.;
     for (const ContactPoint &point : points)
-      if (point.state != ContactState::open)
+      if (point.state != ContactState::open && point.weight != 0.)
         largest = std::max(largest, point.pressure);
     return Parallel::max(largest, communicator(surface));
   }
@@ -195,12 +211,13 @@ namespace NMM
       }
     for (const ContactSample &point : points)
       if (point.state != ContactState::open)
-        data.contacts.push_back({{point.reference, point.x - point.reference},
-                                 point.traction(),
-                                 point.is_bonded ? PictureData::Bar::bonded
-                                 : point.state == ContactState::slip
-                                   ? PictureData::Bar::slips
-                                   : PictureData::Bar::sticks});
+        // of an obstacle's corner the force on the solid
+        data.contacts.push_back(
+          {{point.reference, point.x - point.reference},
+           (surface.is_rigid(point.slave) ? -1. : 1.) * point.traction(),
+           point.is_bonded                     ? PictureData::Bar::bonded
+           : point.state == ContactState::slip ? PictureData::Bar::slips
+                                               : PictureData::Bar::sticks});
   }
 
 

@@ -18,8 +18,9 @@ namespace NMM
     dealii::Point<2> reference, x;
     /// Of the master, out of its body.
     dealii::Tensor<1, 2> normal;
-    /// Edges of the surface.
+    /// Edges of the surface, and parameter on the slave.
     unsigned int slave = invalid_index, master = invalid_index;
+    double       s = 0.;
     /// [m]; positive: open.
     double gap = 0.;
     /// Per reference length [Pa].
@@ -39,8 +40,9 @@ namespace NMM
   const std::string &
   to_string(ContactState state);
 
-  /// Those of @p points, of all ranks, that have a master within reach, in the order
-  /// of the surface, whatever the number of ranks; on rank 0 only. Collective.
+  /// Those of @p points, of all ranks, that have a weight and a master within reach,
+  /// in the order of the surface, whatever the number of ranks; on rank 0 only.
+  /// Collective.
   std::vector<ContactSample>
   gather_contact_points(const ContactSurface            &surface,
                         const std::vector<ContactPoint> &points);

@@ -52,7 +52,7 @@ public:
   remember_states();
 
   /// The last assembly was that of an accepted state, which all below is told of.
-  /// @p work: what friction and breaking bonds have dissipated so far [J/m].
+  /// @p work: what friction, dashpots and breaking bonds have dissipated so far [J/m].
   void
   take_state(double work);
 
@@ -128,7 +128,7 @@ public:
   void
   restore_internal_state(const std::vector<double> &state) override;
 
-  /// What friction and breaking bonds have dissipated so far [J/m].
+  /// What friction, dashpots and breaking bonds have dissipated so far [J/m].
   double
   friction_work() const;
 

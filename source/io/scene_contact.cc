@@ -229,6 +229,8 @@ namespace NMM
         parameters.shear_stiffness > 0.
           ? parameters.shear_stiffness
           : std::min(law.shear_stiffness, law.normal_stiffness);
+      law.normal_damping = parameters.normal_damping;
+      law.shear_damping  = parameters.shear_damping;
       law.friction =
         std::tan(parameters.friction_angle * dealii::numbers::PI / 180.);
       law.cohesion         = parameters.cohesion;

@@ -545,10 +545,10 @@ namespace NMM
         {
           const auto &colour = colour_of_bar(bar.kind);
           if (is_rim)
-            cairo_set_source_rgba(cr, 1., 1., 1., 0.6);
+            cairo_set_source_rgba(cr, 1., 1., 1., 0.5);
           else
             cairo_set_source_rgb(cr, colour[0], colour[1], colour[2]);
-          cairo_set_line_width(cr, (is_rim ? 3.4 : 1.8) * layout.unit);
+          cairo_set_line_width(cr, (is_rim ? 2.8 : 1.6) * layout.unit);
           const Point<2> x      = layout(bar.foot.at(data.deformation_scale));
           const double   factor = longest / largest;
           cairo_move_to(cr, x[0], x[1]);

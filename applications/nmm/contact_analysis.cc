@@ -229,7 +229,7 @@ ContactAnalysis::take_state(const double work)
 
 
 std::vector<double>
-ContactAnalysis::numbers() const
+ContactAnalysis::numbers(const double thickness) const
 {
   std::vector<double> values = {double(report.n_open),
                                 double(report.n_stick),
@@ -239,10 +239,10 @@ ContactAnalysis::numbers() const
                                 report.largest_penetration,
                                 report.largest_penetration / cell_size,
                                 pressure,
-                                report.energy,
-                                friction_work};
+                                thickness * report.energy,
+                                thickness * friction_work};
   for (const auto &force : forces)
-    values.insert(values.end(), {force[0], force[1]});
+    values.insert(values.end(), {thickness * force[0], thickness * force[1]});
   return values;
 }
 

@@ -60,8 +60,9 @@ public:
   std::vector<std::string>
   columns() const;
 
+  /// Energies and forces times @p thickness.
   std::vector<double>
-  numbers() const;
+  numbers(double thickness) const;
 
   /// On the first rank.
   std::vector<NMM::ContactSample>

@@ -97,7 +97,7 @@ DynamicAnalysis::write_rows(const StepRecord &record)
 {
   std::vector<double> row;
   if (contact)
-    row = contact->numbers();
+    row = contact->numbers(/* thickness = */ 1.);
   if (incremental)
   {
     const DisplacementField current(*covers, problem, displacement());

@@ -145,7 +145,7 @@ NonlinearAnalysis::run_contact()
     row.strain_energy     = problem.thickness * system->strain_energy();
     friction_work += step.dissipated;
     contact->take_state(friction_work);
-    row.contact_numbers = contact->numbers();
+    row.contact_numbers = contact->numbers(problem.thickness);
     contact->remember_states();
     add_step(row, solution);
   };

@@ -57,15 +57,20 @@ DynamicAnalysis::make_integrator()
                                          *mass_quadrature,
                                          std::move(loading));
 
+  if (contact)
+    contact_model = std::make_unique<AccountedContactModel>(*model, *contact);
+
   NewtonParameters newton   = TimeIntegrator::default_newton_parameters();
   newton.residual_tolerance = parameters.newton.newton.residual_tolerance;
   newton.max_iterations     = parameters.newton.newton.max_iterations;
-  integrator =
-    std::make_unique<TimeIntegrator>(*model,
-                                     parameters.time.time_scheme(kind,
-                                                                 kinematics),
-                                     parameters.time.damping,
-                                     newton);
+  MechanicalModel *moved    = contact_model.get();
+  if (!contact)
+    moved = model.get();
+  integrator = std::make_unique<TimeIntegrator>(
+    *moved,
+    parameters.time.time_scheme(kind, kinematics, contact != nullptr),
+    parameters.time.damping,
+    newton);
 
   if (!restart.empty())
   {

@@ -44,6 +44,7 @@ private:
   /// Small and finite kinematics.
   std::unique_ptr<NMM::FiniteElasticity> elasticity;
   std::unique_ptr<NMM::ElasticModel>     model;
+  std::unique_ptr<AccountedContactModel> contact_model;
   std::unique_ptr<NMM::TimeIntegrator>   integrator;
   /// Incremental kinematics.
   std::unique_ptr<NMM::IncrementalElasticity> incremental;

@@ -43,10 +43,19 @@ DynamicAnalysis::open_files()
                                  "area"},
         MPI_COMM_SELF);
     else
-      history = std::make_unique<History>(name, MPI_COMM_SELF, continue_after);
+      history = std::make_unique<History>(name,
+                                          MPI_COMM_SELF,
+                                          continue_after,
+                                          contact ? contact->columns()
+                                                  : std::vector<std::string>());
     if (is_continued)
       directory->resume();
   });
+  if (contact)
+  {
+    contact->remember_states();
+    contact->take_state(contact_model->friction_work());
+  }
   if (!is_continued)
   {
     write_rows(StepRecord());
@@ -87,6 +96,8 @@ void
 DynamicAnalysis::write_rows(const StepRecord &record)
 {
   std::vector<double> row;
+  if (contact)
+    row = contact->numbers(/* thickness = */ 1.);
   if (incremental)
   {
     const DisplacementField current(*covers, problem, displacement());
@@ -110,7 +121,7 @@ DynamicAnalysis::write_rows(const StepRecord &record)
     if (incremental)
       incremental_history->write(time(), step_number(), row);
     else
-      history->write(*integrator, record);
+      history->write(*integrator, record, row);
     probe_history->write(time(), step_number(), probe_values);
   });
 }
@@ -155,6 +166,8 @@ DynamicAnalysis::show_progress()
            << n_steps / seconds << " steps/s, about " << std::ceil(left)
            << " s left";
     }
+    if (contact)
+      line << "; " << contact->progress();
     return line.str();
   });
 }
@@ -198,6 +211,8 @@ DynamicAnalysis::verify()
     summary.add("current_area",
                 CurrentStress::area(*field, *quadrature),
                 length + "^2");
+  if (contact)
+    contact->add_to_summary(summary);
   if (!incremental)
     summary.add("direct_stress_covers",
                 dealii::Utilities::MPI::sum(recovery->n_direct(),

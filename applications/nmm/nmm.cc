@@ -81,16 +81,16 @@ namespace
   help_text()
   {
     std::ostringstream text;
-    text
-      << "nmm solves a scene with the second-order numerical manifold "
-         "method.\n\n"
-         "Usage: nmm [options] scene.prm\n\n"
-      << visible_options()
-      << "\nWrites summary.csv, probes.csv, fields.vtu and picture.png, and "
-         "history.csv of\nsteps of load or time. Scene files are explained in "
-         "doc/scene-format.md.\n\n"
-         "Exit codes: 0 success, 1 internal error, 2 bad input (nothing "
-         "is written),\n3 no solution (what is known is written).\n";
+    text << "nmm solves a scene with the second-order numerical manifold "
+            "method.\n\n"
+            "Usage: nmm [options] scene.prm\n\n"
+         << visible_options()
+         << "\nWrites summary.csv, probes.csv, fields.vtu and picture.png, and "
+            "history.csv of\nsteps of load or time; with contact contacts.csv. "
+            "Scene files are explained in "
+            "doc/scene-format.md.\n\n"
+            "Exit codes: 0 success, 1 internal error, 2 bad input (nothing "
+            "is written),\n3 no solution (what is known is written).\n";
     return text.str();
   }
 
@@ -207,7 +207,8 @@ namespace
                                                progress,
                                                communicator,
                                                restart);
-    if (scene.parameters().model.kinematics == NMM::Kinematics::small)
+    if (model.kinematics == NMM::Kinematics::small &&
+        !scene.parameters().contact.is_present())
       return std::make_unique<StaticAnalysis>(scene, progress, communicator);
     return std::make_unique<NonlinearAnalysis>(scene, progress, communicator);
   }

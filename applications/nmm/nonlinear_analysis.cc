@@ -20,11 +20,10 @@ NonlinearAnalysis::make_system()
 {
   try
   {
-    if (scene.parameters().model.kinematics == Kinematics::finite)
-      finite = std::make_unique<FiniteElasticity>(*covers,
-                                                  *quadrature,
-                                                  constraints,
-                                                  problem);
+    if (scene.parameters().model.kinematics != Kinematics::incremental)
+      // What floats may be held by contact.
+      finite = std::make_unique<FiniteElasticity>(
+        *covers, *quadrature, constraints, problem, contact != nullptr);
     else
       incremental = std::make_unique<IncrementalElasticity>(*covers,
                                                             *quadrature,
@@ -35,6 +34,10 @@ NonlinearAnalysis::make_system()
   {
     failure = std::current_exception();
   }
+  if (contact)
+    system = std::make_unique<ElasticSystem>(
+      *finite,
+      /* is_linearized = */ !has_large_displacements());
 
   const auto [first, last] = covers->locally_owned_elements();
   for (unsigned int element = first; element < last; ++element)
@@ -44,6 +47,13 @@ NonlinearAnalysis::make_system()
         output_points.emplace_back(element,
                                    mathematical_mesh->real_to_reference(
                                      manifold_mesh->cell(element), x));
+}
+
+
+bool
+NonlinearAnalysis::has_large_displacements() const
+{
+  return scene.parameters().model.kinematics != Kinematics::small;
 }
 
 
@@ -63,7 +73,9 @@ NonlinearAnalysis::solve()
   try
   {
     Stage stage(progress, "load steps");
-    if (finite)
+    if (contact)
+      run_contact();
+    else if (finite)
       run_finite();
     else
       run_incremental();
@@ -108,6 +120,76 @@ NonlinearAnalysis::run_finite()
 
 
 void
+NonlinearAnalysis::run_contact()
+{
+  const SceneParameters &parameters = scene.parameters();
+  // What the scene leaves at its default is better chosen for contact.
+  const NewtonParameters &given    = parameters.newton.newton;
+  const NewtonParameters  defaults = NewtonParameters();
+  NewtonParameters        newton = ContactStatics::default_newton_parameters();
+  newton.residual_tolerance      = given.residual_tolerance;
+  if (given.energy_tolerance != defaults.energy_tolerance)
+    newton.energy_tolerance = given.energy_tolerance;
+  if (given.max_iterations != defaults.max_iterations)
+    newton.max_iterations = given.max_iterations;
+
+  ContactStatics statics(*system, contact->contact(), newton);
+  double         friction_work = 0.;
+  const auto after_step = [&](const ContactStep &step, const Vector &solution) {
+    HistoryRow row;
+    row.load_factor       = step.load_factor;
+    row.n_iterations      = step.n_iterations;
+    row.n_cuts            = step.n_cuts;
+    row.n_lost_iterations = step.n_lost_iterations;
+    row.relative_residual = step.relative_residual;
+    row.strain_energy     = problem.thickness * system->strain_energy();
+    friction_work += step.dissipated;
+    contact->take_state(friction_work);
+    row.contact_numbers = contact->numbers(problem.thickness);
+    contact->remember_states();
+    add_step(row, solution);
+  };
+  try
+  {
+    statics.run(parameters.load_steps.load_steps(), after_step);
+  }
+  catch (const NumericalFailure &error)
+  {
+    if (history.empty())
+      explain_floating(error.message());
+    throw;
+  }
+}
+
+
+void
+NonlinearAnalysis::explain_floating(const std::string &reason) const
+{
+  std::string floating;
+  try
+  {
+    const FiniteElasticity without_contact(*covers,
+                                           *quadrature,
+                                           constraints,
+                                           problem);
+  }
+  catch (const NumericalFailure &error)
+  {
+    floating = error.message();
+  }
+  AssertThrow(
+    floating.empty(),
+    NumericalFailure(reason +
+                       ". Contact alone has to hold the solid, "
+                       "and does not do so from the start: " +
+                       floating,
+                     "the first load step",
+                     "let faces touch at the start, with friction, or "
+                     "set 'Model/Analysis = relaxation'"));
+}
+
+
+void
 NonlinearAnalysis::run_incremental()
 {
   const LoadStepParameters &parameters = scene.parameters().load_steps;
@@ -140,6 +222,8 @@ NonlinearAnalysis::add_step(HistoryRow row, const Vector &solution)
                                                *quadrature,
                                                problem,
                                                incremental->stresses());
+  if (!has_large_displacements())
+    row.strain_energy = small_strain_energy();
   double largest = 0.;
   for (const auto &[element, xi] : output_points)
     largest = std::max(largest, field->displacement(element, xi).norm());
@@ -164,6 +248,8 @@ NonlinearAnalysis::add_step(HistoryRow row, const Vector &solution)
   if (finite)
     line << ", " << row.n_cuts << " cut(s), residual " << std::scientific
          << std::setprecision(1) << row.relative_residual;
+  if (contact)
+    line << "; " << contact->progress();
   progress.message(line.str());
 
   last_solution = solution;
@@ -193,9 +279,10 @@ NonlinearAnalysis::show()
     *field,
     *recovery,
     problem,
-    finite ? CurrentStress::finite(*finite)
-           : CurrentStress::incremental(
-               *covers, *quadrature, problem, incremental->stresses()));
+    incremental ? CurrentStress::incremental(
+                    *covers, *quadrature, problem, incremental->stresses())
+    : has_large_displacements() ? CurrentStress::finite(*finite)
+                                : FieldEvaluator::StressLaw());
 }
 
 
@@ -224,6 +311,8 @@ NonlinearAnalysis::verify()
               history.back().strain_energy,
               scene.parameters().output.stress_unit + "*" +
                 scene.parameters().output.length_unit + "^3");
+  if (contact)
+    contact->add_to_summary(summary);
 }
 
 
@@ -263,6 +352,9 @@ NonlinearAnalysis::write_history(std::ostream &out) const
   for (const ProbeParameters &probe : scene.parameters().probes)
     if (!probe.is_line)
       out << ',' << probe.name << "_x," << probe.name << "_y";
+  if (contact)
+    for (const std::string &column : contact->columns())
+      out << ',' << column;
   out << '\n' << std::setprecision(12);
   for (unsigned int i = 0; i < history.size(); ++i)
   {
@@ -272,6 +364,8 @@ NonlinearAnalysis::write_history(std::ostream &out) const
         << row.strain_energy << ',' << row.max_displacement;
     for (const Tensor<1, 2> &u : row.probe_displacements)
       out << ',' << u[0] << ',' << u[1];
+    for (const double value : row.contact_numbers)
+      out << ',' << value;
     out << '\n';
   }
 }

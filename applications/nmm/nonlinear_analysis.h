@@ -1,6 +1,7 @@
 #ifndef nmm_applications_nonlinear_analysis_h
 #define nmm_applications_nonlinear_analysis_h
 
+#include <nmm/mechanics/elastic_system.h>
 #include <nmm/mechanics/finite_elasticity.h>
 #include <nmm/mechanics/incremental_elasticity.h>
 #include <nmm/mechanics/incremental_statics.h>
@@ -15,7 +16,7 @@
 
 /**
  * Large displacements under growing load, by FiniteElasticity and Newton's
- * method or by IncrementalElasticity. If a load step fails, the last one that
+ * method or by IncrementalElasticity; contact, with small or large displacements. If a load step fails, the last one that
  * converged is what is written.
  */
 class NonlinearAnalysis : public SceneAnalysis
@@ -47,9 +48,13 @@ private:
     double max_displacement = 0.;
     /// Of probes that are points [m].
     std::vector<dealii::Tensor<1, 2>> probe_displacements;
+    /// See ContactAnalysis::columns(); energies times the thickness.
+    std::vector<double> contact_numbers;
   };
 
+  /// With contact also that of small displacements, as `system` sees it.
   std::unique_ptr<NMM::FiniteElasticity>      finite;
+  std::unique_ptr<NMM::ElasticSystem>         system;
   std::unique_ptr<NMM::IncrementalElasticity> incremental;
   /// Why there are no equations: a block floats. Not an input error, so it waits
   /// until solve().
@@ -67,8 +72,19 @@ private:
   void
   make_system() override;
 
+  bool
+  has_large_displacements() const;
+
   void
   run_finite();
+
+  void
+  run_contact();
+
+  /// @throws NMM::NumericalFailure, beside @p reason naming the block, if one
+  /// floats that only contact may hold.
+  void
+  explain_floating(const std::string &reason) const;
 
   void
   run_incremental();

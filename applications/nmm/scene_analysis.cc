@@ -91,7 +91,12 @@ SceneAnalysis::make_covers()
                           parameters.stabilization == Stabilization::aggregation
                             ? parameters.threshold
                             : 0.);
+  // The surface comes first: it may make more covers relevant to a rank.
+  if (scene.parameters().contact.is_present())
+    contact = std::make_unique<ContactAnalysis>(scene, *physical_mesh, *covers);
   constraints = make_constraints(*covers, aggregation, 2);
+  if (contact)
+    contact->make_contact(constraints, problem);
   if (parameters.stabilization == Stabilization::ghost_penalty)
     ghost_penalty = std::make_unique<GhostPenalty>(
       make_ghost_penalty(*manifold_mesh, parameters.threshold));
@@ -146,6 +151,9 @@ SceneAnalysis::print_report()
     progress.message("  notice: " + notice);
   for (const std::string &notice : own_mesh_notices)
     progress.message("  notice: " + notice);
+  if (contact)
+    for (const std::string &notice : contact->notices())
+      progress.message("  notice: " + notice);
 
   const auto count = [&](const std::string &name) {
     std::ostringstream text;
@@ -166,6 +174,8 @@ SceneAnalysis::print_report()
   smallest << "  smallest element area over cell area "
            << summary.value("smallest_area_fraction");
   progress.message(smallest.str());
+  if (contact)
+    progress.message("  contact: " + contact->description());
   if (summary.value("quadrature_fallbacks") > 0.)
     progress.message("  warning: " + count("quadrature_fallbacks") +
                      " quadrature rule(s) of lower quality");
@@ -176,6 +186,31 @@ bool
 SceneAnalysis::is_first_rank() const
 {
   return dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+}
+
+
+double
+SceneAnalysis::small_strain_energy() const
+{
+  double energy            = 0.;
+  const auto [first, last] = covers->locally_owned_elements();
+  for (unsigned int element = first; element < last; ++element)
+  {
+    const dealii::Quadrature<2> &rule = quadrature->rule(element);
+    const double                 determinant =
+      2. * mathematical_mesh->cell_area(manifold_mesh->cell(element));
+    const auto initial_stress =
+      field->stress_from_gradient(element, dealii::Tensor<2, 2>());
+    for (unsigned int q = 0; q < rule.size(); ++q)
+    {
+      const auto gradient = field->gradient(element, rule.point(q));
+      const auto elastic_stress =
+        field->stress_from_gradient(element, gradient) - initial_stress;
+      energy += 0.5 * determinant * rule.weight(q) *
+                (elastic_stress * dealii::symmetrize(gradient));
+    }
+  }
+  return problem.thickness * dealii::Utilities::MPI::sum(energy, communicator);
 }
 
 
@@ -205,7 +240,8 @@ void
 SceneAnalysis::open(const OutputDirectory &output_directory)
 {
   directory = &output_directory;
-  series    = std::make_unique<StateSeries>(scene, *covers, *directory);
+  series =
+    std::make_unique<StateSeries>(scene, *covers, contact.get(), *directory);
   open_files();
 }
 
@@ -240,9 +276,12 @@ SceneAnalysis::write()
       series->finish(
         last_value(),
         write_fields_of_state(*covers, triangles, *directory, "fields"));
+    if (evaluator)
+      series->finish_contact(last_value());
     if (parameters.picture)
       write_picture(scene,
                     *covers,
+                    evaluator ? contact.get() : nullptr,
                     triangles,
                     evaluator.get(),
                     scene.title() +

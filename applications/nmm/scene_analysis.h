@@ -14,6 +14,7 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/affine_constraints.h>
 
+#include "contact_analysis.h"
 #include "state_series.h"
 #include <functional>
 #include <memory>
@@ -73,13 +74,15 @@ protected:
   bool is_solved = false;
 
   // Each object refers to those above it.
-  std::vector<NMM::CleaningAction>           cleaning_actions;
-  std::vector<std::string>                   own_mesh_notices;
-  std::unique_ptr<NMM::PhysicalMesh>         physical_mesh;
-  std::unique_ptr<NMM::MathematicalMesh>     mathematical_mesh;
-  std::unique_ptr<NMM::ManifoldMesh>         manifold_mesh;
-  std::unique_ptr<NMM::CoverSystem>          covers;
-  NMM::Aggregation                           aggregation;
+  std::vector<NMM::CleaningAction>       cleaning_actions;
+  std::vector<std::string>               own_mesh_notices;
+  std::unique_ptr<NMM::PhysicalMesh>     physical_mesh;
+  std::unique_ptr<NMM::MathematicalMesh> mathematical_mesh;
+  std::unique_ptr<NMM::ManifoldMesh>     manifold_mesh;
+  std::unique_ptr<NMM::CoverSystem>      covers;
+  NMM::Aggregation                       aggregation;
+  /// Null without contact.
+  std::unique_ptr<ContactAnalysis>           contact;
   dealii::AffineConstraints<double>          constraints;
   std::unique_ptr<NMM::GhostPenalty>         ghost_penalty;
   std::unique_ptr<NMM::QuadratureCollection> quadrature;
@@ -94,6 +97,11 @@ protected:
 
   bool
   is_first_rank() const;
+
+  /// Elastic energy [J] of `field` in small displacements, initial stress left
+  /// out. Collective.
+  double
+  small_strain_energy() const;
 
   /// Let the first rank do something that may throw: all ranks throw then.
   void

@@ -21,12 +21,23 @@ namespace
   {
     return dealii::Utilities::MPI::this_mpi_process(covers.communicator()) == 0;
   }
+
+
+  /// Are displacements drawn as they are, unless the scene says otherwise? Faces
+  /// in contact would overlap if not.
+  bool
+  shows_true_size(const Scene &scene)
+  {
+    return scene.parameters().model.kinematics != Kinematics::small ||
+           scene.parameters().contact.is_present();
+  }
 } // namespace
 
 
 void
 write_picture(const Scene           &scene,
               const CoverSystem     &covers,
+              const ContactAnalysis *contact,
               const FieldTriangles  &triangles,
               const FieldEvaluator  *evaluator,
               const std::string     &title,
@@ -37,11 +48,12 @@ write_picture(const Scene           &scene,
   OutputParameters parameters = scene.parameters().output;
   if (evaluator == nullptr)
     parameters.quantity = Quantity::block;
-  if (scene.parameters().model.kinematics != Kinematics::small &&
-      parameters.deformation_scale < 0.)
+  if (shows_true_size(scene) && parameters.deformation_scale < 0.)
     parameters.deformation_scale = 1.;
   PictureData data =
     make_picture_data(covers, triangles, evaluator, parameters);
+  if (contact != nullptr)
+    add_contact(contact->contact().surface(), contact->points(), data);
   if (is_first_rank(covers))
     directory.write_file(file_name, [&](const std::string &name) {
       draw_picture(data, parameters, title, name);
@@ -53,11 +65,21 @@ write_picture(const Scene           &scene,
 
 StateSeries::StateSeries(const Scene           &scene,
                          const CoverSystem     &covers,
+                         const ContactAnalysis *contact,
                          const OutputDirectory &directory)
   : scene(&scene)
   , covers(&covers)
+  , contact(contact)
   , directory(&directory)
 {
+  const SceneParameters &parameters = scene.parameters();
+  if (contact != nullptr && is_first_rank(covers))
+    contact_series = std::make_unique<ContactSeries>(
+      contact->contact().surface(),
+      directory,
+      parameters.model.analysis == Analysis::statics ? "load_factor" : "time",
+      parameters.output.contacts,
+      parameters.output.fields);
 }
 
 
@@ -80,6 +102,8 @@ StateSeries::resume(const double last)
     }
   if (!files.empty())
     write_list();
+  if (contact_series)
+    contact_series->resume(last);
   const OutputParameters &output = scene->parameters().output;
   if (output.animation && output.picture && output.fields_every > 0)
     open_animation(limit);
@@ -108,11 +132,18 @@ StateSeries::write(const unsigned int    number,
     if (is_first_rank(*covers))
       write_list();
   }
+  if (contact != nullptr)
+  {
+    const auto points = contact->points();
+    if (contact_series)
+      contact_series->write(value, "contacts" + suffix.str(), points);
+  }
   if (!output.picture)
     return;
   PictureData data;
   write_picture(*scene,
                 *covers,
+                contact,
                 triangles,
                 &evaluator,
                 scene->title() + ", " + description,
@@ -147,8 +178,7 @@ StateSeries::write_animation()
   AnimationParameters parameters;
   parameters.time_name = is_dynamic ? "t" : "load factor";
   parameters.time_unit = is_dynamic ? "s" : "";
-  if (scene->parameters().model.kinematics != Kinematics::small &&
-      output.deformation_scale < 0.)
+  if (shows_true_size(*scene) && output.deformation_scale < 0.)
     output.deformation_scale = 1.;
   directory->write_text("animation.html", [&](std::ostream &out) {
     animation->write(out, scene->title(), output, parameters);
@@ -164,6 +194,17 @@ StateSeries::finish(const double value, const std::string &file_name)
   MPI_Barrier(covers->communicator());
   if (is_first_rank(*covers))
     write_list();
+}
+
+
+void
+StateSeries::finish_contact(const double value)
+{
+  if (contact == nullptr)
+    return;
+  const auto points = contact->points();
+  if (contact_series)
+    contact_series->finish(value, points);
 }
 
 

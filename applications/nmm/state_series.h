@@ -7,17 +7,19 @@
 #include <nmm/io/output_directory.h>
 #include <nmm/io/scene.h>
 
+#include "contact_analysis.h"
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 /// Draw picture.png or one of a series, as the scene says; without @p evaluator
-/// which block is which. What was drawn is kept in @p drawn, on the first rank.
-/// Collective.
+/// which block is which; with forces and obstacles of @p contact, if it is given.
+/// What was drawn is kept in @p drawn, on the first rank. Collective.
 void
 write_picture(const NMM::Scene           &scene,
               const NMM::CoverSystem     &covers,
+              const ContactAnalysis      *contact,
               const NMM::FieldTriangles  &triangles,
               const NMM::FieldEvaluator  *evaluator,
               const std::string          &title,
@@ -29,15 +31,18 @@ write_picture(const NMM::Scene           &scene,
  * Fields and pictures of states of a run, written as they come: fields-NNNN.vtu,
  * picture-NNNN.png, and fields.pvd, which at any time lists the fields that are
  * there; at the end animation.html, for which frames are kept in
- * animation.frames meanwhile. All functions are collective.
+ * animation.frames meanwhile. With contact its points as well: contacts.csv,
+ * contacts-NNNN.vtp, contacts.pvd. All functions are collective.
  *
  * Lifetime: the arguments of the constructor must outlive this object.
  */
 class StateSeries
 {
 public:
+  /// @p contact may be null.
   StateSeries(const NMM::Scene           &scene,
               const NMM::CoverSystem     &covers,
+              const ContactAnalysis      *contact,
               const NMM::OutputDirectory &directory);
 
   /// Keep the fields of an earlier run up to the state @p last (time or load
@@ -57,6 +62,10 @@ public:
   void
   finish(double value, const std::string &file_name);
 
+  /// The last state's contact points, if there is contact.
+  void
+  finish_contact(double value);
+
   /// Write animation.html, if there are frames for it.
   void
   write_animation();
@@ -71,10 +80,12 @@ private:
 
   const NMM::Scene                           *scene;
   const NMM::CoverSystem                     *covers;
+  const ContactAnalysis                      *contact;
   const NMM::OutputDirectory                 *directory;
   std::vector<std::pair<double, std::string>> files;
   /// On the first rank.
-  std::unique_ptr<NMM::Animation> animation;
+  std::unique_ptr<NMM::Animation>     animation;
+  std::unique_ptr<NMM::ContactSeries> contact_series;
 };
 
 #endif

@@ -175,7 +175,7 @@ StaticAnalysis::verify()
 {
   Stage stage(progress, "verification");
   summary.add("strain_energy",
-              strain_energy(),
+              small_strain_energy(),
               scene.parameters().output.stress_unit + "*" +
                 scene.parameters().output.length_unit + "^3");
   summary.add("direct_stress_covers",
@@ -233,29 +233,4 @@ StaticAnalysis::add_errors()
     }
   summary.add("error_direct_hoop_max", error_direct);
   summary.add("error_recovered_hoop_max", error_recovered);
-}
-
-
-double
-StaticAnalysis::strain_energy() const
-{
-  double energy            = 0.;
-  const auto [first, last] = covers->locally_owned_elements();
-  for (unsigned int element = first; element < last; ++element)
-  {
-    const dealii::Quadrature<2> &rule = quadrature->rule(element);
-    const double                 determinant =
-      2. * mathematical_mesh->cell_area(manifold_mesh->cell(element));
-    const auto initial_stress =
-      field->stress_from_gradient(element, dealii::Tensor<2, 2>());
-    for (unsigned int q = 0; q < rule.size(); ++q)
-    {
-      const auto gradient = field->gradient(element, rule.point(q));
-      const auto elastic_stress =
-        field->stress_from_gradient(element, gradient) - initial_stress;
-      energy += 0.5 * determinant * rule.weight(q) *
-                (elastic_stress * dealii::symmetrize(gradient));
-    }
-  }
-  return problem.thickness * dealii::Utilities::MPI::sum(energy, communicator);
 }

@@ -40,10 +40,6 @@ private:
 
   void
   add_errors();
-
-  /// Elastic energy of the solid [J].
-  double
-  strain_energy() const;
 };
 
 #endif

@@ -225,6 +225,38 @@ namespace NMM
   }
 
 
+  /// Elements that are tied couple in the elasticity, whose pattern is to be within
+  /// that of the contact.
+  void
+  Contact::Data::couple_ties()
+  {
+    const CoverSystem  &covers = surface->cover_system();
+    const ManifoldMesh &mesh   = covers.manifold_mesh();
+    const auto [first, last]   = covers.locally_owned_elements();
+    const auto &curves         = mesh.physical_mesh().curves();
+    const auto &piece_to_curve = mesh.physical_mesh().piece_to_curve();
+    std::vector<unsigned int> both;
+    for (unsigned int e = first; e < last; ++e)
+      for (const ElementEdge &edge : mesh.edges(e))
+      {
+        if (edge.curve_set == invalid_index || edge.neighbor == invalid_index)
+          continue;
+        const auto &pieces = mesh.curve_set(edge.curve_set);
+        if (std::all_of(pieces.begin(), pieces.end(), [&](const auto piece) {
+              const Curve &curve = curves[piece_to_curve[piece]];
+              return curve.role == CurveRole::joint &&
+                     curve.state == JointState::open;
+            }))
+          continue;
+        both.assign(covers.covers(e).begin(), covers.covers(e).end());
+        both.insert(both.end(),
+                    covers.covers(edge.neighbor).begin(),
+                    covers.covers(edge.neighbor).end());
+        block_system->couple({both.data(), both.size()});
+      }
+  }
+
+
   void
   Contact::Data::make_pattern()
   {
@@ -271,6 +303,7 @@ namespace NMM
       std::make_unique<BlockSystem>(surface->cover_system(), *constraints);
     for (unsigned int i = 0; i < couplings.size(); i += couplings[i] + 1)
       block_system->couple({couplings.data() + i + 1, couplings[i]});
+    couple_ties();
     block_system->ignore_inhomogeneities();
     block_system->leave_empty_rows();
     block_system->build();

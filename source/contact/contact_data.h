@@ -92,6 +92,9 @@ namespace NMM
     void
     make_pattern();
 
+    void
+    couple_ties();
+
     /// The nearest master of a point at the current positions; notes weight and
     /// place of sticking when there is one for the first time.
     internal::ContactProjection

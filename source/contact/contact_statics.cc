@@ -259,7 +259,8 @@ namespace NMM
         const std::vector<double> history = d.contact->history();
         if (d.try_step(next, u, step))
         {
-          d.contact->accept();
+          step.dissipated = d.contact->accept();
+
           length        = std::max(length, 2. * (next - d.load_factor));
           d.solution    = u;
           d.load_factor = next;

@@ -33,6 +33,38 @@ namespace NMM
     }
 
 
+    /// Cutting is exact, coordinates are not: an edge may have the length of their
+    /// rounding, and no direction. It is none to touch.
+    bool
+    has_length(const ManifoldMesh &mesh,
+               const unsigned int  element,
+               const ElementEdge  &edge)
+    {
+      constexpr double tolerance = 1e-12;
+      const double     size =
+        std::sqrt(mesh.mathematical_mesh().cell_area(mesh.cell(element)));
+      return edge.start.distance(edge.end) > tolerance * size;
+    }
+
+
+    /// Of the curves that lie on each other, the one that is the element's face.
+    unsigned int
+    own_curve(const ManifoldMesh &mesh,
+              const unsigned int  element,
+              const unsigned int  curve_set)
+    {
+      const PhysicalMesh              &physical_mesh = mesh.physical_mesh();
+      const std::vector<unsigned int> &pieces = mesh.curve_set(curve_set);
+      const auto                       own    = std::find_if(
+        pieces.begin(), pieces.end(), [&](const unsigned int piece) {
+          return physical_mesh.is_face_of(physical_mesh.piece_to_curve()[piece],
+                                          mesh.region(element));
+        });
+      return physical_mesh
+        .piece_to_curve()[own == pieces.end() ? pieces.front() : *own];
+    }
+
+
     /// Position of the edge that follows in the same loop.
     unsigned int
     next_in_loop(const dealii::ArrayView<const ElementEdge> &edges,
@@ -117,28 +149,25 @@ namespace NMM
   void
   ContactSurface::add_elements()
   {
-    const ManifoldMesh &mesh    = cover_pointer->manifold_mesh();
-    const auto [first, last]    = cover_pointer->locally_owned_elements();
-    const PhysicalMesh &physics = mesh.physical_mesh();
-    owned                       = {0, 0};
+    const ManifoldMesh &mesh = cover_pointer->manifold_mesh();
+    const auto [first, last] = cover_pointer->locally_owned_elements();
+    owned                    = {0, 0};
     for (unsigned int e = 0; e < mesh.n_elements(); ++e)
     {
       if (e == first)
         owned.first = all_edges.size();
       const auto boundary = mesh.edges(e);
       for (unsigned int k = 0; k < boundary.size(); ++k)
-        if (is_free(mesh, boundary[k]))
+        if (is_free(mesh, boundary[k]) && has_length(mesh, e, boundary[k]))
         {
           Edge edge;
           edge.element = e;
           edge.body    = mesh.block(e);
-          edge.curve =
-            physics
-              .piece_to_curve()[mesh.curve_set(boundary[k].curve_set).front()];
-          edge.start  = boundary[k].start;
-          edge.end    = boundary[k].end;
-          edge.center = boundary[k].center;
-          edge.radius = boundary[k].radius;
+          edge.curve   = own_curve(mesh, e, boundary[k].curve_set);
+          edge.start   = boundary[k].start;
+          edge.end     = boundary[k].end;
+          edge.center  = boundary[k].center;
+          edge.radius  = boundary[k].radius;
           set_angles(edge);
 
           const MathematicalMesh &cells = mesh.mathematical_mesh();
@@ -181,7 +210,7 @@ namespace NMM
     constexpr unsigned int n_turns = 1000;
 
     const MathematicalMesh &cells = mesh.mathematical_mesh();
-    const Point<2>          pivot = all_edges[edge].end;
+    Point<2>                pivot = all_edges[edge].end;
     // element and its edge that ends at the pivot
     unsigned int e = element, k = position;
     for (unsigned int i = 0; i < n_turns; ++i)
@@ -192,6 +221,11 @@ namespace NMM
       if (boundary.size() > 0)
       {
         k = next_in_loop(boundary, k);
+        if (is_free(mesh, boundary[k]) && !has_length(mesh, e, boundary[k]))
+        {
+          pivot = boundary[k].end;
+          continue;
+        }
         if (is_free(mesh, boundary[k]))
         {
           const auto found =

@@ -16,7 +16,7 @@ namespace NMM
       "# per unit thickness: energies [J/m], linear momentum [kg/s], angular "
       "momentum about the origin [kg m/s]; time and size [s], displacement and "
       "error [m]";
-    const char *const names =
+    const char *const common_names =
       "time,step,size,iterations,lost_iterations,max_displacement,error,"
       "kinetic,"
       "strain,conditions,dissipated,external_work,balance,momentum_x,momentum_"
@@ -25,14 +25,19 @@ namespace NMM
   } // namespace
 
 
-  History::History(const std::string &filename,
-                   const MPI_Comm     communicator,
-                   const int          continue_after)
+  History::History(const std::string              &filename,
+                   const MPI_Comm                  communicator,
+                   const int                       continue_after,
+                   const std::vector<std::string> &further_columns)
     : filename(filename)
+    , n_further(further_columns.size())
     , writes(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
   {
     if (!writes)
       return;
+    std::string names = common_names;
+    for (const std::string &column : further_columns)
+      names += "," + column;
     std::string kept = std::string(units) + "\n" + names + "\n";
     if (continue_after >= 0)
     {
@@ -70,10 +75,13 @@ namespace NMM
 
 
   void
-  History::write(const TimeIntegrator &integrator, const StepRecord &record)
+  History::write(const TimeIntegrator      &integrator,
+                 const StepRecord          &record,
+                 const std::vector<double> &further_values)
   {
     if (!writes)
       return;
+    AssertDimension(further_values.size(), n_further);
     const Account      &a     = integrator.account();
     const DynamicState &state = integrator.state();
     out << std::setprecision(17) << state.time << ',' << state.step << ','
@@ -90,6 +98,8 @@ namespace NMM
                                a.linear_momentum[0],
                                a.linear_momentum[1],
                                a.angular_momentum})
+      out << ',' << value;
+    for (const double value : further_values)
       out << ',' << value;
     out << std::endl;
     AssertThrow(out,

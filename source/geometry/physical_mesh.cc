@@ -25,6 +25,9 @@ namespace NMM
     dealii::BoundingBox<2>        bounding_box;
     std::vector<std::string>      notices;
     internal::PhysicalArrangement arrangement;
+    /// See internal::Loops and LabelledFaces::Face::loops.
+    std::vector<unsigned int>              curve_to_loop;
+    std::vector<std::vector<unsigned int>> region_to_loops;
 
     void
     take_curves(Geometry &geometry);
@@ -146,6 +149,7 @@ namespace NMM
       const auto &face           = faces.faces()[f];
       face.handle->data().region = regions.size();
       regions.push_back({invalid_index, invalid_index, face.area, face.inside});
+      region_to_loops.push_back(face.loops);
       outline.insert(outline.end(), face.boundary.begin(), face.boundary.end());
     }
     Assert(!outline.empty(), dealii::ExcInternalError());
@@ -381,6 +385,7 @@ namespace NMM
     const auto points = geometry.material_points();
     data->take_curves(geometry);
     const internal::Loops loops = internal::find_loops(data->curves);
+    data->curve_to_loop         = loops.curve_to_loop;
     data->insert_pieces();
     const internal::LabelledFaces faces(data->arrangement.arrangement,
                                         data->curves,
@@ -466,6 +471,23 @@ namespace NMM
       if (data->curves[c].name == name)
         found.push_back(c);
     return found;
+  }
+
+
+  bool
+  PhysicalMesh::is_face_of(const unsigned int curve,
+                           const unsigned int region) const
+  {
+    AssertIndexRange(curve, data->curves.size());
+    AssertIndexRange(region, data->regions.size());
+    const CurveRole role = data->curves[curve].role;
+    if (role != CurveRole::boundary && role != CurveRole::hole)
+      return true;
+    const std::vector<unsigned int> &loops = data->region_to_loops[region];
+    const bool is_inside                   = std::binary_search(loops.begin(),
+                                              loops.end(),
+                                              data->curve_to_loop[curve]);
+    return is_inside == (role == CurveRole::boundary);
   }
 
 

@@ -17,7 +17,7 @@ namespace NMM
     using dealii::Point;
     using Vertex = PictureData::Vertex;
 
-    constexpr char         magic[]     = "NMMframe";
+    constexpr char         magic[]     = "NMMfram2";
     constexpr std::size_t  magic_size  = 8;
     constexpr std::size_t  header_size = magic_size + 2 * 8;
     constexpr unsigned int max_places  = 12;
@@ -107,8 +107,10 @@ namespace NMM
           add(packer, triangle.vertices[i], origin);
           packer.add(static_cast<float>(triangle.values[i]));
         }
-      for (const auto *lines :
-           {&data.outlines, &data.interfaces, &data.mesh_lines})
+      for (const auto *lines : {&data.outlines,
+                                &data.interfaces,
+                                &data.mesh_lines,
+                                &data.obstacles})
       {
         packer.add(static_cast<std::uint64_t>(lines->size()));
         for (const PictureData::Polyline &line : *lines)
@@ -117,6 +119,14 @@ namespace NMM
           for (const Vertex &vertex : line)
             add(packer, vertex, origin);
         }
+      }
+      packer.add(static_cast<std::uint64_t>(data.contacts.size()));
+      for (const PictureData::Bar &bar : data.contacts)
+      {
+        add(packer, bar.foot, origin);
+        for (unsigned int d = 0; d < 2; ++d)
+          packer.add(static_cast<float>(bar.traction[d]));
+        packer.add(static_cast<std::uint32_t>(bar.kind));
       }
       return packer.buffer;
     }
@@ -139,13 +149,26 @@ namespace NMM
         }
         data.triangles.push_back(triangle);
       }
-      for (auto *lines : {&data.outlines, &data.interfaces, &data.mesh_lines})
+      for (auto *lines : {&data.outlines,
+                          &data.interfaces,
+                          &data.mesh_lines,
+                          &data.obstacles})
         for (auto n = unpacker.get<std::uint64_t>(); n > 0; --n)
         {
           lines->emplace_back();
           for (auto k = unpacker.get<std::uint32_t>(); k > 0; --k)
             lines->back().push_back(get_vertex(unpacker, origin));
         }
+      for (auto n = unpacker.get<std::uint64_t>(); n > 0; --n)
+      {
+        PictureData::Bar bar;
+        bar.foot = get_vertex(unpacker, origin);
+        for (unsigned int d = 0; d < 2; ++d)
+          bar.traction[d] = unpacker.get<float>();
+        bar.kind =
+          static_cast<PictureData::Bar::Kind>(unpacker.get<std::uint32_t>());
+        data.contacts.push_back(bar);
+      }
       return data;
     }
 
@@ -336,7 +359,9 @@ namespace NMM
       scale = choose_deformation_scale(at_rest.largest_displacement(),
                                        lower.distance(upper));
     }
-    PictureFrame   frame{animation.view, animation.range, {}};
+    PictureFrame frame;
+    frame.view  = animation.view;
+    frame.range = animation.range;
     PictureExtents extents;
     for (const Record &record : chosen)
       extents.add(read(record), scale);
@@ -344,6 +369,7 @@ namespace NMM
       frame.view = extents.view(0.01);
     if (!frame.range && !(parameters.range_min < parameters.range_max))
       frame.range = extents.range();
+    frame.bar_scale = extents.largest_traction();
 
     const TimeText text(chosen.front().time, chosen.back().time, chosen.size());
     OutputParameters of_frames = parameters;

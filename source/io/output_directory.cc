@@ -62,7 +62,7 @@ namespace NMM
     {
       const std::string extension = fs::path(name).extension().string();
       if (name == "summary.csv" || name == "probes.csv" ||
-          name == "picture.png" ||
+          name == "picture.png" || name == "contacts.vtp" ||
           (starts_with(name, "fields.") &&
            (extension == ".vtu" || extension == ".pvtu")))
         return true;
@@ -70,6 +70,8 @@ namespace NMM
         return false;
       return name == "history.csv" || name == "probes-history.csv" ||
              name == "checkpoint.nmm" || name == "fields.pvd" ||
+             name == "contacts.csv" || name == "contacts.pvd" ||
+             (starts_with(name, "contacts-") && extension == ".vtp") ||
              (starts_with(name, "fields-") &&
               (extension == ".vtu" || extension == ".pvtu")) ||
              (starts_with(name, "picture-") && extension == ".png");

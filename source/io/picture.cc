@@ -445,8 +445,170 @@ namespace NMM
     }
 
 
+    const std::array<double, 3> &
+    colour_of_bar(const PictureData::Bar::Kind kind)
+    {
+      static const std::array<double, 3> colours[] = {{{0.84, 0.10, 0.11}},
+                                                      {{1.00, 0.50, 0.05}},
+                                                      {{0.85, 0.20, 0.75}}};
+      return colours[kind];
+    }
+
+
+    /// The part of a straight line that lies in the plot; false if none does.
+    bool
+    clip_to_plot(const Layout &layout, Point<2> &start, Point<2> &end)
+    {
+      const double   margin  = 30. * layout.unit;
+      const double   low[2]  = {layout.left - margin, layout.top - margin};
+      const double   high[2] = {layout.left + layout.plot_width + margin,
+                                layout.top + layout.plot_height + margin};
+      double         first = 0., last = 1.;
+      const Point<2> from          = start;
+      const dealii::Tensor<1, 2> d = end - start;
+      for (unsigned int c = 0; c < 2; ++c)
+      {
+        if (d[c] == 0.)
+        {
+          if (from[c] < low[c] || from[c] > high[c])
+            return false;
+          continue;
+        }
+        const double a = (low[c] - from[c]) / d[c];
+        const double b = (high[c] - from[c]) / d[c];
+        first          = std::max(first, std::min(a, b));
+        last           = std::min(last, std::max(a, b));
+      }
+      if (first >= last)
+        return false;
+      start = from + first * d;
+      end   = from + last * d;
+      return true;
+    }
+
+
+    /// Lines with hatches on the left, where the rigid body is.
     void
-    draw_all_lines(cairo_t *cr, const PictureData &data, const Layout &layout)
+    draw_obstacles(cairo_t *cr, const PictureData &data, const Layout &layout)
+    {
+      const double u       = layout.unit;
+      const double spacing = 9. * u, size = 9. * u;
+      cairo_set_source_rgb(cr, 0.25, 0.25, 0.25);
+      cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+      for (const PictureData::Polyline &line : data.obstacles)
+      {
+        double passed = 0.;
+        for (std::size_t i = 1; i < line.size(); ++i)
+        {
+          Point<2> a = layout(line[i - 1].at(data.deformation_scale));
+          Point<2> b = layout(line[i].at(data.deformation_scale));
+          if (!clip_to_plot(layout, a, b))
+            continue;
+          cairo_set_line_width(cr, 2.2 * u);
+          cairo_move_to(cr, a[0], a[1]);
+          cairo_line_to(cr, b[0], b[1]);
+          cairo_stroke(cr);
+          const double               length = a.distance(b);
+          const dealii::Tensor<1, 2> d      = (b - a) / length;
+          // y of pixels is downwards
+          const Point<2> hatch(size * (d[1] - d[0]), size * (-d[0] - d[1]));
+          cairo_set_line_width(cr, 0.9 * u);
+          double at = -passed;
+          for (; at < length; at += spacing)
+            if (at >= 0.)
+            {
+              const Point<2> x = a + at * d;
+              cairo_move_to(cr, x[0], x[1]);
+              cairo_line_to(cr, x[0] + hatch[0], x[1] + hatch[1]);
+            }
+          passed = length - (at - spacing);
+          cairo_stroke(cr);
+        }
+      }
+    }
+
+
+    /// Bars that start at the face and show where it is pushed to.
+    void
+    draw_bars(cairo_t           *cr,
+              const PictureData &data,
+              const Layout      &layout,
+              const double       largest)
+    {
+      if (!(largest > 0.))
+        return;
+      const double longest = 75. * layout.unit;
+      cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+      // first all rims, which would cover neighbours
+      for (const bool is_rim : {true, false})
+        for (const PictureData::Bar &bar : data.contacts)
+        {
+          const auto &colour = colour_of_bar(bar.kind);
+          if (is_rim)
+            cairo_set_source_rgba(cr, 1., 1., 1., 0.5);
+          else
+            cairo_set_source_rgb(cr, colour[0], colour[1], colour[2]);
+          cairo_set_line_width(cr, (is_rim ? 2.8 : 1.6) * layout.unit);
+          const Point<2> x      = layout(bar.foot.at(data.deformation_scale));
+          const double   factor = longest / largest;
+          cairo_move_to(cr, x[0], x[1]);
+          cairo_line_to(cr,
+                        x[0] + factor * bar.traction[0],
+                        x[1] - factor * bar.traction[1]);
+          cairo_stroke(cr);
+        }
+    }
+
+
+    /// What bars mean, right-adjusted beside the subtitle.
+    void
+    draw_legend_of_bars(cairo_t                *cr,
+                        const PictureData      &data,
+                        const Layout           &layout,
+                        const double            largest,
+                        const OutputParameters &parameters)
+    {
+      const double      u        = layout.unit;
+      const int         exponent = choose_exponent(0., largest);
+      const std::string unit =
+        (exponent == 0 ? "" : " × 10" + superscript(exponent)) + " " +
+        parameters.stress_unit;
+      const std::string text = "contact up to " +
+                               number_text(largest / std::pow(10., exponent)) +
+                               unit;
+      static const char *const words[] = {"sticks", "slips", "bonded"};
+      double                   x       = layout.width - 30. * u;
+      for (int kind = 2; kind >= 0; --kind)
+      {
+        const bool is_there = std::any_of(data.contacts.begin(),
+                                          data.contacts.end(),
+                                          [&](const PictureData::Bar &bar) {
+                                            return bar.kind == kind;
+                                          });
+        if (!is_there)
+          continue;
+        constexpr double text_width = 52., sample_width = 22., gap = 6.;
+        x -= text_width * u;
+        draw_text(cr, words[kind], x, 63. * u, 15. * u, text_width * u);
+        const auto &colour =
+          colour_of_bar(static_cast<PictureData::Bar::Kind>(kind));
+        cairo_set_source_rgb(cr, colour[0], colour[1], colour[2]);
+        cairo_set_line_width(cr, 3. * u);
+        cairo_move_to(cr, x - gap * u, 58. * u);
+        cairo_line_to(cr, x - (gap + sample_width) * u, 58. * u);
+        cairo_stroke(cr);
+        x -= (2. * gap + sample_width + 4.) * u;
+      }
+      draw_text(
+        cr, text, x - 260. * u, 63. * u, 15. * u, 260. * u, false, true);
+    }
+
+
+    void
+    draw_all_lines(cairo_t           *cr,
+                   const PictureData &data,
+                   const Layout      &layout,
+                   const double       largest_traction)
     {
       const double scale  = data.deformation_scale;
       const double margin = 10. * layout.unit;
@@ -478,6 +640,8 @@ namespace NMM
                  1.4,
                  CAIRO_LINE_CAP_ROUND,
                  {{0.05, 0.05, 0.05, 1.}});
+      draw_obstacles(cr, data, layout);
+      draw_bars(cr, data, layout, largest_traction);
       cairo_restore(cr);
     }
 
@@ -510,7 +674,9 @@ namespace NMM
            minimum,
            maximum > minimum ? maximum - minimum : 1.,
            n_colours);
-      draw_all_lines(cr.get(), data, layout);
+      const double largest =
+        frame.bar_scale ? *frame.bar_scale : extents.largest_traction();
+      draw_all_lines(cr.get(), data, layout, largest);
 
       const double u          = layout.unit;
       const double width      = layout.width - 60. * u;
@@ -531,7 +697,9 @@ namespace NMM
                 30. * u,
                 63. * u,
                 17. * u,
-                width);
+                data.contacts.empty() ? width : 0.52 * width);
+      if (!data.contacts.empty())
+        draw_legend_of_bars(cr.get(), data, layout, largest, parameters);
       draw_colour_bar(cr.get(), layout, minimum, maximum);
       cairo_surface_flush(surface.get());
       return surface;

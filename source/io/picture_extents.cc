@@ -56,6 +56,15 @@ namespace NMM
           maximum = std::max(maximum, value);
         }
     }
+    for (const PictureData::Polyline &line : data.obstacles)
+      for (const PictureData::Vertex &vertex : line)
+        for (unsigned int d = 0; d < 2; ++d)
+        {
+          rigid_lower[d] = std::min(rigid_lower[d], vertex.at(scale)[d]);
+          rigid_upper[d] = std::max(rigid_upper[d], vertex.at(scale)[d]);
+        }
+    for (const PictureData::Bar &bar : data.contacts)
+      traction = std::max(traction, bar.traction.norm());
   }
 
 
@@ -64,10 +73,19 @@ namespace NMM
   {
     if (!(lower[0] <= upper[0] && lower[1] <= upper[1]))
       return {Point<2>(0., 0.), Point<2>(1., 1.)};
-    const double space =
-      margin * std::max(upper[0] - lower[0], upper[1] - lower[1]);
-    return {Point<2>(lower[0] - space, lower[1] - space),
-            Point<2>(upper[0] + space, upper[1] + space)};
+    const double size = std::max(upper[0] - lower[0], upper[1] - lower[1]);
+    // obstacles may be endless
+    constexpr double shown = 0.08;
+    const double     space = margin * size;
+    Point<2>         first, last;
+    for (unsigned int d = 0; d < 2; ++d)
+    {
+      const double low  = std::max(rigid_lower[d], lower[d] - shown * size);
+      const double high = std::min(rigid_upper[d], upper[d] + shown * size);
+      first[d]          = std::min(lower[d], low) - space;
+      last[d]           = std::max(upper[d], high) + space;
+    }
+    return {first, last};
   }
 
 
@@ -87,5 +105,12 @@ namespace NMM
   PictureExtents::largest_displacement() const
   {
     return largest;
+  }
+
+
+  double
+  PictureExtents::largest_traction() const
+  {
+    return traction;
   }
 } // namespace NMM

@@ -144,11 +144,14 @@ namespace NMM
   Scene::make_geometry() const
   {
     const GeometryParameters &parameters = scene_parameters.geometry;
-    if (!parameters.file.empty())
-      return read_geometry(relative_to_scene(parameters.file));
-    std::string text = parameters.text;
+    std::string               text       = parameters.text;
     std::replace(text.begin(), text.end(), ';', '\n');
-    return parse_geometry(text, file_name + ", parameter 'Geometry/Text'");
+    Geometry geometry =
+      parameters.file.empty()
+        ? parse_geometry(text, file_name + ", parameter 'Geometry/Text'")
+        : read_geometry(relative_to_scene(parameters.file));
+    set_joint_states(geometry);
+    return geometry;
   }
 
 

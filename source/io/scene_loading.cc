@@ -6,6 +6,7 @@
 #include <cmath>
 #include <io/expression.h>
 #include <io/parsing.h>
+#include <io/time_function.h>
 #include <utility>
 
 // Loads and conditions as functions of time.
@@ -13,27 +14,31 @@ namespace NMM
 {
   namespace
   {
-    using TimeFunction = std::function<double(double)>;
-
     /// Where a function has no number the analysis cannot go on.
     double
-    checked(const double value, const double t, const std::string &parameter)
+    checked(const double       value,
+            const double       t,
+            const std::string &unit,
+            const std::string &parameter)
     {
       AssertThrow(std::isfinite(value),
                   NumericalFailure("the value is not finite",
                                    "parameter '" + parameter +
-                                     "' at t = " + internal::to_text(t) + " s",
+                                     "' at t = " + internal::to_text(t) + unit,
                                    "correct the expression"));
       return value;
     }
+  } // namespace
 
 
-    /// Null if @p text is empty. @p folder: of files.
+  namespace internal
+  {
     TimeFunction
     make_time_function(
       const std::string                                     &text,
       const std::string                                     &parameter,
       const double                                           end_time,
+      const std::string                                     &unit,
       const std::function<std::string(const std::string &)> &relative_to_scene)
     {
       const std::string trimmed = dealii::Utilities::trim(text);
@@ -55,15 +60,24 @@ namespace NMM
       for (const double t : {0., end_time})
         AssertThrow(std::isfinite(function->value(dealii::Point<1>(t))),
                     InputError("'" + trimmed + "' is not finite at t = " +
-                                 internal::to_text(t) + " s",
+                                 internal::to_text(t) + unit,
                                "parameter '" + parameter + "'",
                                "give an expression that has a value from 0 "
                                "to the end"));
-      return [function, parameter](const double t) {
-        return checked(function->value(dealii::Point<1>(t)), t, parameter);
+      return [function, unit, parameter](const double t) {
+        return checked(function->value(dealii::Point<1>(t)),
+                       t,
+                       unit,
+                       parameter);
       };
     }
+  } // namespace internal
 
+
+  namespace
+  {
+    using internal::make_time_function;
+    using internal::TimeFunction;
 
     /// Indices of loads with their functions.
     using TimeFunctions = std::vector<std::pair<unsigned int, TimeFunction>>;
@@ -120,12 +134,10 @@ namespace NMM
     const auto             functions = std::make_shared<LoadFunctions>();
     Loading                loading;
     const auto make = [&](const std::string &text, const std::string &name) {
-      return make_time_function(text,
-                                name,
-                                p.time.end_time,
-                                [this](const std::string &file) {
-                                  return relative_to_scene(file);
-                                });
+      return make_time_function(
+        text, name, p.time.end_time, " s", [this](const std::string &file) {
+          return relative_to_scene(file);
+        });
     };
     const auto add = [&](const TimeDependence &time,
                          const std::string    &section,
@@ -174,16 +186,16 @@ namespace NMM
       loading.amplitudes = [functions](const double t) {
         return functions->amplitudes(t);
       };
-    loading.base_acceleration = make_base_acceleration();
+    loading.base_acceleration = make_vector_function(p.model.base_acceleration,
+                                                     "Model/Base acceleration");
     return loading;
   }
 
 
   std::function<dealii::Tensor<1, 2>(double)>
-  Scene::make_base_acceleration() const
+  Scene::make_vector_function(const std::string &text,
+                              const std::string &name) const
   {
-    const std::string &text = scene_parameters.model.base_acceleration;
-    const std::string  name = "Model/Base acceleration";
     if (dealii::Utilities::trim(text).empty())
       return nullptr;
     const std::vector<std::string> parts =
@@ -194,19 +206,25 @@ namespace NMM
                              " component(s) instead of 2",
                            "parameter '" + name + "'",
                            "give two, separated by a semicolon"));
+    const bool is_static = scene_parameters.model.analysis == Analysis::statics;
+    const double end =
+      is_static ? scene_parameters.load_steps.load_steps().load_factors.back()
+                : scene_parameters.time.end_time;
     TimeFunction components[2];
     for (unsigned int c = 0; c < 2; ++c)
     {
       components[c] = make_time_function(parts[c],
                                          name,
-                                         scene_parameters.time.end_time,
+                                         end,
+                                         is_static ? "" : " s",
                                          [this](const std::string &file) {
                                            return relative_to_scene(file);
                                          });
       AssertThrow(components[c] != nullptr,
                   InputError("'" + text + "' has an empty component",
                              "parameter '" + name + "'",
-                             "write 0 for a direction without acceleration"));
+                             "write 0 for a direction in which there is "
+                             "nothing"));
     }
     return [x = components[0], y = components[1]](const double t) {
       return dealii::Tensor<1, 2>({x(t), y(t)});

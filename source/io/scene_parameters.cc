@@ -375,6 +375,8 @@ namespace NMM
     names.boundary_conditions = {"<condition>"};
     names.point_forces        = {"<force>"};
     names.fixed_points        = {"<fixed point>"};
+    names.contact_laws        = {"<law>"};
+    names.obstacles           = {"<obstacle>"};
     names.initial_velocities  = {"<velocity>"};
     names.probes              = {"<probe>"};
     return names;
@@ -394,6 +396,8 @@ namespace NMM
         {"Boundary conditions", &names.boundary_conditions},
         {"Point forces", &names.point_forces},
         {"Fixed points", &names.fixed_points},
+        {"Contact", &names.contact_laws},
+        {"Obstacles", &names.obstacles},
         {"Initial velocities", &names.initial_velocities},
         {"Probes", &names.probes}};
     }
@@ -455,13 +459,15 @@ namespace NMM
       material.check(model.plane_state);
     for (const BoundaryConditionParameters &condition : boundary_conditions)
       condition.check();
-    load_steps.check(model.kinematics, model.analysis);
-    newton.check(model.kinematics, model.analysis);
+    const bool has_contact = contact.is_present();
+    load_steps.check(model.kinematics, model.analysis, has_contact);
+    newton.check(model.kinematics, model.analysis, has_contact);
     output.check();
     for (const ProbeParameters &probe : probes)
       probe.check();
     exact_solution.check();
     check_kinematics();
+    check_contact();
     check_analysis();
   }
 } // namespace NMM

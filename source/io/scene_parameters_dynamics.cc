@@ -250,8 +250,9 @@ namespace NMM
       "generalized alpha: damps what steps do not resolve; constant "
       "acceleration: the scheme of DDA, damps much, first order; energy "
       "momentum: conserves energy and momenta under large rotations; "
-      "automatic: newmark for small, energy momentum for finite, "
-      "constant acceleration for incremental kinematics and relaxation.");
+      "automatic: newmark for small, energy momentum for finite kinematics and "
+      "contact, constant acceleration for incremental kinematics and "
+      "relaxation.");
     declare_numbers(prm, scheme_entries(defaults));
   }
 
@@ -269,7 +270,8 @@ namespace NMM
 
   void
   TimeParameters::check(const Analysis   analysis,
-                        const Kinematics kinematics) const
+                        const Kinematics kinematics,
+                        const bool       has_contact) const
   {
     TimeParameters    given = *this, defaults;
     const std::string by =
@@ -304,7 +306,7 @@ namespace NMM
                              "remove it, or set 'Model/Analysis = dynamic'"));
       return;
     }
-    check_scheme(analysis, kinematics);
+    check_scheme(analysis, kinematics, has_contact);
     if (analysis == Analysis::dynamics)
       check_steps(kinematics);
   }
@@ -312,11 +314,13 @@ namespace NMM
 
   void
   TimeParameters::check_scheme(const Analysis   analysis,
-                               const Kinematics kinematics) const
+                               const Kinematics kinematics,
+                               const bool       has_contact) const
   {
     const TimeParameters defaults;
-    const std::string    name   = time_scheme(analysis, kinematics).name;
-    const auto           expect = [&](const bool         is_used,
+    const std::string    name =
+      time_scheme(analysis, kinematics, has_contact).name;
+    const auto expect = [&](const bool         is_used,
                             const std::string &key,
                             const double       value,
                             const double       default_value) {
@@ -331,7 +335,7 @@ namespace NMM
     const bool is_newmark =
       scheme == Scheme::newmark ||
       (scheme == Scheme::automatic && kinematics == Kinematics::small &&
-       analysis == Analysis::dynamics);
+       analysis == Analysis::dynamics && !has_contact);
     expect(is_newmark, "Newmark beta", beta, defaults.beta);
     expect(is_newmark, "Newmark gamma", gamma, defaults.gamma);
     expect(scheme == Scheme::generalized_alpha,
@@ -429,7 +433,8 @@ namespace NMM
 
   TimeScheme
   TimeParameters::time_scheme(const Analysis   analysis,
-                              const Kinematics kinematics) const
+                              const Kinematics kinematics,
+                              const bool       has_contact) const
   {
     switch (scheme)
     {
@@ -447,8 +452,9 @@ namespace NMM
     if (analysis == Analysis::relaxation ||
         kinematics == Kinematics::incremental)
       return TimeScheme::constant_acceleration();
-    return kinematics == Kinematics::finite ? TimeScheme::energy_momentum()
-                                            : TimeScheme::newmark(beta, gamma);
+    return kinematics == Kinematics::finite || has_contact
+             ? TimeScheme::energy_momentum()
+             : TimeScheme::newmark(beta, gamma);
   }
 
 

@@ -85,14 +85,15 @@ namespace NMM
 
   void
   LoadStepParameters::check(const Kinematics kinematics,
-                            const Analysis   analysis) const
+                            const Analysis   analysis,
+                            const bool       has_contact) const
   {
     const std::string        section = "Load steps";
     const LoadStepParameters defaults;
     const bool               is_static = analysis == Analysis::statics;
     const std::string by = is_static ? to_string(kinematics) + " kinematics"
                                      : "a " + to_string(analysis) + " analysis";
-    if (kinematics == Kinematics::small || !is_static)
+    if ((kinematics == Kinematics::small && !has_contact) || !is_static)
     {
       const std::string remedy =
         is_static
@@ -118,7 +119,7 @@ namespace NMM
                        ? "remove it, or set 'Model/Kinematics = incremental'"
                        : "give 'Time/Maximum displacement' instead");
     const bool is_divided =
-      kinematics == Kinematics::finite ||
+      kinematics == Kinematics::finite || has_contact ||
       (kinematics == Kinematics::incremental && max_displacement > 0.);
     if (!is_divided || !is_static)
       expect_default(section,
@@ -197,7 +198,8 @@ namespace NMM
 
   void
   NewtonSectionParameters::check(const Kinematics kinematics,
-                                 const Analysis   analysis) const
+                                 const Analysis   analysis,
+                                 const bool       has_contact) const
   {
     const NewtonParameters defaults;
     const auto             expect = [](const std::string &key,
@@ -207,7 +209,7 @@ namespace NMM
                            const std::string &remedy) {
       expect_default("Newton", key, value, default_value, by, remedy);
     };
-    if (kinematics != Kinematics::finite)
+    if (kinematics != Kinematics::finite && !has_contact)
     {
       const std::string by = to_string(kinematics) + " kinematics";
       const std::string remedy =
@@ -261,7 +263,8 @@ namespace NMM
                                  "/Law'",
                                "set 'Law = linear', or 'Model/Kinematics = "
                                "finite'"));
-    if (model.kinematics == Kinematics::small && is_static)
+    if (model.kinematics == Kinematics::small && is_static &&
+        !contact.is_present())
     {
       expect_default("Output",
                      "Fields every",
@@ -274,7 +277,9 @@ namespace NMM
     }
 
     const std::string name =
-      is_static ? kinematics : to_string(model.analysis) + " analysis";
+      !is_static ? to_string(model.analysis) + " analysis"
+      : model.kinematics == Kinematics::small ? "contact"
+                                              : kinematics;
     AssertThrow(covers.stabilization != Stabilization::ghost_penalty,
                 InputError("'ghost penalty' is not available with " + name,
                            "parameter 'Covers/Stabilization'",
@@ -297,9 +302,30 @@ namespace NMM
 
 
   void
+  SceneParameters::check_contact() const
+  {
+    using Scheme             = TimeParameters::Scheme;
+    const bool may_be_damped = model.analysis == Analysis::dynamics &&
+                               (time.scheme == Scheme::automatic ||
+                                time.scheme == Scheme::energy_momentum);
+    contact.check(model.analysis, model.kinematics, may_be_damped);
+    for (const ObstacleParameters &obstacle : obstacles)
+    {
+      AssertThrow(contact.is_present(),
+                  InputError("the obstacle '" + obstacle.name +
+                               "' would not be used by a scene without contact",
+                             "parameter 'Obstacles/Names'",
+                             "remove it, or set 'Contact/Enforcement = "
+                             "penalty'"));
+      obstacle.check(model.analysis);
+    }
+  }
+
+
+  void
   SceneParameters::check_analysis() const
   {
-    time.check(model.analysis, model.kinematics);
+    time.check(model.analysis, model.kinematics, contact.is_present());
     relaxation.check(model.analysis);
     check_loads_in_time();
     const std::string analysis = to_string(model.analysis) + " analysis";

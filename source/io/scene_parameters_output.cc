@@ -80,6 +80,11 @@ namespace NMM
       "With a series of pictures: write animation.html as well, "
       "a page that plays them in any browser, all in one "
       "view and one range of colours.");
+    prm.declare_entry("Contacts",
+                      "true",
+                      Patterns::Bool(),
+                      "With contact: write contacts.csv, the contact points of "
+                      "the states of which fields are written.");
     prm.declare_entry("Checkpoint every",
                       "0",
                       Patterns::Integer(0),
@@ -143,6 +148,7 @@ namespace NMM
     title            = prm.get("Title");
     fields           = prm.get_bool("Fields");
     fields_every     = prm.get_integer("Fields every");
+    contacts         = prm.get_bool("Contacts");
     checkpoint_every = prm.get_integer("Checkpoint every");
     animation        = prm.get_bool("Animation");
     picture          = prm.get_bool("Picture");
@@ -386,6 +392,15 @@ namespace NMM
                  names.fixed_points,
                  "Names of the points, each with a subsection of its own.",
                  &FixedPointParameters::declare);
+    prm.enter_subsection("Contact");
+    ContactSectionParameters::declare(prm, names.contact_laws);
+    prm.leave_subsection();
+    declare_list(prm,
+                 "Obstacles",
+                 names.obstacles,
+                 "Names of rigid bodies that the solid touches, each with a "
+                 "subsection of its own.",
+                 &ObstacleParameters::declare);
     declare_list(prm,
                  "Initial velocities",
                  names.initial_velocities,
@@ -429,6 +444,10 @@ namespace NMM
                names.initial_velocities,
                initial_velocities);
     parse_list(prm, "Probes", names.probes, probes);
+    parse_list(prm, "Obstacles", names.obstacles, obstacles);
+    prm.enter_subsection("Contact");
+    contact.parse(prm, names.contact_laws);
+    prm.leave_subsection();
 
     prm.enter_subsection("Solver");
     solver = SolverParameters::parse(prm);

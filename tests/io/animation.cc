@@ -223,6 +223,52 @@ namespace
   }
 
 
+  // Obstacles and forces in contact, all frames with bars of one scale.
+  TEST(Animation, KeepsContact)
+  {
+    std::filesystem::remove(spool);
+    Animation   animation(spool);
+    PictureData data[2];
+    for (unsigned int k = 0; k < 2; ++k)
+    {
+      data[k] = square(1., shift(0., 0.));
+      data[k].obstacles.push_back({{Point<2>(1002., 1000.), shift(0., 0.)},
+                                   {Point<2>(999., 1000.), shift(0., 0.)}});
+      data[k].contacts.push_back({{Point<2>(1000.5, 1000.), shift(0., 0.)},
+                                  shift(0.25, 1. + k),
+                                  PictureData::Bar::bonded});
+      animation.add_frame(k, data[k]);
+    }
+    OutputParameters parameters;
+    parameters.deformation_scale = 1.;
+    const auto frames            = frames_of(write(animation, parameters));
+    ASSERT_EQ(frames.size(), 2u);
+
+    PictureExtents extents;
+    extents.add(data[0], 1.);
+    extents.add(data[1], 1.);
+    PictureFrame frame;
+    frame.view                 = extents.view(0.01);
+    frame.range                = {{0., 1.}};
+    frame.bar_scale            = std::hypot(0.25, 2.);
+    frame.note                 = "t = 0.0 s";
+    data[0].deformation_scale  = 1.;
+    OutputParameters of_frames = parameters;
+    of_frames.picture_width    = 800;
+    const auto same_as_by      = [&]() {
+      return frames[0].png == draw_picture_in_memory(data[0],
+                                                     of_frames,
+                                                     "a <title> & \"more\"",
+                                                     frame,
+                                                     256);
+    };
+    EXPECT_TRUE(same_as_by());
+    frame.bar_scale.reset();
+    EXPECT_FALSE(same_as_by());
+    animation.discard();
+  }
+
+
   TEST(Animation, GoesOnWhereItWasKilled)
   {
     std::filesystem::remove(spool);

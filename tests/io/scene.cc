@@ -1,4 +1,5 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/covers/manifold_mesh.h>
 #include <nmm/io/parameter_tree.h>
 #include <nmm/io/scene.h>
 
@@ -89,6 +90,163 @@ namespace
     ASSERT_EQ(conditions.size(), 2u);
     EXPECT_EQ(conditions[0].curve, "a");
     EXPECT_EQ(conditions[1].curve, "b");
+  }
+
+
+  /// That of the base scene with these settings.
+  RigidObstacle
+  obstacle(const Words &settings)
+  {
+    Words all = {"Contact/Enforcement=penalty", "Obstacles/Names=body"};
+    all.insert(all.end(), settings.begin(), settings.end());
+    const Scene        scene(base_scene, all);
+    const PhysicalMesh mesh(scene.make_geometry());
+    const auto         obstacles = scene.make_obstacles(mesh);
+    EXPECT_EQ(obstacles.size(), 1u);
+    EXPECT_EQ(obstacles[0].name, "body");
+    return obstacles[0];
+  }
+
+
+  /// Twice the area on the left of straight pieces and chords.
+  double
+  twice_area(const RigidObstacle &body)
+  {
+    double area = 0.;
+    for (const CurvePiece &piece : body.pieces)
+    {
+      const auto add = [&](const dealii::Point<2> &a,
+                           const dealii::Point<2> &b) {
+        area += a[0] * b[1] - a[1] * b[0];
+      };
+      if (piece.kind == CurvePiece::Kind::arc)
+      {
+        add(piece.start, piece.through);
+        add(piece.through, piece.end);
+      }
+      else
+        add(piece.start, piece.end);
+    }
+    return area;
+  }
+
+
+  // Lines as they are drawn; polygons and circles rigid inside, holes outside.
+  TEST(Scene, ObstaclesAreOnTheLeft)
+  {
+    const std::string shape = "Obstacles/body/Shape=";
+    const auto        line  = obstacle({shape + "linestring (3 0, 2 0, 1 1)"});
+    ASSERT_EQ(line.pieces.size(), 2u);
+    EXPECT_EQ(line.pieces[0].start[0], 3.);
+    EXPECT_FALSE(line.displacement);
+    for (const char *ring : {"(2 2, 3 2, 3 3, 2 3)", "(2 2, 2 3, 3 3, 3 2)"})
+      EXPECT_EQ(twice_area(obstacle({shape + "POLYGON (" + ring + ")"})), 2.);
+    // a closed line is what it is: a container
+    EXPECT_EQ(twice_area(
+                obstacle({shape + "LINESTRING (2 2, 2 3, 3 3, 3 2, 2 2)"})),
+              -2.);
+    const auto disk = obstacle({shape + "CIRCLE (5 5, 0.5)"});
+    ASSERT_EQ(disk.pieces.size(), 2u);
+    // of the square of the four points
+    EXPECT_EQ(twice_area(disk), 1.);
+    EXPECT_EQ(disk.pieces[1].end, disk.pieces[0].start);
+
+    const std::string file_name = NMM_TEST_OUTPUT_DIR "/obstacle.wkt";
+    std::ofstream(file_name) << "hole name=h CIRCLE (0 0, 4)\n";
+    EXPECT_EQ(twice_area(obstacle({"Obstacles/body/File=" + file_name})), -64.);
+  }
+
+
+  TEST(Scene, ObstaclesMove)
+  {
+    const auto body = obstacle({"Obstacles/body/Shape=LINESTRING (3 0, 2 0)",
+                                "Obstacles/body/Displacement=t^2; -3 * t"});
+    ASSERT_TRUE(body.displacement);
+    EXPECT_EQ(body.displacement(2.)[0], 4.);
+    EXPECT_EQ(body.displacement(2.)[1], -6.);
+  }
+
+
+  TEST(Scene, JointsAreOpenedAndTied)
+  {
+    const Scene scene(base_scene,
+                      {"Contact/Enforcement=penalty",
+                       "Contact/Open joints=a",
+                       "Contact/Tied joints=b",
+                       "Geometry/Text=boundary name=square material=rock "
+                       "POLYGON ((0 0, 1 0, 1 1, 0 1)); joint name=a "
+                       "state=closed LINESTRING (0.2 0, 0.2 1); joint name=b "
+                       "LINESTRING (0.4 0, 0.4 1); joint name=c state=closed "
+                       "LINESTRING (0.6 0, 0.6 1)"});
+    const auto  curves = scene.make_geometry().curves();
+    ASSERT_EQ(curves.size(), 4u);
+    EXPECT_EQ(curves[1].state, JointState::open);
+    EXPECT_EQ(curves[2].state, JointState::closed);
+    EXPECT_EQ(curves[3].state, JointState::closed);
+  }
+
+
+  // What the scene leaves open is chosen for the softest block and the cells at
+  // faces; laws have the section's stiffnesses, but not its strengths.
+  TEST(Scene, ContactLawsAndWhatIsChosen)
+  {
+    const auto make = [](const Words &settings, double &size) {
+      Words all = {"Contact/Enforcement=penalty",
+                   "Contact/Friction angle=45",
+                   "Contact/Cohesion=2",
+                   "Contact/Names=one, two",
+                   "Contact/one/Between=square, any",
+                   "Contact/two/Between=any, any",
+                   "Contact/two/Normal stiffness=0.25",
+                   "Contact/two/Bonded=true",
+                   "Contact/two/Tensile strength=3",
+                   "Contact/two/Normal damping=0"};
+      all.insert(all.end(), settings.begin(), settings.end());
+      const Scene            scene(base_scene, all);
+      const PhysicalMesh     mesh(scene.make_geometry());
+      const MathematicalMesh cells = scene.make_mathematical_mesh(mesh);
+      const ManifoldMesh     manifold_mesh(cells, mesh);
+      CoverSystem            covers(manifold_mesh, MPI_COMM_SELF);
+      const ContactSurface   surface(covers);
+      size = contact_cell_size(surface);
+      return scene.make_contact_parameters(surface, scene.make_problem());
+    };
+    double                  size       = 0.;
+    const ContactParameters parameters = make({}, size);
+    // equilateral cells; E = 1
+    EXPECT_NEAR(size, 0.5, 1e-12);
+    EXPECT_NEAR(parameters.normal_stiffness, 60., 1e-10);
+    EXPECT_NEAR(parameters.shear_stiffness, 2., 1e-10);
+    EXPECT_NEAR(parameters.friction, 1., 1e-15);
+    EXPECT_EQ(parameters.cohesion, 2.);
+    EXPECT_EQ(parameters.penetration_tolerance, 0.);
+    ASSERT_EQ(parameters.pairs.size(), 2u);
+    EXPECT_EQ(parameters.pairs[0].first, "square");
+    EXPECT_EQ(parameters.pairs[0].second, "");
+    EXPECT_EQ(parameters.pairs[0].law.friction, 0.);
+    EXPECT_EQ(parameters.pairs[0].law.cohesion, 0.);
+    EXPECT_NEAR(parameters.pairs[0].law.normal_stiffness, 60., 1e-10);
+    // not stiffer in shear than against penetration
+    EXPECT_EQ(parameters.pairs[1].law.shear_stiffness, 0.25);
+    EXPECT_TRUE(parameters.pairs[1].law.is_bond);
+    EXPECT_EQ(parameters.pairs[1].law.tensile_strength, 3.);
+
+    const ContactParameters augmented =
+      make({"Contact/Enforcement=augmented Lagrangian"}, size);
+    EXPECT_NEAR(augmented.normal_stiffness, 20., 1e-10);
+    EXPECT_NEAR(augmented.penetration_tolerance, 5e-6, 1e-15);
+
+    const ContactParameters dynamic = make({"Model/Analysis=dynamic",
+                                            "Materials/rock/Density=1",
+                                            "Time/End time=1",
+                                            "Time/Initial step=0.1",
+                                            "Contact/one/Normal damping=4",
+                                            "Contact/one/Shear damping=5"},
+                                           size);
+    EXPECT_NEAR(dynamic.shear_stiffness, 20., 1e-10);
+    EXPECT_EQ(dynamic.pairs[0].law.normal_damping, 4.);
+    EXPECT_EQ(dynamic.pairs[0].law.shear_damping, 5.);
+    EXPECT_EQ(dynamic.normal_damping, 0.);
   }
 
 

@@ -539,6 +539,185 @@ namespace
   }
 
 
+  const std::vector<std::string> touching = {
+    "Contact/Enforcement=penalty",
+    "Obstacles/Names=floor",
+    "Obstacles/floor/Shape=LINESTRING (2 0, -1 0)"};
+
+
+  TEST(BadInput, TheSceneWithContactIsGood)
+  {
+    std::vector<std::string> arguments = {"--check", base_scene};
+    for (const std::string &setting : touching)
+      arguments.insert(arguments.end(), {"--set", setting});
+    const DriverResult result = run_driver(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    EXPECT_NE(result.output.find("1 obstacle(s)"), std::string::npos)
+      << result.output;
+  }
+
+
+  TEST(BadInput, WithoutContactNothingOfItIsUsed)
+  {
+    for (const char *entry : {"Normal stiffness=1",
+                              "Shear stiffness=1",
+                              "Normal damping=1",
+                              "Shear damping=1",
+                              "Friction angle=10",
+                              "Cohesion=1",
+                              "Bonded=true",
+                              "Tensile strength=1",
+                              "Penetration tolerance=1e-6",
+                              "Reach=0.1",
+                              "Number of points=3",
+                              "Open joints=crack",
+                              "Tied joints=crack"})
+    {
+      const std::string text = std::string("Contact/") + entry;
+      expect_rejected_override(text,
+                               {text.substr(0, text.find('=')),
+                                "Contact/Enforcement"});
+    }
+    expect_rejected({"--set",
+                     "Contact/Names=glue",
+                     "--set",
+                     "Contact/glue/Between=any, any",
+                     base_scene},
+                    {"'glue'", "Contact/Names"});
+    expect_rejected(
+      {"--set", "Obstacles/Names=floor", "--set", touching[2], base_scene},
+      {"'floor'", "Obstacles/Names", "Contact/Enforcement"});
+  }
+
+
+  TEST(BadInput, ContactParameters)
+  {
+    const auto rejects = [](const std::string              &override,
+                            const std::vector<std::string> &words) {
+      expect_rejected_with(touching, override, words);
+    };
+    rejects("Contact/Enforcement=springs", {"springs", "penalty"});
+    for (const char *angle : {"90", "-1", "120"})
+      rejects(std::string("Contact/Friction angle=") + angle,
+              {"Contact/Friction angle", angle, "90 degrees"});
+    rejects("Contact/Normal stiffness=-1", {"Normal stiffness", "-1"});
+    rejects("Contact/Shear stiffness=-2", {"Shear stiffness", "-2"});
+    rejects("Contact/Cohesion=-3", {"Contact/Cohesion", "-3"});
+    rejects("Contact/Tensile strength=5",
+            {"Contact/Tensile strength", "5 Pa", "Bonded = true"});
+    rejects("Contact/Reach=-1", {"Contact/Reach", "-1"});
+    rejects("Contact/Number of points=1", {"Number of points"});
+    rejects("Contact/Penetration tolerance=1e-6",
+            {"Penetration tolerance", "augmented Lagrangian"});
+    rejects("Contact/Normal damping=1",
+            {"Contact/Normal damping", "energy momentum"});
+    rejects("Contact/Open joints=seam", {"'seam'", "Contact/Open joints"});
+    rejects("Model/Kinematics=incremental",
+            {"incremental", "Contact/Enforcement", "finite"});
+    rejects("Covers/Stabilization=ghost penalty",
+            {"ghost penalty", "contact", "aggregation"});
+    rejects("Solver/Type=iterative", {"iterative", "contact", "direct"});
+    expect_rejected_with(touching + dynamic,
+                         "Contact/Enforcement=augmented Lagrangian",
+                         {"augmented Lagrangian", "dynamic", "penalty"});
+    expect_rejected_with(touching + dynamic +
+                           std::vector<std::string>{"Time/Scheme=newmark"},
+                         "Contact/Normal damping=1",
+                         {"Contact/Normal damping", "energy momentum"});
+  }
+
+
+  TEST(BadInput, ContactLaws)
+  {
+    const auto rejects = [](const std::string              &between,
+                            const std::string              &override,
+                            const std::vector<std::string> &words) {
+      expect_rejected_with(
+        touching + std::vector<std::string>{"Contact/Names=glue",
+                                            "Contact/glue/Between=" + between},
+        override,
+        words);
+    };
+    const std::string good = "Model/Thickness=1";
+    rejects("square", good, {"'square'", "1 name(s)", "Contact/glue/Between"});
+    rejects("a, b, c", good, {"3 name(s)", "Contact/glue/Between"});
+    rejects("square, flor",
+            good,
+            {"'flor'", "Contact/glue/Between", "'floor'", "any"});
+    rejects("square, any",
+            "Contact/glue/Friction angle=90",
+            {"Contact/glue/Friction angle", "90"});
+    rejects("square, any",
+            "Contact/glue/Tensile strength=1",
+            {"Contact/glue/Tensile strength", "Bonded"});
+    rejects("square, any",
+            "Contact/glue/Normal stiffness=-1",
+            {"Contact/glue/Normal stiffness", "-1"});
+  }
+
+
+  TEST(BadInput, Obstacles)
+  {
+    const auto rejects = [](const std::string              &override,
+                            const std::vector<std::string> &words) {
+      expect_rejected_with(touching, override, words);
+    };
+    const std::string shape = "Obstacles/floor/Shape=";
+    rejects(shape, {"'floor'", "no shape", "Obstacles/floor"});
+    rejects("Obstacles/floor/File=floor.wkt",
+            {"'floor'", "more than one shape", "'File'"});
+    rejects(shape + "LINESTRING (2 0)",
+            {"too few points (1)", "Obstacles/floor/Shape", "at least 2"});
+    rejects(shape + "LINESTRING (2 0, 2 0)", {"Obstacles/floor/Shape"});
+    rejects(shape + "MULTILINESTRING ((2 0, 1 0), (1 0, 0 0))",
+            {"2 curves", "Obstacles/floor/Shape"});
+    rejects(shape + "BLOB (2 0)", {"BLOB", "LINESTRING"});
+    rejects("Obstacles/floor/Displacement=t",
+            {"Obstacles/floor/Displacement", "instead of 2"});
+    rejects("Obstacles/floor/Displacement=0; x",
+            {"Obstacles/floor/Displacement", "'x'"});
+    rejects("Obstacles/floor/Displacement=0; 1 / t",
+            {"Obstacles/floor/Displacement", "not finite"});
+    rejects("Obstacles/floor/Displacement=0; file: no-such.txt",
+            {"no-such.txt"});
+    expect_rejected_with({touching[0],
+                          "Obstacles/Names=square",
+                          "Obstacles/square/Shape=LINESTRING (2 0, -1 0)"},
+                         "Model/Thickness=1",
+                         {"'square'", "Obstacles/Names", "another name"});
+    expect_rejected_with(touching +
+                           std::vector<std::string>{"Model/Analysis=relaxation",
+                                                    "Materials/rock/Density=1",
+                                                    "Relaxation/Step=1"},
+                         "Obstacles/floor/Displacement=0; t",
+                         {"Obstacles/floor/Displacement", "relaxation"});
+  }
+
+
+  // How much and where.
+  TEST(BadInput, Overlaps)
+  {
+    const std::string shape = "Obstacles/floor/Shape=";
+    for (const unsigned int n_ranks : {1, 2})
+      expect_rejected_with(
+        touching,
+        shape + "LINESTRING (2 0.25, -1 0.25)",
+        {"Block 0", "'floor'", "overlap by 0.25 m", "(", "0)"},
+        n_ranks);
+    expect_rejected_with(touching,
+                         shape + "POLYGON ((-1 -1, 0.1 -1, 0.1 2, -1 2))",
+                         {"'floor'", "overlap by 0.1 m"});
+    expect_rejected_with(touching,
+                         shape + "CIRCLE (0.5 0.5, 0.125)",
+                         {"'floor'", "overlap by 0.375 m"});
+    expect_rejected_with(touching,
+                         "Geometry/Text=" + square +
+                           "; boundary name=other material=rock "
+                           "POLYGON ((0.9 0, 2 0, 2 1, 0.9 1))",
+                         {"square", "other", "overlap"});
+  }
+
+
   TEST(BadInput, IsRejectedOnTwoRanksToo)
   {
     expect_rejected({"--set", "Solver/Tipe=direct", base_scene}, {"Tipe"}, 2);

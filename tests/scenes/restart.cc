@@ -119,6 +119,11 @@ namespace
                  "0.5",
                  {"--set", "Time/End time=0.8"},
                  n_ranks);
+      // It slides and hops.
+      check_stop("contact-incline/scene.prm",
+                 "0.1",
+                 {"--set", "Time/End time=0.2"},
+                 n_ranks);
     }
   }
 

@@ -277,26 +277,52 @@ namespace
   }
 
 
-  TEST(Scenes, TheDocumentedFirstSceneRuns)
+  /// A scene in the documentation, after the sentence that begins with @p words.
+  std::string
+  documented_scene(const std::string &words)
   {
     std::ifstream     file(NMM_SOURCE_DIR "/doc/scene-format.md");
     std::stringstream page;
     page << file.rdbuf();
-    const std::string fence = "```\nsubsection Geometry";
-    const auto        start = page.str().find(fence);
-    ASSERT_NE(start, std::string::npos);
-    const auto end = page.str().find("```", start + 3);
-    ASSERT_NE(end, std::string::npos);
+    const std::string fence = "```\n";
+    const auto        start = page.str().find(fence, page.str().find(words));
+    EXPECT_NE(start, std::string::npos);
+    const auto        end       = page.str().find("```", start + 3);
     const std::string file_name = NMM_TEST_OUTPUT_DIR "/documented.prm";
     std::ofstream(file_name) << page.str().substr(start + 4, end - start - 4);
+    return file_name;
+  }
 
-    const std::string  output = fresh_output_dir("documented");
-    const DriverResult result = run_driver({"--output", output, file_name});
+
+  TEST(Scenes, TheDocumentedFirstSceneRuns)
+  {
+    const std::string  file_name = documented_scene("A square plate of 1 m");
+    const std::string  output    = fresh_output_dir("documented");
+    const DriverResult result    = run_driver({"--output", output, file_name});
     ASSERT_EQ(result.exit_code, 0) << result.output;
     // A square metre less the bore.
     EXPECT_NEAR(read_results(output).at("area"),
                 1. - std::acos(-1.) * 0.04,
                 1e-11);
+  }
+
+
+  TEST(Scenes, TheDocumentedSceneWithContactRuns)
+  {
+    const std::string  file_name = documented_scene("This block slides down");
+    const std::string  output    = fresh_output_dir("documented");
+    const DriverResult result =
+      run_driver({"--output", output, "--set", "Time/End time=0.2", file_name});
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+    const auto values = read_results(output);
+    // g (sin 30 - cos 30 tan 20) t on 2500 kg, down the floor: what the block hops
+    // on its springs moves it by a tenth of that at so short a time
+    const double speed = 9.81 * 0.184793 * 0.2;
+    EXPECT_NEAR(values.at("momentum_x"),
+                -2500. * speed * std::sqrt(0.75),
+                0.1 * 2500. * speed);
+    EXPECT_EQ(values.at("wall_force_x"), 0.);
+    EXPECT_GT(values.at("friction_work"), 0.);
   }
 
 
@@ -387,6 +413,93 @@ namespace
       EXPECT_NE(pvd.str().find(word), std::string::npos) << pvd.str();
     for (const char *word : {"load factor 0.5", "iteration(s), 0 cut(s)"})
       EXPECT_NE(result.output.find(word), std::string::npos) << result.output;
+  }
+
+
+  // Contact points of each state as a table and for ParaView.
+  TEST(Scenes, WritesContactPoints)
+  {
+    const std::string  output = fresh_output_dir("contacts");
+    const DriverResult result =
+      run_driver({"-o",
+                  output,
+                  "--set",
+                  "Output/Fields every=8",
+                  "--set",
+                  "Output/Picture=true",
+                  (cases_dir / "contact-bond" / "scene.prm").string()});
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+    for (const char *name : {"contacts-0001.vtp",
+                             "contacts-0002.vtp",
+                             "contacts.vtp",
+                             "contacts.pvd",
+                             "picture-0001.png",
+                             "animation.html"})
+      EXPECT_TRUE(fs::exists(fs::path(output) / name)) << name;
+    for (const char *word : {"28 stick", "28 bonded", "28 change(s)"})
+      EXPECT_NE(result.output.find(word), std::string::npos) << result.output;
+
+    std::ifstream file(fs::path(output) / "contacts.csv");
+    std::string   line;
+    std::getline(file, line);
+    const auto                     columns = split(line, ',');
+    std::map<double, unsigned int> n_bonded;
+    std::map<double, double>       force;
+    while (std::getline(file, line))
+    {
+      const auto fields = split(line, ',');
+      ASSERT_EQ(fields.size(), columns.size());
+      std::map<std::string, std::string> row;
+      for (std::size_t i = 0; i < fields.size(); ++i)
+        row[columns[i]] = fields[i];
+      EXPECT_EQ(row["slave"], "seam");
+      EXPECT_EQ(row["master"], "seam");
+      EXPECT_EQ(row["state"] == "stick", row["bonded"] == "1");
+      EXPECT_NEAR(std::stod(row["reference_x"]), 1., 1e-12);
+      const double factor = std::stod(row["load_factor"]);
+      n_bonded[factor] += row["bonded"] == "1";
+      force[factor] += std::stod(row["weight"]) * std::stod(row["pressure"]);
+    }
+    // states 8 and 16 of 20, and the last one; the seam breaks in step 16
+    ASSERT_EQ(n_bonded.size(), 3U);
+    EXPECT_EQ(n_bonded.at(0.4), 28U);
+    EXPECT_EQ(n_bonded.at(0.8), 0U);
+    // 1.6 mm over 3 / E + 1 / 7.5e10, on 1 m; CSV has 12 digits
+    EXPECT_NEAR(force.at(0.4), -1.6e-3 / (3e-9 + 1. / 7.5e10), 1e-3);
+    EXPECT_EQ(force.at(1.), 0.);
+  }
+
+
+  // Faces with a gap and nothing else that holds: the block is named.
+  TEST(Scenes, WhatContactDoesNotHoldIsNamed)
+  {
+    const std::string  output = fresh_output_dir("not-held");
+    const DriverResult result =
+      run_driver({"-o",
+                  output,
+                  "--set",
+                  "Obstacles/floor/Shape=LINESTRING (100 -0.1, -100 -0.1)",
+                  (cases_dir / "contact-stack" / "scene.prm").string()});
+    EXPECT_EQ(result.exit_code, 3) << result.output;
+    for (const char *word : {"Contact alone", "floats", "relaxation"})
+      EXPECT_NE(result.output.find(word), std::string::npos) << result.output;
+  }
+
+
+  // A floor drawn the wrong way round.
+  TEST(Scenes, ObstaclesBehindTheSolidAreTold)
+  {
+    const std::string scene =
+      (cases_dir / "contact-stack" / "scene.prm").string();
+    const std::string notice = "lies on the left of the obstacle 'floor'";
+    EXPECT_EQ(run_driver({"--check", scene}).output.find(notice),
+              std::string::npos);
+    EXPECT_NE(run_driver({"--check",
+                          "--set",
+                          "Obstacles/floor/Shape=LINESTRING (-100 0, 100 0)",
+                          scene})
+                .output.find(notice),
+              std::string::npos);
   }
 
 

@@ -59,6 +59,8 @@ namespace NMM
     unsigned int  n_cuts = 0, n_lost_iterations = 0;
     double        relative_residual = 0.;
     ContactReport contact;
+    /// By friction and breaking bonds in the step [J/m].
+    double dissipated = 0.;
   };
 
 

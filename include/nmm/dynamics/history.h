@@ -5,6 +5,7 @@
 
 #include <fstream>
 #include <string>
+#include <vector>
 
 namespace NMM
 {
@@ -18,19 +19,23 @@ namespace NMM
   public:
     /**
      * A new file, or, to continue from a checkpoint, @p filename with the rows after
-     * step @p continue_after taken away.
+     * step @p continue_after taken away. @p further_columns come last.
      * @throws InputError if the file cannot be written or is no history.
      */
-    explicit History(const std::string &filename,
-                     MPI_Comm           communicator,
-                     int                continue_after = -1);
+    explicit History(const std::string              &filename,
+                     MPI_Comm                        communicator,
+                     int                             continue_after  = -1,
+                     const std::vector<std::string> &further_columns = {});
 
     /// The current state, reached by @p record; a default record for the start.
     void
-    write(const TimeIntegrator &integrator, const StepRecord &record);
+    write(const TimeIntegrator      &integrator,
+          const StepRecord          &record,
+          const std::vector<double> &further_values = {});
 
   private:
     std::string   filename;
+    unsigned int  n_further;
     bool          writes;
     std::ofstream out;
   };

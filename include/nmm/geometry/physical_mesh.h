@@ -95,6 +95,15 @@ namespace NMM
     std::vector<unsigned int>
     find_curves(const std::string &name) const;
 
+    /**
+     * Whether a curve on the boundary of a region may be its face. Where domains
+     * share an edge, the boundaries of both lie on it, and each is a face of its
+     * own domain only; a hole is one of what is outside of it. Others always
+     * are.
+     */
+    bool
+    is_face_of(unsigned int curve, unsigned int region) const;
+
     /// Notices that are no errors: parts of joints outside the solid, a joint
     /// along a boundary, duplicated joints, an interface that separates
     /// nothing. Sentences for people.

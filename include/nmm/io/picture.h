@@ -38,9 +38,27 @@ namespace NMM
     };
     using Polyline = std::vector<Vertex>;
 
+    /// A force between faces, shown as a bar.
+    struct Bar
+    {
+      enum Kind
+      {
+        sticks,
+        slips,
+        bonded
+      };
+
+      Vertex foot;
+      /// On the face [Pa].
+      dealii::Tensor<1, 2> traction;
+      Kind                 kind = sticks;
+    };
+
     std::vector<Triangle> triangles;
-    /// Boundaries and joints, interfaces, lines of the mathematical mesh.
-    std::vector<Polyline> outlines, interfaces, mesh_lines;
+    /// Boundaries and joints, interfaces, lines of the mathematical mesh, and of
+    /// rigid obstacles, which are on the left.
+    std::vector<Polyline> outlines, interfaces, mesh_lines, obstacles;
+    std::vector<Bar>      contacts;
     /// Factor on displacements [-].
     double deformation_scale = 0.;
   };
@@ -58,6 +76,9 @@ namespace NMM
     std::optional<std::pair<dealii::Point<2>, dealii::Point<2>>> view;
     /// Values at the ends of the colour bar; else those of OutputParameters.
     std::optional<std::pair<double, double>> range;
+    /// Traction that the longest bar of contact stands for [Pa]; else the largest
+    /// one there is.
+    std::optional<double> bar_scale;
     /// Right of the title, e.g. the time.
     std::string note;
   };
@@ -74,8 +95,9 @@ namespace NMM
     void
     add(const PictureData &data, double scale);
 
-    /// Box of all deformed triangles so far, wider by @p margin of its larger
-    /// side in each direction [m]; a unit box if there are none.
+    /// Box of all deformed triangles so far, and of obstacles as far as they are
+    /// near, wider by @p margin of its larger side in each direction [m]; a unit
+    /// box if there are none.
     std::pair<dealii::Point<2>, dealii::Point<2>>
     view(double margin = 0.) const;
 
@@ -88,8 +110,15 @@ namespace NMM
     double
     largest_displacement() const;
 
+    /// Largest traction in contact [Pa].
+    double
+    largest_traction() const;
+
   private:
     dealii::Point<2> lower{1e300, 1e300}, upper{-1e300, -1e300};
+    /// Of obstacles.
+    dealii::Point<2> rigid_lower{1e300, 1e300}, rigid_upper{-1e300, -1e300};
+    double           traction = 0.;
     double           minimum = 1e300, maximum = -1e300;
     double           largest = 0.;
   };

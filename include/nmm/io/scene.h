@@ -1,6 +1,7 @@
 #ifndef nmm_io_scene_h
 #define nmm_io_scene_h
 
+#include <nmm/contact/contact.h>
 #include <nmm/dynamics/loading.h>
 #include <nmm/geometry/physical_mesh.h>
 #include <nmm/io/scene_parameters.h>
@@ -69,6 +70,25 @@ namespace NMM
     Loading
     make_loading() const;
 
+    /// Rigid bodies that the solid touches. @throws InputError for a shape or an
+    /// expression that cannot be parsed, a name that a curve of
+    /// @p physical_mesh has.
+    std::vector<RigidObstacle>
+    make_obstacles(const PhysicalMesh &physical_mesh) const;
+
+    /**
+     * How the faces of @p surface act on each other. What the scene leaves open, E
+     * being that of the softest block and h contact_cell_size(): the normal
+     * stiffness is 10 E/h (30 in a static analysis by penalty); the shear
+     * stiffness E/h (in dynamics 10), but not more than the normal one; the
+     * penetration tolerance of augmented Lagrangian 1e-5 h. Of two blocks the
+     * softer one carries the contact points.
+     * @throws InputError for a law between faces that do not exist.
+     */
+    ContactParameters
+    make_contact_parameters(const ContactSurface    &surface,
+                            const ElasticityProblem &problem) const;
+
   private:
     std::string                               file_name;
     SceneNames                                names;
@@ -78,10 +98,28 @@ namespace NMM
     std::string
     relative_to_scene(const std::string &name) const;
 
-    /// Null if there is none.
+    /// Two functions of time, separated by a semicolon; null if @p text is empty.
     std::function<dealii::Tensor<1, 2>(double)>
-    make_base_acceleration() const;
+    make_vector_function(const std::string &text,
+                         const std::string &parameter) const;
+
+    /// What the section `Contact` says of joints.
+    void
+    set_joint_states(Geometry &geometry) const;
+
+    RigidObstacle
+    make_obstacle(const ObstacleParameters &parameters) const;
+
+    /// @throws InputError unless a law's names are faces that touch.
+    void
+    check_law_names(const ContactSurface &surface) const;
   };
+
+
+  /// Edge length of the cells at faces, that of the smaller ones: one in ten edges
+  /// belongs to a smaller cell [m].
+  double
+  contact_cell_size(const ContactSurface &surface);
 } // namespace NMM
 
 #endif

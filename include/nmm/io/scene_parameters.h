@@ -4,6 +4,7 @@
 #include <nmm/covers/aggregation.h>
 #include <nmm/covers/graded_mesh.h>
 #include <nmm/covers/mathematical_mesh.h>
+#include <nmm/io/scene_parameters_contact.h>
 #include <nmm/io/scene_parameters_dynamics.h>
 #include <nmm/mechanics/elasticity_problem.h>
 #include <nmm/mechanics/newton_solver.h>
@@ -214,7 +215,7 @@ namespace NMM
     parse(dealii::ParameterHandler &prm);
     /// @throws InputError for a value that is not used.
     void
-    check(Kinematics kinematics, Analysis analysis) const;
+    check(Kinematics kinematics, Analysis analysis, bool has_contact) const;
 
     LoadSteps
     load_steps() const;
@@ -232,7 +233,7 @@ namespace NMM
     parse(dealii::ParameterHandler &prm);
     /// @throws InputError for a value that is not used.
     void
-    check(Kinematics kinematics, Analysis analysis) const;
+    check(Kinematics kinematics, Analysis analysis, bool has_contact) const;
   };
 
 
@@ -263,6 +264,8 @@ namespace NMM
     bool fields = true;
     /// Fields and pictures of every so many steps too; 0: of the last one alone.
     unsigned int fields_every = 0;
+    /// contacts.csv.
+    bool contacts = true;
     /// A checkpoint after every so many steps; 0: none.
     unsigned int checkpoint_every = 0;
     /// With a series of pictures: animation.html as well.
@@ -340,7 +343,8 @@ namespace NMM
   struct SceneNames
   {
     std::vector<std::string> local_sizes, materials, boundary_conditions,
-      point_forces, fixed_points, initial_velocities, probes;
+      point_forces, fixed_points, contact_laws, obstacles, initial_velocities,
+      probes;
 
     /// One name each, for the parameter reference.
     static SceneNames
@@ -369,6 +373,8 @@ namespace NMM
     std::vector<FixedPoint>                  fixed_points;
     /// Of point forces and fixed points, in their order.
     std::vector<TimeDependence>            force_times, fixed_point_times;
+    ContactSectionParameters               contact;
+    std::vector<ObstacleParameters>        obstacles;
     TimeParameters                         time;
     RelaxationSectionParameters            relaxation;
     std::vector<InitialVelocityParameters> initial_velocities;
@@ -393,6 +399,8 @@ namespace NMM
     /// What cannot be had together with kinematics and analysis.
     void
     check_kinematics() const;
+    void
+    check_contact() const;
     void
     check_analysis() const;
     void

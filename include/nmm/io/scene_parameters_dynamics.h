@@ -58,7 +58,7 @@ namespace NMM
     enum class Scheme
     {
       /// energy_momentum, newmark and constant_acceleration for finite, small and
-      /// incremental kinematics.
+      /// incremental kinematics; with contact energy_momentum.
       automatic,
       newmark,
       generalized_alpha,
@@ -81,17 +81,21 @@ namespace NMM
     /// @throws InputError naming the parameter that is wrong or would not be
     /// used.
     void
-    check(Analysis analysis, Kinematics kinematics) const;
+    check(Analysis analysis, Kinematics kinematics, bool has_contact) const;
 
     StepControlParameters
     step_control() const;
 
     TimeScheme
-    time_scheme(Analysis analysis, Kinematics kinematics) const;
+    time_scheme(Analysis   analysis,
+                Kinematics kinematics,
+                bool       has_contact) const;
 
   private:
     void
-    check_scheme(Analysis analysis, Kinematics kinematics) const;
+    check_scheme(Analysis   analysis,
+                 Kinematics kinematics,
+                 bool       has_contact) const;
     void
     check_steps(Kinematics kinematics) const;
   };

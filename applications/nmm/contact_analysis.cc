@@ -1,0 +1,358 @@
+#include "contact_analysis.h"
+
+#include <nmm/base/exceptions.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+using namespace NMM;
+namespace Parallel = dealii::Utilities::MPI;
+
+ContactAnalysis::ContactAnalysis(const Scene        &scene,
+                                 const PhysicalMesh &physical_mesh,
+                                 CoverSystem        &covers)
+  : scene(&scene)
+  , covers(&covers)
+  , surface(
+      std::make_unique<ContactSurface>(covers,
+                                       scene.make_obstacles(physical_mesh)))
+{
+}
+
+
+void
+ContactAnalysis::make_contact(
+  const dealii::AffineConstraints<double> &constraints,
+  const ElasticityProblem                 &problem)
+{
+  cell_size       = contact_cell_size(*surface);
+  contact_pointer = std::make_unique<Contact>(
+    *surface, constraints, scene->make_contact_parameters(*surface, problem));
+  // Rounding of arcs, in parts of the range that is looked at.
+  constexpr double tolerance = 1e-6;
+  contact_pointer->set_time(0.);
+  surface->check_initial_overlap(tolerance * contact().parameters().reach);
+}
+
+
+Contact &
+ContactAnalysis::contact()
+{
+  return *contact_pointer;
+}
+
+
+const Contact &
+ContactAnalysis::contact() const
+{
+  return *contact_pointer;
+}
+
+
+std::string
+ContactAnalysis::description() const
+{
+  const ContactParameters &parameters = contact().parameters();
+  const OutputParameters  &output     = scene->parameters().output;
+  std::ostringstream       text;
+  text.precision(3);
+  text << surface->edges().size() << " edges of faces, "
+       << surface->obstacles().size() << " obstacle(s), normal stiffness "
+       << parameters.normal_stiffness << ' ' << output.stress_unit << '/'
+       << output.length_unit;
+  if (parameters.penetration_tolerance > 0.)
+    text << ", penetration tolerance " << parameters.penetration_tolerance
+         << ' ' << output.length_unit;
+  text << ", reach " << parameters.reach << ' ' << output.length_unit;
+  return text.str();
+}
+
+
+bool
+ContactAnalysis::is_in_front(const unsigned int obstacle) const
+{
+  const unsigned int body =
+    surface->n_bodies() - surface->obstacles().size() + obstacle;
+  const auto &edges = surface->edges();
+  for (unsigned int e = 0; e < edges.size(); ++e)
+  {
+    if (surface->is_rigid(e))
+      continue;
+    double distance = std::numeric_limits<double>::max();
+    double gap      = 0.;
+    for (unsigned int k = 0; k < edges.size(); ++k)
+      if (edges[k].body == body)
+      {
+        // The nearest point of a straight edge; of an arc the nearest of some.
+        std::vector<double> places;
+        if (edges[k].radius == 0.)
+        {
+          const dealii::Tensor<1, 2> d = edges[k].end - edges[k].start;
+          const double               t =
+            ((edges[e].start - edges[k].start) * d) / d.norm_square();
+          places = {std::min(1., std::max(0., t))};
+        }
+        else
+          for (unsigned int i = 0; i <= 16; ++i)
+            places.push_back(i / 16.);
+        for (const double t : places)
+        {
+          const auto                 place = surface->reference_place(k, t);
+          const dealii::Tensor<1, 2> d     = edges[e].start - place.x;
+          if (d.norm() < distance)
+          {
+            distance = d.norm();
+            gap      = d * place.normal();
+          }
+        }
+      }
+    if (gap > 1e-9 * edges[e].length)
+      return true;
+  }
+  return false;
+}
+
+
+std::vector<std::string>
+ContactAnalysis::notices() const
+{
+  std::vector<std::string> result;
+  for (unsigned int i = 0; i < surface->obstacles().size(); ++i)
+    if (!is_in_front(i))
+      result.push_back("the whole solid lies on the left of the obstacle '" +
+                       surface->obstacles()[i].name +
+                       "', which is rigid there: draw its line in the other "
+                       "direction if they are to touch");
+  return result;
+}
+
+
+void
+ContactAnalysis::remember_states()
+{
+  remembered.clear();
+  if (contact().is_idle())
+    return;
+  for (const ContactPoint &point : contact().points())
+    remembered.push_back({point.edge, point.s, point.state});
+}
+
+
+unsigned int
+ContactAnalysis::count_changes() const
+{
+  const auto is_before = [](const PointState &a, const PointState &b) {
+    return a.edge != b.edge ? a.edge < b.edge : a.s < b.s;
+  };
+  unsigned int count    = 0;
+  bool         are_same = contact_points.size() == remembered.size();
+  for (std::size_t i = 0; are_same && i < remembered.size(); ++i)
+  {
+    are_same = contact_points[i].edge == remembered[i].edge &&
+               contact_points[i].s == remembered[i].s;
+    count += contact_points[i].state != remembered[i].state;
+  }
+  if (are_same)
+    return Parallel::sum(count, covers->communicator());
+
+  // Points have been made anew: the nearest one on the same edge; what was out of
+  // reach was open.
+  count                          = 0;
+  std::vector<PointState> sorted = remembered;
+  std::stable_sort(sorted.begin(), sorted.end(), is_before);
+  for (const ContactPoint &point : contact_points)
+  {
+    const PointState here{point.edge, point.s, point.state};
+    const auto       after =
+      std::lower_bound(sorted.begin(), sorted.end(), here, is_before);
+    double       distance = std::numeric_limits<double>::max();
+    ContactState before   = ContactState::open;
+    for (const int offset : {0, -1})
+    {
+      if ((offset < 0 && after == sorted.begin()) ||
+          (offset == 0 && after == sorted.end()))
+        continue;
+      const PointState &other = *(after + offset);
+      if (other.edge != point.edge || std::abs(other.s - point.s) >= distance)
+        continue;
+      distance = std::abs(other.s - point.s);
+      before   = other.state;
+    }
+    count += before != point.state;
+  }
+  return Parallel::sum(count, covers->communicator());
+}
+
+
+std::vector<std::string>
+ContactAnalysis::columns() const
+{
+  std::vector<std::string> names = {"contact_open",
+                                    "contact_stick",
+                                    "contact_slip",
+                                    "contact_bonded",
+                                    "contact_changes",
+                                    "penetration",
+                                    "penetration_over_cell",
+                                    "largest_pressure",
+                                    "contact_energy",
+                                    "friction_work"};
+  for (const RigidObstacle &obstacle : surface->obstacles())
+  {
+    names.push_back(obstacle.name + "_force_x");
+    names.push_back(obstacle.name + "_force_y");
+  }
+  return names;
+}
+
+
+void
+ContactAnalysis::take_state(const double work)
+{
+  contact_points.clear();
+  report = ContactReport();
+  if (!contact().is_idle())
+  {
+    contact_points = contact().points();
+    report         = contact().report();
+  }
+  report.n_changes = count_changes();
+  pressure         = largest_pressure(*surface, contact_points);
+  forces           = obstacle_forces(*surface, contact_points);
+  friction_work    = work;
+  largest_penetration =
+    std::max(largest_penetration, report.largest_penetration);
+}
+
+
+std::vector<double>
+ContactAnalysis::numbers(const double thickness) const
+{
+  std::vector<double> values = {double(report.n_open),
+                                double(report.n_stick),
+                                double(report.n_slip),
+                                double(report.n_bonded),
+                                double(report.n_changes),
+                                report.largest_penetration,
+                                report.largest_penetration / cell_size,
+                                pressure,
+                                thickness * report.energy,
+                                thickness * friction_work};
+  for (const auto &force : forces)
+    values.insert(values.end(), {thickness * force[0], thickness * force[1]});
+  return values;
+}
+
+
+std::vector<ContactSample>
+ContactAnalysis::points() const
+{
+  return gather_contact_points(*surface, contact_points);
+}
+
+
+std::string
+ContactAnalysis::progress() const
+{
+  std::ostringstream text;
+  text.precision(2);
+  text << report.n_stick << " stick, " << report.n_slip << " slip, "
+       << report.n_open << " open";
+  if (report.n_bonded > 0)
+    text << ", " << report.n_bonded << " bonded";
+  text << ", " << report.n_changes << " change(s), penetration "
+       << report.largest_penetration << ' '
+       << scene->parameters().output.length_unit;
+  return text.str();
+}
+
+
+void
+ContactAnalysis::add_to_summary(Summary &summary) const
+{
+  const OutputParameters &output    = scene->parameters().output;
+  const double            thickness = scene->parameters().model.thickness;
+  const std::string       energy =
+    output.stress_unit + "*" + output.length_unit + "^3";
+  const std::string force =
+    output.stress_unit + "*" + output.length_unit + "^2";
+  summary.add("contact_open", report.n_open);
+  summary.add("contact_stick", report.n_stick);
+  summary.add("contact_slip", report.n_slip);
+  summary.add("contact_bonded", report.n_bonded);
+  summary.add("largest_pressure", pressure, output.stress_unit);
+  summary.add("penetration", report.largest_penetration, output.length_unit);
+  summary.add("largest_penetration", largest_penetration, output.length_unit);
+  summary.add("largest_penetration_over_cell", largest_penetration / cell_size);
+  summary.add("contact_energy", thickness * report.energy, energy);
+  summary.add("friction_work", thickness * friction_work, energy);
+  for (unsigned int i = 0; i < forces.size(); ++i)
+    for (unsigned int c = 0; c < 2; ++c)
+      summary.add(surface->obstacles()[i].name + "_force_" +
+                    std::string(1, "xy"[c]),
+                  thickness * forces[i][c],
+                  force);
+}
+
+
+AccountedContactModel::AccountedContactModel(MechanicalModel &model,
+                                             ContactAnalysis &analysis)
+  : ContactModel(model, analysis.contact())
+  , analysis(&analysis)
+{
+}
+
+
+void
+AccountedContactModel::begin_step(const Vector &begin,
+                                  const Vector &predicted,
+                                  const double  t,
+                                  const double  h)
+{
+  ContactModel::begin_step(begin, predicted, t, h);
+  analysis->remember_states();
+}
+
+
+double
+AccountedContactModel::accept_step(const Vector &end, const double t)
+{
+  const double dissipated = ContactModel::accept_step(end, t);
+  work += dissipated;
+  // The integrator assembles once more, where all points stick already.
+  analysis->take_state(work);
+  return dissipated;
+}
+
+
+std::vector<double>
+AccountedContactModel::internal_state() const
+{
+  std::vector<double> state = ContactModel::internal_state();
+  state.push_back(work);
+  return state;
+}
+
+
+void
+AccountedContactModel::restore_internal_state(const std::vector<double> &state)
+{
+  std::vector<double> of_contact = state;
+  work                           = 0.;
+  if (!of_contact.empty())
+  {
+    work = of_contact.back();
+    of_contact.pop_back();
+  }
+  ContactModel::restore_internal_state(of_contact);
+}
+
+
+double
+AccountedContactModel::friction_work() const
+{
+  return work;
+}

@@ -1,0 +1,141 @@
+#ifndef nmm_applications_contact_analysis_h
+#define nmm_applications_contact_analysis_h
+
+#include <nmm/contact/contact_statics.h>
+#include <nmm/dynamics/contact_model.h>
+#include <nmm/io/contact_output.h>
+#include <nmm/io/scene.h>
+
+#include <deal.II/lac/affine_constraints.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+/**
+ * Contact of a scene: the surface and the contact itself, and what is told of them
+ * step by step. All functions are collective.
+ *
+ * Lifetime: the arguments must outlive this object.
+ */
+class ContactAnalysis
+{
+public:
+  /// Makes the surface only: constraints and vectors come after it. @throws
+  /// NMM::InputError for obstacles that are wrong.
+  ContactAnalysis(const NMM::Scene        &scene,
+                  const NMM::PhysicalMesh &physical_mesh,
+                  NMM::CoverSystem        &covers);
+
+  /// @throws NMM::InputError for laws that are wrong, blocks and obstacles
+  /// that overlap.
+  void
+  make_contact(const dealii::AffineConstraints<double> &constraints,
+               const NMM::ElasticityProblem            &problem);
+
+  NMM::Contact &
+  contact();
+
+  const NMM::Contact &
+  contact() const;
+
+  /// What was chosen, for people.
+  std::string
+  description() const;
+
+  /// Obstacles that have the whole solid behind them, for people.
+  std::vector<std::string>
+  notices() const;
+
+  /// Changes are counted from the present states on.
+  void
+  remember_states();
+
+  /// The last assembly was that of an accepted state, which all below is told of.
+  /// @p work: what friction, dashpots and breaking bonds have dissipated so far [J/m].
+  void
+  take_state(double work);
+
+  /// Names of the numbers of a state.
+  std::vector<std::string>
+  columns() const;
+
+  /// Energies and forces times @p thickness.
+  std::vector<double>
+  numbers(double thickness) const;
+
+  /// On the first rank.
+  std::vector<NMM::ContactSample>
+  points() const;
+
+  /// "12 stick, 3 slip, penetration 1e-6 m".
+  std::string
+  progress() const;
+
+  /// Numbers of the last state into the summary, energies times the thickness.
+  void
+  add_to_summary(NMM::Summary &summary) const;
+
+private:
+  struct PointState
+  {
+    unsigned int      edge;
+    double            s;
+    NMM::ContactState state;
+  };
+
+  /// Does a part of the solid lie on the right of the obstacle's line?
+  bool
+  is_in_front(unsigned int obstacle) const;
+
+  /// Points of all ranks whose state is not that of the nearest remembered one.
+  unsigned int
+  count_changes() const;
+
+  const NMM::Scene                    *scene;
+  const NMM::CoverSystem              *covers;
+  std::unique_ptr<NMM::ContactSurface> surface;
+  std::unique_ptr<NMM::Contact>        contact_pointer;
+  double                               cell_size = 0.;
+  std::vector<PointState>              remembered;
+  // Of the state that was taken last.
+  std::vector<NMM::ContactPoint>    contact_points;
+  NMM::ContactReport                report;
+  std::vector<dealii::Tensor<1, 2>> forces;
+  double                            pressure = 0., friction_work = 0.;
+  /// Of all states [m].
+  double largest_penetration = 0.;
+};
+
+
+/// A contact model that keeps account of friction and tells which states change.
+class AccountedContactModel : public NMM::ContactModel
+{
+public:
+  AccountedContactModel(NMM::MechanicalModel &model, ContactAnalysis &analysis);
+
+  void
+  begin_step(const Vector &begin,
+             const Vector &predicted,
+             double        t,
+             double        h) override;
+
+  double
+  accept_step(const Vector &end, double t) override;
+
+  std::vector<double>
+  internal_state() const override;
+
+  void
+  restore_internal_state(const std::vector<double> &state) override;
+
+  /// What friction, dashpots and breaking bonds have dissipated so far [J/m].
+  double
+  friction_work() const;
+
+private:
+  ContactAnalysis *analysis;
+  double           work = 0.;
+};
+
+#endif

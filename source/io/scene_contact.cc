@@ -1,0 +1,333 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/io/parameter_tree.h>
+#include <nmm/io/scene.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <set>
+
+// Contact: which faces, how they act on each other, rigid obstacles.
+namespace NMM
+{
+  using dealii::Point;
+
+  namespace
+  {
+    std::string
+    join(const std::vector<std::string> &words)
+    {
+      std::string text;
+      for (const std::string &word : words)
+        text += (text.empty() ? "'" : ", '") + word + "'";
+      return text;
+    }
+
+
+    std::string
+    choice(const std::string              &word,
+           const std::vector<std::string> &names,
+           const std::string              &nothing)
+    {
+      return names.empty() ? nothing
+                           : "choose among " + join(near_matches(word, names));
+    }
+
+
+    /// Twice the area on the left of a closed chain; arcs as two chords, which
+    /// tells the sign.
+    double
+    signed_area(const std::vector<CurvePiece> &pieces)
+    {
+      double     area = 0.;
+      const auto add  = [&](const Point<2> &a, const Point<2> &b) {
+        area += a[0] * b[1] - a[1] * b[0];
+      };
+      for (const CurvePiece &piece : pieces)
+        if (piece.kind == CurvePiece::Kind::arc)
+        {
+          add(piece.start, piece.through);
+          add(piece.through, piece.end);
+        }
+        else
+          add(piece.start, piece.end);
+      return area;
+    }
+
+
+    std::vector<CurvePiece>
+    reversed(std::vector<CurvePiece> pieces)
+    {
+      std::reverse(pieces.begin(), pieces.end());
+      for (CurvePiece &piece : pieces)
+        std::swap(piece.start, piece.end);
+      return pieces;
+    }
+
+
+    /// A full circle as two arcs, counter-clockwise.
+    std::vector<CurvePiece>
+    two_arcs(const CurvePiece &circle)
+    {
+      const Point<2> &c = circle.center;
+      const double    r = circle.radius;
+      const Point<2>  right(c[0] + r, c[1]), left(c[0] - r, c[1]);
+      return {CurvePiece::arc(right, Point<2>(c[0], c[1] + r), left),
+              CurvePiece::arc(left, Point<2>(c[0], c[1] - r), right)};
+    }
+
+
+    /// The body on the left: as drawn, but closed boundaries are rigid inside and
+    /// holes outside.
+    std::vector<CurvePiece>
+    oriented_pieces(const Curve &curve)
+    {
+      std::vector<CurvePiece> pieces =
+        curve.pieces.front().kind == CurvePiece::Kind::circle
+          ? two_arcs(curve.pieces.front())
+          : curve.pieces;
+      const bool is_boundary = curve.role == CurveRole::boundary;
+      if (!curve.is_closed() || (!is_boundary && curve.role != CurveRole::hole))
+        return pieces;
+      return (signed_area(pieces) > 0.) == is_boundary ? pieces
+                                                       : reversed(pieces);
+    }
+
+
+    /// Role of the record for a shape alone: polygons and circles are bodies, and
+    /// all else is a line with a body on the left.
+    std::string
+    role_of_shape(const std::string &shape)
+    {
+      std::string word;
+      for (const char c : shape)
+      {
+        if (std::isalpha(static_cast<unsigned char>(c)) == 0)
+          break;
+        word += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+      }
+      return word == "POLYGON" || word == "CURVEPOLYGON" || word == "CIRCLE"
+               ? "boundary"
+               : "interface";
+    }
+  } // namespace
+
+
+  void
+  Scene::set_joint_states(Geometry &geometry) const
+  {
+    const ContactSectionParameters &parameters = scene_parameters.contact;
+    for (const auto &[key, names, state] :
+         {std::make_tuple("Open joints",
+                          parameters.open_joints,
+                          JointState::open),
+          std::make_tuple("Tied joints",
+                          parameters.tied_joints,
+                          JointState::closed)})
+      for (const std::string &name : names)
+      {
+        bool                     is_found = false;
+        std::vector<std::string> joints;
+        for (Curve &curve : geometry.curves())
+          if (curve.role == CurveRole::joint)
+          {
+            joints.push_back(curve.name);
+            if (curve.name == name)
+            {
+              curve.state = state;
+              is_found    = true;
+            }
+          }
+        AssertThrow(is_found,
+                    InputError("the geometry has no joint '" + name + "'",
+                               std::string("parameter 'Contact/") + key + "'",
+                               choice(name, joints, "it has no joints")));
+      }
+    for (const std::string &name : parameters.open_joints)
+      AssertThrow(std::find(parameters.tied_joints.begin(),
+                            parameters.tied_joints.end(),
+                            name) == parameters.tied_joints.end(),
+                  InputError("the joint '" + name +
+                               "' is listed as open and "
+                               "as tied",
+                             "parameter 'Contact/Tied joints'",
+                             "remove it from one of both lists"));
+  }
+
+
+  RigidObstacle
+  Scene::make_obstacle(const ObstacleParameters &parameters) const
+  {
+    const std::string section = "Obstacles/" + parameters.name;
+    const bool        is_file = !parameters.file.empty();
+    const std::string where =
+      "parameter '" + section + (is_file ? "/File'" : "/Shape'");
+    const Geometry geometry =
+      is_file ? read_geometry(relative_to_scene(parameters.file))
+              : parse_geometry(role_of_shape(parameters.shape) +
+                                 " name=shape " + parameters.shape,
+                               file_name + ", " + where);
+    AssertThrow(
+      geometry.curves().size() == 1,
+      InputError("the obstacle '" + parameters.name + "' consists of " +
+                   std::to_string(geometry.curves().size()) + " curves",
+                 where,
+                 "give one curve; several make several obstacles"));
+    RigidObstacle obstacle;
+    obstacle.name   = parameters.name;
+    obstacle.pieces = oriented_pieces(geometry.curves().front());
+    obstacle.displacement =
+      make_vector_function(parameters.displacement, section + "/Displacement");
+    return obstacle;
+  }
+
+
+  std::vector<RigidObstacle>
+  Scene::make_obstacles(const PhysicalMesh &physical_mesh) const
+  {
+    std::vector<RigidObstacle> obstacles;
+    for (const ObstacleParameters &parameters : scene_parameters.obstacles)
+    {
+      AssertThrow(physical_mesh.find_curve(parameters.name) == invalid_index,
+                  InputError("a curve of the geometry is called '" +
+                               parameters.name + "', too",
+                             "parameter 'Obstacles/Names'",
+                             "give the obstacle another name"));
+      obstacles.push_back(make_obstacle(parameters));
+    }
+    return obstacles;
+  }
+
+
+  void
+  Scene::check_law_names(const ContactSurface &surface) const
+  {
+    std::set<std::string> names;
+    for (unsigned int e = 0; e < surface.edges().size(); ++e)
+      names.insert(surface.name(e));
+    const std::vector<std::string> list(names.begin(), names.end());
+    for (const ContactLawParameters &law : scene_parameters.contact.laws)
+      for (const std::string &name : law.between)
+        AssertThrow(name.empty() || names.count(name) > 0,
+                    InputError("there are no faces called '" + name + "'",
+                               "parameter 'Contact/" + law.name + "/Between'",
+                               choice(name, list, "there are no faces at all") +
+                                 ", or any; joints that are closed have no "
+                                 "faces"));
+  }
+
+
+  namespace
+  {
+    /// Stiffnesses that the scene leaves open are those of @p law.
+    ContactLaw
+    make_law(const ContactLawParameters &parameters, ContactLaw law)
+    {
+      if (parameters.normal_stiffness > 0.)
+        law.normal_stiffness = parameters.normal_stiffness;
+      law.shear_stiffness =
+        parameters.shear_stiffness > 0.
+          ? parameters.shear_stiffness
+          : std::min(law.shear_stiffness, law.normal_stiffness);
+      law.normal_damping = parameters.normal_damping;
+      law.shear_damping  = parameters.shear_damping;
+      law.friction =
+        std::tan(parameters.friction_angle * dealii::numbers::PI / 180.);
+      law.cohesion         = parameters.cohesion;
+      law.is_bond          = parameters.is_bonded;
+      law.tensile_strength = parameters.tensile_strength;
+      return law;
+    }
+
+
+    /// Largest Young's modulus of each block [Pa].
+    std::vector<double>
+    block_moduli(const PhysicalMesh &mesh, const ElasticityProblem &problem)
+    {
+      const std::vector<unsigned int> region_to_material =
+        problem.region_to_material(mesh);
+      std::vector<double> moduli(mesh.n_blocks(), 0.);
+      for (unsigned int r = 0; r < mesh.regions().size(); ++r)
+      {
+        double &modulus = moduli[mesh.regions()[r].block];
+        modulus =
+          std::max(modulus,
+                   problem.materials[region_to_material[r]].youngs_modulus);
+      }
+      return moduli;
+    }
+
+
+    /// From the smallest to the largest; equal ones have equal ranks.
+    std::vector<unsigned int>
+    ranks(const std::vector<double> &values)
+    {
+      const std::set<double>    steps(values.begin(), values.end());
+      std::vector<unsigned int> result;
+      for (const double value : values)
+        result.push_back(std::distance(steps.begin(), steps.find(value)));
+      return result;
+    }
+  } // namespace
+
+
+  ContactParameters
+  Scene::make_contact_parameters(const ContactSurface    &surface,
+                                 const ElasticityProblem &problem) const
+  {
+    check_law_names(surface);
+    const ContactSectionParameters &section = scene_parameters.contact;
+    const bool                      is_augmented =
+      section.enforcement == Enforcement::augmented_lagrangian;
+    const double              size = contact_cell_size(surface);
+    const std::vector<double> moduli =
+      block_moduli(surface.cover_system().manifold_mesh().physical_mesh(),
+                   problem);
+    const double modulus = *std::min_element(moduli.begin(), moduli.end());
+
+    // The penalty method needs stiff springs to be accurate, and in a static
+    // analysis it can have them. Stiff shear springs keep Newton's method from
+    // deciding between stick and slip there; in motion soft ones make faces that
+    // hop slide too far.
+    const Analysis analysis = scene_parameters.model.analysis;
+    const bool     is_stiff = !is_augmented && analysis == Analysis::statics;
+    ContactLaw     chosen;
+    chosen.normal_stiffness = (is_stiff ? 30. : 10.) * modulus / size;
+    chosen.shear_stiffness =
+      (analysis == Analysis::dynamics ? 10. : 1.) * modulus / size;
+    ContactParameters parameters;
+    static_cast<ContactLaw &>(parameters) = make_law(section.law, chosen);
+    for (const ContactLawParameters &law : section.laws)
+      parameters.pairs.push_back(
+        {law.between[0],
+         law.between[1],
+         make_law(law, static_cast<const ContactLaw &>(parameters))});
+    if (is_augmented)
+      parameters.penetration_tolerance = section.penetration_tolerance > 0.
+                                           ? section.penetration_tolerance
+                                           : 1e-5 * size;
+    parameters.reach      = section.reach;
+    parameters.n_points   = section.n_points;
+    parameters.body_ranks = ranks(moduli);
+    return parameters;
+  }
+
+
+  double
+  contact_cell_size(const ContactSurface &surface)
+  {
+    std::vector<double> sizes;
+    for (unsigned int e = 0; e < surface.edges().size(); ++e)
+      if (!surface.is_rigid(e))
+      {
+        // of the equilateral triangle with the same area
+        const double twice_area =
+          1. / std::abs(dealii::determinant(surface.edges()[e].inverse));
+        sizes.push_back(std::sqrt(2. * twice_area / std::sqrt(3.)));
+      }
+    Assert(!sizes.empty(), dealii::ExcMessage("A solid has a boundary."));
+    const auto tenth = sizes.begin() + sizes.size() / 10;
+    std::nth_element(sizes.begin(), tenth, sizes.end());
+    return *tenth;
+  }
+} // namespace NMM

@@ -1,0 +1,123 @@
+#include <support/contact_bars/contact_bars.h>
+
+namespace NMM
+{
+  namespace ContactBars
+  {
+    namespace
+    {
+      constexpr double density = 2500., youngs_modulus = 1e9;
+
+      std::unique_ptr<MovingBodies>
+      make_block(const Incline &incline)
+      {
+        Geometry geometry;
+        add_block(geometry, "block", {{0., 0.}, {1., 0.}, {1., 1.}, {0., 1.}});
+        Bodies::Options options;
+        options.cell_size    = 0.7;
+        options.rotation     = 17.;
+        options.offset[0]    = 0.217;
+        options.offset[1]    = 0.119;
+        options.communicator = incline.communicator;
+        options.obstacles    = {obstacle("floor", {{100., 0.}, {-100., 0.}})};
+        auto block =
+          std::make_unique<MovingBodies>(std::move(geometry), options);
+        block->problem.materials = {
+          material("rock", youngs_modulus, 0.2, density)};
+        const double angle = degrees(incline.angle);
+        block->problem.gravity =
+          standard_gravity * Tensor<1, 2>({std::sin(angle), -std::cos(angle)});
+        ContactParameters parameters =
+          contact_parameters(10. * youngs_modulus, 0.02);
+        parameters.friction = std::tan(degrees(incline.friction_angle));
+        block->start(parameters, Kinematics::small);
+        return block;
+      }
+
+
+      std::string
+      describe(const Incline &incline)
+      {
+        std::ostringstream text;
+        text << incline.angle << " degrees; friction " << incline.friction_angle
+             << "; " << incline.scheme.name;
+        return text.str();
+      }
+    } // namespace
+
+
+    void
+    slide_down_incline(const Incline &incline, Measurements &measurements)
+    {
+      const auto   block = make_block(incline);
+      const double angle = degrees(incline.angle);
+      const double acceleration =
+        standard_gravity *
+        (std::sin(angle) -
+         std::cos(angle) * std::tan(degrees(incline.friction_angle)));
+      const double end = std::sqrt(2. * incline.distance / acceleration);
+      block->integrate(incline.scheme);
+      const Run         run  = block->run(incline.step, end);
+      const std::string name = "slides: " + describe(incline);
+      measurements.add(2,
+                       name,
+                       "distance [m]",
+                       block->displacement(0)[0],
+                       incline.distance,
+                       0.,
+                       incline.bound,
+                       run);
+      measurements.add(2,
+                       name,
+                       "worst balance [J/m]",
+                       run.worst_balance,
+                       0.,
+                       block->integrator->account().kinetic,
+                       incline.scheme.is_conserving ? 1e-6 : 0.,
+                       run);
+    }
+
+
+    void
+    stick_to_incline(const Incline &incline, Measurements &measurements)
+    {
+      const auto   block = make_block(incline);
+      const double give  = density * standard_gravity *
+                          std::sin(degrees(incline.angle)) /
+                          (10. * youngs_modulus);
+      Run run;
+      if (incline.begins_at_rest)
+      {
+        const Vector u = block->find_rest(0.01);
+        block->integrate(incline.scheme, u, block->zero());
+      }
+      else
+      {
+        block->integrate(incline.scheme);
+        // until it lies on its springs
+        run += block->run(incline.step, 1.);
+      }
+      const double start = block->displacement(0)[0];
+      const double begin = block->integrator->state().time;
+      double       creep = 0.;
+      run +=
+        block->run(incline.step, begin + incline.n_steps * incline.step, [&]() {
+          creep = std::max(creep, std::abs(block->displacement(0)[0] - start));
+          return true;
+        });
+      const std::string name =
+        std::string("sticks") +
+        (incline.begins_at_rest ? ": " : " after a fall: ") + describe(incline);
+      measurements.add(
+        2, name, "farthest creep [m]", creep, 0., give, incline.bound, run);
+      measurements.add(2,
+                       name,
+                       "creep in the end [m]",
+                       block->displacement(0)[0] - start,
+                       0.,
+                       give,
+                       incline.bound,
+                       run);
+    }
+  } // namespace ContactBars
+} // namespace NMM

@@ -131,7 +131,7 @@ namespace NMM
       fall(corners, 0., true, "vertex on rigid vertex", measurements);
       fall(corners, 0., false, "vertex on vertex", measurements);
       // beside it the square slides off to its side, and the mirror image to the other
-      constexpr double beside = 0.05;
+      constexpr double beside = 0.01;
       const Fall       right =
         fall(corners, beside, true, "vertex right of vertex", measurements);
       const Fall left =

@@ -281,9 +281,9 @@ namespace NMM
       point.shear                  = trial > 0. ? limit : -limit;
       traction.shear_over_pressure = trial > 0. ? law.friction : -law.friction;
       // it slides to and fro from one iteration to the next, because the tangent
-      // of sliding does not hold it: it sticks
+      // of sliding does not hold it: the secant does
       if (point.has_turned)
-        traction.shear_stiffness = stiffness;
+        traction.shear_stiffness = stiffness * limit / std::abs(trial);
     }
     traction.shear = point.weight * point.shear;
   }

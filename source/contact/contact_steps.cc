@@ -122,10 +122,13 @@ namespace NMM
         change -=
           obstacle_changes[surface->edges()[projection.master].body -
                            (surface->n_bodies() - obstacle_changes.size())];
-      // the gap of curved or turning faces changes not quite by this
-      const double delta  = change * projection.normal;
-      const double ratio  = (fixed.gap_end - fixed.gap_begin) / delta;
-      const double factor = ratio > 0.5 && ratio < 2. ? ratio : 1.;
+      // the gap of curved or turning faces changes not quite by this; where
+      // nothing moves the ratio of both is rounding
+      const double delta = change * projection.normal;
+      const double least = 1e-4 * reach;
+      const double more  = (fixed.gap_end - fixed.gap_begin - delta) * delta /
+                          (delta * delta + least * least);
+      const double factor = 1. + std::min(1., std::max(-0.5, more));
       fixed.normal_loss =
         point.weight * factor * (spring_pressure - point.pressure) * delta;
       point.pressure *= factor;

@@ -45,22 +45,39 @@ namespace
   impacts(Measurements &measurements)
   {
     Impact impact;
-    impact.cell_size = 0.25;
-    run_into_each_other(impact, measurements);
+    for (const double cell_size : {0.25, 0.125, 0.0625})
+    {
+      impact.cell_size = cell_size;
+      impact.step      = 2e-3 * cell_size;
+      run_into_each_other(impact, measurements);
+    }
     impact.kinematics = Kinematics::finite;
+    impact.cell_size  = 0.125;
     run_into_each_other(impact, measurements);
+  }
+
+
+  /// The stiffer the disk, the finer the mesh and the points its contact needs.
+  void
+  roll_stiffer_and_stiffer(Disk disk, Measurements &measurements)
+  {
+    roll(disk, measurements);
+    disk.youngs_modulus *= 4.;
+    disk.cell_size *= 0.5;
+    disk.n_points = 16;
+    disk.step     = 2e-3;
+    roll(disk, measurements);
+    disk.youngs_modulus *= 4.;
+    disk.n_points = 20;
+    disk.step     = 1e-3;
+    roll(disk, measurements);
   }
 
 
   void
   rolling(Measurements &measurements)
   {
-    Disk disk;
-    for (const double E : {1e7, 4e7})
-    {
-      disk.youngs_modulus = E;
-      roll(disk, measurements);
-    }
+    roll_stiffer_and_stiffer(Disk(), measurements);
   }
 
 
@@ -69,11 +86,7 @@ namespace
   {
     Disk disk;
     disk.spin = 0.;
-    for (const double E : {1e7, 4e7})
-    {
-      disk.youngs_modulus = E;
-      roll(disk, measurements);
-    }
+    roll_stiffer_and_stiffer(disk, measurements);
   }
 
 
@@ -81,9 +94,33 @@ namespace
   rocking(Measurements &measurements)
   {
     Rocking rocking;
-    rock(rocking, measurements);
-    rocking.scheme = TimeScheme::generalized_alpha(0.5);
-    rocking.name   = "generalized alpha 0.5";
+    rocking.youngs_modulus = 1e9;
+    rocking.step           = 5e-4;
+    for (const double hollow : {0., 0.02})
+      for (const double alpha : {0.25, 0.15})
+      {
+        rocking.hollow  = hollow;
+        rocking.alpha   = alpha;
+        rocking.tilt    = 0.4 * alpha;
+        rocking.dashpot = 0.;
+        rocking.scheme  = TimeScheme::energy_momentum();
+        rocking.name    = "conserving";
+        rock(rocking, measurements);
+        rocking.dashpot = 3.;
+        rocking.name    = "conserving with dashpots";
+        rock(rocking, measurements);
+        rocking.dashpot = 0.;
+        rocking.scheme  = TimeScheme::generalized_alpha(0.5);
+        rocking.name    = "generalized alpha 0.5";
+        rock(rocking, measurements);
+      }
+    rocking.hollow         = 0.;
+    rocking.alpha          = 0.25;
+    rocking.tilt           = 0.1;
+    rocking.youngs_modulus = 1e10;
+    rocking.step           = 2e-4;
+    rocking.scheme         = TimeScheme::energy_momentum();
+    rocking.name           = "conserving";
     rock(rocking, measurements);
   }
 

@@ -39,7 +39,7 @@ namespace NMM
     /// @}
 
 
-    /// Bars of 10 m by 1 m, c = 100 m/s, that run into each other.
+    /// Bars of 10 m, c = 100 m/s, that run into each other.
     struct Impact
     {
       double cell_size = 0.5, step = 5e-4;
@@ -71,7 +71,12 @@ namespace NMM
       double          step           = 1e-3;
       TimeScheme      scheme         = TimeScheme::energy_momentum();
       RayleighDamping damping;
-      std::string     name = "conserving";
+      /// Height of the middle of the base above its corners over the width; 0: it
+      /// lands flat, and the impulse is not that of the corner alone.
+      double hollow = 0.;
+      /// Share of the critical damping of the block on its springs.
+      double      dashpot = 0.;
+      std::string name    = "conserving";
       /// In quarter periods of the first swing.
       double duration = 6.;
     };
@@ -97,10 +102,11 @@ namespace NMM
       double step     = 5e-3;
       /// Rolling: [s]; sliding: in times of sliding.
       double   duration     = 2.;
-      double   bound        = 1e-3;
       MPI_Comm communicator = MPI_COMM_WORLD;
     };
 
+    /// Against a rigid disk: within the share of its radius by which an elastic one
+    /// sinks to the floor.
     void
     roll(const Disk &disk, Measurements &measurements);
 

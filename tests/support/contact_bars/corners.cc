@@ -35,7 +35,7 @@ namespace NMM
                          run.worst_balance,
                          0.,
                          energy,
-                         1e-6,
+                         1e-5,
                          run);
         measurements.add(7,
                          name,

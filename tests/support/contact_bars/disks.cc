@@ -13,8 +13,9 @@ namespace NMM
     void
     roll(const Disk &disk, Measurements &measurements)
     {
-      constexpr double radius = 1., density = 2500.;
-      Geometry         geometry;
+      constexpr double radius = 1., density = 2500., nu = 0.25,
+                       pi = dealii::numbers::PI;
+      Geometry geometry;
       geometry.add_circle({0., radius}, radius, "disk", CurveRole::boundary);
       Bodies::Options options;
       options.cell_size    = disk.cell_size;
@@ -22,7 +23,7 @@ namespace NMM
       options.obstacles    = {obstacle("floor", {{100., 0.}, {-100., 0.}})};
       MovingBodies body(std::move(geometry), options);
       body.problem.materials = {
-        material("rock", disk.youngs_modulus, 0.25, density)};
+        material("rock", disk.youngs_modulus, nu, density)};
       body.problem.gravity = Tensor<1, 2>({0., -standard_gravity});
       ContactParameters parameters =
         contact_parameters(disk.penalty * disk.youngs_modulus / disk.cell_size,
@@ -43,6 +44,15 @@ namespace NMM
       body.integrate(TimeScheme::energy_momentum(), u, v);
       const double start = body.displacement(0)[0];
 
+      // how far the centre of an elastic cylinder comes nearer to a rigid plane
+      // (Johnson, Contact Mechanics, 1985, eq. (5.56))
+      const double modulus = disk.youngs_modulus / (1. - nu * nu);
+      const double weight  = body.mass(0) * standard_gravity;
+      const double square  = 4. * weight * radius / (pi * modulus);
+      const double approach =
+        weight / (pi * modulus * radius) *
+        (2. * std::log(4. * radius / std::sqrt(square)) - 1.);
+
       std::ostringstream name;
       name << (disk.spin == 1. ? "rolling disk" : "sliding disk") << "; E "
            << disk.youngs_modulus << "; h " << disk.cell_size << "; points "
@@ -53,7 +63,7 @@ namespace NMM
                            const double       bound,
                            const Run         &run) {
         measurements.add(
-          5, name.str(), quantity, value, expected, 0., bound, run);
+          5, name.str(), quantity, value, expected, 0., bound * approach, run);
       };
       const double energy = body.integrator->account().kinetic;
       Run          run;
@@ -63,41 +73,32 @@ namespace NMM
         add("distance [m]",
             body.displacement(0)[0] - start,
             V * disk.duration,
-            disk.bound,
+            1.,
             run);
-        add("velocity [m/s]", body.velocity(0)[0], V, disk.bound, run);
-        add("spin [rad/s]", body.angular_velocity(0), omega, disk.bound, run);
+        add("velocity [m/s]", body.velocity(0)[0], V, 1., run);
+        add("spin [rad/s]", body.angular_velocity(0), omega, 3., run);
       }
       else
       {
-        const double mu_g   = disk.friction * standard_gravity;
-        const double time   = V / (3. * mu_g);
-        double       begins = 0.;
-        run                 = body.run(disk.step, time, [&]() {
-          if (begins == 0. && body.contact->report().n_stick > 0)
-            begins = body.integrator->state().time;
-          return true;
-        });
+        const double mu_g = disk.friction * standard_gravity;
+        const double time = V / (3. * mu_g);
+        run               = body.run(disk.step, time);
         add("distance of sliding [m]",
             body.displacement(0)[0] - start,
             5. * V * V / (18. * mu_g),
-            disk.bound,
+            1.,
             run);
         add("velocity at its end [m/s]",
             body.velocity(0)[0],
             2. * V / 3.,
-            disk.bound,
+            1.,
             run);
         run += body.run(disk.step, disk.duration * time);
-        add("velocity later [m/s]",
-            body.velocity(0)[0],
-            2. * V / 3.,
-            disk.bound,
-            run);
+        add("velocity later [m/s]", body.velocity(0)[0], 2. * V / 3., 1., run);
         add("spin later [rad/s]",
             body.angular_velocity(0),
             -2. * V / 3. / radius,
-            disk.bound,
+            3.,
             run);
       }
       measurements.add(5,
@@ -106,11 +107,11 @@ namespace NMM
                        run.worst_balance,
                        0.,
                        energy,
-                       1e-6,
+                       1e-4,
                        run);
       measurements.add(5,
                        name.str(),
-                       "sinking by elasticity [m]",
+                       "sinking of the lowest point [m]",
                        sinking,
                        0.,
                        radius,

@@ -8,14 +8,16 @@ namespace NMM
     run_into_each_other(const Impact &impact, Measurements &measurements)
     {
       constexpr double L = 10., c = 100., V = 0.1, opening = 0.01, E = 100.;
-      Geometry         geometry;
-      add_block(geometry, "left", {{0., 0.}, {L, 0.}, {L, 1.}, {0., 1.}});
+      // without lateral strain the width means nothing
+      const double width = 2. * impact.cell_size;
+      Geometry     geometry;
+      add_block(geometry, "left", {{0., 0.}, {L, 0.}, {L, width}, {0., width}});
       add_block(geometry,
                 "right",
                 {{L + opening, 0.},
                  {2. * L + opening, 0.},
-                 {2. * L + opening, 1.},
-                 {L + opening, 1.}});
+                 {2. * L + opening, width},
+                 {L + opening, width}});
       Bodies::Options options;
       options.cell_size    = impact.cell_size;
       options.rotation     = 6.;

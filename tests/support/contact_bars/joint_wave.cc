@@ -65,7 +65,7 @@ namespace NMM
       MovingBodies bars(std::move(geometry), options);
       bars.problem.materials = {material("rock", E, 0., density)};
       // strains so large that gaps are more than rounding of coordinates
-      const double velocity = 2e-3 * c;
+      const double velocity            = 2e-3 * c;
       bars.problem.boundary_conditions = {condition(
         BoundaryCondition::Type::pressure, "left", constant(Z * velocity))};
       Loading loading;

@@ -52,6 +52,8 @@ namespace NMM
     {
       integrator =
         std::make_unique<TimeIntegrator>(*model, scheme, damping, newton);
+      // candidates are those of the state at rest otherwise
+      model->restore_internal_state(model->internal_state());
       integrator->initialize(u, v);
     }
 

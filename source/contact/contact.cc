@@ -25,6 +25,7 @@ namespace NMM
     , search(surface, parameters_in.body_ranks)
     , laws((parameters.check(), surface), parameters)
     , has_friction(parameters.has_friction())
+    , corner_weight(corner_weights(surface))
   {
     lobatto_rule(parameters.n_points, rule_points, rule_weights);
     if (parameters.reach == 0.)
@@ -99,7 +100,45 @@ namespace NMM
     points.clear();
     point_data.clear();
     for (unsigned int i = 0; i < search.slaves().size(); ++i)
-      add_points_of(i);
+      if (search.corner(i) == 2)
+        add_points_of(i);
+      else
+        add_corner(i);
+  }
+
+
+  void
+  Contact::Data::restore(ContactPoint &point, const unsigned int corner) const
+  {
+    const auto sticking = stick_places.find(place_key(point.edge, corner));
+    StickPlace stick;
+    if (sticking != stick_places.end() &&
+        find_stick_place(sticking->second, point.s, stick))
+    {
+      point.stick_edge = stick.edge;
+      point.stick_t    = stick.t;
+      point.is_bonded  = stick.is_bonded;
+    }
+    if (multiplier_space != nullptr && corner == 2)
+      point.multiplier =
+        multiplier_space->value(multipliers, point.edge, point.s);
+  }
+
+
+  void
+  Contact::Data::add_corner(const unsigned int slave)
+  {
+    ContactPoint point;
+    PointData    fixed;
+    fixed.slave  = slave;
+    fixed.corner = search.corner(slave);
+    point.edge   = search.slaves()[slave];
+    point.s      = fixed.corner;
+    point.weight = corner_weight[2 * point.edge + fixed.corner];
+    surface->weights(point.edge, point.s, fixed.weights);
+    restore(point, fixed.corner);
+    points.push_back(point);
+    point_data.push_back(fixed);
   }
 
 
@@ -108,7 +147,6 @@ namespace NMM
   {
     const unsigned int        edge      = search.slaves()[slave];
     const std::vector<double> divisions = search.divisions(slave);
-    const auto                sticking  = stick_places.find(edge);
     for (unsigned int i = 0; i + 1 < divisions.size(); ++i)
     {
       const double at_start =
@@ -132,21 +170,12 @@ namespace NMM
                                                          : 0.;
         const auto place = surface->reference_place(edge, point.s);
         surface->weights(edge, point.s, fixed.weights);
+        if (fixed.slack > 0.)
+          fixed.home =
+            search.project(surface->place(edge, point.s), search.masters(slave))
+              .master;
         point.weight = rule_weights[q] * length * place.a.norm();
-
-        if (sticking != stick_places.end())
-        {
-          StickPlace stick;
-          if (find_stick_place(sticking->second, point.s, stick))
-          {
-            point.stick_edge = stick.edge;
-            point.stick_t    = stick.t;
-            point.is_bonded  = stick.is_bonded;
-          }
-        }
-        if (multiplier_space != nullptr)
-          point.multiplier =
-            multiplier_space->value(multipliers, edge, point.s);
+        restore(point, 2);
         points.push_back(point);
         point_data.push_back(fixed);
       }
@@ -174,7 +203,8 @@ namespace NMM
       append(slave);
       for (const unsigned int master : search.masters(i))
         append(master);
-      const auto sticking = stick_places.find(slave);
+      const auto sticking =
+        stick_places.find(place_key(slave, search.corner(i)));
       if (sticking != stick_places.end())
         for (const StickPlace &place : sticking->second)
           if (!surface->is_rigid(place.edge))
@@ -305,22 +335,64 @@ namespace NMM
 
 
   ContactProjection
+  Contact::Data::find_master(const unsigned int           q,
+                             const ContactSurface::Place &slave) const
+  {
+    const PointData &fixed   = point_data[q];
+    const auto       masters = search.masters(fixed.slave);
+    if (fixed.corner == 2)
+      return search.project(slave, masters, fixed.slack, fixed.home);
+    const auto entrance =
+      entrances.find(place_key(points[q].edge, fixed.corner));
+    return search.project_corner(slave,
+                                 masters,
+                                 entrance == entrances.end()
+                                   ? invalid_index
+                                   : entrance->second);
+  }
+
+
+  double
+  Contact::Data::share(const unsigned int  q,
+                       const Tensor<1, 2> &slave_normal,
+                       const Tensor<1, 2> &master_normal) const
+  {
+    // faces that are not parallel touch over their projection only
+    const double       facing = -(slave_normal * master_normal);
+    double             along  = ContactSearch::along_face(facing);
+    const unsigned int corner = point_data[q].corner;
+    if (corner == 2)
+      return facing * along;
+    // a corner touches in a point if neither of its faces touches along its length
+    const ContactSurface::Edge &edge  = surface->edges()[points[q].edge];
+    const unsigned int          other = corner == 0 ? edge.previous : edge.next;
+    if (other != invalid_index)
+      along = std::max(along,
+                       ContactSearch::along_face(
+                         -(surface->place(other, 1. - corner).normal() *
+                           master_normal)));
+    return facing * (1. - along);
+  }
+
+
+  ContactProjection
   Contact::Data::project(const unsigned int           q,
                          const ContactSurface::Place &slave)
   {
-    ContactPoint     &point = points[q];
-    PointData        &fixed = point_data[q];
-    ContactProjection projection =
-      search.project(slave, search.masters(fixed.slave), fixed.slack);
+    ContactPoint     &point      = points[q];
+    PointData        &fixed      = point_data[q];
+    ContactProjection projection = find_master(q, slave);
     // a piece ends where two edges of the master meet; its end stays with one of
     // them, since their normals differ a little and the iteration would not end
-    if (point.master != invalid_index && projection.master != invalid_index &&
+    if (fixed.corner == 2 && point.master != invalid_index &&
+        projection.master != invalid_index &&
         goes_on_smoothly(surface->edges(), point.master, projection.master))
     {
       const ContactProjection last =
         search.project(slave,
                        dealii::ArrayView<const unsigned int>(&point.master, 1),
-                       fixed.slack);
+                       fixed.slack,
+                       fixed.home);
       if (last.master != invalid_index)
         projection = last;
     }
@@ -336,8 +408,7 @@ namespace NMM
     point.normal = projection.normal;
     if (!fixed.has_angle)
     {
-      // faces that are not parallel touch over their projection only
-      point.weight *= -(projection.normal * slave.normal());
+      point.weight *= share(q, slave.normal(), projection.normal);
       fixed.has_angle           = true;
       constexpr double touching = 1e-6;
       if (is_virgin && std::abs(projection.gap) <= touching * reach)
@@ -360,7 +431,7 @@ namespace NMM
     const ContactState          before = point.state;
     const ContactSurface::Place slave  = surface->place(point.edge, point.s);
     const ContactProjection     projection = project(q, slave);
-    if (projection.master == invalid_index)
+    if (projection.master == invalid_index || point.weight == 0.)
     {
       point.pressure = point.shear = 0.;
       point.state                  = ContactState::open;
@@ -392,9 +463,10 @@ namespace NMM
     const bool              with_friction = fixed.law->has_friction();
     const ContactKinematics kinematics(
       fixed.weights, master, projection.place, projection.gap, with_friction);
-    for (unsigned int c = 0; c < 2; ++c)
-      report.force[c] += traction.pressure * kinematics.normal[c] -
-                         traction.shear * kinematics.tangent[c];
+    const double sign =
+      search.comes_first(point.edge, projection.master) ? 1. : -1.;
+    report.force += sign * (traction.pressure * kinematics.normal -
+                            traction.shear * kinematics.tangent);
 
     local.n_covers = 0;
     local.append(surface->covers(point.edge));
@@ -517,7 +589,10 @@ namespace NMM
     // integrals of spring pressure times function, of functions, and of stiffness
     // times function
     std::vector<double> sums(3 * n, 0.);
-    for (unsigned int begin = 0; begin < d.points.size(); begin += n_rule)
+    // those of corners come last
+    for (unsigned int begin = 0;
+         begin < d.points.size() && d.point_data[begin].corner == 2;
+         begin += n_rule)
     {
       const double length =
         (d.points[begin + n_rule - 1].s - d.points[begin].s) *
@@ -526,7 +601,7 @@ namespace NMM
       {
         const ContactPoint &point = d.points[begin + q];
         // beside the master, where there is nothing to penetrate
-        if (point.master == invalid_index)
+        if (point.master == invalid_index || point.weight == 0.)
           continue;
         const auto  &f      = space[point.edge];
         const double share  = f.share(point.s);
@@ -555,8 +630,12 @@ namespace NMM
       change                  = std::max(change, difference / eps);
       d.multipliers[i]        = value;
     }
-    for (ContactPoint &point : d.points)
-      point.multiplier = space.value(d.multipliers, point.edge, point.s);
+    for (unsigned int q = 0; q < d.points.size(); ++q)
+    {
+      ContactPoint &point = d.points[q];
+      if (d.point_data[q].corner == 2)
+        point.multiplier = space.value(d.multipliers, point.edge, point.s);
+    }
     return change;
   }
 
@@ -617,8 +696,9 @@ namespace NMM
       ++count;
       // points are made anew from these places
       const StickPlace place{point.s, point.stick_edge, point.stick_t, false};
-      auto            &places = d.stick_places[point.edge];
-      const auto       at =
+      auto            &places =
+        d.stick_places[d.place_key(point.edge, d.point_data[q].corner)];
+      const auto at =
         std::lower_bound(places.begin(),
                          places.end(),
                          place,
@@ -639,6 +719,12 @@ namespace NMM
   {
     Data &d = *data;
     d.stick_places.clear();
+    d.entrances.clear();
+    for (unsigned int q = 0; q < d.points.size(); ++q)
+      if (d.point_data[q].corner != 2 &&
+          d.points[q].state != ContactState::open)
+        d.entrances[d.place_key(d.points[q].edge, d.point_data[q].corner)] =
+          d.points[q].master;
     d.is_virgin       = false;
     double dissipated = 0.;
     if (d.is_between)
@@ -679,7 +765,8 @@ namespace NMM
                 a / a.norm() -
               point.shear / eps);
       }
-      auto &places = d.stick_places[point.edge];
+      auto &places =
+        d.stick_places[d.place_key(point.edge, d.point_data[q].corner)];
       // both pieces that meet at a division have a point there
       if (places.empty() || places.back().s < point.s)
         places.push_back(place);

@@ -6,6 +6,7 @@
 #include <contact/contact_points.h>
 #include <contact/contact_search.h>
 #include <contact/contact_terms.h>
+#include <map>
 #include <mechanics/block_system.h>
 
 namespace NMM
@@ -20,12 +21,16 @@ namespace NMM
     struct PointData
     {
       /// Position in ContactSearch::slaves().
-      unsigned int            slave;
+      unsigned int slave;
+      /// 0 or 1: this end of the edge as a corner; 2: a point along the edge.
+      unsigned int            corner = 2;
       ContactSurface::Weights weights;
       /// That of the last master.
       const ContactLaw *law = nullptr;
       /// See ContactSearch::end_slack().
       double slack = 0.;
+      /// The master whose end it is for which there is slack.
+      unsigned int home = invalid_index;
       /// The weight knows the angle between both faces, that of the first time
       /// there is a master since detect().
       bool has_angle = false;
@@ -33,6 +38,8 @@ namespace NMM
       /// shear has done and what the dashpot has taken [J/m].
       double gap_begin = 0., gap_end = 0., shear_begin = 0., shear_work = 0.,
              normal_loss = 0.;
+      /// Masters at both ends of the step; invalid_index: none.
+      unsigned int master_begin = invalid_index, master_end = invalid_index;
     };
 
     void
@@ -42,12 +49,30 @@ namespace NMM
     add_points_of(unsigned int slave);
 
     void
+    add_corner(unsigned int slave);
+
+    /// History of a point: where it stuck, its multiplier.
+    void
+    restore(ContactPoint &point, unsigned int corner) const;
+
+    /// Of the places of an edge, or of a corner.
+    unsigned int
+    place_key(const unsigned int edge, const unsigned int corner) const
+    {
+      return corner == 2 ? edge : edge + (corner + 1) * surface->edges().size();
+    }
+
+    void
     make_pattern();
 
     /// The nearest master of a point at the current positions; notes weight and
     /// place of sticking when there is one for the first time.
     internal::ContactProjection
     project(unsigned int q, const ContactSurface::Place &slave);
+
+    /// As ContactSearch finds it for a point along an edge, or a corner.
+    internal::ContactProjection
+    find_master(unsigned int q, const ContactSurface::Place &slave) const;
 
     /// @name One point in an assembly
     /// @{
@@ -59,6 +84,24 @@ namespace NMM
 
     void
     add_point_between(unsigned int q, bool with_tangent);
+
+    /// Of the slave against the master in the step [m].
+    dealii::Tensor<1, 2>
+    relative_motion(unsigned int                       q,
+                    const internal::ContactProjection &projection) const;
+
+    /// Springs and dashpot of a point in a step, and the loss.
+    void
+    find_pressure_between(unsigned int               q,
+                          double                     opening,
+                          internal::ContactTraction &traction);
+
+    /// Share of the contact with a face of this normal that a point has, see
+    /// ContactSearch.
+    double
+    share(unsigned int                q,
+          const dealii::Tensor<1, 2> &slave_normal,
+          const dealii::Tensor<1, 2> &master_normal) const;
 
     /// Shear from the place where it sticks, not more than the pressure allows;
     /// decides between stick and slip.
@@ -94,6 +137,7 @@ namespace NMM
     internal::ContactSearch                  search;
     internal::ContactLaws                    laws;
     bool                                     has_friction;
+    std::vector<double>                      corner_weight;
     std::vector<double>                      rule_points, rule_weights;
 
     std::vector<double>                    nodal;
@@ -108,6 +152,9 @@ namespace NMM
     std::unique_ptr<internal::MultiplierSpace> multiplier_space;
     std::vector<double>                        multipliers;
     internal::StickPlaces                      stick_places;
+    /// Of corners that were in contact at the last accepted state: the master, by
+    /// place_key().
+    std::map<unsigned int, unsigned int> entrances;
     /// No state has been accepted yet: faces that touch may be bonded.
     bool is_virgin = true;
     /// By bonds that broke since the last accepted state [J/m].

@@ -107,6 +107,44 @@ namespace NMM
     }
 
 
+    std::vector<double>
+    corner_weights(const ContactSurface &surface)
+    {
+      constexpr double    share = 1. / 12.;
+      const auto         &edges = surface.edges();
+      const unsigned int  n     = edges.size();
+      std::vector<double> result(2 * n);
+      double              mean    = 0.;
+      unsigned int        n_cells = 0;
+      for (unsigned int e = 0; e < n; ++e)
+        if (!surface.is_rigid(e))
+        {
+          mean += cell_size(edges[e]);
+          ++n_cells;
+        }
+      mean /= std::max(1U, n_cells);
+      for (unsigned int e = 0; e < n; ++e)
+        for (unsigned int end = 0; end < 2; ++end)
+        {
+          const double size = surface.is_rigid(e) ? mean : cell_size(edges[e]);
+          double       length = edges[e].length;
+          unsigned int at     = e;
+          while (length < size)
+          {
+            const auto &edge = edges[at];
+            const auto  kind = end == 0 ? edge.at_end : edge.at_start;
+            at               = end == 0 ? edge.next : edge.previous;
+            if (kind != ContactSurface::Corner::smooth || at == invalid_index ||
+                at == e)
+              break;
+            length += edges[at].length;
+          }
+          result[2 * e + end] = share * std::min(size, length);
+        }
+      return result;
+    }
+
+
     bool
     find_stick_place(const std::vector<StickPlace> &places,
                      const double                   s,

@@ -99,6 +99,16 @@ namespace NMM
     };
 
 
+    /**
+     * Weights of corners as contact points [m], two for each edge: that of the end of
+     * an edge of a twelfth (Gauss-Lobatto with four points) of the cell's size, or
+     * of the distance to the next corner if that is shorter; of obstacles with the mean
+     * size of cells.
+     */
+    std::vector<double>
+    corner_weights(const ContactSurface &surface);
+
+
     /// Where the points of a slave edge stick, ascending in s.
     struct StickPlace
     {

@@ -1,3 +1,5 @@
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <boost/geometry.hpp>
 #include <boost/geometry/geometries/box.hpp>
@@ -93,41 +95,92 @@ namespace NMM
 
 
     bool
-    ContactSearch::may_be_master(const unsigned int slave,
-                                 const unsigned int edge) const
+    ContactSearch::comes_first(const unsigned int edge,
+                               const unsigned int other) const
     {
-      if (surface->is_rigid(edge))
-        return true;
+      if (surface->is_rigid(edge) || surface->is_rigid(other))
+        return surface->is_rigid(other);
+      const unsigned int body       = surface->edges()[edge].body;
+      const unsigned int other_body = surface->edges()[other].body;
+      if (body == other_body)
+        return edge < other;
+      return ranks[body] != ranks[other_body] ? ranks[body] < ranks[other_body]
+                                              : body < other_body;
+    }
+
+
+    double
+    ContactSearch::along_face(const double facing)
+    {
+      // cosines of 37 and 18 degrees
+      constexpr double none = 0.8, all = 0.95;
+      const double     x =
+        std::min(1., std::max(0., (facing - none) / (all - none)));
+      return x * x * (3. - 2. * x);
+    }
+
+
+    bool
+    ContactSearch::may_touch(const unsigned int edge,
+                             const unsigned int other) const
+    {
+      const bool is_rigid = surface->is_rigid(edge);
+      if (is_rigid || surface->is_rigid(other))
+        return is_rigid != surface->is_rigid(other);
       const auto &edges = surface->edges();
-      if (edges[edge].body != edges[slave].body)
-        return ranks[edges[slave].body] != ranks[edges[edge].body]
-                 ? ranks[edges[slave].body] < ranks[edges[edge].body]
-                 : edges[slave].body < edges[edge].body;
-      if (slave > edge)
+      if (edges[edge].body != edges[other].body)
+        return true;
+      if (edge == other)
         return false;
       // neighbours do not touch, but for both faces next to the tip of a crack
-      if (edges[slave].next == edge || edges[slave].previous == edge)
-        return edges[slave].start == edges[edge].end &&
-               edges[slave].end == edges[edge].start &&
-               edges[slave].center == edges[edge].center;
+      if (edges[edge].next == other || edges[edge].previous == other)
+        return edges[edge].start == edges[other].end &&
+               edges[edge].end == edges[other].start &&
+               edges[edge].center == edges[other].center;
       // faces of a body that look the same way by far do not turn to face each
       // other before candidates are looked for again
       constexpr double same_way = 0.5;
       bool             may_face = false;
       for (const double s : {0., 0.5, 1.})
         for (const double t : {0., 0.5, 1.})
-          may_face = may_face || surface->place(slave, s).normal() *
-                                     surface->place(edge, t).normal() <
+          may_face = may_face || surface->place(edge, s).normal() *
+                                     surface->place(other, t).normal() <
                                    same_way;
       if (!may_face)
         return false;
       // the far side of a thin body is no neighbour: what touches later lies
       // outside of each other at rest
-      const Place  here   = surface->reference_place(slave, 0.5);
-      const Place  there  = surface->reference_place(edge, 0.5);
-      const double inside = 1e-9 * (edges[slave].length + edges[edge].length);
+      const Place  here   = surface->reference_place(edge, 0.5);
+      const Place  there  = surface->reference_place(other, 0.5);
+      const double inside = 1e-9 * (edges[edge].length + edges[other].length);
       return (here.x - there.x) * there.normal() >= -inside &&
              (there.x - here.x) * here.normal() >= -inside;
+    }
+
+
+    namespace
+    {
+      Box
+      inflated(const Box &box, const double reach)
+      {
+        const auto &lower = box.min_corner(), &upper = box.max_corner();
+        return Box(Corner(lower.get<0>() - reach, lower.get<1>() - reach),
+                   Corner(upper.get<0>() + reach, upper.get<1>() + reach));
+      }
+    } // namespace
+
+
+    void
+    ContactSearch::append(const unsigned int               edge,
+                          const unsigned int               corner,
+                          const std::vector<unsigned int> &masters)
+    {
+      if (masters.empty())
+        return;
+      slave_edges.push_back(edge);
+      corners.push_back(corner);
+      master_edges.insert(master_edges.end(), masters.begin(), masters.end());
+      masters_begin.push_back(master_edges.size());
     }
 
 
@@ -148,37 +201,45 @@ namespace NMM
       const bg::index::rtree<Entry, bg::index::rstar<16>> tree(entries);
 
       slave_edges.clear();
+      corners.clear();
       master_edges.clear();
       masters_begin.assign(1, 0);
       const auto [first, last] = surface->locally_owned_edges();
       std::vector<unsigned int> found;
-      for (unsigned int e = first; e < last; ++e)
-      {
-        Box box = entries[e].first;
-        for (unsigned int c = 0; c < 2; ++c)
-          if (c == 0)
-          {
-            box.min_corner().set<0>(box.min_corner().get<0>() - reach);
-            box.max_corner().set<0>(box.max_corner().get<0>() + reach);
-          }
-          else
-          {
-            box.min_corner().set<1>(box.min_corner().get<1>() - reach);
-            box.max_corner().set<1>(box.max_corner().get<1>() + reach);
-          }
+      const auto find = [&](const unsigned int e, const Box &box, auto accept) {
         found.clear();
         for (auto entry = tree.qbegin(bg::index::intersects(box));
              entry != tree.qend();
              ++entry)
-          if (may_be_master(e, entry->second))
+          if (accept(entry->second) && may_touch(e, entry->second))
             found.push_back(entry->second);
-        if (found.empty())
-          continue;
         std::sort(found.begin(), found.end());
-        slave_edges.push_back(e);
-        master_edges.insert(master_edges.end(), found.begin(), found.end());
-        masters_begin.push_back(master_edges.size());
+      };
+      for (unsigned int e = first; e < last; ++e)
+      {
+        find(e, inflated(entries[e].first, reach), [&](const unsigned int m) {
+          return comes_first(e, m);
+        });
+        append(e, 2, found);
       }
+      const bool has_obstacles = dealii::Utilities::MPI::this_mpi_process(
+                                   surface->cover_system().communicator()) == 0;
+      for (unsigned int e = 0; e < n; ++e)
+        if ((e >= first && e < last) || (has_obstacles && surface->is_rigid(e)))
+          for (unsigned int end = 0; end < 2; ++end)
+          {
+            const auto &edge = surface->edges()[e];
+            const auto  kind = end == 0 ? edge.at_start : edge.at_end;
+            if (kind != ContactSurface::Corner::convex &&
+                !(kind == ContactSurface::Corner::end && surface->is_rigid(e)))
+              continue;
+            const Point<2> &x = known_positions[3 * e + 2 * end];
+            const Corner    corner(x[0], x[1]);
+            find(e, inflated(Box(corner, corner), reach), [](unsigned int) {
+              return true;
+            });
+            append(e, end, found);
+          }
     }
 
 
@@ -261,7 +322,9 @@ namespace NMM
           double         t;
           Place          place;
           if (find_nearest(slave, x, t, place) && t > same && t < 1. - same &&
-              place.x.distance(x) <= reach)
+              place.x.distance(x) <= reach &&
+              along_face(
+                -(place.normal() * surface->place(master, end).normal())) > 0.)
             result.push_back(t);
         }
       std::sort(result.begin(), result.end());
@@ -305,9 +368,65 @@ namespace NMM
     ContactProjection
     ContactSearch::project(const Place                                &place,
                            const dealii::ArrayView<const unsigned int> masters,
-                           const double slack) const
+                           const double                                slack,
+                           const unsigned int home) const
     {
-      return project_within(place, masters, slack, reach);
+      return project_within(place, masters, slack, home, reach);
+    }
+
+
+    ContactProjection
+    ContactSearch::project_corner(
+      const Place                                &slave_place,
+      const dealii::ArrayView<const unsigned int> masters,
+      const unsigned int                          entrance) const
+    {
+      // parts of an edge and of the reach that are rounding
+      constexpr double same = 1e-9;
+      // faces at nearly a right angle, or that look the same way, do not touch
+      constexpr double       least_facing = 0.01;
+      constexpr unsigned int n_at_most    = 16;
+
+      const Tensor<1, 2> slave_normal = slave_place.normal();
+      ContactProjection  near[n_at_most];
+      unsigned int       n = 0;
+      for (const unsigned int master : masters)
+      {
+        const ContactSurface::Edge &edge = surface->edges()[master];
+        ContactProjection           now;
+        now.master = master;
+        if (n == n_at_most ||
+            !find_nearest(master, slave_place.x, now.t, now.place) ||
+            now.t < -extension(edge.at_start, same) ||
+            now.t > 1. + extension(edge.at_end, same))
+          continue;
+        now.normal = now.place.normal();
+        now.gap    = (slave_place.x - now.place.x) * now.normal;
+        if (std::abs(now.gap) <= reach)
+          near[n++] = now;
+      }
+
+      ContactProjection best;
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        ContactProjection &now = near[i];
+        if (-(now.normal * slave_normal) <= least_facing)
+          continue;
+        if (now.gap < 0. && now.master == entrance)
+          return now;
+        // outside of the corner's other face
+        for (unsigned int j = 0; j < n && now.gap < 0.; ++j)
+          if (near[j].gap >= 0. &&
+              meet_in_convex_corner(now.master, near[j].master))
+            now.gap = near[j].gap;
+        const bool is_inside = now.gap < 0., best_is_inside = best.gap < 0.;
+        if (best.master == invalid_index ||
+            (is_inside != best_is_inside
+               ? is_inside
+               : std::abs(now.gap) < std::abs(best.gap) - same * reach))
+          best = now;
+      }
+      return best;
     }
 
 
@@ -321,7 +440,8 @@ namespace NMM
       const Place      place =
         surface->place(slave_edges[position], s + near * (s_inside - s));
       const unsigned int nearest =
-        project_within(place, masters(position), 0., far * reach).master;
+        project_within(place, masters(position), 0., invalid_index, far * reach)
+          .master;
       return nearest == invalid_index ? -largest_slack : largest_slack;
     }
 
@@ -330,11 +450,14 @@ namespace NMM
     ContactSearch::project_within(
       const Place                                &slave_place,
       const dealii::ArrayView<const unsigned int> masters,
-      const double                                slack,
+      const double                                given_slack,
+      const unsigned int                          home,
       const double                                largest_gap) const
     {
       // gaps that differ by less than this part of the reach are equal
       constexpr double same = 1e-9;
+      // parts of an edge
+      constexpr double rounding = 1e-9;
       // faces at nearly a right angle do not touch
       constexpr double least_facing = 0.01;
       // faces that look the same way
@@ -351,7 +474,9 @@ namespace NMM
       for (const unsigned int master : masters)
       {
         const ContactSurface::Edge &edge = surface->edges()[master];
-        ContactProjection           now;
+        const double                slack =
+          given_slack < 0. || master == home ? given_slack : rounding;
+        ContactProjection now;
         now.master = master;
         if (!find_nearest(master, slave_place.x, now.t, now.place) ||
             now.t < -extension(edge.at_start, slack) ||

@@ -30,6 +30,12 @@ namespace NMM
      * Of two edges the *slave* carries the contact points: obstacles are always
      * masters, of blocks the one with the lower rank is the slave, within a
      * block the edge with the lower number.
+     *
+     * Faces that are nearly parallel touch along their length; a corner that points at a
+     * face touches in a point, whichever body it belongs to. So convex corners of
+     * both sides are points, too, one for each of the two edges that end there, with
+     * the share 1 - along_face() of a fixed weight, and points along slave edges have
+     * the share along_face().
      */
     class ContactSearch
     {
@@ -44,9 +50,28 @@ namespace NMM
       void
       update(double reach);
 
-      /// Edges of this rank that have masters, ascending.
+      /// Edges that this rank looks after and that have masters: first slaves
+      /// with all of their length, then those of which one end is a corner;
+      /// ascending in both parts. Corners of obstacles are with the first rank.
       const std::vector<unsigned int> &
       slaves() const;
+
+      /// The end of a slave that is a corner: 0 or 1; all of its length: 2.
+      unsigned int
+      corner(unsigned int position) const
+      {
+        return corners[position];
+      }
+
+      /// Is it the first of two edges that is the slave along their length?
+      bool
+      comes_first(unsigned int edge, unsigned int other) const;
+
+      /// Share of the contact of two faces that is along their length: 1 if they are
+      /// nearly parallel, 0 if they meet at an angle. @p facing: minus the product of
+      /// their normals.
+      static double
+      along_face(double facing);
 
       /// Of the slave at a position of slaves(), ascending.
       dealii::ArrayView<const unsigned int>
@@ -75,13 +100,27 @@ namespace NMM
        * number. There is none, either, if the point lies outside of the master's body,
        * before a face that looks its own way: the far side of a thin body. Beyond a
        * convex corner or an open end there is no master, beyond a smooth joint or a concave
-       * corner an edge goes on. @p slack: part of an edge by which it goes on
-       * (negative: ends earlier) at convex corners and open ends, see end_slack().
+       * corner an edge goes on. @p slack: part of an edge by which the edge @p home goes on at convex corners
+       * and open ends; negative: by which all end earlier, see end_slack().
        */
       ContactProjection
       project(const ContactSurface::Place          &slave_place,
               dealii::ArrayView<const unsigned int> masters,
-              double                                slack = 0.) const;
+              double                                slack = 0.,
+              unsigned int                          home = invalid_index) const;
+
+      /**
+       * The master of a corner. The corner is in a body if it is behind a face, and of
+       * two faces that meet in a convex corner behind both. It is then pushed out
+       * through the face by which it came in, @p entrance, as long as it is behind
+       * that one; at first through the one that it is least behind (Shi's entrance
+       * edge), at equal depths through the one with the lower number. A corner that is in
+       * no body has the nearest face for master.
+       */
+      ContactProjection
+      project_corner(const ContactSurface::Place          &slave_place,
+                     dealii::ArrayView<const unsigned int> masters,
+                     unsigned int                          entrance) const;
 
       /**
        * For the point @p s at which a piece of a slave begins or ends: it lies
@@ -95,12 +134,18 @@ namespace NMM
 
     private:
       bool
-      may_be_master(unsigned int slave, unsigned int edge) const;
+      may_touch(unsigned int edge, unsigned int other) const;
+
+      void
+      append(unsigned int                     edge,
+             unsigned int                     corner,
+             const std::vector<unsigned int> &masters);
 
       ContactProjection
       project_within(const ContactSurface::Place          &slave_place,
                      dealii::ArrayView<const unsigned int> masters,
                      double                                slack,
+                     unsigned int                          home,
                      double                                largest_gap) const;
 
       bool
@@ -116,6 +161,7 @@ namespace NMM
       std::vector<unsigned int>     ranks;
       double                        reach = 0.;
       std::vector<unsigned int>     slave_edges, masters_begin, master_edges;
+      std::vector<unsigned int>     corners;
       std::vector<dealii::Point<2>> known_positions;
     };
   } // namespace internal

@@ -62,9 +62,90 @@ namespace NMM
     d.nodal_begin = d.nodal;
     for (unsigned int q = 0; q < d.points.size(); ++q)
     {
-      d.point_data[q].gap_begin   = d.points[q].gap;
-      d.point_data[q].shear_begin = d.points[q].shear;
+      d.point_data[q].gap_begin    = d.points[q].gap;
+      d.point_data[q].master_begin = d.points[q].master;
+      d.point_data[q].shear_begin  = d.points[q].shear;
     }
+  }
+
+
+  Tensor<1, 2>
+  Contact::Data::relative_motion(const unsigned int       q,
+                                 const ContactProjection &projection) const
+  {
+    const unsigned int n_obstacles = obstacle_changes.size();
+    Tensor<1, 2>       motion;
+    const auto         add = [&](const unsigned int             edge,
+                         const ContactSurface::Weights &f,
+                         const double                   sign) {
+      if (surface->is_rigid(edge))
+        motion += sign * obstacle_changes[surface->edges()[edge].body -
+                                          (surface->n_bodies() - n_obstacles)];
+      const auto covers = surface->covers(edge);
+      for (unsigned int i = 0; i < f.n; ++i)
+        for (unsigned int c = 0; c < 2; ++c)
+          motion[c] +=
+            sign * f.w[i] *
+            (nodal_end[2 * covers[i] + c] - nodal_begin[2 * covers[i] + c]);
+    };
+    ContactSurface::Weights master;
+    surface->weights(projection.master, projection.t, master);
+    add(points[q].edge, point_data[q].weights, 1.);
+    add(projection.master, master, -1.);
+    return motion;
+  }
+
+
+  void
+  Contact::Data::find_pressure_between(const unsigned int q,
+                                       const double       opening,
+                                       ContactTraction   &traction)
+  {
+    ContactPoint     &point = points[q];
+    PointData        &fixed = point_data[q];
+    const ContactLaw &law   = *fixed.law;
+    // a point that was beside all faces, or will be, touches only as far as it
+    // moves: there is no energy in what appears or vanishes
+    double g_0 = fixed.gap_begin, g_1 = fixed.gap_end;
+    if (fixed.master_begin == invalid_index)
+      g_0 = std::max(0., g_1 - opening);
+    const bool is_lost = fixed.master_end == invalid_index;
+    if (is_lost)
+      g_1 = 0.;
+
+    double derivative = 0.;
+    mean_pressure(law.normal_stiffness,
+                  point.is_bonded,
+                  g_0,
+                  g_1,
+                  point.pressure,
+                  derivative);
+    if (is_lost && g_0 < 0.)
+    {
+      fixed.normal_loss = 0.5 * point.weight * law.normal_stiffness * g_0 * g_0;
+      point.pressure = derivative = 0.;
+    }
+    const double spring = point.pressure;
+    if (spring > 0. && law.normal_damping > 0.)
+    {
+      const double c = law.normal_damping / step;
+      point.pressure += c * (std::max(0., -g_1) - std::max(0., -g_0));
+      derivative -= g_1 < 0. ? c : 0.;
+    }
+    if (!point.is_bonded && point.pressure <= 0.)
+      point.pressure = derivative = 0.;
+
+    // the gap of curved or turning faces changes not quite by this; where
+    // nothing moves the ratio of both is rounding
+    const double least = 1e-4 * reach;
+    const double more =
+      (g_1 - g_0 - opening) * opening / (opening * opening + least * least);
+    const double factor = 1. + std::min(1., std::max(-0.5, more));
+    fixed.normal_loss +=
+      point.weight * factor * (spring - point.pressure) * opening;
+    point.pressure *= factor;
+    traction.pressure         = point.weight * point.pressure;
+    traction.normal_stiffness = -2. * point.weight * derivative;
   }
 
 
@@ -83,70 +164,26 @@ namespace NMM
     point.state                  = ContactState::open;
 
     ContactTraction traction;
-    double          derivative = 0.;
-    if (projection.master != invalid_index)
-      mean_pressure(fixed.law->normal_stiffness,
-                    point.is_bonded,
-                    fixed.gap_begin,
-                    fixed.gap_end,
-                    point.pressure,
-                    derivative);
-    const double spring_pressure = point.pressure;
-    if (point.pressure > 0. && fixed.law->normal_damping > 0.)
+    if (projection.master != invalid_index && point.weight > 0. &&
+        (fixed.gap_begin < 0. || fixed.gap_end < 0. || point.is_bonded))
     {
-      const double c = fixed.law->normal_damping / step;
-      point.pressure +=
-        c * (std::max(0., -fixed.gap_end) - std::max(0., -fixed.gap_begin));
-      derivative -= fixed.gap_end < 0. ? c : 0.;
-      if (point.pressure <= 0.)
-        point.pressure = derivative = 0.;
-    }
-    if (spring_pressure > 0. || point.is_bonded)
-    {
-      ContactSurface::Weights master;
-      surface->weights(projection.master, projection.t, master);
-      Tensor<1, 2> change;
-      const auto   add = [&](const unsigned int             edge,
-                           const ContactSurface::Weights &f,
-                           const double                   sign) {
-        const auto covers = surface->covers(edge);
-        for (unsigned int i = 0; i < f.n; ++i)
-          for (unsigned int c = 0; c < 2; ++c)
-            change[c] +=
-              sign * f.w[i] *
-              (nodal_end[2 * covers[i] + c] - nodal_begin[2 * covers[i] + c]);
-      };
-      add(point.edge, fixed.weights, 1.);
-      add(projection.master, master, -1.);
-      if (surface->is_rigid(projection.master))
-        change -=
-          obstacle_changes[surface->edges()[projection.master].body -
-                           (surface->n_bodies() - obstacle_changes.size())];
-      // the gap of curved or turning faces changes not quite by this; where
-      // nothing moves the ratio of both is rounding
-      const double delta = change * projection.normal;
-      const double least = 1e-4 * reach;
-      const double more  = (fixed.gap_end - fixed.gap_begin - delta) * delta /
-                          (delta * delta + least * least);
-      const double factor = 1. + std::min(1., std::max(-0.5, more));
-      fixed.normal_loss =
-        point.weight * factor * (spring_pressure - point.pressure) * delta;
-      point.pressure *= factor;
-
-      point.state               = ContactState::slip;
-      traction.pressure         = point.weight * point.pressure;
-      traction.normal_stiffness = -2. * point.weight * derivative;
-      if (fixed.law->has_friction())
+      const Tensor<1, 2> motion = relative_motion(q, projection);
+      find_pressure_between(q, motion * projection.normal, traction);
+      if (point.pressure > 0. || point.is_bonded)
       {
-        const double slip =
-          (change * projection.place.a) / projection.place.a.norm();
-        find_shear(q,
-                   slave,
-                   projection,
-                   before == ContactState::slip,
-                   slip / step,
-                   traction);
-        fixed.shear_work = traction.shear * slip;
+        point.state = ContactState::slip;
+        if (fixed.law->has_friction())
+        {
+          const double slip =
+            (motion * projection.place.a) / projection.place.a.norm();
+          find_shear(q,
+                     slave,
+                     projection,
+                     before == ContactState::slip,
+                     slip / step,
+                     traction);
+          fixed.shear_work = traction.shear * slip;
+        }
       }
     }
     report.n_changes += before != point.state;
@@ -178,9 +215,8 @@ namespace NMM
     {
       const ContactPoint     &point = d.points[q];
       const ContactProjection projection =
-        d.search.project(d.surface->place(point.edge, point.s),
-                         d.search.masters(d.point_data[q].slave),
-                         d.point_data[q].slack);
+        d.find_master(q, d.surface->place(point.edge, point.s));
+      d.point_data[q].master_end = projection.master;
       d.point_data[q].gap_end =
         projection.master == invalid_index ? d.reach : projection.gap;
     }
@@ -227,14 +263,17 @@ namespace NMM
       return 0.;
     for (const ContactPoint &point : d.points)
       if (point.state != ContactState::open &&
-          d.surface->is_rigid(point.master))
+          (d.surface->is_rigid(point.master) ||
+           d.surface->is_rigid(point.edge)))
       {
+        const bool         is_master = d.surface->is_rigid(point.master);
+        const double       sign      = is_master ? 1. : -1.;
+        const unsigned int edge      = is_master ? point.master : point.edge;
         const Tensor<1, 2> tangent =
           dealii::Point<2>(-point.normal[1], point.normal[0]);
-        work +=
-          point.weight *
-          (point.pressure * point.normal - point.shear * tangent) *
-          d.obstacle_changes[d.surface->edges()[point.master].body - first];
+        work += sign * point.weight *
+                (point.pressure * point.normal - point.shear * tangent) *
+                d.obstacle_changes[d.surface->edges()[edge].body - first];
       }
     return Parallel::sum(work, d.communicator);
   }
@@ -263,14 +302,18 @@ namespace NMM
   {
     const Data         &d = *data;
     std::vector<double> mine;
-    for (const auto &[edge, places] : d.stick_places)
+    for (const auto &[key, places] : d.stick_places)
       for (const StickPlace &place : places)
-        for (const double x : {double(edge),
+        for (const double x : {double(key),
                                place.s,
                                double(place.edge),
                                place.t,
                                double(place.is_bonded)})
           mine.push_back(x);
+    // of the same length: entrances have no edge to stick to
+    for (const auto &[key, master] : d.entrances)
+      for (const double x : {double(key), 0., -1., double(master), 0.})
+        mine.push_back(x);
     std::vector<double> result{double(d.is_virgin),
                                double(d.multipliers.size())};
     result.insert(result.end(), d.multipliers.begin(), d.multipliers.end());
@@ -285,24 +328,33 @@ namespace NMM
   {
     Data &d = *data;
     d.stick_places.clear();
+    d.entrances.clear();
     if (history.empty())
       return;
     d.is_virgin  = history[0] != 0.;
     const auto n = static_cast<unsigned int>(history[1]);
     if (n == d.multipliers.size())
       std::copy_n(history.begin() + 2, n, d.multipliers.begin());
-    const auto [first, last] = d.surface->locally_owned_edges();
+    const auto [first, last]   = d.surface->locally_owned_edges();
+    const unsigned int n_edges = d.surface->edges().size();
+    const bool has_obstacles = Parallel::this_mpi_process(d.communicator) == 0;
     for (std::size_t i = n + 2; i + 4 < history.size(); i += 5)
     {
-      const auto edge = static_cast<unsigned int>(history[i]);
-      if (edge >= first && edge < last)
-        d.stick_places[edge].push_back(
+      const auto         key  = static_cast<unsigned int>(history[i]);
+      const unsigned int edge = key % n_edges;
+      if (!(edge >= first && edge < last) &&
+          !(has_obstacles && d.surface->is_rigid(edge)))
+        continue;
+      if (history[i + 2] < 0.)
+        d.entrances[key] = static_cast<unsigned int>(history[i + 3]);
+      else
+        d.stick_places[key].push_back(
           {history[i + 1],
            static_cast<unsigned int>(history[i + 2]),
            history[i + 3],
            history[i + 4] != 0.});
     }
-    for (auto &[edge, places] : d.stick_places)
+    for (auto &[key, places] : d.stick_places)
       std::sort(places.begin(),
                 places.end(),
                 [](const StickPlace &a, const StickPlace &b) {

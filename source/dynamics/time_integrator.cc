@@ -301,7 +301,11 @@ namespace NMM
     model->mass().vmult(forces, state.u);
     mass_of_displacement = forces.l2_norm();
     u_1                  = state.u;
-    u_1.add(h, state.v, 0.5 * h * h, state.a);
+    // accelerations of the conserving scheme alternate in impacts
+    if (scheme.is_conserving)
+      u_1.add(h, state.v);
+    else
+      u_1.add(h, state.v, 0.5 * h * h, state.a);
     model->constraints().distribute(u_1);
     u_end = u_1;
     model->begin_step(u_begin, u_end, state.time, h);

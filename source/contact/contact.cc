@@ -245,7 +245,10 @@ namespace NMM
     ContactPoint     &point = points[q];
     const ContactLaw &law   = *point_data[q].law;
     const double      eps   = law.normal_stiffness;
-    point.pressure          = point.multiplier - eps * projection.gap;
+    point.pressure =
+      point.multiplier -
+      eps * (projection.gap -
+             (is_between ? point_data[q].offset_end : point_data[q].offset));
     if (!point.is_bonded && point.pressure < -eps * touching * reach)
     {
       point.pressure = point.shear = 0.;
@@ -352,6 +355,32 @@ namespace NMM
   }
 
 
+  bool
+  Contact::Data::goes_on(const unsigned int edge,
+                         const unsigned int other) const
+  {
+    constexpr unsigned int n_edges = 4;
+    constexpr auto         smooth  = ContactSurface::Corner::smooth;
+    const auto            &edges   = surface->edges();
+    if (edge == other)
+      return true;
+    for (const bool forward : {true, false})
+    {
+      unsigned int e = edge;
+      for (unsigned int i = 0; i < n_edges && e != invalid_index; ++i)
+      {
+        const auto &at = edges[e];
+        if ((forward ? at.at_end : at.at_start) != smooth)
+          break;
+        e = forward ? at.next : at.previous;
+        if (e == other)
+          return true;
+      }
+    }
+    return false;
+  }
+
+
   double
   Contact::Data::share(const unsigned int  q,
                        const Tensor<1, 2> &slave_normal,
@@ -415,7 +444,8 @@ namespace NMM
         point.is_bonded = laws(point.edge, projection.master).is_bond;
     }
     fixed.law = &laws(point.edge, projection.master);
-    if (has_friction && point.stick_edge == invalid_index)
+    if (has_friction && (point.stick_edge == invalid_index ||
+                         !goes_on(point.stick_edge, projection.master)))
     {
       point.stick_edge = projection.master;
       point.stick_t    = projection.t;
@@ -457,6 +487,9 @@ namespace NMM
     report.n_bonded += point.is_bonded;
     report.largest_penetration =
       std::max(report.largest_penetration, -projection.gap);
+    deepest =
+      std::max(deepest,
+               (is_between ? fixed.offset_end : fixed.offset) - projection.gap);
 
     ContactSurface::Weights master, stick;
     surface->weights(projection.master, projection.t, master);
@@ -508,6 +541,7 @@ namespace NMM
       *count = Parallel::sum(*count, communicator);
     report.largest_penetration =
       Parallel::max(report.largest_penetration, communicator);
+    deepest       = Parallel::max(deepest, communicator);
     report.energy = Parallel::sum(report.energy, communicator);
     report.force  = Parallel::sum(report.force, communicator);
   }
@@ -516,8 +550,9 @@ namespace NMM
   void
   Contact::assemble(const Vector &u, const bool with_tangent)
   {
-    Data &d  = *data;
-    d.report = ContactReport();
+    Data &d   = *data;
+    d.report  = ContactReport();
+    d.deepest = 0.;
     if (d.is_idle)
     {
       d.residual = 0.;
@@ -693,6 +728,11 @@ namespace NMM
       point.stick_t += (point.shear - shear) / (law.shear_stiffness * length);
       point.shear     = shear;
       point.is_bonded = false;
+      if (point.pressure < 0.)
+      {
+        point.pressure = 0.;
+        point.state    = ContactState::open;
+      }
       ++count;
       // points are made anew from these places
       const StickPlace place{point.s, point.stick_edge, point.stick_t, false};
@@ -725,13 +765,19 @@ namespace NMM
           d.points[q].state != ContactState::open)
         d.entrances[d.place_key(d.points[q].edge, d.point_data[q].corner)] =
           d.points[q].master;
-    d.is_virgin       = false;
-    double dissipated = 0.;
+    d.is_virgin = false;
+    // the same on all ranks
+    double dissipated =
+      Parallel::this_mpi_process(d.communicator) == 0 ? d.detection_loss : 0.;
+    d.detection_loss = 0.;
     if (d.is_between)
       for (const Data::PointData &fixed : d.point_data)
         dissipated += fixed.normal_loss;
     if (!d.has_friction)
+    {
+      d.energies_of_pairs = d.pair_energies();
       return Parallel::sum(dissipated, d.communicator);
+    }
     (void)break_bonds();
     dissipated += d.broken_energy;
     d.broken_energy = 0.;
@@ -743,11 +789,23 @@ namespace NMM
         continue;
       const double eps = fixed.law->shear_stiffness;
       if (d.is_between)
-        dissipated +=
-          fixed.shear_work - point.weight *
-                               (point.shear * point.shear -
-                                fixed.shear_begin * fixed.shear_begin) /
-                               (2. * eps);
+      {
+        const double before =
+          point.weight * fixed.shear_begin * fixed.shear_begin / (2. * eps);
+        const double after = d.shear_energy(q);
+        const double most  = std::max(0., before + fixed.shear_work);
+        // no more is stored than has been put in: where it touches for the
+        // first time the pressure, and with it the strength, has been lower
+        if (after > most)
+        {
+          const double change = point.shear * (1. - std::sqrt(most / after));
+          point.shear -= change;
+          point.stick_t +=
+            change /
+            (eps * d.surface->place(point.stick_edge, point.stick_t).a.norm());
+        }
+        dissipated += fixed.shear_work + before - std::min(after, most);
+      }
       if (point.master == invalid_index)
         continue;
       StickPlace place{point.s, point.master, point.t, point.is_bonded};
@@ -773,6 +831,7 @@ namespace NMM
       point.stick_edge = place.edge;
       point.stick_t    = place.t;
     }
+    d.energies_of_pairs = d.pair_energies();
     return Parallel::sum(dissipated, d.communicator);
   }
 

@@ -3,6 +3,7 @@
 
 #include <nmm/contact/contact.h>
 
+#include <array>
 #include <contact/contact_points.h>
 #include <contact/contact_search.h>
 #include <contact/contact_terms.h>
@@ -38,6 +39,10 @@ namespace NMM
       /// shear has done and what the dashpot has taken [J/m].
       double gap_begin = 0., gap_end = 0., shear_begin = 0., shear_work = 0.,
              normal_loss = 0.;
+      /// Gap at which the spring is at rest [m], see Contact::begin_step(), and
+      /// the same at the end of the step, where it is another one if the master has
+      /// changed to a face that is not the continuation of the first.
+      double offset = 0., offset_end = 0.;
       /// Masters at both ends of the step; invalid_index: none.
       unsigned int master_begin = invalid_index, master_end = invalid_index;
     };
@@ -69,6 +74,10 @@ namespace NMM
     /// place of sticking when there is one for the first time.
     internal::ContactProjection
     project(unsigned int q, const ContactSurface::Place &slave);
+
+    /// Does one of the edges go on in the other, within a few edges?
+    bool
+    goes_on(unsigned int edge, unsigned int other) const;
 
     /// As ContactSearch finds it for a point along an edge, or a corner.
     internal::ContactProjection
@@ -130,6 +139,27 @@ namespace NMM
     void
     reduce_report();
 
+    /// What a point's springs store [J/m].
+    double
+    normal_energy(unsigned int q) const;
+
+    double
+    shear_energy(unsigned int q) const;
+
+    /// Energies of all springs between pairs of bodies: normal and shear; of all
+    /// ranks.
+    using PairEnergies =
+      std::map<std::pair<unsigned int, unsigned int>, std::array<double, 2>>;
+
+    PairEnergies
+    pair_energies() const;
+
+    std::pair<unsigned int, unsigned int>
+    bodies(unsigned int q) const;
+
+    void
+    keep_energies();
+
     ContactSurface                          *surface;
     const dealii::AffineConstraints<double> *constraints;
     ContactParameters                        parameters;
@@ -159,6 +189,12 @@ namespace NMM
     bool is_virgin = true;
     /// By bonds that broke since the last accepted state [J/m].
     double broken_energy = 0.;
+    /// Of all ranks at the last accepted state.
+    PairEnergies energies_of_pairs;
+    /// What is lost from there to the begin of the step [J/m].
+    double detection_loss = 0.;
+    /// Of springs, without offsets [m].
+    double deepest = 0.;
 
     internal::ContactLocalSystem local;
     Matrix                       matrix;

@@ -4,6 +4,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <contact/contact_data.h>
 #include <mechanics/nodal_values.h>
@@ -51,6 +52,113 @@ namespace NMM
   } // namespace
 
 
+  std::pair<unsigned int, unsigned int>
+  Contact::Data::bodies(const unsigned int q) const
+  {
+    return std::minmax(surface->edges()[points[q].edge].body,
+                       surface->edges()[points[q].master].body);
+  }
+
+
+  double
+  Contact::Data::normal_energy(const unsigned int q) const
+  {
+    const ContactPoint &point = points[q];
+    return point.state == ContactState::open
+             ? 0.
+             : point.weight * point.pressure * point.pressure /
+                 (2. * point_data[q].law->normal_stiffness);
+  }
+
+
+  double
+  Contact::Data::shear_energy(const unsigned int q) const
+  {
+    const ContactPoint &point = points[q];
+    return point.state == ContactState::open
+             ? 0.
+             : point.weight * point.shear * point.shear /
+                 (2. * point_data[q].law->shear_stiffness);
+  }
+
+
+  Contact::Data::PairEnergies
+  Contact::Data::pair_energies() const
+  {
+    PairEnergies result;
+    for (unsigned int q = 0; q < points.size(); ++q)
+      if (points[q].state != ContactState::open)
+      {
+        std::array<double, 2> &energies = result[bodies(q)];
+        energies[0] += normal_energy(q);
+        energies[1] += shear_energy(q);
+      }
+    if (Parallel::n_mpi_processes(communicator) == 1)
+      return result;
+    std::vector<double> mine;
+    for (const auto &[pair, energies] : result)
+      for (const double x :
+           {double(pair.first), double(pair.second), energies[0], energies[1]})
+        mine.push_back(x);
+    result.clear();
+    for (const auto &part : Parallel::all_gather(communicator, mine))
+      for (unsigned int i = 0; i + 3 < part.size(); i += 4)
+      {
+        auto &energies = result[{static_cast<unsigned int>(part[i]),
+                                 static_cast<unsigned int>(part[i + 1])}];
+        energies[0] += part[i + 2];
+        energies[1] += part[i + 3];
+      }
+    return result;
+  }
+
+
+  void
+  Contact::Data::keep_energies()
+  {
+    detection_loss = 0.;
+    if (is_virgin)
+      return;
+    const PairEnergies found = pair_energies();
+    for (const auto &[pair, energies] : energies_of_pairs)
+    {
+      const auto now = found.find(pair);
+      for (unsigned int i = 0; i < 2; ++i)
+        detection_loss +=
+          std::max(0.,
+                   energies[i] - (now == found.end() ? 0. : now->second[i]));
+    }
+    for (unsigned int q = 0; q < points.size(); ++q)
+    {
+      ContactPoint &point = points[q];
+      if (point.state == ContactState::open)
+        continue;
+      const auto  pair   = bodies(q);
+      const auto &now    = found.at(pair);
+      const auto  before = energies_of_pairs.find(pair);
+      double      keep[2];
+      for (unsigned int i = 0; i < 2; ++i)
+      {
+        const double old =
+          before == energies_of_pairs.end() ? 0. : before->second[i];
+        keep[i] = now[i] > old ? std::sqrt(old / now[i]) : 1.;
+      }
+      PointData &fixed = point_data[q];
+      fixed.offset     = (1. - keep[0]) * point.gap;
+      if (keep[0] == 0.)
+        point.state = ContactState::open;
+      if (keep[1] < 1. && point.shear != 0.)
+      {
+        const double length =
+          surface->place(point.stick_edge, point.stick_t).a.norm();
+        point.stick_t +=
+          (1. - keep[1]) * point.shear / (fixed.law->shear_stiffness * length);
+        point.shear *= keep[1];
+      }
+    }
+  }
+
+
   void
   Contact::begin_step(const Vector &u, const double time)
   {
@@ -59,13 +167,47 @@ namespace NMM
     d.time_begin = time;
     set_time(time);
     assemble(u, false);
+    d.keep_energies();
     d.nodal_begin = d.nodal;
     for (unsigned int q = 0; q < d.points.size(); ++q)
     {
       d.point_data[q].gap_begin    = d.points[q].gap;
       d.point_data[q].master_begin = d.points[q].master;
       d.point_data[q].shear_begin  = d.points[q].shear;
+      // what slides, or bears no shear, sticks where its shear says: places that
+      // are interpolated between those of other points may be far away
+      ContactPoint &point = d.points[q];
+      if (!d.has_friction || point.master == invalid_index ||
+          point.state == ContactState::stick || point.is_bonded)
+        continue;
+      if (point.state == ContactState::open)
+        point.shear = d.point_data[q].shear_begin = 0.;
+      const double length = d.surface->place(point.master, point.t).a.norm();
+      point.stick_edge    = point.master;
+      point.stick_t       = point.t;
+      if (point.shear != 0.)
+        point.stick_t -=
+          point.shear / (d.point_data[q].law->shear_stiffness * length);
     }
+  }
+
+
+  double
+  Contact::largest_motion(const Vector &from, const Vector &to)
+  {
+    Data                         &d = *data;
+    const unsigned int            n = 3 * d.surface->edges().size();
+    std::vector<dealii::Point<2>> positions(n);
+    read_nodal_values(d.surface->cover_system(), from, d.nodal);
+    for (unsigned int i = 0; i < n; ++i)
+      positions[i] = d.surface->place(i / 3, 0.5 * (i % 3)).x;
+    read_nodal_values(d.surface->cover_system(), to, d.nodal);
+    double square = 0.;
+    for (unsigned int i = 0; i < n; ++i)
+      square = std::max(
+        square,
+        d.surface->place(i / 3, 0.5 * (i % 3)).x.distance_square(positions[i]));
+    return std::sqrt(square);
   }
 
 
@@ -104,12 +246,26 @@ namespace NMM
     ContactPoint     &point = points[q];
     PointData        &fixed = point_data[q];
     const ContactLaw &law   = *fixed.law;
-    // a point that was beside all faces, or will be, touches only as far as it
-    // moves: there is no energy in what appears or vanishes
-    double g_0 = fixed.gap_begin, g_1 = fixed.gap_end;
-    if (fixed.master_begin == invalid_index)
-      g_0 = std::max(0., g_1 - opening);
-    const bool is_lost = fixed.master_end == invalid_index;
+    // A master that comes into sight, or follows round a corner, pushes back as
+    // far as the point moves from now on, and what is stored for one that is left
+    // behind is lost: there is no energy in what appears.
+    const double least  = 1e-4 * reach;
+    double       g_0    = fixed.gap_begin - fixed.offset;
+    double       g_1    = fixed.gap_end - fixed.offset;
+    const bool   is_new = fixed.master_begin == invalid_index;
+    if (is_new)
+      g_0 = std::max(0., fixed.gap_end - opening);
+    fixed.offset_end = is_new ? 0. : fixed.offset;
+    bool is_lost     = fixed.master_end == invalid_index;
+    if (!is_lost &&
+        std::abs(g_1 - g_0 - opening) > 0.5 * std::abs(opening) + least)
+    {
+      g_1              = g_0 + opening;
+      fixed.offset_end = std::min(0., fixed.gap_end - g_1);
+      is_lost          = fixed.gap_end > g_1;
+      if (is_lost)
+        fixed.offset_end = std::min(0., fixed.gap_end);
+    }
     if (is_lost)
       g_1 = 0.;
 
@@ -125,6 +281,8 @@ namespace NMM
       fixed.normal_loss = 0.5 * point.weight * law.normal_stiffness * g_0 * g_0;
       point.pressure = derivative = 0.;
     }
+    else if (is_lost)
+      point.pressure = derivative = 0.;
     const double spring = point.pressure;
     if (spring > 0. && law.normal_damping > 0.)
     {
@@ -137,7 +295,6 @@ namespace NMM
 
     // the gap of curved or turning faces changes not quite by this; where
     // nothing moves the ratio of both is rounding
-    const double least = 1e-4 * reach;
     const double more =
       (g_1 - g_0 - opening) * opening / (opening * opening + least * least);
     const double factor = 1. + std::min(1., std::max(-0.5, more));
@@ -159,13 +316,22 @@ namespace NMM
     const ContactState          before = point.state;
     const ContactSurface::Place slave  = surface->place(point.edge, point.s);
     const ContactProjection     projection = project(q, slave);
+    // without contact in the middle of the step nothing is stored at its end
     fixed.shear_work = fixed.normal_loss = 0.;
+    fixed.offset_end                     = std::min(0., fixed.gap_end);
     point.pressure = point.shear = 0.;
     point.state                  = ContactState::open;
 
     ContactTraction traction;
-    if (projection.master != invalid_index && point.weight > 0. &&
-        (fixed.gap_begin < 0. || fixed.gap_end < 0. || point.is_bonded))
+    const double    stored = std::max(0., fixed.offset - fixed.gap_begin);
+    if (projection.master == invalid_index || point.weight == 0.)
+    {
+      if (fixed.law != nullptr)
+        fixed.normal_loss =
+          0.5 * point.weight * fixed.law->normal_stiffness * stored * stored;
+    }
+    else if ((fixed.gap_begin < fixed.offset || fixed.gap_end < fixed.offset ||
+              point.is_bonded))
     {
       const Tensor<1, 2> motion = relative_motion(q, projection);
       find_pressure_between(q, motion * projection.normal, traction);
@@ -197,8 +363,9 @@ namespace NMM
                             const double  time,
                             const bool    with_tangent)
   {
-    Data &d  = *data;
-    d.report = ContactReport();
+    Data &d   = *data;
+    d.report  = ContactReport();
+    d.deepest = 0.;
     if (d.is_idle)
     {
       d.residual = 0.;
@@ -285,8 +452,8 @@ namespace NMM
     Data &d = *data;
     read_nodal_values(d.surface->cover_system(), end, d.nodal);
     std::ostringstream text;
-    if (!d.is_idle && d.report.largest_penetration > 0.5 * d.reach)
-      text << "a penetration of " << d.report.largest_penetration
+    if (!d.is_idle && d.deepest > 0.5 * d.reach)
+      text << "a penetration of " << d.deepest
            << " m, more than half of the distance of " << d.reach
            << " m within which faces are looked for";
     else if (d.search.movement() > d.reach)
@@ -310,7 +477,16 @@ namespace NMM
                                place.t,
                                double(place.is_bonded)})
           mine.push_back(x);
-    // of the same length: entrances have no edge to stick to
+    // of the same length: entrances and energies have no edge to stick to;
+    // energies are the same on all ranks
+    if (Parallel::this_mpi_process(d.communicator) == 0)
+      for (const auto &[pair, energies] : d.energies_of_pairs)
+        for (const double x : {double(pair.first),
+                               double(pair.second),
+                               -2.,
+                               energies[0],
+                               energies[1]})
+          mine.push_back(x);
     for (const auto &[key, master] : d.entrances)
       for (const double x : {double(key), 0., -1., double(master), 0.})
         mine.push_back(x);
@@ -329,6 +505,7 @@ namespace NMM
     Data &d = *data;
     d.stick_places.clear();
     d.entrances.clear();
+    d.energies_of_pairs.clear();
     if (history.empty())
       return;
     d.is_virgin  = history[0] != 0.;
@@ -340,6 +517,13 @@ namespace NMM
     const bool has_obstacles = Parallel::this_mpi_process(d.communicator) == 0;
     for (std::size_t i = n + 2; i + 4 < history.size(); i += 5)
     {
+      if (history[i + 2] == -2.)
+      {
+        d.energies_of_pairs[{static_cast<unsigned int>(history[i]),
+                             static_cast<unsigned int>(history[i + 1])}] = {
+          {history[i + 3], history[i + 4]}};
+        continue;
+      }
       const auto         key  = static_cast<unsigned int>(history[i]);
       const unsigned int edge = key % n_edges;
       if (!(edge >= first && edge < last) &&

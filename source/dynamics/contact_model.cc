@@ -254,12 +254,8 @@ namespace NMM
     d.model->begin_step(begin, predicted, t, h);
 
     // nearer faces may meet in the step; obstacles move, too
-    double     largest = 0.;
-    const auto owned   = locally_owned();
-    for (const auto i : owned)
-      largest = std::max(largest, std::abs(predicted(i) - begin(i)));
-    largest          = dealii::Utilities::MPI::max(largest, communicator());
-    double obstacles = 0.;
+    const double largest   = d.contact->largest_motion(begin, predicted);
+    double       obstacles = 0.;
     for (const RigidObstacle &obstacle : d.contact->surface().obstacles())
       if (obstacle.displacement)
         obstacles = std::max(
@@ -267,8 +263,7 @@ namespace NMM
           (obstacle.displacement(t + h) - obstacle.displacement(t)).norm());
     constexpr double margin = 1.5;
     d.contact->set_time(t);
-    d.contact->detect(begin,
-                      margin * (2. * std::sqrt(2.) * largest + obstacles));
+    d.contact->detect(begin, margin * (2. * largest + obstacles));
     d.is_detected = true;
     if (!d.contact->is_idle())
       d.contact->begin_step(begin, t);
@@ -289,8 +284,6 @@ namespace NMM
   {
     Data        &d          = *data;
     const double dissipated = d.model->accept_step(end, t);
-    if (d.contact->is_idle())
-      return dissipated;
     d.contact->set_time(t);
     d.contact->assemble(end, /* with_tangent = */ false);
     return dissipated + d.contact->accept();

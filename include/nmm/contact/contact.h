@@ -261,9 +261,20 @@ namespace NMM
     /// @name Time steps that conserve energy
     /// @{
 
-    /// A step begins at @p u and the time @p time, where detect() was called.
+    /**
+     * A step begins at @p u and the time @p time, where detect() was called. What is
+     * found there must not bring energy with it: where the springs between
+     * two bodies would store more than at the end of the step before, because places and
+     * weights of points are others or faces come into sight that penetrate each
+     * other already, their gaps at rest are moved by so much that they store the same.
+     * Where they store less, the difference is dissipated.
+     */
     void
     begin_step(const Vector &u, double time);
+
+    /// Largest way of a point of a face between two displacements [m].
+    double
+    largest_motion(const Vector &from, const Vector &to);
 
     /**
      * Forces between the begin of the step and the displacements @p end at @p time,

@@ -12,7 +12,7 @@ namespace NMM
    */
   namespace ContactBars
   {
-    /// @name A unit block on an incline, which gravity is turned for
+    /// @name A block on an incline, which gravity is turned for
     /// @{
     struct Incline
     {
@@ -24,9 +24,11 @@ namespace NMM
       /// Sliding: how far [m].
       double distance = 25.;
       /// Sticking: begin in equilibrium, otherwise undeformed.
-      bool     begins_at_rest = true;
-      MPI_Comm communicator   = MPI_COMM_WORLD;
-      double   bound          = 1e-4;
+      bool begins_at_rest = true;
+      /// Share of the critical damping of the block on its springs.
+      double   dashpot      = 0.;
+      MPI_Comm communicator = MPI_COMM_WORLD;
+      double   bound        = 1e-4;
     };
 
     /// Distance against g (sin a - cos a tan phi) t^2 / 2.

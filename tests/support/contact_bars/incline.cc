@@ -6,20 +6,24 @@ namespace NMM
   {
     namespace
     {
-      constexpr double density = 2500., youngs_modulus = 1e9;
+      constexpr double density = 2500., youngs_modulus = 1e10;
+      // three times as long as high, lest it topples
+      constexpr double length = 3.;
 
       std::unique_ptr<MovingBodies>
       make_block(const Incline &incline)
       {
         Geometry geometry;
-        add_block(geometry, "block", {{0., 0.}, {1., 0.}, {1., 1.}, {0., 1.}});
+        add_block(geometry,
+                  "block",
+                  {{0., 0.}, {length, 0.}, {length, 1.}, {0., 1.}});
         Bodies::Options options;
         options.cell_size    = 0.7;
         options.rotation     = 17.;
         options.offset[0]    = 0.217;
         options.offset[1]    = 0.119;
         options.communicator = incline.communicator;
-        options.obstacles    = {obstacle("floor", {{100., 0.}, {-100., 0.}})};
+        options.obstacles    = {obstacle("floor", {{99., 0.}, {-99., 0.}})};
         auto block =
           std::make_unique<MovingBodies>(std::move(geometry), options);
         block->problem.materials = {
@@ -30,6 +34,10 @@ namespace NMM
         ContactParameters parameters =
           contact_parameters(10. * youngs_modulus, 0.02);
         parameters.friction = std::tan(degrees(incline.friction_angle));
+        parameters.normal_damping =
+          2. * incline.dashpot *
+          std::sqrt(parameters.normal_stiffness * density);
+        parameters.shear_damping = parameters.normal_damping;
         block->start(parameters, Kinematics::small);
         return block;
       }

@@ -23,7 +23,7 @@ namespace NMM
       unsigned int n_steps = 10000;
       /// Sliding: how far [m].
       double distance = 25.;
-      /// Sticking: begin in equilibrium, otherwise undeformed.
+      /// Begin in equilibrium; otherwise undeformed, and fall onto the springs.
       bool begins_at_rest = true;
       /// Share of the critical damping of the block on its springs.
       double   dashpot      = 0.;

@@ -6,9 +6,25 @@ namespace NMM
   {
     namespace
     {
-      constexpr double density = 2500., youngs_modulus = 1e10;
+      constexpr double density = 2500., youngs_modulus = 1e9;
       // three times as long as high, lest it topples
       constexpr double length = 3.;
+
+      void
+      start(MovingBodies  &block,
+            const Incline &incline,
+            const double   friction_angle)
+      {
+        ContactParameters parameters =
+          contact_parameters(10. * youngs_modulus, 0.02);
+        parameters.friction = std::tan(degrees(friction_angle));
+        parameters.normal_damping =
+          2. * incline.dashpot *
+          std::sqrt(parameters.normal_stiffness * density);
+        parameters.shear_damping = parameters.normal_damping;
+        block.start(parameters, Kinematics::small);
+      }
+
 
       std::unique_ptr<MovingBodies>
       make_block(const Incline &incline)
@@ -31,14 +47,7 @@ namespace NMM
         const double angle = degrees(incline.angle);
         block->problem.gravity =
           standard_gravity * Tensor<1, 2>({std::sin(angle), -std::cos(angle)});
-        ContactParameters parameters =
-          contact_parameters(10. * youngs_modulus, 0.02);
-        parameters.friction = std::tan(degrees(incline.friction_angle));
-        parameters.normal_damping =
-          2. * incline.dashpot *
-          std::sqrt(parameters.normal_stiffness * density);
-        parameters.shear_damping = parameters.normal_damping;
-        block->start(parameters, Kinematics::small);
+        start(*block, incline, incline.friction_angle);
         return block;
       }
 
@@ -64,13 +73,25 @@ namespace NMM
         (std::sin(angle) -
          std::cos(angle) * std::tan(degrees(incline.friction_angle)));
       const double end = std::sqrt(2. * incline.distance / acceleration);
-      block->integrate(incline.scheme);
-      const Run         run  = block->run(incline.step, end);
-      const std::string name = "slides: " + describe(incline);
+      // at rest while friction holds it
+      Vector u = block->zero();
+      if (incline.begins_at_rest)
+      {
+        start(*block, incline, 80.);
+        u = block->find_rest(0.01);
+        start(*block, incline, incline.friction_angle);
+      }
+      block->integrate(incline.scheme, u, block->zero());
+      const double      x_0 = block->displacement(0)[0];
+      const Run         run = block->run(incline.step, end);
+      const std::string name =
+        std::string(incline.begins_at_rest ? "slides: "
+                                           : "falls and slides: ") +
+        describe(incline);
       measurements.add(2,
                        name,
                        "distance [m]",
-                       block->displacement(0)[0],
+                       block->displacement(0)[0] - x_0,
                        incline.distance,
                        0.,
                        incline.bound,

@@ -340,14 +340,35 @@ namespace NMM
         point.state = ContactState::slip;
         if (fixed.law->has_friction())
         {
-          const double slip =
-            (motion * projection.place.a) / projection.place.a.norm();
+          const double length = projection.place.a.norm();
+          const double slip   = (motion * projection.place.a) / length;
+          // on a face where it has not been at the begin of the step it sticks
+          // where it came from, half of the motion back
+          if (fixed.master_begin == invalid_index ||
+              !goes_on(fixed.master_begin, projection.master))
+          {
+            point.stick_edge = projection.master;
+            point.stick_t    = projection.t - 0.5 * slip / length;
+          }
           find_shear(q,
                      slave,
                      projection,
                      before == ContactState::slip,
                      slip / step,
                      traction);
+          // nor does shear bring more than its spring has held
+          const double held = point.weight * fixed.shear_begin *
+                              fixed.shear_begin /
+                              (2. * fixed.law->shear_stiffness);
+          const double work = traction.shear * slip;
+          if (work < -held)
+          {
+            const double factor = -held / work;
+            point.shear *= factor;
+            traction.shear *= factor;
+            traction.shear_stiffness *= factor;
+            traction.shear_over_pressure *= factor;
+          }
           fixed.shear_work = traction.shear * slip;
         }
       }
@@ -526,7 +547,9 @@ namespace NMM
       }
       const auto         key  = static_cast<unsigned int>(history[i]);
       const unsigned int edge = key % n_edges;
-      if (!(edge >= first && edge < last) &&
+      // corners of masters are with the slave's rank
+      if (key / n_edges <= Data::master_ends &&
+          !(edge >= first && edge < last) &&
           !(has_obstacles && d.surface->is_rigid(edge)))
         continue;
       if (history[i + 2] < 0.)

@@ -23,6 +23,8 @@ namespace NMM
       unsigned int n_steps = 10000;
       /// Sliding: how far [m].
       double distance = 25.;
+      /// Of the block [s]: elastic bodies that slide with much friction flutter.
+      double stiffness_damping = 0.;
       /// Begin in equilibrium; otherwise undeformed, and fall onto the springs.
       bool begins_at_rest = true;
       /// Share of the critical damping of the block on its springs.

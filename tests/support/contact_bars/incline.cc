@@ -81,7 +81,10 @@ namespace NMM
         u = block->find_rest(0.01);
         start(*block, incline, incline.friction_angle);
       }
-      block->integrate(incline.scheme, u, block->zero());
+      block->integrate(incline.scheme,
+                       u,
+                       block->zero(),
+                       {0., incline.stiffness_damping});
       const double      x_0 = block->displacement(0)[0];
       const Run         run = block->run(incline.step, end);
       const std::string name =
@@ -118,7 +121,10 @@ namespace NMM
       if (incline.begins_at_rest)
       {
         const Vector u = block->find_rest(0.01);
-        block->integrate(incline.scheme, u, block->zero());
+        block->integrate(incline.scheme,
+                         u,
+                         block->zero(),
+                         {0., incline.stiffness_damping});
       }
       else
       {

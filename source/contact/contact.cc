@@ -183,9 +183,16 @@ namespace NMM
           fixed.home   = edge;
         }
         else if (fixed.slack > 0.)
-          fixed.home =
-            search.project(surface->place(edge, point.s), search.masters(slave))
-              .master;
+        {
+          // a master that ends here, or did before both have been strained
+          constexpr double end_of_master = 0.01;
+          fixed.home                     = search
+                         .project(surface->place(edge, point.s),
+                                  search.masters(slave),
+                                  end_of_master,
+                                  ContactSearch::any_edge)
+                         .master;
+        }
         surface->weights(point.edge, point.s, fixed.weights);
         restore(point, fixed, edge);
         points.push_back(point);

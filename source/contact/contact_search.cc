@@ -491,7 +491,8 @@ namespace NMM
       {
         const ContactSurface::Edge &edge = surface->edges()[master];
         const double                slack =
-          given_slack < 0. || master == home ? given_slack : rounding;
+          given_slack < 0. || master == home || home == any_edge ? given_slack
+                                                                                : rounding;
         ContactProjection now;
         now.master = master;
         if (!find_nearest(master, slave_place.x, now.t, now.place) ||

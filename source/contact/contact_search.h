@@ -86,6 +86,9 @@ namespace NMM
       double
       movement() const;
 
+      /// As the home of project(): all of the masters.
+      static constexpr unsigned int any_edge = invalid_index - 1;
+
       /// Where a slave is divided: parameter, and the master and its end that lie
       /// there if that is a corner.
       struct Division

@@ -161,6 +161,9 @@ namespace NMM
     bond_ratio(unsigned int q) const;
     /// @}
 
+    double
+    accept_shear(unsigned int q);
+
     void
     reduce_report();
 

@@ -120,6 +120,34 @@ namespace NMM
     }
 
 
+    // In equilibrium from the start: what moves is what the tolerance of Newton's
+    // method leaves.
+    TEST(ContactBars, StackAtRest)
+    {
+      Measurements measurements;
+      Stack        stack;
+      stack.duration = 0.2;
+      for (const auto kinematics : {Kinematics::small, Kinematics::finite})
+      {
+        stack.kinematics = kinematics;
+        rest_in_a_stack(stack, measurements);
+      }
+      expect_holds(measurements);
+    }
+
+
+    TEST(ContactBars, RandomDrops)
+    {
+      Measurements measurements;
+      Drops        drops;
+      drops.n_drops  = 6;
+      drops.duration = 0.8;
+      drop_polygons(drops, measurements);
+      std::cout << "seeds 0 to " << drops.n_drops - 1 << std::endl;
+      expect_holds(measurements);
+    }
+
+
     TEST(ContactBars, WedgeInANotch)
     {
       Measurements measurements;

@@ -1,6 +1,6 @@
 // Scenarios of contact in time with known outcome, at full size. Argument 1: which
-// group (2: incline, 3: impact, 5: rocking and rolling, 6: joint wave, 7: corners, 9:
-// repeated runs; 0: all), argument 2: the file for the table.
+// group (2: incline, 3: impact, 4: stacks, 5: rocking and rolling, 6: joint wave,
+// 7: corners, 8: random drops, 9: repeated runs; 0: all), argument 2: the file for the table.
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
@@ -59,6 +59,35 @@ namespace
     impact.kinematics = Kinematics::finite;
     impact.cell_size  = 0.125;
     run_into_each_other(impact, measurements);
+  }
+
+
+  void
+  stacks(Measurements &measurements)
+  {
+    Stack stack;
+    for (const unsigned int n : {10, 30})
+      for (const auto kinematics : {Kinematics::small, Kinematics::finite})
+        for (const double dashpot : {0., 0.3})
+        {
+          stack.n_blocks   = n;
+          stack.kinematics = kinematics;
+          stack.dashpot    = dashpot;
+          rest_in_a_stack(stack, measurements);
+        }
+  }
+
+
+  void
+  drops(Measurements &measurements)
+  {
+    Drops parameters;
+    parameters.n_drops = 250;
+    for (unsigned int i = 0; i < 4; ++i)
+    {
+      parameters.first_seed = 250 * i;
+      drop_polygons(parameters, measurements);
+    }
   }
 
 
@@ -205,11 +234,13 @@ main(int argc, char **argv)
   const std::pair<std::string, void (*)(Measurements &)> groups[] = {
     {"2", inclines},
     {"3", impacts},
+    {"4", stacks},
     {"5-rocking", rocking},
     {"5-rolling", rolling},
     {"5-sliding", sliding_disks},
     {"6", waves},
     {"7", corners},
+    {"8", drops},
     {"9", repeated}};
   for (const auto &[name, group] : groups)
     if (which == "0" || name.compare(0, which.size(), which) == 0)

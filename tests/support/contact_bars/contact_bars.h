@@ -62,6 +62,41 @@ namespace NMM
     run_into_each_other(const Impact &impact, Measurements &measurements);
 
 
+    /// Square blocks of 1 m on each other on a floor, in equilibrium.
+    struct Stack
+    {
+      unsigned int n_blocks = 10;
+      /// [s]
+      double     step = 0.01, duration = 10.;
+      Kinematics kinematics = Kinematics::small;
+      /// Share of the critical damping of a block on its springs.
+      double   dashpot      = 0.;
+      MPI_Comm communicator = MPI_COMM_WORLD;
+    };
+
+    /// Drift and the force on the floor.
+    void
+    rest_in_a_stack(const Stack &stack, Measurements &measurements);
+
+
+    /// One to three random polygons, convex or stars, that fall on each other and on a
+    /// tilted floor with random friction. What is random follows from the seed.
+    struct Drops
+    {
+      unsigned int n_drops = 1000, first_seed = 0;
+      double       youngs_modulus = 1e8;
+      /// First step and duration [s].
+      double step = 0.005, duration = 1.5;
+      /// Share of the critical damping of a block on its springs.
+      double   dashpot      = 0.1;
+      MPI_Comm communicator = MPI_COMM_WORLD;
+    };
+
+    /// Every drop ends, energy never grows, its account closes.
+    void
+    drop_polygons(const Drops &drops, Measurements &measurements);
+
+
     /// A slender block released at a tilt on a rigid floor.
     struct Rocking
     {

@@ -1,0 +1,335 @@
+// What an accepted state leaves behind: multipliers, bonds, places of sticking.
+#include <nmm/base/exceptions.h>
+#include <nmm/contact/contact.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <contact/contact_data.h>
+#include <mechanics/nodal_values.h>
+
+namespace NMM
+{
+  using namespace internal;
+  using dealii::Point;
+  using dealii::Tensor;
+  namespace Parallel = dealii::Utilities::MPI;
+
+  double
+  Contact::augment()
+  {
+    Data &d = *data;
+    Assert(d.multiplier_space != nullptr,
+           dealii::ExcMessage("There is no penetration tolerance."));
+    const MultiplierSpace &space  = *d.multiplier_space;
+    const unsigned int     n      = space.size();
+    const unsigned int     n_rule = d.rule_points.size();
+    // integrals of spring pressure times function, of functions, and of stiffness
+    // times function
+    std::vector<double> sums(3 * n, 0.);
+    // those of corners come last
+    for (unsigned int begin = 0;
+         begin < d.points.size() && d.point_data[begin].corner >= Data::along;
+         begin += n_rule)
+    {
+      const unsigned int edge = d.search.slaves()[d.point_data[begin].slave];
+      const double       length =
+        (d.point_data[begin + n_rule - 1].s - d.point_data[begin].s) *
+        d.surface->edges()[edge].length;
+      for (unsigned int q = 0; q < n_rule; ++q)
+      {
+        const ContactPoint &point = d.points[begin + q];
+        // beside the master, where there is nothing to penetrate
+        if (point.master == invalid_index || point.weight == 0.)
+          continue;
+        const auto  &f      = space[edge];
+        const double share  = f.share(d.point_data[begin + q].s);
+        const double weight = d.rule_weights[q] * length;
+        const double eps    = d.point_data[begin + q].law->normal_stiffness;
+        const auto   add    = [&](const unsigned int i, const double value) {
+          sums[i] -= eps * value * point.gap;
+          sums[n + i] += value;
+          sums[2 * n + i] += eps * value;
+        };
+        add(f.first, weight * (1. - share));
+        add(f.second, weight * share);
+      }
+    }
+    Parallel::sum(sums, d.communicator, sums);
+
+    double change = 0.;
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      double value = 0.;
+      if (sums[n + i] > 0.)
+        value = std::max(0., d.multipliers[i] + sums[i] / sums[n + i]);
+      const double difference = std::abs(value - d.multipliers[i]);
+      const double eps        = sums[n + i] > 0. ? sums[2 * n + i] / sums[n + i]
+                                                 : d.parameters.normal_stiffness;
+      change                  = std::max(change, difference / eps);
+      d.multipliers[i]        = value;
+    }
+    for (unsigned int q = 0; q < d.points.size(); ++q)
+    {
+      const Data::PointData &fixed = d.point_data[q];
+      if (fixed.corner >= Data::along)
+        d.points[q].multiplier =
+          space.value(d.multipliers, d.search.slaves()[fixed.slave], fixed.s);
+    }
+    return change;
+  }
+
+
+  double
+  Contact::Data::bond_ratio(const unsigned int q) const
+  {
+    const ContactPoint &point = points[q];
+    const ContactLaw   *law   = point_data[q].law;
+    if (!point.is_bonded || law == nullptr)
+      return -1.;
+    // without strength any stress beyond rounding is too much
+    const auto ratio = [&](const double stress, const double strength) {
+      const double least = 1e-9 * reach * law->normal_stiffness;
+      return std::max(0., stress) / std::max(strength, least);
+    };
+    return std::max(ratio(-point.pressure, law->tensile_strength),
+                    ratio(std::abs(point.shear),
+                          law->cohesion +
+                            law->friction * std::max(0., point.pressure)));
+  }
+
+
+  unsigned int
+  Contact::break_bonds(const double share)
+  {
+    Data  &d       = *data;
+    double largest = 0.;
+    for (unsigned int q = 0; q < d.points.size(); ++q)
+      largest = std::max(largest, d.bond_ratio(q));
+    largest            = Parallel::max(largest, d.communicator);
+    unsigned int count = 0;
+    if (largest <= 1.)
+      return 0;
+    for (unsigned int q = 0; q < d.points.size(); ++q)
+    {
+      const double ratio = d.bond_ratio(q);
+      if (ratio <= 1. || ratio < share * largest)
+        continue;
+      ContactPoint     &point = d.points[q];
+      const ContactLaw &law   = *d.point_data[q].law;
+      const auto energy = [&](const double stress, const double stiffness) {
+        return point.weight * stress * stress / (2. * stiffness);
+      };
+      if (point.pressure < 0.)
+        d.broken_energy += energy(point.pressure, law.normal_stiffness);
+      const double limit = law.friction * std::max(0., point.pressure);
+      const double shear =
+        std::copysign(std::min(limit, std::abs(point.shear)), point.shear);
+      d.broken_energy += energy(point.shear, law.shear_stiffness) -
+                         energy(shear, law.shear_stiffness);
+      // it slides from now on: the place where it sticks is dragged along
+      const double length =
+        d.surface->place(point.stick_edge, point.stick_t).a.norm();
+      point.stick_t += (point.shear - shear) / (law.shear_stiffness * length);
+      point.shear     = shear;
+      point.is_bonded = false;
+      if (point.pressure < 0.)
+      {
+        point.pressure = 0.;
+        point.state    = ContactState::open;
+      }
+      ++count;
+      // points are made anew from these places
+      const StickPlace place{point.s, point.stick_edge, point.stick_t, false};
+      auto            &places =
+        d.stick_places[d.place_key(point.edge, d.point_data[q].corner)];
+      const auto at =
+        std::lower_bound(places.begin(),
+                         places.end(),
+                         place,
+                         [](const StickPlace &a, const StickPlace &b) {
+                           return a.s < b.s;
+                         });
+      if (at != places.end() && at->s == place.s)
+        *at = place;
+      else
+        places.insert(at, place);
+    }
+    return Parallel::sum(count, d.communicator);
+  }
+
+
+  /// Where a point sticks from now on; returns what has been dissipated.
+  double
+  Contact::Data::accept_shear(const unsigned int q)
+  {
+    ContactPoint    &point      = points[q];
+    const PointData &fixed      = point_data[q];
+    const double     eps        = fixed.law->shear_stiffness;
+    double           dissipated = 0.;
+    if (is_between)
+    {
+      const double before =
+        point.weight * fixed.shear_begin * fixed.shear_begin / (2. * eps);
+      const double after = shear_energy(q);
+      const double most  = std::max(0., before + fixed.shear_work);
+      // no more is stored than has been put in: where it touches for the
+      // first time the pressure, and with it the strength, has been lower
+      if (after > most)
+      {
+        const double change = point.shear * (1. - std::sqrt(most / after));
+        point.shear -= change;
+        point.stick_t +=
+          change /
+          (eps * surface->place(point.stick_edge, point.stick_t).a.norm());
+      }
+      dissipated = fixed.shear_work + before - std::min(after, most);
+    }
+    if (point.master == invalid_index)
+      return dissipated;
+    StickPlace place{point.s, point.master, point.t, point.is_bonded};
+    if (point.state == ContactState::stick)
+      place = {point.s, point.stick_edge, point.stick_t, point.is_bonded};
+    else if (point.state == ContactState::slip)
+    {
+      const Tensor<1, 2> a = surface->place(point.master, point.t).a;
+      place.t -= point.shear / (eps * a.norm());
+      if (!is_between)
+        dissipated +=
+          point.weight * std::abs(point.shear) *
+          std::abs(
+            (point.x - surface->place(point.stick_edge, point.stick_t).x) * a /
+              a.norm() -
+            point.shear / eps);
+    }
+    auto &places = stick_places[place_key(point.edge, fixed.corner)];
+    // both pieces that meet at a division have a point there
+    if (places.empty() || places.back().s < point.s)
+      places.push_back(place);
+    point.stick_edge = place.edge;
+    point.stick_t    = place.t;
+    return dissipated;
+  }
+
+
+  double
+  Contact::accept()
+  {
+    Data &d = *data;
+    d.stick_places.clear();
+    d.entrances.clear();
+    for (unsigned int q = 0; q < d.points.size(); ++q)
+      if (d.point_data[q].corner < Data::along &&
+          d.points[q].state != ContactState::open)
+        d.entrances[d.place_key(d.points[q].edge, d.point_data[q].corner)] =
+          d.points[q].master;
+    d.is_virgin = false;
+    // the same on all ranks
+    double dissipated =
+      Parallel::this_mpi_process(d.communicator) == 0 ? d.detection_loss : 0.;
+    d.detection_loss = 0.;
+    if (d.is_between)
+      for (const Data::PointData &fixed : d.point_data)
+        dissipated += fixed.normal_loss;
+    if (!d.has_friction)
+    {
+      d.energies_of_pairs = d.pair_energies();
+      return Parallel::sum(dissipated, d.communicator);
+    }
+    (void)break_bonds();
+    dissipated += d.broken_energy;
+    d.broken_energy = 0.;
+    for (unsigned int q = 0; q < d.points.size(); ++q)
+      if (d.point_data[q].law != nullptr && d.point_data[q].law->has_friction())
+        dissipated += d.accept_shear(q);
+    d.energies_of_pairs = d.pair_energies();
+    return Parallel::sum(dissipated, d.communicator);
+  }
+
+
+  std::vector<double>
+  Contact::history() const
+  {
+    const Data         &d = *data;
+    std::vector<double> mine;
+    for (const auto &[key, places] : d.stick_places)
+      for (const StickPlace &place : places)
+        for (const double x : {double(key),
+                               place.s,
+                               double(place.edge),
+                               place.t,
+                               double(place.is_bonded)})
+          mine.push_back(x);
+    // of the same length: entrances and energies have no edge to stick to;
+    // energies are the same on all ranks
+    if (Parallel::this_mpi_process(d.communicator) == 0)
+      for (const auto &[pair, energies] : d.energies_of_pairs)
+        for (const double x : {double(pair.first),
+                               double(pair.second),
+                               -2.,
+                               energies[0],
+                               energies[1]})
+          mine.push_back(x);
+    for (const auto &[key, master] : d.entrances)
+      for (const double x : {double(key), 0., -1., double(master), 0.})
+        mine.push_back(x);
+    std::vector<double> result{double(d.is_virgin),
+                               double(d.multipliers.size())};
+    result.insert(result.end(), d.multipliers.begin(), d.multipliers.end());
+    for (const auto &part : Parallel::all_gather(d.communicator, mine))
+      result.insert(result.end(), part.begin(), part.end());
+    return result;
+  }
+
+
+  void
+  Contact::restore_history(const std::vector<double> &history)
+  {
+    Data &d = *data;
+    d.stick_places.clear();
+    d.entrances.clear();
+    d.energies_of_pairs.clear();
+    if (history.empty())
+      return;
+    d.is_virgin  = history[0] != 0.;
+    const auto n = static_cast<unsigned int>(history[1]);
+    if (n == d.multipliers.size())
+      std::copy_n(history.begin() + 2, n, d.multipliers.begin());
+    const auto [first, last]   = d.surface->locally_owned_edges();
+    const unsigned int n_edges = d.surface->edges().size();
+    const bool has_obstacles = Parallel::this_mpi_process(d.communicator) == 0;
+    for (std::size_t i = n + 2; i + 4 < history.size(); i += 5)
+    {
+      if (history[i + 2] == -2.)
+      {
+        d.energies_of_pairs[{static_cast<unsigned int>(history[i]),
+                             static_cast<unsigned int>(history[i + 1])}] = {
+          {history[i + 3], history[i + 4]}};
+        continue;
+      }
+      const auto         key  = static_cast<unsigned int>(history[i]);
+      const unsigned int edge = key % n_edges;
+      // corners of masters are with the slave's rank
+      if (key / n_edges <= Data::master_ends &&
+          !(edge >= first && edge < last) &&
+          !(has_obstacles && d.surface->is_rigid(edge)))
+        continue;
+      if (history[i + 2] < 0.)
+        d.entrances[key] = static_cast<unsigned int>(history[i + 3]);
+      else
+        d.stick_places[key].push_back(
+          {history[i + 1],
+           static_cast<unsigned int>(history[i + 2]),
+           history[i + 3],
+           history[i + 4] != 0.});
+    }
+    for (auto &[key, places] : d.stick_places)
+      std::sort(places.begin(),
+                places.end(),
+                [](const StickPlace &a, const StickPlace &b) {
+                  return a.s < b.s;
+                });
+  }
+} // namespace NMM

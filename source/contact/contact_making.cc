@@ -1,0 +1,235 @@
+// Contact points and the pattern of what they couple.
+#include <nmm/base/exceptions.h>
+#include <nmm/contact/contact.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <contact/contact_data.h>
+#include <mechanics/nodal_values.h>
+
+namespace NMM
+{
+  using namespace internal;
+  using dealii::Point;
+  using dealii::Tensor;
+  namespace Parallel = dealii::Utilities::MPI;
+
+  void
+  Contact::Data::make_points()
+  {
+    points.clear();
+    point_data.clear();
+    for (unsigned int i = 0; i < search.slaves().size(); ++i)
+      if (search.corner(i) == Kind::along)
+        add_points_of(i);
+      else
+        add_corner(i);
+  }
+
+
+  void
+  Contact::Data::restore(ContactPoint      &point,
+                         const PointData   &fixed,
+                         const unsigned int slave) const
+  {
+    const auto sticking =
+      stick_places.find(place_key(point.edge, fixed.corner));
+    StickPlace stick;
+    if (sticking != stick_places.end() &&
+        find_stick_place(sticking->second, point.s, stick))
+    {
+      point.stick_edge = stick.edge;
+      point.stick_t    = stick.t;
+      point.is_bonded  = stick.is_bonded;
+    }
+    if (multiplier_space != nullptr && fixed.corner >= Kind::along)
+      point.multiplier = multiplier_space->value(multipliers, slave, fixed.s);
+  }
+
+
+  void
+  Contact::Data::add_corner(const unsigned int slave)
+  {
+    ContactPoint point;
+    PointData    fixed;
+    fixed.slave  = slave;
+    fixed.corner = search.corner(slave);
+    point.edge   = search.slaves()[slave];
+    point.s      = fixed.corner;
+    point.weight = corner_weight[2 * point.edge + fixed.corner];
+    surface->weights(point.edge, point.s, fixed.weights);
+    restore(point, fixed, point.edge);
+    points.push_back(point);
+    point_data.push_back(fixed);
+  }
+
+
+  void
+  Contact::Data::add_points_of(const unsigned int slave)
+  {
+    const unsigned int edge      = search.slaves()[slave];
+    const auto         divisions = search.divisions(slave);
+    for (unsigned int i = 0; i + 1 < divisions.size(); ++i)
+    {
+      const ContactSearch::Division &begin = divisions[i];
+      const ContactSearch::Division &end   = divisions[i + 1];
+      const double at_start = search.end_slack(slave, begin.s, end.s);
+      const double at_end   = search.end_slack(slave, end.s, begin.s);
+      const double length   = end.s - begin.s;
+      for (unsigned int q = 0; q < rule_points.size(); ++q)
+      {
+        const bool   is_last = q + 1 == rule_points.size();
+        ContactPoint point;
+        PointData    fixed;
+        fixed.slave  = slave;
+        fixed.s      = q == 0    ? begin.s
+                       : is_last ? end.s
+                                 : begin.s + rule_points[q] * length;
+        fixed.slack  = q == 0               ? at_start
+                       : is_last            ? at_end
+                       : at_start == at_end ? at_start
+                                            : 0.;
+        point.edge   = edge;
+        point.s      = fixed.s;
+        point.weight = rule_weights[q] * length *
+                       surface->reference_place(edge, fixed.s).a.norm();
+        const ContactSearch::Division &at = q == 0 ? begin : end;
+        if ((q == 0 || is_last) && fixed.slack > 0. &&
+            at.master != invalid_index)
+        {
+          point.edge   = at.master;
+          point.s      = at.end;
+          fixed.corner = Kind::master_ends + at.end;
+          fixed.home   = edge;
+        }
+        else if (fixed.slack > 0.)
+        {
+          // a master that ends here, or did before both have been strained
+          constexpr double end_of_master = 0.01;
+          fixed.home                     = search
+                         .project(surface->place(edge, point.s),
+                                  search.masters(slave),
+                                  end_of_master,
+                                  ContactSearch::any_edge)
+                         .master;
+        }
+        surface->weights(point.edge, point.s, fixed.weights);
+        restore(point, fixed, edge);
+        if (fixed.corner > Kind::along && point.stick_edge == invalid_index)
+          take_over_place(point, fixed, edge);
+        points.push_back(point);
+        point_data.push_back(fixed);
+      }
+    }
+  }
+
+
+  /// A corner that has come onto the slave sticks where the slave's point that it
+  /// has met sticks to it, seen from the other side.
+  void
+  Contact::Data::take_over_place(ContactPoint      &point,
+                                 const PointData   &fixed,
+                                 const unsigned int slave) const
+  {
+    const auto sticking = stick_places.find(slave);
+    StickPlace stick;
+    if (sticking == stick_places.end() ||
+        !find_stick_place(sticking->second, fixed.s, stick) ||
+        stick.edge != point.edge)
+      return;
+    point.stick_edge = slave;
+    point.stick_t    = fixed.s - (point.s - stick.t) *
+                                surface->place(point.edge, point.s).a.norm() /
+                                surface->place(slave, fixed.s).a.norm();
+    point.is_bonded = stick.is_bonded;
+  }
+
+
+  /// Elements that are tied couple in the elasticity, whose pattern is to be within
+  /// that of the contact.
+  void
+  Contact::Data::couple_ties()
+  {
+    const CoverSystem  &covers = surface->cover_system();
+    const ManifoldMesh &mesh   = covers.manifold_mesh();
+    const auto [first, last]   = covers.locally_owned_elements();
+    const auto &curves         = mesh.physical_mesh().curves();
+    const auto &piece_to_curve = mesh.physical_mesh().piece_to_curve();
+    std::vector<unsigned int> both;
+    for (unsigned int e = first; e < last; ++e)
+      for (const ElementEdge &edge : mesh.edges(e))
+      {
+        if (edge.curve_set == invalid_index || edge.neighbor == invalid_index)
+          continue;
+        const auto &pieces = mesh.curve_set(edge.curve_set);
+        if (std::all_of(pieces.begin(), pieces.end(), [&](const auto piece) {
+              const Curve &curve = curves[piece_to_curve[piece]];
+              return curve.role == CurveRole::joint &&
+                     curve.state == JointState::open;
+            }))
+          continue;
+        both.assign(covers.covers(e).begin(), covers.covers(e).end());
+        both.insert(both.end(),
+                    covers.covers(edge.neighbor).begin(),
+                    covers.covers(edge.neighbor).end());
+        block_system->couple({both.data(), both.size()});
+      }
+  }
+
+
+  void
+  Contact::Data::make_pattern()
+  {
+    is_idle =
+      Parallel::max(search.slaves().empty() ? 0U : 1U, communicator) == 0U;
+    if (is_idle)
+      return;
+    couplings.clear();
+    for (unsigned int i = 0; i < search.slaves().size(); ++i)
+    {
+      const unsigned int slave = search.slaves()[i];
+      const unsigned int begin = couplings.size();
+      couplings.push_back(0);
+      const auto append = [&](const unsigned int edge) {
+        const auto covers = surface->covers(edge);
+        couplings.insert(couplings.end(), covers.begin(), covers.end());
+      };
+      append(slave);
+      for (const unsigned int master : search.masters(i))
+        append(master);
+      const auto append_places = [&](const unsigned int key) {
+        const auto sticking = stick_places.find(key);
+        if (sticking != stick_places.end())
+          for (const StickPlace &place : sticking->second)
+            if (!surface->is_rigid(place.edge))
+              append(place.edge);
+      };
+      append_places(place_key(slave, search.corner(i)));
+      if (search.corner(i) == Kind::along)
+        for (const unsigned int master : search.masters(i))
+          for (unsigned int end = 0; end < 2; ++end)
+            append_places(place_key(master, Kind::master_ends + end));
+      std::sort(couplings.begin() + begin + 1, couplings.end());
+      couplings.erase(std::unique(couplings.begin() + begin + 1,
+                                  couplings.end()),
+                      couplings.end());
+      couplings[begin] = couplings.size() - begin - 1;
+    }
+    const bool is_new = block_system == nullptr || couplings != known_couplings;
+    if (Parallel::max(is_new ? 1U : 0U, communicator) == 0U)
+      return;
+    known_couplings = couplings;
+    block_system =
+      std::make_unique<BlockSystem>(surface->cover_system(), *constraints);
+    for (unsigned int i = 0; i < couplings.size(); i += couplings[i] + 1)
+      block_system->couple({couplings.data() + i + 1, couplings[i]});
+    couple_ties();
+    block_system->ignore_inhomogeneities();
+    block_system->leave_empty_rows();
+    block_system->build();
+    matrix.clear();
+    ++pattern_version;
+  }
+} // namespace NMM

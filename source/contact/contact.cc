@@ -100,7 +100,7 @@ namespace NMM
     points.clear();
     point_data.clear();
     for (unsigned int i = 0; i < search.slaves().size(); ++i)
-      if (search.corner(i) == 2)
+      if (search.corner(i) == Kind::along)
         add_points_of(i);
       else
         add_corner(i);
@@ -108,9 +108,12 @@ namespace NMM
 
 
   void
-  Contact::Data::restore(ContactPoint &point, const unsigned int corner) const
+  Contact::Data::restore(ContactPoint      &point,
+                         const PointData   &fixed,
+                         const unsigned int slave) const
   {
-    const auto sticking = stick_places.find(place_key(point.edge, corner));
+    const auto sticking =
+      stick_places.find(place_key(point.edge, fixed.corner));
     StickPlace stick;
     if (sticking != stick_places.end() &&
         find_stick_place(sticking->second, point.s, stick))
@@ -119,9 +122,8 @@ namespace NMM
       point.stick_t    = stick.t;
       point.is_bonded  = stick.is_bonded;
     }
-    if (multiplier_space != nullptr && corner == 2)
-      point.multiplier =
-        multiplier_space->value(multipliers, point.edge, point.s);
+    if (multiplier_space != nullptr && fixed.corner >= Kind::along)
+      point.multiplier = multiplier_space->value(multipliers, slave, fixed.s);
   }
 
 
@@ -136,7 +138,7 @@ namespace NMM
     point.s      = fixed.corner;
     point.weight = corner_weight[2 * point.edge + fixed.corner];
     surface->weights(point.edge, point.s, fixed.weights);
-    restore(point, fixed.corner);
+    restore(point, fixed, point.edge);
     points.push_back(point);
     point_data.push_back(fixed);
   }
@@ -145,41 +147,81 @@ namespace NMM
   void
   Contact::Data::add_points_of(const unsigned int slave)
   {
-    const unsigned int        edge      = search.slaves()[slave];
-    const std::vector<double> divisions = search.divisions(slave);
+    const unsigned int edge      = search.slaves()[slave];
+    const auto         divisions = search.divisions(slave);
     for (unsigned int i = 0; i + 1 < divisions.size(); ++i)
     {
-      const double at_start =
-        search.end_slack(slave, divisions[i], divisions[i + 1]);
-      const double at_end =
-        search.end_slack(slave, divisions[i + 1], divisions[i]);
+      const ContactSearch::Division &begin = divisions[i];
+      const ContactSearch::Division &end   = divisions[i + 1];
+      const double at_start = search.end_slack(slave, begin.s, end.s);
+      const double at_end   = search.end_slack(slave, end.s, begin.s);
+      const double length   = end.s - begin.s;
       for (unsigned int q = 0; q < rule_points.size(); ++q)
       {
-        const double length = divisions[i + 1] - divisions[i];
+        const bool   is_last = q + 1 == rule_points.size();
         ContactPoint point;
-        point.edge = edge;
-        point.s    = q == 0 ? divisions[i]
-                     : q + 1 == rule_points.size()
-                       ? divisions[i + 1]
-                       : divisions[i] + rule_points[q] * length;
-        PointData fixed;
-        fixed.slave      = slave;
-        fixed.slack      = q == 0                        ? at_start
-                           : q + 1 == rule_points.size() ? at_end
-                           : at_start == at_end          ? at_start
-                                                         : 0.;
-        const auto place = surface->reference_place(edge, point.s);
-        surface->weights(edge, point.s, fixed.weights);
-        if (fixed.slack > 0.)
-          fixed.home =
-            search.project(surface->place(edge, point.s), search.masters(slave))
-              .master;
-        point.weight = rule_weights[q] * length * place.a.norm();
-        restore(point, 2);
+        PointData    fixed;
+        fixed.slave  = slave;
+        fixed.s      = q == 0    ? begin.s
+                       : is_last ? end.s
+                                 : begin.s + rule_points[q] * length;
+        fixed.slack  = q == 0               ? at_start
+                       : is_last            ? at_end
+                       : at_start == at_end ? at_start
+                                            : 0.;
+        point.edge   = edge;
+        point.s      = fixed.s;
+        point.weight = rule_weights[q] * length *
+                       surface->reference_place(edge, fixed.s).a.norm();
+        const ContactSearch::Division &at = q == 0 ? begin : end;
+        if ((q == 0 || is_last) && fixed.slack > 0. &&
+            at.master != invalid_index)
+        {
+          point.edge   = at.master;
+          point.s      = at.end;
+          fixed.corner = Kind::master_ends + at.end;
+          fixed.home   = edge;
+        }
+        else if (fixed.slack > 0.)
+        {
+          // a master that ends here, or did before both have been strained
+          constexpr double end_of_master = 0.01;
+          fixed.home                     = search
+                         .project(surface->place(edge, point.s),
+                                  search.masters(slave),
+                                  end_of_master,
+                                  ContactSearch::any_edge)
+                         .master;
+        }
+        surface->weights(point.edge, point.s, fixed.weights);
+        restore(point, fixed, edge);
+        if (fixed.corner > Kind::along && point.stick_edge == invalid_index)
+          take_over_place(point, fixed, edge);
         points.push_back(point);
         point_data.push_back(fixed);
       }
     }
+  }
+
+
+  /// A corner that has come onto the slave sticks where the slave's point that it
+  /// has met sticks to it, seen from the other side.
+  void
+  Contact::Data::take_over_place(ContactPoint      &point,
+                                 const PointData   &fixed,
+                                 const unsigned int slave) const
+  {
+    const auto sticking = stick_places.find(slave);
+    StickPlace stick;
+    if (sticking == stick_places.end() ||
+        !find_stick_place(sticking->second, fixed.s, stick) ||
+        stick.edge != point.edge)
+      return;
+    point.stick_edge = slave;
+    point.stick_t    = fixed.s - (point.s - stick.t) *
+                                surface->place(point.edge, point.s).a.norm() /
+                                surface->place(slave, fixed.s).a.norm();
+    point.is_bonded = stick.is_bonded;
   }
 
 
@@ -235,12 +277,18 @@ namespace NMM
       append(slave);
       for (const unsigned int master : search.masters(i))
         append(master);
-      const auto sticking =
-        stick_places.find(place_key(slave, search.corner(i)));
-      if (sticking != stick_places.end())
-        for (const StickPlace &place : sticking->second)
-          if (!surface->is_rigid(place.edge))
-            append(place.edge);
+      const auto append_places = [&](const unsigned int key) {
+        const auto sticking = stick_places.find(key);
+        if (sticking != stick_places.end())
+          for (const StickPlace &place : sticking->second)
+            if (!surface->is_rigid(place.edge))
+              append(place.edge);
+      };
+      append_places(place_key(slave, search.corner(i)));
+      if (search.corner(i) == Kind::along)
+        for (const unsigned int master : search.masters(i))
+          for (unsigned int end = 0; end < 2; ++end)
+            append_places(place_key(master, Kind::master_ends + end));
       std::sort(couplings.begin() + begin + 1, couplings.end());
       couplings.erase(std::unique(couplings.begin() + begin + 1,
                                   couplings.end()),
@@ -376,8 +424,14 @@ namespace NMM
   {
     const PointData &fixed   = point_data[q];
     const auto       masters = search.masters(fixed.slave);
-    if (fixed.corner == 2)
+    if (fixed.corner == Kind::along)
       return search.project(slave, masters, fixed.slack, fixed.home);
+    if (fixed.corner > Kind::along)
+      return search.project(
+        slave,
+        dealii::ArrayView<const unsigned int>(&search.slaves()[fixed.slave], 1),
+        fixed.slack,
+        fixed.home);
     const auto entrance =
       entrances.find(place_key(points[q].edge, fixed.corner));
     return search.project_corner(slave,
@@ -423,7 +477,7 @@ namespace NMM
     const double       facing = -(slave_normal * master_normal);
     double             along  = ContactSearch::along_face(facing);
     const unsigned int corner = point_data[q].corner;
-    if (corner == 2)
+    if (corner >= Kind::along)
       return facing * along;
     // a corner touches in a point if neither of its faces touches along its length
     const ContactSurface::Edge &edge  = surface->edges()[points[q].edge];
@@ -446,7 +500,7 @@ namespace NMM
     ContactProjection projection = find_master(q, slave);
     // a piece ends where two edges of the master meet; its end stays with one of
     // them, since their normals differ a little and the iteration would not end
-    if (fixed.corner == 2 && point.master != invalid_index &&
+    if (fixed.corner == Kind::along && point.master != invalid_index &&
         projection.master != invalid_index &&
         goes_on_smoothly(surface->edges(), point.master, projection.master))
     {
@@ -659,20 +713,21 @@ namespace NMM
     std::vector<double> sums(3 * n, 0.);
     // those of corners come last
     for (unsigned int begin = 0;
-         begin < d.points.size() && d.point_data[begin].corner == 2;
+         begin < d.points.size() && d.point_data[begin].corner >= Data::along;
          begin += n_rule)
     {
-      const double length =
-        (d.points[begin + n_rule - 1].s - d.points[begin].s) *
-        d.surface->edges()[d.points[begin].edge].length;
+      const unsigned int edge = d.search.slaves()[d.point_data[begin].slave];
+      const double       length =
+        (d.point_data[begin + n_rule - 1].s - d.point_data[begin].s) *
+        d.surface->edges()[edge].length;
       for (unsigned int q = 0; q < n_rule; ++q)
       {
         const ContactPoint &point = d.points[begin + q];
         // beside the master, where there is nothing to penetrate
         if (point.master == invalid_index || point.weight == 0.)
           continue;
-        const auto  &f      = space[point.edge];
-        const double share  = f.share(point.s);
+        const auto  &f      = space[edge];
+        const double share  = f.share(d.point_data[begin + q].s);
         const double weight = d.rule_weights[q] * length;
         const double eps    = d.point_data[begin + q].law->normal_stiffness;
         const auto   add    = [&](const unsigned int i, const double value) {
@@ -700,9 +755,10 @@ namespace NMM
     }
     for (unsigned int q = 0; q < d.points.size(); ++q)
     {
-      ContactPoint &point = d.points[q];
-      if (d.point_data[q].corner == 2)
-        point.multiplier = space.value(d.multipliers, point.edge, point.s);
+      const Data::PointData &fixed = d.point_data[q];
+      if (fixed.corner >= Data::along)
+        d.points[q].multiplier =
+          space.value(d.multipliers, d.search.slaves()[fixed.slave], fixed.s);
     }
     return change;
   }
@@ -794,7 +850,7 @@ namespace NMM
     d.stick_places.clear();
     d.entrances.clear();
     for (unsigned int q = 0; q < d.points.size(); ++q)
-      if (d.point_data[q].corner != 2 &&
+      if (d.point_data[q].corner < Data::along &&
           d.points[q].state != ContactState::open)
         d.entrances[d.place_key(d.points[q].edge, d.point_data[q].corner)] =
           d.points[q].master;

@@ -18,13 +18,28 @@ namespace NMM
          const dealii::AffineConstraints<double> &constraints,
          const ContactParameters                 &parameters);
 
+    /// What a point is: an end of its edge as a corner that touches in a point, a
+    /// place along a slave, or such a place where a corner of the master lies: that
+    /// corner is then the point, and the slave its master, since the corner slides along
+    /// the slave.
+    enum Kind : unsigned int
+    {
+      first_end   = 0,
+      last_end    = 1,
+      along       = 2,
+      master_ends = 3
+    };
+
     /// What does not change from one assembly to the next.
     struct PointData
     {
       /// Position in ContactSearch::slaves().
       unsigned int slave;
-      /// 0 or 1: this end of the edge as a corner; 2: a point along the edge.
-      unsigned int            corner = 2;
+      /// See Kind.
+      unsigned int corner = Kind::along;
+      /// Place on the slave, which is that of the point unless it is a corner of the
+      /// master.
+      double                  s = 0.;
       ContactSurface::Weights weights;
       /// That of the last master.
       const ContactLaw *law = nullptr;
@@ -56,9 +71,16 @@ namespace NMM
     void
     add_corner(unsigned int slave);
 
-    /// History of a point: where it stuck, its multiplier.
+    /// History of a point: where it stuck, its multiplier on @p slave.
     void
-    restore(ContactPoint &point, unsigned int corner) const;
+    restore(ContactPoint    &point,
+            const PointData &fixed,
+            unsigned int     slave) const;
+
+    void
+    take_over_place(ContactPoint    &point,
+                    const PointData &fixed,
+                    unsigned int     slave) const;
 
     /// Of the places of an edge, or of a corner.
     unsigned int

@@ -7,6 +7,7 @@
 #include <boost/geometry/index/rtree.hpp>
 #include <cmath>
 #include <contact/contact_search.h>
+#include <tuple>
 
 namespace NMM
 {
@@ -106,6 +107,17 @@ namespace NMM
         return edge < other;
       return ranks[body] != ranks[other_body] ? ranks[body] < ranks[other_body]
                                               : body < other_body;
+    }
+
+
+    bool
+    ContactSearch::is_corner(const unsigned int edge,
+                             const unsigned int end) const
+    {
+      const auto &at   = surface->edges()[edge];
+      const auto  kind = end == 0 ? at.at_start : at.at_end;
+      return kind == ContactSurface::Corner::convex ||
+             (kind == ContactSurface::Corner::end && surface->is_rigid(edge));
     }
 
 
@@ -228,10 +240,7 @@ namespace NMM
         if ((e >= first && e < last) || (has_obstacles && surface->is_rigid(e)))
           for (unsigned int end = 0; end < 2; ++end)
           {
-            const auto &edge = surface->edges()[e];
-            const auto  kind = end == 0 ? edge.at_start : edge.at_end;
-            if (kind != ContactSurface::Corner::convex &&
-                !(kind == ContactSurface::Corner::end && surface->is_rigid(e)))
+            if (!is_corner(e, end))
               continue;
             const Point<2> &x = known_positions[3 * e + 2 * end];
             const Corner    corner(x[0], x[1]);
@@ -307,16 +316,16 @@ namespace NMM
     }
 
 
-    std::vector<double>
+    std::vector<ContactSearch::Division>
     ContactSearch::divisions(const unsigned int position) const
     {
       // shorter pieces weigh nothing
-      constexpr double same = 1e-9;
+      constexpr double same = 1e-6;
 
-      const unsigned int  slave = slave_edges[position];
-      std::vector<double> result{0., 1.};
+      const unsigned int    slave = slave_edges[position];
+      std::vector<Division> found;
       for (const unsigned int master : masters(position))
-        for (const double end : {0., 1.})
+        for (const unsigned int end : {0U, 1U})
         {
           const Point<2> x = surface->place(master, end).x;
           double         t;
@@ -325,16 +334,23 @@ namespace NMM
               place.x.distance(x) <= reach &&
               along_face(
                 -(place.normal() * surface->place(master, end).normal())) > 0.)
-            result.push_back(t);
+            found.push_back(
+              {t, is_corner(master, end) ? master : invalid_index, end});
         }
-      std::sort(result.begin(), result.end());
-      result.erase(std::unique(result.begin(),
-                               result.end(),
-                               [](const double a, const double b) {
-                                 return b - a < same;
-                               }),
-                   result.end());
-      result.back() = 1.;
+      // of those at the same place corners first
+      std::sort(found.begin(),
+                found.end(),
+                [](const Division &a, const Division &b) {
+                  return std::tie(a.s, a.master) < std::tie(b.s, b.master);
+                });
+      std::vector<Division> result(1);
+      for (const Division &division : found)
+        if (division.s - result.back().s >= same)
+          result.push_back(division);
+        else if (result.size() > 1 && result.back().master == invalid_index)
+          result.back() = division;
+      result.emplace_back();
+      result.back().s = 1.;
       return result;
     }
 
@@ -475,7 +491,8 @@ namespace NMM
       {
         const ContactSurface::Edge &edge = surface->edges()[master];
         const double                slack =
-          given_slack < 0. || master == home ? given_slack : rounding;
+          given_slack < 0. || master == home || home == any_edge ? given_slack
+                                                                                : rounding;
         ContactProjection now;
         now.master = master;
         if (!find_nearest(master, slave_place.x, now.t, now.place) ||

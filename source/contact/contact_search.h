@@ -63,6 +63,10 @@ namespace NMM
         return corners[position];
       }
 
+      /// Is this end of an edge a corner that can touch as such?
+      bool
+      is_corner(unsigned int edge, unsigned int end) const;
+
       /// Is it the first of two edges that is the slave along their length?
       bool
       comes_first(unsigned int edge, unsigned int other) const;
@@ -82,12 +86,23 @@ namespace NMM
       double
       movement() const;
 
+      /// As the home of project(): all of the masters.
+      static constexpr unsigned int any_edge = invalid_index - 1;
+
+      /// Where a slave is divided: parameter, and the master and its end that lie
+      /// there if that is a corner.
+      struct Division
+      {
+        double       s      = 0.;
+        unsigned int master = invalid_index, end = 0;
+      };
+
       /**
-       * Parameters in [0, 1] at which the slave at a position is to be divided:
+       * Where the slave at a position is to be divided, ascending from 0 to 1:
        * its ends, and where ends of its masters lie nearest. On
        * the pieces between, both displacements are polynomials.
        */
-      std::vector<double>
+      std::vector<Division>
       divisions(unsigned int position) const;
 
       /**

@@ -135,6 +135,7 @@ namespace NMM
     // later solutions of a step start next to their end, where the energy of the
     // first correction says nothing
     parameters.energy_tolerance = 1.;
+    parameters.always_search    = true;
     return parameters;
   }
 

@@ -547,7 +547,9 @@ namespace NMM
       }
       const auto         key  = static_cast<unsigned int>(history[i]);
       const unsigned int edge = key % n_edges;
-      if (!(edge >= first && edge < last) &&
+      // corners of masters are with the slave's rank
+      if (key / n_edges <= Data::master_ends &&
+          !(edge >= first && edge < last) &&
           !(has_obstacles && d.surface->is_rigid(edge)))
         continue;
       if (history[i + 2] < 0.)

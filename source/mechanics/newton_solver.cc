@@ -37,7 +37,9 @@ namespace NMM
     solve(const Vector &rhs, Vector &solution);
 
     Deformation
-    line_search(Vector &u, NewtonReport::Iteration &iteration, bool is_late);
+    line_search(Vector                  &u,
+                NewtonReport::Iteration &iteration,
+                bool                     is_searched);
 
     bool
     iterate(Vector &u, const Vector *increment);
@@ -111,11 +113,20 @@ namespace NMM
   Deformation
   NewtonSolver::Data::line_search(Vector                  &u,
                                   NewtonReport::Iteration &iteration,
-                                  const bool               is_late)
+                                  const bool               is_searched)
   {
-    const double slope    = std::abs(correction * system->residual());
-    const Vector before   = owned;
-    iteration.line_search = 1.;
+    // what is left of the slope along the correction: not less than this must
+    // go, and when the slope has changed its sign, not more
+    constexpr double       enough = 0.9, bracketed = 0.5;
+    constexpr unsigned int max_brackets = 8;
+    const double           first_slope  = correction * system->residual();
+    const Vector           before       = owned;
+    iteration.line_search               = 1.;
+    // eta and slope on both sides of a zero
+    double       lower = 0., upper = 1.;
+    double       lower_slope = first_slope, upper_slope = 0.;
+    bool         is_bracketed = false;
+    unsigned int n_brackets   = 0;
     while (true)
     {
       owned = before;
@@ -123,10 +134,39 @@ namespace NMM
       constraints->distribute(owned);
       u                       = owned;
       const Deformation state = assemble(u, Tangent::none, nullptr);
-      if (state == Deformation::admissible &&
-          (!is_late ||
-           std::abs(correction * system->residual()) <= 0.9 * slope))
+      if (state == Deformation::admissible && !is_searched)
         return state;
+      if (state == Deformation::admissible)
+      {
+        const double slope = correction * system->residual();
+        if (std::abs(slope) <=
+            (is_bracketed ? bracketed : enough) * std::abs(first_slope))
+          return state;
+        if (slope * first_slope < 0.)
+        {
+          // regula falsi of the Illinois kind
+          if (is_bracketed)
+            lower_slope *= 0.5;
+          upper        = iteration.line_search;
+          upper_slope  = slope;
+          is_bracketed = true;
+        }
+        else if (is_bracketed)
+        {
+          lower       = iteration.line_search;
+          lower_slope = slope;
+          upper_slope *= 0.5;
+        }
+        if (is_bracketed)
+        {
+          if (++n_brackets > max_brackets)
+            return state;
+          iteration.line_search =
+            lower + (upper - lower) * lower_slope / (lower_slope - upper_slope);
+          ++report->n_line_search_cuts;
+          continue;
+        }
+      }
       if (iteration.line_search <= parameters.min_line_search)
         return state;
       iteration.line_search *= 0.5;
@@ -176,7 +216,8 @@ namespace NMM
     const bool is_late =
       k > n_young && iteration.energy > report->iterations[k - 2].energy;
     use_increment = use_increment && !is_late;
-    if (line_search(u, iteration, is_late) != Deformation::admissible)
+    if (line_search(u, iteration, is_late || parameters.always_search) !=
+        Deformation::admissible)
     {
       report->reason =
         "every share of the correction gives a deformation that "

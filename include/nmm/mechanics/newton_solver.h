@@ -64,6 +64,9 @@ namespace NMM
     unsigned int max_iterations   = 12;
     /// Least share of a correction that the line search tries.
     double min_line_search = 1. / 64.;
+    /// Search from the first iteration on, for what is stiff on one side only, such as
+    /// contact; otherwise from the fifth, when r . du grows.
+    bool always_search = false;
     /// Pass the last increment to NonlinearSystem::assemble(): 20 instead of
     /// 31 (follower load: 34) iterations for five steps of step-nmm-2.
     bool use_increment = true;

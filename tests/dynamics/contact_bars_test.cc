@@ -1,0 +1,176 @@
+// Scenarios of contact in time with known outcome, at a small size; the full one is
+// that of the program nmm-contact-bars.
+
+#include <gtest/gtest.h>
+#include <support/contact_bars/contact_bars.h>
+
+namespace NMM
+{
+  namespace ContactBars
+  {
+    namespace
+    {
+      void
+      expect_holds(const Measurements &measurements)
+      {
+        EXPECT_FALSE(measurements.all().empty());
+        EXPECT_EQ(measurements.failures(), "");
+      }
+    } // namespace
+
+
+    // Falling onto its springs costs the block 3e-5 m of a way of 1 m.
+    TEST(ContactBars, SlidesDownInclines)
+    {
+      Measurements measurements;
+      Incline      incline;
+      incline.begins_at_rest = false;
+      incline.distance       = 1.;
+      for (const double angle : {10., 60.})
+      {
+        incline.angle          = angle;
+        incline.friction_angle = 0.5 * angle;
+        slide_down_incline(incline, measurements);
+      }
+      expect_holds(measurements);
+    }
+
+
+    TEST(ContactBars, SticksToInclines)
+    {
+      Measurements measurements;
+      Incline      incline;
+      incline.n_steps = 200;
+      incline.bound   = 1e-4;
+      for (const auto &scheme :
+           {TimeScheme::energy_momentum(), TimeScheme::generalized_alpha(0.5)})
+        for (const double angle : {10., 60.})
+        {
+          incline.scheme         = scheme;
+          incline.angle          = angle;
+          incline.friction_angle = angle + 2.;
+          stick_to_incline(incline, measurements);
+        }
+      expect_holds(measurements);
+    }
+
+
+    // The front of the pulse is spread over half of a cell in a way of 40: 2 % with
+    // cells of 0.5 m.
+    TEST(ContactBars, BarsPartAfterImpact)
+    {
+      Measurements measurements;
+      Impact       impact;
+      impact.step            = 1e-3;
+      impact.n_further_steps = 200;
+      impact.bound           = 0.02;
+      run_into_each_other(impact, measurements);
+      expect_holds(measurements);
+    }
+
+
+    // Between heavy and light: a block that rocks falls as fast as a rigid one, and
+    // loses what Housner says if its base touches in two corners, where dashpots take
+    // what bounces otherwise.
+    TEST(ContactBars, RocksLikeARigidBlock)
+    {
+      Measurements measurements;
+      Rocking      rocking;
+      rocking.youngs_modulus = 1e9;
+      rocking.hollow         = 0.02;
+      rocking.dashpot        = 3.;
+      rocking.duration       = 3.2;
+      rock(rocking, measurements);
+      for (const Measurement &m : measurements.all())
+        if (m.quantity.find("rigid") != std::string::npos)
+        {
+          EXPECT_NEAR(m.error, 0., 5e-3) << m.quantity;
+        }
+        else if (m.quantity.find("energy") != std::string::npos)
+        {
+          EXPECT_NEAR(m.error, 0., 0.03) << m.quantity;
+        }
+    }
+
+
+    TEST(ContactBars, DisksSlideAndRoll)
+    {
+      Measurements measurements;
+      Disk         disk;
+      disk.duration = 0.5;
+      roll(disk, measurements);
+      disk.spin = 0.;
+      roll(disk, measurements);
+      expect_holds(measurements);
+    }
+
+
+    // Three of thirteen frequencies, over three decades.
+    TEST(ContactBars, JointLetsWavesThrough)
+    {
+      Measurements measurements;
+      JointWave    wave;
+      wave.steps = 30.;
+      for (const double frequency : {0.03, 1., 30.})
+      {
+        wave.frequency = frequency;
+        transmit(wave, measurements);
+      }
+      expect_holds(measurements);
+    }
+
+
+    TEST(ContactBars, WedgeInANotch)
+    {
+      Measurements measurements;
+      Corners      corners;
+      corners.duration = 0.4;
+      drop_into_notch(corners, measurements);
+      expect_holds(measurements);
+    }
+
+
+    TEST(ContactBars, VertexOnVertex)
+    {
+      Measurements measurements;
+      fall_on_vertex(Corners(), measurements);
+      expect_holds(measurements);
+    }
+
+
+    TEST(ContactBars, OverTheEdge)
+    {
+      Measurements measurements;
+      slide_off_edge(Corners(), measurements);
+      expect_holds(measurements);
+    }
+
+
+    TEST(ContactBars, FourBlocksMeet)
+    {
+      Measurements measurements;
+      meet_in_a_point(Corners(), measurements);
+      expect_holds(measurements);
+    }
+
+
+    // Bits of a repeated run; one rank and all ranks differ by rounding, which
+    // impacts magnify.
+    TEST(ContactBars, RepeatedRunAndRanksMPI)
+    {
+      const auto first  = final_states(MPI_COMM_WORLD);
+      const auto second = final_states(MPI_COMM_WORLD);
+      const auto alone  = final_states(MPI_COMM_SELF);
+      for (unsigned int i = 0; i < first.size(); ++i)
+        for (unsigned int j = 0; j < first[i].second.size(); ++j)
+        {
+          const double value = first[i].second[j];
+          EXPECT_EQ(value, second[i].second[j]) << first[i].first << ", " << j;
+          EXPECT_NEAR(value,
+                      alone[i].second[j],
+                      1e-6 * std::max(1e-3, std::abs(value)))
+            << first[i].first << ", " << j;
+        }
+    }
+  } // namespace ContactBars
+} // namespace NMM

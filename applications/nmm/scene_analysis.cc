@@ -85,15 +85,16 @@ SceneAnalysis::make_covers()
 {
   const CoverParameters &parameters = scene.parameters().covers;
   covers = std::make_unique<CoverSystem>(*manifold_mesh, communicator);
+  // The surface comes first: it makes more covers relevant to a rank, and
+  // aggregation what these follow.
+  if (scene.parameters().contact.is_present())
+    contact = std::make_unique<ContactAnalysis>(scene, *physical_mesh, *covers);
   // With threshold 0 every element is well supported and no cover is
   // constrained.
   aggregation = aggregate(*covers,
                           parameters.stabilization == Stabilization::aggregation
                             ? parameters.threshold
                             : 0.);
-  // The surface comes first: it may make more covers relevant to a rank.
-  if (scene.parameters().contact.is_present())
-    contact = std::make_unique<ContactAnalysis>(scene, *physical_mesh, *covers);
   constraints = make_constraints(*covers, aggregation, 2);
   if (contact)
     contact->make_contact(constraints, problem);

@@ -130,6 +130,30 @@ namespace NMM
     }
 
 
+    TEST(ContactBars, VertexOnVertex)
+    {
+      Measurements measurements;
+      fall_on_vertex(Corners(), measurements);
+      expect_holds(measurements);
+    }
+
+
+    TEST(ContactBars, OverTheEdge)
+    {
+      Measurements measurements;
+      slide_off_edge(Corners(), measurements);
+      expect_holds(measurements);
+    }
+
+
+    TEST(ContactBars, FourBlocksMeet)
+    {
+      Measurements measurements;
+      meet_in_a_point(Corners(), measurements);
+      expect_holds(measurements);
+    }
+
+
     // Bits of a repeated run; one rank and all ranks differ by rounding, which
     // impacts magnify.
     TEST(ContactBars, RepeatedRunAndRanksMPI)

@@ -99,7 +99,8 @@ namespace NMM
       Disk         disk;
       disk.duration = 0.5;
       roll(disk, measurements);
-      disk.spin = 0.;
+      disk.spin     = 0.;
+      disk.duration = 3.;
       roll(disk, measurements);
       expect_holds(measurements);
     }

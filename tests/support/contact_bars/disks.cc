@@ -93,12 +93,20 @@ namespace NMM
             2. * V / 3.,
             1.,
             run);
-        run += body.run(disk.step, disk.duration * time);
-        add("velocity later [m/s]", body.velocity(0)[0], 2. * V / 3., 1., run);
+        // then it swings about rolling on what holds it there
+        const double x_1 = body.displacement(0)[0];
+        const double t_1 = body.integrator->state().time;
+        run += body.run(disk.step, t_1 + disk.duration * time);
+        add("mean velocity later [m/s]",
+            (body.displacement(0)[0] - x_1) /
+              (body.integrator->state().time - t_1),
+            2. * V / 3.,
+            2.,
+            run);
         add("spin later [rad/s]",
             body.angular_velocity(0),
             -2. * V / 3. / radius,
-            3.,
+            0.,
             run);
       }
       measurements.add(5,

@@ -206,14 +206,21 @@ namespace NMM
   {
     const PointData &fixed   = point_data[q];
     const auto       masters = search.masters(fixed.slave);
-    if (fixed.corner == Kind::along)
-      return search.project(slave, masters, fixed.slack, fixed.home);
-    if (fixed.corner > Kind::along)
-      return search.project(
-        slave,
-        dealii::ArrayView<const unsigned int>(&search.slaves()[fixed.slave], 1),
-        fixed.slack,
-        fixed.home);
+    if (fixed.corner >= Kind::along)
+    {
+      ContactProjection result =
+        fixed.corner == Kind::along
+          ? search.project(slave, masters, fixed.slack, fixed.home)
+          : search.project(slave,
+                           dealii::ArrayView<const unsigned int>(
+                             &search.slaves()[fixed.slave], 1),
+                           fixed.slack,
+                           fixed.home);
+      // what overlaps more deeply than it is long came in by the other face
+      if (result.master != invalid_index && result.gap < -fixed.piece_length)
+        result = ContactProjection();
+      return result;
+    }
     const auto entrance =
       entrances.find(place_key(points[q].edge, fixed.corner));
     return search.project_corner(slave,

@@ -39,7 +39,9 @@ namespace NMM
       unsigned int corner = Kind::along;
       /// Place on the slave, which is that of the point unless it is a corner of the
       /// master.
-      double                  s = 0.;
+      double s = 0.;
+      /// Of the slave between two divisions [m].
+      double                  piece_length = 0.;
       ContactSurface::Weights weights;
       /// That of the last master.
       const ContactLaw *law = nullptr;
@@ -76,6 +78,11 @@ namespace NMM
     restore(ContactPoint    &point,
             const PointData &fixed,
             unsigned int     slave) const;
+
+    double
+    stiffer_if_short(unsigned int                             edge,
+                     const internal::ContactSearch::Division &begin,
+                     const internal::ContactSearch::Division &end) const;
 
     void
     take_over_place(ContactPoint    &point,

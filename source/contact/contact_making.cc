@@ -75,26 +75,31 @@ namespace NMM
     {
       const ContactSearch::Division &begin = divisions[i];
       const ContactSearch::Division &end   = divisions[i + 1];
-      const double at_start = search.end_slack(slave, begin.s, end.s);
-      const double at_end   = search.end_slack(slave, end.s, begin.s);
+      unsigned int                   first, last;
+      const double at_start = search.end_slack(slave, begin.s, end.s, first);
+      const double at_end   = search.end_slack(slave, end.s, begin.s, last);
       const double length   = end.s - begin.s;
+      const double stiffer  = stiffer_if_short(edge, begin, end);
       for (unsigned int q = 0; q < rule_points.size(); ++q)
       {
         const bool   is_last = q + 1 == rule_points.size();
         ContactPoint point;
         PointData    fixed;
-        fixed.slave  = slave;
-        fixed.s      = q == 0    ? begin.s
-                       : is_last ? end.s
-                                 : begin.s + rule_points[q] * length;
-        fixed.slack  = q == 0               ? at_start
-                       : is_last            ? at_end
-                       : at_start == at_end ? at_start
-                                            : 0.;
-        point.edge   = edge;
-        point.s      = fixed.s;
-        point.weight = rule_weights[q] * length *
-                       surface->reference_place(edge, fixed.s).a.norm();
+        fixed.slave        = slave;
+        fixed.s            = q == 0    ? begin.s
+                             : is_last ? end.s
+                                       : begin.s + rule_points[q] * length;
+        fixed.slack        = q == 0               ? at_start
+                             : is_last            ? at_end
+                             : at_start == at_end ? at_start
+                                                  : 0.;
+        point.edge         = edge;
+        point.s            = fixed.s;
+        const double speed = surface->reference_place(edge, fixed.s).a.norm();
+        fixed.piece_length = length * speed;
+        point.weight       = rule_weights[q] * length * speed;
+        if (at_start > 0. && at_end > 0.)
+          point.weight *= stiffer;
         const ContactSearch::Division &at = q == 0 ? begin : end;
         if ((q == 0 || is_last) && fixed.slack > 0. &&
             at.master != invalid_index)
@@ -105,16 +110,7 @@ namespace NMM
           fixed.home   = edge;
         }
         else if (fixed.slack > 0.)
-        {
-          // a master that ends here, or did before both have been strained
-          constexpr double end_of_master = 0.01;
-          fixed.home                     = search
-                         .project(surface->place(edge, point.s),
-                                  search.masters(slave),
-                                  end_of_master,
-                                  ContactSearch::any_edge)
-                         .master;
-        }
+          fixed.home = search.find_home(slave, point.s, is_last ? last : first);
         surface->weights(point.edge, point.s, fixed.weights);
         restore(point, fixed, edge);
         if (fixed.corner > Kind::along && point.stick_edge == invalid_index)
@@ -123,6 +119,29 @@ namespace NMM
         point_data.push_back(fixed);
       }
     }
+  }
+
+
+  /// Two bodies that have only a short piece of their faces in common, from a corner
+  /// of one to a corner of the other: they are as stiff there as on a fifth of a cell,
+  /// since what gives way is not the piece but what is around it. Much
+  /// shorter ones are left as they are: a body slides over them.
+  double
+  Contact::Data::stiffer_if_short(const unsigned int             edge,
+                                  const ContactSearch::Division &begin,
+                                  const ContactSearch::Division &end) const
+  {
+    constexpr double share = 0.2, too_short = 1e-3;
+    const auto       is_corner = [&](const ContactSearch::Division &division,
+                               const unsigned int             number) {
+      return division.master != invalid_index ||
+             (division.s == number && search.is_corner(edge, number));
+    };
+    if (!is_corner(begin, 0) || !is_corner(end, 1))
+      return 1.;
+    const double size   = 12. * corner_weight[2 * edge];
+    const double length = (end.s - begin.s) * surface->edges()[edge].length;
+    return length < too_short * size ? 1. : std::max(1., share * size / length);
   }
 
 

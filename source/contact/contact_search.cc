@@ -449,16 +449,37 @@ namespace NMM
     double
     ContactSearch::end_slack(const unsigned int position,
                              const double       s,
-                             const double       s_inside) const
+                             const double       s_inside,
+                             unsigned int      &master) const
     {
       // next to the end, and however far away
       constexpr double near = 1e-3, far = 2.;
       const Place      place =
         surface->place(slave_edges[position], s + near * (s_inside - s));
-      const unsigned int nearest =
+      master =
         project_within(place, masters(position), 0., invalid_index, far * reach)
           .master;
-      return nearest == invalid_index ? -largest_slack : largest_slack;
+      return master == invalid_index ? -largest_slack : largest_slack;
+    }
+
+
+    unsigned int
+    ContactSearch::find_home(const unsigned int position,
+                             const double       s,
+                             const unsigned int master) const
+    {
+      constexpr double          end_of_master = 0.01;
+      const auto               &edges         = surface->edges();
+      std::vector<unsigned int> of_body;
+      for (const unsigned int other : masters(position))
+        if (edges[other].body == edges[master].body)
+          of_body.push_back(other);
+      return project_within(surface->place(slave_edges[position], s),
+                            {of_body.data(), of_body.size()},
+                            end_of_master,
+                            any_edge,
+                            reach)
+        .master;
     }
 
 
@@ -490,9 +511,11 @@ namespace NMM
       for (const unsigned int master : masters)
       {
         const ContactSurface::Edge &edge = surface->edges()[master];
-        const double                slack =
+        if (home < any_edge && edge.body != surface->edges()[home].body)
+          continue;
+        const double slack =
           given_slack < 0. || master == home || home == any_edge ? given_slack
-                                                                                : rounding;
+                                                                 : rounding;
         ContactProjection now;
         now.master = master;
         if (!find_nearest(master, slave_place.x, now.t, now.place) ||

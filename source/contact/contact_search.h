@@ -116,7 +116,7 @@ namespace NMM
        * before a face that looks its own way: the far side of a thin body. Beyond a
        * convex corner or an open end there is no master, beyond a smooth joint or a concave
        * corner an edge goes on. @p slack: part of an edge by which the edge @p home goes on at convex corners
-       * and open ends; negative: by which all end earlier, see end_slack().
+       * and open ends, other bodies than its own being left out; negative: by which all end earlier, see end_slack().
        */
       ContactProjection
       project(const ContactSurface::Place          &slave_place,
@@ -142,10 +142,18 @@ namespace NMM
        * where a master's corner lies, and rounding and small motions must not
        * decide whether it has a master. The piece does: if there is a master
        * next to the end of the piece, which goes on to @p s_inside, the result is
-       * positive, else negative.
+       * positive, else negative. @p master: that one.
        */
       double
-      end_slack(unsigned int position, double s, double s_inside) const;
+      end_slack(unsigned int  position,
+                double        s,
+                double        s_inside,
+                unsigned int &master) const;
+
+      /// The edge of the body of @p master that ends, within a hundredth of its
+      /// length, where the slave at a position has the parameter @p s, or goes on there.
+      unsigned int
+      find_home(unsigned int position, double s, unsigned int master) const;
 
     private:
       bool

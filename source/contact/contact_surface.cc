@@ -93,10 +93,16 @@ namespace NMM
       edge.first_angle         = std::atan2(first[1], first[0]);
       edge.last_angle          = std::atan2(last[1], last[0]);
       const double turn        = 2. * dealii::numbers::PI;
-      if (edge.radius > 0. && edge.last_angle <= edge.first_angle)
-        edge.last_angle += turn;
-      if (edge.radius < 0. && edge.last_angle >= edge.first_angle)
-        edge.last_angle -= turn;
+      const double sign        = edge.radius > 0. ? 1. : -1.;
+      double       range       = sign * (edge.last_angle - edge.first_angle);
+      if (range < 0.)
+        range += turn;
+      // slivers whose ends rounding has put into one place or in the wrong order
+      // are no full circles
+      constexpr double rounding = 1e-9, least = 1e-15;
+      if (range > turn - rounding)
+        range = 0.;
+      edge.last_angle = edge.first_angle + sign * std::max(range, least);
       edge.length =
         std::abs(edge.radius * (edge.last_angle - edge.first_angle));
     }

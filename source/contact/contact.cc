@@ -216,8 +216,12 @@ namespace NMM
                              &search.slaves()[fixed.slave], 1),
                            fixed.slack,
                            fixed.home);
-      // what overlaps more deeply than it is long came in by the other face
-      if (result.master != invalid_index && result.gap < -fixed.piece_length)
+      // what overlaps far more deeply than it is long came in by the other face
+      constexpr double   deep = 4., least = 1e-3;
+      const unsigned int edge = search.slaves()[fixed.slave];
+      if (result.master != invalid_index &&
+          result.gap <
+            -deep * fixed.piece_length - least * 12. * corner_weight[2 * edge])
         result = ContactProjection();
       return result;
     }
@@ -361,8 +365,14 @@ namespace NMM
     const PointData    &fixed = point_data[q];
     ++(point.state == ContactState::stick ? report.n_stick : report.n_slip);
     report.n_bonded += point.is_bonded;
-    report.largest_penetration =
-      std::max(report.largest_penetration, -projection.gap);
+    // at a piece of a face too short to bear anything the other face that meets
+    // it in a corner tells how deep it is
+    constexpr double too_short = 1e-3;
+    if (fixed.corner < Kind::along ||
+        fixed.piece_length >
+          too_short * 12. * corner_weight[2 * search.slaves()[fixed.slave]])
+      report.largest_penetration =
+        std::max(report.largest_penetration, -projection.gap);
     deepest =
       std::max(deepest,
                (is_between ? fixed.offset_end : fixed.offset) - projection.gap);

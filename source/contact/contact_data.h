@@ -79,11 +79,6 @@ namespace NMM
             const PointData &fixed,
             unsigned int     slave) const;
 
-    double
-    stiffer_if_short(unsigned int                             edge,
-                     const internal::ContactSearch::Division &begin,
-                     const internal::ContactSearch::Division &end) const;
-
     void
     take_over_place(ContactPoint    &point,
                     const PointData &fixed,

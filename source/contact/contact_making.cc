@@ -79,7 +79,6 @@ namespace NMM
       const double at_start = search.end_slack(slave, begin.s, end.s, first);
       const double at_end   = search.end_slack(slave, end.s, begin.s, last);
       const double length   = end.s - begin.s;
-      const double stiffer  = stiffer_if_short(edge, begin, end);
       for (unsigned int q = 0; q < rule_points.size(); ++q)
       {
         const bool   is_last = q + 1 == rule_points.size();
@@ -98,11 +97,12 @@ namespace NMM
         const double speed = surface->reference_place(edge, fixed.s).a.norm();
         fixed.piece_length = length * speed;
         point.weight       = rule_weights[q] * length * speed;
-        if (at_start > 0. && at_end > 0.)
-          point.weight *= stiffer;
         const ContactSearch::Division &at = q == 0 ? begin : end;
+        // another body's corner does not end what this piece lies on
+        const unsigned int on = is_last ? last : first;
         if ((q == 0 || is_last) && fixed.slack > 0. &&
-            at.master != invalid_index)
+            at.master != invalid_index &&
+            surface->edges()[at.master].body == surface->edges()[on].body)
         {
           point.edge   = at.master;
           point.s      = at.end;
@@ -119,29 +119,6 @@ namespace NMM
         point_data.push_back(fixed);
       }
     }
-  }
-
-
-  /// Two bodies that have only a short piece of their faces in common, from a corner
-  /// of one to a corner of the other: they are as stiff there as on a fifth of a cell,
-  /// since what gives way is not the piece but what is around it. Much
-  /// shorter ones are left as they are: a body slides over them.
-  double
-  Contact::Data::stiffer_if_short(const unsigned int             edge,
-                                  const ContactSearch::Division &begin,
-                                  const ContactSearch::Division &end) const
-  {
-    constexpr double share = 0.2, too_short = 1e-3;
-    const auto       is_corner = [&](const ContactSearch::Division &division,
-                               const unsigned int             number) {
-      return division.master != invalid_index ||
-             (division.s == number && search.is_corner(edge, number));
-    };
-    if (!is_corner(begin, 0) || !is_corner(end, 1))
-      return 1.;
-    const double size   = 12. * corner_weight[2 * edge];
-    const double length = (end.s - begin.s) * surface->edges()[edge].length;
-    return length < too_short * size ? 1. : std::max(1., share * size / length);
   }
 
 

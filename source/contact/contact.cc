@@ -80,14 +80,6 @@ namespace NMM
 
 
   bool
-  Contact::needs_detection(const Vector &u)
-  {
-    read_nodal_values(data->surface->cover_system(), u, data->nodal);
-    return data->search.movement() > 0.5 * data->reach;
-  }
-
-
-  bool
   Contact::is_idle() const
   {
     return data->is_idle;
@@ -288,8 +280,11 @@ namespace NMM
   Contact::Data::project(const unsigned int           q,
                          const ContactSurface::Place &slave)
   {
-    ContactPoint     &point      = points[q];
-    PointData        &fixed      = point_data[q];
+    ContactPoint &point = points[q];
+    PointData    &fixed = point_data[q];
+    // no share of the contact until points are made anew
+    if (fixed.has_angle && point.weight == 0.)
+      return ContactProjection();
     ContactProjection projection = find_master(q, slave);
     // a piece ends where two edges of the master meet; its end stays with one of
     // them, since their normals differ a little and the iteration would not end
@@ -318,7 +313,14 @@ namespace NMM
     if (!fixed.has_angle)
     {
       point.weight *= share(q, slave.normal(), projection.normal);
-      fixed.has_angle           = true;
+      fixed.has_angle = true;
+      if (point.weight == 0.)
+      {
+        point.master    = invalid_index;
+        point.gap       = reach;
+        point.is_bonded = false;
+        return ContactProjection();
+      }
       constexpr double touching = 1e-6;
       if (is_virgin && std::abs(projection.gap) <= touching * reach)
         point.is_bonded = laws(point.edge, projection.master).is_bond;

@@ -164,6 +164,13 @@ namespace NMM
    * Wriggers & Krstulovic-Opara, ZAMM 80 (2000)). So the history is a
    * place, and nothing is lost when a point passes from one edge to the next.
    *
+   * Corners: faces that are nearly parallel touch along the length that they have in
+   * common; a convex corner, of either side, that points at a face touches it as a point
+   * with a weight of its own, and is pushed out through the face by which it came
+   * in (Shi's entrance edge). Between 18 and 37 degrees one passes into the other. Where
+   * an end of a master lies on a slave, that corner is the contact point, so that it may
+   * slide along.
+   *
    * Augmented Lagrangian (Uzawa's iteration; Alart & Curnier 1991): multipliers
    * lambda_i >= 0 of functions phi_i that are continuous and linear along the slave's
    * boundary, on stretches about as long as cells, grow by eps_n times the weighted
@@ -197,11 +204,6 @@ namespace NMM
      */
     void
     detect(const Vector &u, double least_reach = 0.);
-
-    /// Has something moved so far since detect() that candidates may be
-    /// missing?
-    bool
-    needs_detection(const Vector &u);
 
     /// No candidates on any rank: assemble() would add nothing.
     bool

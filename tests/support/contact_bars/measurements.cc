@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <support/contact_bars/measurements.h>
@@ -91,8 +92,11 @@ namespace NMM
     Measurements::write_csv(std::ostream &csv) const
     {
       csv << "bar,case,quantity,value,expected,error,bound,seconds,steps\n";
-      for (const Measurement &m : list)
+      for (Measurement m : list)
+      {
+        std::replace(m.scenario.begin(), m.scenario.end(), ',', ';');
         write(csv, m, ",");
+      }
     }
   } // namespace ContactBars
 } // namespace NMM

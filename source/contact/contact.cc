@@ -15,6 +15,13 @@ namespace NMM
   using dealii::Tensor;
   namespace Parallel = dealii::Utilities::MPI;
 
+  namespace
+  {
+    /// Pieces of faces that bear nothing, in parts of a cell.
+    constexpr double too_short = 1e-3;
+  } // namespace
+
+
   Contact::Data::Data(ContactSurface                          &surface,
                       const dealii::AffineConstraints<double> &constraints,
                       const ContactParameters                 &parameters_in)
@@ -25,7 +32,7 @@ namespace NMM
     , search(surface, parameters_in.body_ranks)
     , laws((parameters.check(), surface), parameters)
     , has_friction(parameters.has_friction())
-    , corner_weight(corner_weights(surface))
+    , corner_size(corner_sizes(surface))
   {
     lobatto_rule(parameters.n_points, rule_points, rule_weights);
     if (parameters.reach == 0.)
@@ -177,21 +184,6 @@ namespace NMM
   }
 
 
-  namespace
-  {
-    /// Does one of the edges follow the other without a corner?
-    bool
-    goes_on_smoothly(const std::vector<ContactSurface::Edge> &edges,
-                     const unsigned int                       edge,
-                     const unsigned int                       other)
-    {
-      constexpr auto smooth = ContactSurface::Corner::smooth;
-      return (edges[edge].next == other && edges[edge].at_end == smooth) ||
-             (edges[edge].previous == other && edges[edge].at_start == smooth);
-    }
-  } // namespace
-
-
   ContactProjection
   Contact::Data::find_master(const unsigned int           q,
                              const ContactSurface::Place &slave) const
@@ -209,11 +201,9 @@ namespace NMM
                            fixed.slack,
                            fixed.home);
       // what overlaps far more deeply than it is long came in by the other face
-      constexpr double   deep = 4., least = 1e-3;
-      const unsigned int edge = search.slaves()[fixed.slave];
+      constexpr double deep = 4.;
       if (result.master != invalid_index &&
-          result.gap <
-            -deep * fixed.piece_length - least * 12. * corner_weight[2 * edge])
+          result.gap < -deep * fixed.piece_length - too_short * size_at(q))
         result = ContactProjection();
       return result;
     }
@@ -229,11 +219,11 @@ namespace NMM
 
   bool
   Contact::Data::goes_on(const unsigned int edge,
-                         const unsigned int other) const
+                         const unsigned int other,
+                         const unsigned int n_edges) const
   {
-    constexpr unsigned int n_edges = 4;
-    constexpr auto         smooth  = ContactSurface::Corner::smooth;
-    const auto            &edges   = surface->edges();
+    constexpr auto smooth = ContactSurface::Corner::smooth;
+    const auto    &edges  = surface->edges();
     if (edge == other)
       return true;
     for (const bool forward : {true, false})
@@ -290,7 +280,8 @@ namespace NMM
     // them, since their normals differ a little and the iteration would not end
     if (fixed.corner == Kind::along && point.master != invalid_index &&
         projection.master != invalid_index &&
-        goes_on_smoothly(surface->edges(), point.master, projection.master))
+        point.master != projection.master &&
+        goes_on(point.master, projection.master, 1))
     {
       const ContactProjection last =
         search.project(slave,
@@ -369,10 +360,8 @@ namespace NMM
     report.n_bonded += point.is_bonded;
     // at a piece of a face too short to bear anything the other face that meets
     // it in a corner tells how deep it is
-    constexpr double too_short = 1e-3;
     if (fixed.corner < Kind::along ||
-        fixed.piece_length >
-          too_short * 12. * corner_weight[2 * search.slaves()[fixed.slave]])
+        fixed.piece_length > too_short * size_at(q))
       report.largest_penetration =
         std::max(report.largest_penetration, -projection.gap);
     deepest =

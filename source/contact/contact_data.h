@@ -104,7 +104,9 @@ namespace NMM
 
     /// Does one of the edges go on in the other, within a few edges?
     bool
-    goes_on(unsigned int edge, unsigned int other) const;
+    goes_on(unsigned int edge,
+            unsigned int other,
+            unsigned int n_edges = 4) const;
 
     /// As ContactSearch finds it for a point along an edge, or a corner.
     internal::ContactProjection
@@ -169,12 +171,21 @@ namespace NMM
     void
     reduce_report();
 
-    /// What a point's springs store [J/m].
+    /// What a spring of a point stores under a stress [J/m].
     double
-    normal_energy(unsigned int q) const;
+    spring_energy(const unsigned int q,
+                  const double       stress,
+                  const double       stiffness) const
+    {
+      return points[q].weight * stress * stress / (2. * stiffness);
+    }
 
+    /// Of a cell at the slave of a point, or of the face if that is shorter [m].
     double
-    shear_energy(unsigned int q) const;
+    size_at(const unsigned int q) const
+    {
+      return corner_size[2 * search.slaves()[point_data[q].slave]];
+    }
 
     /// Energies of all springs between pairs of bodies: normal and shear; of all
     /// ranks.
@@ -197,8 +208,9 @@ namespace NMM
     internal::ContactSearch                  search;
     internal::ContactLaws                    laws;
     bool                                     has_friction;
-    std::vector<double>                      corner_weight;
-    std::vector<double>                      rule_points, rule_weights;
+    /// See corner_sizes().
+    std::vector<double> corner_size;
+    std::vector<double> rule_points, rule_weights;
 
     std::vector<double>                    nodal;
     std::vector<ContactPoint>              points;

@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <contact/contact_data.h>
-#include <mechanics/nodal_values.h>
 
 namespace NMM
 {
@@ -119,16 +118,14 @@ namespace NMM
         continue;
       ContactPoint     &point = d.points[q];
       const ContactLaw &law   = *d.point_data[q].law;
-      const auto energy = [&](const double stress, const double stiffness) {
-        return point.weight * stress * stress / (2. * stiffness);
-      };
       if (point.pressure < 0.)
-        d.broken_energy += energy(point.pressure, law.normal_stiffness);
+        d.broken_energy +=
+          d.spring_energy(q, point.pressure, law.normal_stiffness);
       const double limit = law.friction * std::max(0., point.pressure);
       const double shear =
         std::copysign(std::min(limit, std::abs(point.shear)), point.shear);
-      d.broken_energy += energy(point.shear, law.shear_stiffness) -
-                         energy(shear, law.shear_stiffness);
+      d.broken_energy += d.spring_energy(q, point.shear, law.shear_stiffness) -
+                         d.spring_energy(q, shear, law.shear_stiffness);
       // it slides from now on: the place where it sticks is dragged along
       const double length =
         d.surface->place(point.stick_edge, point.stick_t).a.norm();
@@ -171,10 +168,9 @@ namespace NMM
     double           dissipated = 0.;
     if (is_between)
     {
-      const double before =
-        point.weight * fixed.shear_begin * fixed.shear_begin / (2. * eps);
-      const double after = shear_energy(q);
-      const double most  = std::max(0., before + fixed.shear_work);
+      const double before = spring_energy(q, fixed.shear_begin, eps);
+      const double after  = spring_energy(q, point.shear, eps);
+      const double most   = std::max(0., before + fixed.shear_work);
       // no more is stored than has been put in: where it touches for the
       // first time the pressure, and with it the strength, has been lower
       if (after > most)

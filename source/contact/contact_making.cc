@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <contact/contact_data.h>
-#include <mechanics/nodal_values.h>
 
 namespace NMM
 {
@@ -58,7 +57,8 @@ namespace NMM
     fixed.corner = search.corner(slave);
     point.edge   = search.slaves()[slave];
     point.s      = fixed.corner;
-    point.weight = corner_weight[2 * point.edge + fixed.corner];
+    // that of the end of an edge of this length, with four Gauss-Lobatto points
+    point.weight = corner_size[2 * point.edge + fixed.corner] / 12.;
     surface->weights(point.edge, point.s, fixed.weights);
     restore(point, fixed, point.edge);
     points.push_back(point);
@@ -110,7 +110,7 @@ namespace NMM
           fixed.home   = edge;
         }
         else if (fixed.slack > 0.)
-          fixed.home = search.find_home(slave, point.s, is_last ? last : first);
+          fixed.home = search.find_home(slave, point.s, on);
         surface->weights(point.edge, point.s, fixed.weights);
         restore(point, fixed, edge);
         if (fixed.corner > Kind::along && point.stick_edge == invalid_index)

@@ -108,9 +108,8 @@ namespace NMM
 
 
     std::vector<double>
-    corner_weights(const ContactSurface &surface)
+    corner_sizes(const ContactSurface &surface)
     {
-      constexpr double    share = 1. / 12.;
       const auto         &edges = surface.edges();
       const unsigned int  n     = edges.size();
       std::vector<double> result(2 * n);
@@ -139,7 +138,7 @@ namespace NMM
               break;
             length += edges[at].length;
           }
-          result[2 * e + end] = share * std::min(size, length);
+          result[2 * e + end] = std::min(size, length);
         }
       return result;
     }

@@ -100,13 +100,12 @@ namespace NMM
 
 
     /**
-     * Weights of corners as contact points [m], two for each edge: that of the end of
-     * an edge of a twelfth (Gauss-Lobatto with four points) of the cell's size, or
-     * of the distance to the next corner if that is shorter; of obstacles with the mean
-     * size of cells.
+     * What a corner stands for as a contact point [m], two for each edge: the cell's
+     * size, or the distance to the next corner if that is shorter; of obstacles with
+     * the mean size of cells.
      */
     std::vector<double>
-    corner_weights(const ContactSurface &surface);
+    corner_sizes(const ContactSurface &surface);
 
 
     /// Where the points of a slave edge stick, ascending in s.

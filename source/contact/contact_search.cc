@@ -387,7 +387,9 @@ namespace NMM
                            const double                                slack,
                            const unsigned int home) const
     {
-      return project_within(place, masters, slack, home, reach);
+      const unsigned int body =
+        home < any_edge ? surface->edges()[home].body : invalid_index;
+      return project_within(place, masters, slack, home, body, reach);
     }
 
 
@@ -456,9 +458,13 @@ namespace NMM
       constexpr double near = 1e-3, far = 2.;
       const Place      place =
         surface->place(slave_edges[position], s + near * (s_inside - s));
-      master =
-        project_within(place, masters(position), 0., invalid_index, far * reach)
-          .master;
+      master = project_within(place,
+                              masters(position),
+                              0.,
+                              invalid_index,
+                              invalid_index,
+                              far * reach)
+                 .master;
       return master == invalid_index ? -largest_slack : largest_slack;
     }
 
@@ -468,19 +474,15 @@ namespace NMM
                              const double       s,
                              const unsigned int master) const
     {
-      constexpr double          end_of_master = 0.01;
-      const auto               &edges         = surface->edges();
-      const unsigned int        slave         = slave_edges[position];
-      std::vector<unsigned int> of_body;
-      for (const unsigned int other : masters(position))
-        if (edges[other].body == edges[master].body)
-          of_body.push_back(other);
-      const ContactProjection result =
-        project_within(surface->place(slave, s),
-                       {of_body.data(), of_body.size()},
-                       end_of_master,
-                       any_edge,
-                       reach);
+      constexpr double        end_of_master = 0.01;
+      const auto             &edges         = surface->edges();
+      const unsigned int      slave         = slave_edges[position];
+      const ContactProjection result = project_within(surface->place(slave, s),
+                                                      masters(position),
+                                                      end_of_master,
+                                                      any_edge,
+                                                      edges[master].body,
+                                                      reach);
       if (result.master == invalid_index)
         return invalid_index;
       const double beyond =
@@ -497,6 +499,7 @@ namespace NMM
       const dealii::ArrayView<const unsigned int> masters,
       const double                                given_slack,
       const unsigned int                          home,
+      const unsigned int                          body,
       const double                                largest_gap) const
     {
       // gaps that differ by less than this part of the reach are equal
@@ -519,7 +522,7 @@ namespace NMM
       for (const unsigned int master : masters)
       {
         const ContactSurface::Edge &edge = surface->edges()[master];
-        if (home < any_edge && edge.body != surface->edges()[home].body)
+        if (body != invalid_index && edge.body != body)
           continue;
         const double slack =
           given_slack < 0. || master == home || home == any_edge ? given_slack

@@ -169,6 +169,7 @@ namespace NMM
                      dealii::ArrayView<const unsigned int> masters,
                      double                                slack,
                      unsigned int                          home,
+                     unsigned int                          body,
                      double                                largest_gap) const;
 
       bool

@@ -60,28 +60,6 @@ namespace NMM
   }
 
 
-  double
-  Contact::Data::normal_energy(const unsigned int q) const
-  {
-    const ContactPoint &point = points[q];
-    return point.state == ContactState::open
-             ? 0.
-             : point.weight * point.pressure * point.pressure /
-                 (2. * point_data[q].law->normal_stiffness);
-  }
-
-
-  double
-  Contact::Data::shear_energy(const unsigned int q) const
-  {
-    const ContactPoint &point = points[q];
-    return point.state == ContactState::open
-             ? 0.
-             : point.weight * point.shear * point.shear /
-                 (2. * point_data[q].law->shear_stiffness);
-  }
-
-
   Contact::Data::PairEnergies
   Contact::Data::pair_energies() const
   {
@@ -89,9 +67,11 @@ namespace NMM
     for (unsigned int q = 0; q < points.size(); ++q)
       if (points[q].state != ContactState::open)
       {
+        const ContactPoint    &point    = points[q];
+        const ContactLaw      &law      = *point_data[q].law;
         std::array<double, 2> &energies = result[bodies(q)];
-        energies[0] += normal_energy(q);
-        energies[1] += shear_energy(q);
+        energies[0] += spring_energy(q, point.pressure, law.normal_stiffness);
+        energies[1] += spring_energy(q, point.shear, law.shear_stiffness);
       }
     if (Parallel::n_mpi_processes(communicator) == 1)
       return result;
@@ -276,13 +256,14 @@ namespace NMM
                   g_1,
                   point.pressure,
                   derivative);
-    if (is_lost && g_0 < 0.)
+    if (is_lost)
     {
-      fixed.normal_loss = 0.5 * point.weight * law.normal_stiffness * g_0 * g_0;
+      fixed.normal_loss =
+        spring_energy(q,
+                      law.normal_stiffness * std::min(0., g_0),
+                      law.normal_stiffness);
       point.pressure = derivative = 0.;
     }
-    else if (is_lost)
-      point.pressure = derivative = 0.;
     const double spring = point.pressure;
     if (spring > 0. && law.normal_damping > 0.)
     {
@@ -327,8 +308,9 @@ namespace NMM
     if (projection.master == invalid_index || point.weight == 0.)
     {
       if (fixed.law != nullptr)
-        fixed.normal_loss =
-          0.5 * point.weight * fixed.law->normal_stiffness * stored * stored;
+        fixed.normal_loss = spring_energy(q,
+                                          fixed.law->normal_stiffness * stored,
+                                          fixed.law->normal_stiffness);
     }
     else if ((fixed.gap_begin < fixed.offset || fixed.gap_end < fixed.offset ||
               point.is_bonded))
@@ -357,9 +339,8 @@ namespace NMM
                      slip / step,
                      traction);
           // nor does shear bring more than its spring has held
-          const double held = point.weight * fixed.shear_begin *
-                              fixed.shear_begin /
-                              (2. * fixed.law->shear_stiffness);
+          const double held =
+            spring_energy(q, fixed.shear_begin, fixed.law->shear_stiffness);
           const double work = traction.shear * slip;
           if (work < -held)
           {
@@ -401,6 +382,8 @@ namespace NMM
     read_nodal_values(d.surface->cover_system(), end, d.nodal);
     for (unsigned int q = 0; q < d.points.size(); ++q)
     {
+      if (d.point_data[q].has_angle && d.points[q].weight == 0.)
+        continue;
       const ContactPoint     &point = d.points[q];
       const ContactProjection projection =
         d.find_master(q, d.surface->place(point.edge, point.s));

@@ -39,8 +39,8 @@ namespace NMM
             own_mesh_parameters(options.mesh_of_every_block)))
         , mesh(*meshes.manifold_mesh)
         , covers(mesh, options.communicator)
-        , aggregation(aggregate(covers))
         , surface(covers, options.obstacles)
+        , aggregation(aggregate(covers))
         , constraints(make_constraints(covers, aggregation, 2))
         , quadrature(mesh,
                      2 * options.degree,
@@ -154,8 +154,8 @@ namespace NMM
       OwnMeshes                         meshes;
       const ManifoldMesh               &mesh;
       CoverSystem                       covers;
-      Aggregation                       aggregation;
       ContactSurface                    surface;
+      Aggregation                       aggregation;
       dealii::AffineConstraints<double> constraints;
       QuadratureCollection              quadrature;
       ElasticityProblem                 problem;

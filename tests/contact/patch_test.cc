@@ -178,6 +178,16 @@ namespace
       const double error = relative_error(c, *bodies, stress(-load, -load));
       // springs let the blocks slide by 3e-5 of 0.4 at their corners
       EXPECT_LE(error, c.augmented ? 1e-8 : 1e-3);
+      // a point that penetrates presses like its spring: none is listed that has no
+      // share of the contact
+      const double spring = bodies->contact->parameters().normal_stiffness;
+      if (!c.augmented)
+        for (const ContactPoint &point : bodies->contact->points())
+          if (point.master != invalid_index && point.gap < 0.)
+          {
+            EXPECT_NEAR(point.pressure, -spring * point.gap, 1e-6 * load)
+              << point.edge;
+          }
       std::cout << describe(c) << ": " << error << " in "
                 << steps.back().n_iterations << " iterations, penetration "
                 << steps.back().contact.largest_penetration << std::endl;

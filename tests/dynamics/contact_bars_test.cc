@@ -32,6 +32,13 @@ namespace NMM
         incline.friction_angle = 0.5 * angle;
         slide_down_incline(incline, measurements);
       }
+      // with much friction, too, if something takes the energy of the fall
+      incline                = damped_incline();
+      incline.distance       = 1.;
+      incline.angle          = 60.;
+      incline.friction_angle = 55.;
+      incline.bound          = 1e-6;
+      slide_down_incline(incline, measurements);
       expect_holds(measurements);
     }
 
@@ -51,6 +58,13 @@ namespace NMM
           incline.friction_angle = angle + 2.;
           stick_to_incline(incline, measurements);
         }
+      incline                = damped_incline();
+      incline.n_steps        = 200;
+      incline.angle          = 60.;
+      incline.friction_angle = 62.;
+      // the time before it counts is short: vibrations have not quite gone
+      incline.bound = 1e-3;
+      stick_to_incline(incline, measurements);
       expect_holds(measurements);
     }
 

@@ -21,6 +21,8 @@ namespace NMM
       TimeScheme   scheme  = TimeScheme::energy_momentum();
       double       step    = 0.005;
       unsigned int n_steps = 10000;
+      /// Of the block, which is 1 m high [m].
+      double length = 3.;
       /// Sliding: how far [m].
       double distance = 25.;
       /// Of the block [s]: elastic bodies that slide with much friction flutter.
@@ -28,14 +30,31 @@ namespace NMM
       /// Begin in equilibrium; otherwise undeformed, and fall onto the springs.
       bool begins_at_rest = true;
       /// Share of the critical damping of the block on its springs.
-      double   dashpot      = 0.;
+      double dashpot = 0.;
+      /**
+       * Sliding: time until the fall onto the springs has died away [s]; from then on
+       * the way counts. An elastic block of height H with waves of speed c
+       * does not feel friction before they have crossed it: it is faster by some
+       * g H/c, 0.01 m/s, than a rigid one for good.
+       */
+      double   settling     = 0.;
       MPI_Comm communicator = MPI_COMM_WORLD;
       double   bound        = 1e-4;
     };
 
-    /// Distance against g (sin a - cos a tan phi) t^2 / 2.
+    /**
+     * Distance against v_0 t + g (sin a - cos a tan phi) t^2 / 2. This needs a block
+     * that stays in contact. One of which nothing takes energy flutters and hops at
+     * friction near and above 1: sliding waves are unstable there (Adams, J.
+     * Appl. Mech. 62 (1995) 867), and the less the step damps them the more.
+     */
     void
     slide_down_incline(const Incline &incline, Measurements &measurements);
+
+    /// Falls, and is damped as rock on a joint is: it hops no more, and is as good
+    /// as rigid.
+    Incline
+    damped_incline();
 
     /// Creep over what the shear spring gives way by under the block's weight.
     void

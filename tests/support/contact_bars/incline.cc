@@ -7,8 +7,6 @@ namespace NMM
     namespace
     {
       constexpr double density = 2500., youngs_modulus = 1e9;
-      // three times as long as high, lest it topples
-      constexpr double length = 3.;
 
       void
       start(MovingBodies  &block,
@@ -29,7 +27,8 @@ namespace NMM
       std::unique_ptr<MovingBodies>
       make_block(const Incline &incline)
       {
-        Geometry geometry;
+        Geometry     geometry;
+        const double length = incline.length;
         add_block(geometry,
                   "block",
                   {{0., 0.}, {length, 0.}, {length, 1.}, {0., 1.}});
@@ -63,6 +62,18 @@ namespace NMM
     } // namespace
 
 
+    Incline
+    damped_incline()
+    {
+      Incline incline;
+      incline.begins_at_rest    = false;
+      incline.dashpot           = 1.;
+      incline.stiffness_damping = 2e-3;
+      incline.settling          = 0.5;
+      return incline;
+    }
+
+
     void
     slide_down_incline(const Incline &incline, Measurements &measurements)
     {
@@ -85,8 +96,14 @@ namespace NMM
                        u,
                        block->zero(),
                        {0., incline.stiffness_damping});
-      const double      x_0 = block->displacement(0)[0];
-      const Run         run = block->run(incline.step, end);
+      Run run;
+      if (incline.settling > 0.)
+        run += block->run(incline.step, incline.settling);
+      const double x_0   = block->displacement(0)[0];
+      const double v_0   = block->velocity(0)[0];
+      const double begin = block->integrator->state().time;
+      run += block->run(incline.step, begin + end);
+      const double      time = block->integrator->state().time - begin;
       const std::string name =
         std::string(incline.begins_at_rest ? "slides: "
                                            : "falls and slides: ") +
@@ -94,11 +111,21 @@ namespace NMM
       measurements.add(2,
                        name,
                        "distance [m]",
-                       block->displacement(0)[0] - x_0,
+                       block->displacement(0)[0] - x_0 - v_0 * time,
                        incline.distance,
                        0.,
                        incline.bound,
                        run);
+      if (incline.settling > 0.)
+        measurements.add(2,
+                         name,
+                         "distance with the fall [m]",
+                         block->displacement(0)[0],
+                         0.5 * acceleration *
+                           dealii::Utilities::fixed_power<2>(begin + time),
+                         0.,
+                         0.,
+                         run);
       measurements.add(2,
                        name,
                        "worst balance [J/m]",
@@ -128,7 +155,7 @@ namespace NMM
       }
       else
       {
-        block->integrate(incline.scheme);
+        block->integrate(incline.scheme, {0., incline.stiffness_damping});
         // until it lies on its springs
         run += block->run(incline.step, 1.);
       }

@@ -66,6 +66,14 @@ namespace NMM
 
 
   void
+  Contact::Data::move_to(const Vector &u)
+  {
+    read_nodal_values(surface->cover_system(), u, nodal);
+    surface->set_displacements(&nodal);
+  }
+
+
+  void
   Contact::set_time(const double time)
   {
     data->time = time;
@@ -77,10 +85,15 @@ namespace NMM
   Contact::detect(const Vector &u, const double least_reach)
   {
     Data &d = *data;
-    read_nodal_values(d.surface->cover_system(), u, d.nodal);
+    d.move_to(u);
     d.reach      = std::max(least_reach, d.parameters.reach);
     d.is_between = false;
-    d.search.update(d.reach);
+    if (d.search.update(d.reach))
+    {
+      d.searched_nodal = d.nodal;
+      d.searched_time  = d.time;
+      d.searched_reach = d.reach;
+    }
     d.make_points();
     d.make_pattern();
   }
@@ -435,7 +448,7 @@ namespace NMM
       d.residual = 0.;
       return;
     }
-    read_nodal_values(d.surface->cover_system(), u, d.nodal);
+    d.move_to(u);
     d.block_system->reset(with_tangent);
     for (unsigned int q = 0; q < d.points.size(); ++q)
       d.add_point(q, with_tangent);

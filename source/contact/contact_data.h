@@ -84,6 +84,10 @@ namespace NMM
                     const PointData &fixed,
                     unsigned int     slave) const;
 
+    /// All faces move to where @p u (locally relevant) puts them.
+    void
+    move_to(const Vector &u);
+
     /// Of the places of an edge, or of a corner.
     unsigned int
     place_key(const unsigned int edge, const unsigned int corner) const
@@ -244,6 +248,10 @@ namespace NMM
     ContactReport                report;
     /// How far faces were looked for last [m].
     double reach = 0.;
+    /// Where all faces were when candidates were looked for, and how far: a
+    /// continuation looks for them there, too, to get the same ones.
+    std::vector<double> searched_nodal;
+    double              searched_time = 0., searched_reach = 0.;
 
     /// Of a time step: displacements and obstacles at its ends.
     std::vector<double>               nodal_begin, nodal_end;

@@ -272,8 +272,14 @@ namespace NMM
       for (const double x : {double(key), 0., -1., double(master), 0.})
         mine.push_back(x);
     std::vector<double> result{double(d.is_virgin),
-                               double(d.multipliers.size())};
+                               double(d.multipliers.size()),
+                               double(d.searched_nodal.size()),
+                               d.searched_time,
+                               d.searched_reach};
     result.insert(result.end(), d.multipliers.begin(), d.multipliers.end());
+    result.insert(result.end(),
+                  d.searched_nodal.begin(),
+                  d.searched_nodal.end());
     for (const auto &part : Parallel::all_gather(d.communicator, mine))
       result.insert(result.end(), part.begin(), part.end());
     return result;
@@ -289,14 +295,28 @@ namespace NMM
     d.energies_of_pairs.clear();
     if (history.empty())
       return;
-    d.is_virgin  = history[0] != 0.;
-    const auto n = static_cast<unsigned int>(history[1]);
-    if (n == d.multipliers.size())
-      std::copy_n(history.begin() + 2, n, d.multipliers.begin());
+    constexpr unsigned int head = 5;
+    d.is_virgin                 = history[0] != 0.;
+    const auto n_multipliers    = static_cast<unsigned int>(history[1]);
+    const auto n_nodal          = static_cast<unsigned int>(history[2]);
+    if (n_multipliers == d.multipliers.size())
+      std::copy_n(history.begin() + head, n_multipliers, d.multipliers.begin());
+    if (n_nodal > 0)
+    {
+      const auto begin = history.begin() + head + n_multipliers;
+      d.searched_nodal.assign(begin, begin + n_nodal);
+      d.searched_time  = history[3];
+      d.searched_reach = history[4];
+      d.nodal          = d.searched_nodal;
+      d.surface->set_displacements(&d.nodal);
+      set_time(d.searched_time);
+      d.search.search(d.searched_reach);
+    }
     const auto [first, last]   = d.surface->locally_owned_edges();
     const unsigned int n_edges = d.surface->edges().size();
     const bool has_obstacles = Parallel::this_mpi_process(d.communicator) == 0;
-    for (std::size_t i = n + 2; i + 4 < history.size(); i += 5)
+    for (std::size_t i = head + n_multipliers + n_nodal; i + 4 < history.size();
+         i += 5)
     {
       if (history[i + 2] == -2.)
       {

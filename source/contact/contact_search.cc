@@ -196,10 +196,33 @@ namespace NMM
     }
 
 
-    void
+    bool
     ContactSearch::update(const double new_reach)
     {
+      // more candidates than these are not worth keeping
+      constexpr double far = 4.;
+
+      const double moved = known_positions.empty() ? 0. : movement();
+      if (broad_reach > 0. && broad_reach <= far * new_reach &&
+          new_reach + 2. * moved <= broad_reach)
+      {
+        reach           = new_reach;
+        movement_before = moved;
+        return false;
+      }
+      search(new_reach);
+      return true;
+    }
+
+
+    void
+    ContactSearch::search(const double new_reach)
+    {
+      constexpr double margin = 0.5;
+
       reach                = new_reach;
+      broad_reach          = (1. + margin) * new_reach;
+      movement_before      = 0.;
       const unsigned int n = surface->edges().size();
       std::vector<Entry> entries;
       entries.reserve(n);
@@ -229,9 +252,9 @@ namespace NMM
       };
       for (unsigned int e = first; e < last; ++e)
       {
-        find(e, inflated(entries[e].first, reach), [&](const unsigned int m) {
-          return comes_first(e, m);
-        });
+        find(e,
+             inflated(entries[e].first, broad_reach),
+             [&](const unsigned int m) { return comes_first(e, m); });
         append(e, 2, found);
       }
       const bool has_obstacles = dealii::Utilities::MPI::this_mpi_process(
@@ -244,9 +267,9 @@ namespace NMM
               continue;
             const Point<2> &x = known_positions[3 * e + 2 * end];
             const Corner    corner(x[0], x[1]);
-            find(e, inflated(Box(corner, corner), reach), [](unsigned int) {
-              return true;
-            });
+            find(e,
+                 inflated(Box(corner, corner), broad_reach),
+                 [](unsigned int) { return true; });
             append(e, end, found);
           }
     }
@@ -292,7 +315,9 @@ namespace NMM
       t = std::min(1. + concave_extension, std::max(-concave_extension, t));
 
       constexpr unsigned int max_iterations = 30;
-      constexpr double       tolerance      = 1e-15;
+      // rounding of positions, and of nearly nothing
+      const double tolerance =
+        2e-16 * (2. + (std::abs(x[0]) + std::abs(x[1])) / chord.norm());
       for (unsigned int i = 0; i < max_iterations; ++i)
       {
         place                      = surface->place(edge, t);

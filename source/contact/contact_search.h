@@ -45,10 +45,25 @@ namespace NMM
                     std::vector<unsigned int> body_ranks);
       ~ContactSearch();
 
-      /// Find the masters of this rank's edges within @p reach [m] at the
-      /// surface's current positions.
-      void
+      /**
+       * Have the masters of this rank's edges within @p reach [m] at the
+       * surface's current positions. They are looked for within half as much again,
+       * and kept as long as no face has moved by more than what that leaves over.
+       * Returns whether they have been looked for.
+       */
+      bool
       update(double reach);
+
+      /// Look for them now, within one and a half times @p reach.
+      void
+      search(double reach);
+
+      /// Within which candidates are at hand [m]; 0: there are none yet.
+      double
+      searched_reach() const
+      {
+        return broad_reach;
+      }
 
       /// Edges that this rank looks after and that have masters: first slaves
       /// with all of their length, then those of which one end is a corner;
@@ -81,8 +96,16 @@ namespace NMM
       dealii::ArrayView<const unsigned int>
       masters(unsigned int position) const;
 
+      /// Has an end or the middle of an edge moved by more than the reach since
+      /// update()? Then masters may be missing.
+      bool
+      is_outrun() const
+      {
+        return movement() > reach + movement_before;
+      }
+
       /// Largest way [m] that an end or the middle of an edge has moved since
-      /// update(), on this rank's knowledge, which is that of all ranks.
+      /// search(), on this rank's knowledge, which is that of all ranks.
       double
       movement() const;
 
@@ -183,7 +206,8 @@ namespace NMM
 
       const ContactSurface         *surface;
       std::vector<unsigned int>     ranks;
-      double                        reach = 0.;
+      double                        reach = 0., broad_reach = 0.;
+      double                        movement_before = 0.;
       std::vector<unsigned int>     slave_edges, masters_begin, master_edges;
       std::vector<unsigned int>     corners;
       std::vector<dealii::Point<2>> known_positions;

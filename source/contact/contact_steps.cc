@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <contact/contact_data.h>
-#include <mechanics/nodal_values.h>
 #include <sstream>
 
 namespace NMM
@@ -178,10 +177,10 @@ namespace NMM
     Data                         &d = *data;
     const unsigned int            n = 3 * d.surface->edges().size();
     std::vector<dealii::Point<2>> positions(n);
-    read_nodal_values(d.surface->cover_system(), from, d.nodal);
+    d.move_to(to);
     for (unsigned int i = 0; i < n; ++i)
       positions[i] = d.surface->place(i / 3, 0.5 * (i % 3)).x;
-    read_nodal_values(d.surface->cover_system(), to, d.nodal);
+    d.move_to(from);
     double square = 0.;
     for (unsigned int i = 0; i < n; ++i)
       square = std::max(
@@ -379,7 +378,7 @@ namespace NMM
     for (unsigned int i = 0; i < n_obstacles; ++i)
       d.obstacle_changes[i] = d.surface->obstacle_displacement(i);
     d.step = time - d.time_begin;
-    read_nodal_values(d.surface->cover_system(), end, d.nodal);
+    d.move_to(end);
     for (unsigned int q = 0; q < d.points.size(); ++q)
     {
       if (d.point_data[q].has_angle && d.points[q].weight == 0.)
@@ -399,6 +398,7 @@ namespace NMM
     d.surface->set_time(d.time_begin, time);
     for (unsigned int i = 0; i < d.nodal.size(); ++i)
       d.nodal[i] = 0.5 * (d.nodal_begin[i] + d.nodal_end[i]);
+    d.surface->set_displacements(&d.nodal);
     d.is_between = true;
     d.block_system->reset(with_tangent);
     for (unsigned int q = 0; q < d.points.size(); ++q)
@@ -454,16 +454,15 @@ namespace NMM
   Contact::find_fault(const Vector &end)
   {
     Data &d = *data;
-    read_nodal_values(d.surface->cover_system(), end, d.nodal);
+    d.move_to(end);
     std::ostringstream text;
     if (!d.is_idle && d.deepest > 0.5 * d.reach)
       text << "a penetration of " << d.deepest
            << " m, more than half of the distance of " << d.reach
            << " m within which faces are looked for";
-    else if (d.search.movement() > d.reach)
-      text << "a point of a face that moved by " << d.search.movement()
-           << " m, further than the distance of " << d.reach
-           << " m within which faces are looked for";
+    else if (d.search.is_outrun())
+      text << "a point of a face that moved further than the distance of "
+           << d.reach << " m within which faces are looked for";
     return text.str();
   }
 } // namespace NMM

@@ -345,13 +345,6 @@ namespace NMM
   }
 
 
-  const std::vector<ContactSurface::Edge> &
-  ContactSurface::edges() const
-  {
-    return all_edges;
-  }
-
-
   const std::vector<RigidObstacle> &
   ContactSurface::obstacles() const
   {
@@ -370,13 +363,6 @@ namespace NMM
   ContactSurface::n_bodies() const
   {
     return n_blocks + rigid_obstacles.size();
-  }
-
-
-  bool
-  ContactSurface::is_rigid(const unsigned int edge) const
-  {
-    return all_edges[edge].element == invalid_index;
   }
 
 
@@ -419,6 +405,27 @@ namespace NMM
   ContactSurface::set_displacements(const std::vector<double> *displacements)
   {
     nodal = displacements;
+    edge_displacements.resize(all_edges.size());
+    Weights f;
+    for (unsigned int e = 0; e < all_edges.size(); ++e)
+    {
+      if (is_rigid(e) || all_edges[e].radius != 0.)
+        continue;
+      weights(e, 0., f);
+      const auto   edge_covers = covers(e);
+      Tensor<1, 2> value, slope, bend;
+      for (unsigned int i = 0; i < f.n; ++i)
+      {
+        const double *u = nodal->data() + 2 * edge_covers[i];
+        for (unsigned int c = 0; c < 2; ++c)
+        {
+          value[c] += f.w[i] * u[c];
+          slope[c] += f.dw[i] * u[c];
+          bend[c] += 0.5 * f.ddw[i] * u[c];
+        }
+      }
+      edge_displacements[e] = {{value, slope, bend}};
+    }
   }
 
 
@@ -496,6 +503,14 @@ namespace NMM
     if (is_rigid(e))
     {
       place.x += obstacle_displacements[all_edges[e].body - n_blocks];
+      return place;
+    }
+    if (all_edges[e].radius == 0.)
+    {
+      const auto &d = edge_displacements[e].d;
+      place.x += d[0] + t * (d[1] + t * d[2]);
+      place.a += d[1] + (2. * t) * d[2];
+      place.b += 2. * d[2];
       return place;
     }
     Weights f;

@@ -115,7 +115,10 @@ namespace NMM
                             std::vector<RigidObstacle> obstacles = {});
 
     const std::vector<Edge> &
-    edges() const;
+    edges() const
+    {
+      return all_edges;
+    }
 
     const std::vector<RigidObstacle> &
     obstacles() const;
@@ -127,7 +130,10 @@ namespace NMM
     n_bodies() const;
 
     bool
-    is_rigid(unsigned int edge) const;
+    is_rigid(const unsigned int edge) const
+    {
+      return all_edges[edge].element == invalid_index;
+    }
 
     /// Edges of elements that this rank owns.
     std::pair<unsigned int, unsigned int>
@@ -155,7 +161,8 @@ namespace NMM
     void
     check_initial_overlap(double tolerance) const;
 
-    /// Displacements: two per cover of the whole system [m].
+    /// Displacements: two per cover of the whole system [m]; to be called again
+    /// whenever they change. Must outlive their use.
     void
     set_displacements(const std::vector<double> *nodal);
 
@@ -204,6 +211,12 @@ namespace NMM
     std::pair<unsigned int, unsigned int> owned;
     unsigned int                          degree, n_blocks;
     const std::vector<double>            *nodal = nullptr;
+    /// Along straight edges displacements are polynomials d[0] + d[1] t + d[2] t^2.
+    struct Displacement
+    {
+      dealii::Tensor<1, 2> d[3];
+    };
+    std::vector<Displacement> edge_displacements;
     /// Construction only: edge of an element's boundary position.
     std::vector<std::pair<std::pair<unsigned int, unsigned int>, unsigned int>>
       position_to_edge;

@@ -4,6 +4,7 @@
 #include <random>
 #include <sstream>
 #include <support/contact_bars/contact_bars.h>
+#include <support/contact_bars/overlap.h>
 
 namespace NMM
 {
@@ -56,6 +57,10 @@ namespace NMM
       {
         Run    run;
         double gain = 0., energy = 0.;
+        /// Of the bodies, and what the springs at a corner give way by when all of
+        /// the energy of motion presses one corner of the shortest edge: both its
+        /// points have a twelfth of the edge's length, at 60 degrees half of it.
+        double overlap = 0., elastic_overlap = 0.;
       };
 
 
@@ -94,8 +99,8 @@ namespace NMM
           return account.kinetic + account.strain + account.conditions -
                  account.external_work;
         };
-        double last = energy();
-        result.run  = bodies.run(drops.step, drops.duration, [&]() {
+        double last     = energy();
+        result.run      = bodies.run(drops.step, drops.duration, [&]() {
           const double now = energy();
           // also false for what is no number
           if (!(now - last <= result.gain))
@@ -103,8 +108,15 @@ namespace NMM
           last = now;
           result.energy =
             std::max(result.energy, bodies.integrator->account().kinetic);
+          result.overlap =
+            std::max(result.overlap, find_overlap(bodies.surface));
           return std::isfinite(now);
         });
+        double shortest = std::numeric_limits<double>::max();
+        for (const auto &edge : bodies.surface.edges())
+          shortest = std::min(shortest, edge.length);
+        result.elastic_overlap = std::sqrt(
+          2. * result.energy / (parameters.normal_stiffness * shortest / 12.));
         return result;
       }
     } // namespace
@@ -114,8 +126,9 @@ namespace NMM
     drop_polygons(const Drops &drops, Measurements &measurements)
     {
       Run                total;
-      double             worst_gain = 0., worst_balance = 0.;
-      unsigned int       n_failed = 0;
+      double             worst_gain = 0., worst_balance = 0., overlap = 0.;
+      double             overlap_ratio = 0.;
+      unsigned int       n_failed      = 0;
       std::ostringstream failures;
       for (unsigned int seed = drops.first_seed;
            seed < drops.first_seed + drops.n_drops;
@@ -127,6 +140,9 @@ namespace NMM
         worst_balance = std::max(worst_balance, drop.run.worst_balance / scale);
         if (!(drop.gain / scale <= worst_gain))
           worst_gain = drop.gain / scale;
+        overlap = std::max(overlap, drop.overlap);
+        overlap_ratio =
+          std::max(overlap_ratio, drop.overlap / (drop.elastic_overlap + 1e-6));
         if (!drop.run.failure.empty())
         {
           ++n_failed;
@@ -150,13 +166,15 @@ namespace NMM
         8, name, "worst balance [kinetic]", worst_balance, 0., 1., 1e-4, total);
       measurements.add(
         8, name, "steps cut", total.n_cuts, 0., total.n_steps, 0., total);
+      measurements.add(
+        8, name, "largest overlap of bodies [m]", overlap, 0., 1., 0., total);
       measurements.add(8,
                        name,
-                       "largest penetration [m]",
-                       total.largest_penetration,
+                       "overlap over what springs give way by",
+                       overlap_ratio,
                        0.,
-                       0.7,
-                       0.,
+                       1.,
+                       1.,
                        total);
     }
   } // namespace ContactBars

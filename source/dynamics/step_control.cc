@@ -164,12 +164,15 @@ namespace NMM
         const RelaxationParameters                    &parameters,
         const std::function<void(const StepRecord &)> &after_step)
   {
-    RelaxationReport report;
-    StepRecord       record;
-    double           h        = parameters.step;
-    const double     least    = 1e-6 * h;
-    double           previous = integrator.account().kinetic;
-    report.imbalance          = integrator.account().imbalance;
+    RelaxationReport             report;
+    StepRecord                   record;
+    double                       h        = parameters.step;
+    const double                 least    = 1e-6 * h;
+    const bool                   is_bound = parameters.max_displacement > 0.;
+    const TimeIntegrator::Vector begin    = integrator.state().u;
+    TimeIntegrator::Vector       motion(begin);
+    double                       previous = integrator.account().kinetic;
+    report.imbalance                      = integrator.account().imbalance;
     while (report.n_steps < parameters.max_steps)
     {
       const StepReport step = integrator.try_step(h);
@@ -191,6 +194,17 @@ namespace NMM
       if (after_step)
         after_step(record);
       record = StepRecord();
+      if (is_bound)
+      {
+        motion = integrator.state().u;
+        motion -= begin;
+        if (motion.linfty_norm() > parameters.max_displacement)
+        {
+          report.moves_away = true;
+          report.imbalance  = integrator.account().imbalance;
+          return report;
+        }
+      }
       h *= parameters.growth;
       const double kinetic = integrator.account().kinetic;
       if (kinetic <= previous)

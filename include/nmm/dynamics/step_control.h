@@ -83,6 +83,9 @@ namespace NMM
     unsigned int max_steps = 1000;
     /// Factor by which steps grow after each success.
     double growth = 1.2;
+    /// End as soon as a cover has moved further than this since the begin [m]; 0:
+    /// any way is allowed.
+    double max_displacement = 0.;
   };
 
 
@@ -90,6 +93,8 @@ namespace NMM
   {
     unsigned int n_steps = 0, n_iterations = 0, n_stops = 0;
     double       imbalance = 0.;
+    /// Ended because something has moved too far, not at rest.
+    bool moves_away = false;
   };
 
 

@@ -22,7 +22,7 @@ namespace NMM
     using Bytes  = std::vector<char>;
 
     constexpr char          magic[8] = {'N', 'M', 'M', 'S', 'T', 'A', 'T', 'E'};
-    constexpr std::uint32_t version  = 3;
+    constexpr std::uint32_t version  = 4;
 
     std::uint64_t
     sum(const char *bytes, const std::size_t n)

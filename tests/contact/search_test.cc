@@ -162,7 +162,8 @@ namespace
   {
     constexpr double   reach    = 0.2;
     constexpr unsigned n_models = 6, n_motions = 10;
-    unsigned int       n_found = 0, n_none = 0, n_entrance = 0, n_all = 0;
+    unsigned int       n_found = 0, n_none = 0, n_entrance = 0, n_all = 0,
+                 n_corners = 0;
     for (unsigned int seed = 0; seed < n_models; ++seed)
     {
       std::mt19937                           generator(seed);
@@ -210,6 +211,37 @@ namespace
         for (unsigned int i = 0; i < search.slaves().size(); ++i)
           if (search.corner(i) == 2)
             slave_to_position[search.slaves()[i]] = i;
+        for (unsigned int i = 0; i < search.slaves().size(); ++i)
+        {
+          if (search.corner(i) == 2)
+            continue;
+          const unsigned int        e = search.slaves()[i];
+          std::vector<unsigned int> all, near;
+          for (unsigned int m = 0; m < edges.size(); ++m)
+            if (edges[m].body != edges[e].body)
+              all.push_back(m);
+          for (const unsigned int m : search.masters(i))
+            if (edges[m].body != edges[e].body)
+              near.push_back(m);
+          const Place place = bodies.surface.place(e, search.corner(i));
+          const ContactProjection found =
+            search.project_corner(place,
+                                  {near.data(), near.size()},
+                                  invalid_index);
+          const ContactProjection among_all =
+            search.project_corner(place,
+                                  {all.data(), all.size()},
+                                  invalid_index);
+          EXPECT_EQ(found.master, among_all.master);
+          EXPECT_EQ(found.gap, among_all.gap);
+          n_corners += found.master != invalid_index;
+          // in a body it is in the one that the face belongs to
+          if (found.master != invalid_index && std::abs(found.gap) > 1e-7)
+          {
+            EXPECT_EQ(found.gap < 0.,
+                      is_inside(outlines[edges[found.master].body], place.x));
+          }
+        }
         for (unsigned int e = 0; e < edges.size(); ++e)
           for (const double s : {0.031, 0.28, 0.5, 0.77, 0.969})
           {
@@ -273,7 +305,9 @@ namespace
     }
     std::cout << n_all << " points: " << n_found << " have a face, "
               << n_entrance << " of them not the nearest, " << n_none
-              << " have none" << std::endl;
+              << " have none; " << n_corners << " corners have a face"
+              << std::endl;
+    EXPECT_GT(n_corners, 500U);
     EXPECT_GT(n_found, 2000U);
     EXPECT_GT(n_none, 2000U);
     EXPECT_LT(n_entrance, n_found / 20);

@@ -121,6 +121,37 @@ namespace
   }
 
 
+  /// With multipliers nothing penetrates: the gap is the opening.
+  TEST(ContactDilation, WithMultipliers)
+  {
+    constexpr double way = 0.02, load = 100.;
+    auto             bodies = block_on_moving_floor(
+      [](const double t) { return Point<2>(-way * t, 0.); });
+    bodies->problem.boundary_conditions = {
+      condition(Type::pressure, "top", constant(load))};
+    bodies->problem.fixed_points     = {guide({0.5, 0.}, true)};
+    ContactParameters parameters     = dilating(0.);
+    parameters.penetration_tolerance = 1e-8;
+    bodies->start(parameters);
+    unsigned int n = 0;
+    bodies->statics->run(
+      LoadSteps::equal(5), [&](const ContactStep &step, const Vector &) {
+        const double t    = step.load_factor;
+        const double slip = way * t - friction * load * t / eps_t;
+        for (const ContactPoint &point : bodies->contact->points())
+          if (point.state != ContactState::open)
+          {
+            ++n;
+            // the shear differs from friction times load by what is left to the
+            // springs; the tolerance is that of the mean over a stretch
+            EXPECT_NEAR(point.opening, dilation * slip, 1e-6);
+            EXPECT_NEAR(point.gap, point.opening, 1e-7);
+          }
+      });
+    EXPECT_GT(n, 250U);
+  }
+
+
   /// Held from above, strength grows with the slip: with the slope by which the
   /// springs are compressed, q = mu eps_n (w + tan psi (s - q / eps_t)).
   TEST(ContactDilation, StrengthGrowsWhereTheNormalMotionIsHeld)

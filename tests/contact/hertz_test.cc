@@ -62,6 +62,46 @@ namespace
   };
 
 
+  /// Points of the contact against the formulas.
+  Errors
+  compare(const Hertz &hertz, const Bodies &bodies, const double force)
+  {
+    Errors errors;
+    double square = 0., norm = 0., peak = 0., sums[5] = {};
+    for (const ContactPoint &point : bodies.contact->points())
+      if (point.master != invalid_index)
+      {
+        ++errors.n_points;
+        const double x =
+          std::abs(bodies.surface.reference_place(point.edge, point.s).x[0]);
+        const double exact = hertz.pressure(x);
+        square += point.weight * std::pow(point.pressure - exact, 2);
+        norm += point.weight * exact * exact;
+        peak            = std::max(peak, point.pressure);
+        const double at = x / hertz.half_width;
+        // next to the edge of the contact any error is large beside p
+        if (at < 0.9)
+          errors.ripple =
+            std::max(errors.ripple, std::abs(point.pressure / exact - 1.));
+        // p^2 is linear in x^2
+        if (at > 0.6 && at < 0.95)
+        {
+          const double X = x * x, Y = point.pressure * point.pressure;
+          const double terms[5] = {1., X, X * X, Y, X * Y};
+          for (unsigned int i = 0; i < 5; ++i)
+            sums[i] += point.weight * terms[i];
+        }
+      }
+    const double zero = (sums[3] * sums[2] - sums[4] * sums[1]) /
+                        (sums[1] * sums[3] - sums[0] * sums[4]);
+    errors.half_width = std::sqrt(zero) / hertz.half_width - 1.;
+    errors.l2         = std::sqrt(square / norm);
+    errors.peak       = peak / hertz.peak() - 1.;
+    errors.force      = force / (0.5 * hertz.force()) - 1.;
+    return errors;
+  }
+
+
   /// The lower right quarter of the cylinder, on a rigid plate.
   Errors
   press(const Hertz        &hertz,
@@ -109,38 +149,7 @@ namespace
     bodies.start(parameters);
     const auto steps = bodies.statics->run(LoadSteps::equal(1));
 
-    Errors errors;
-    double square = 0., norm = 0., peak = 0., sums[5] = {};
-    for (const ContactPoint &point : bodies.contact->points())
-      if (point.master != invalid_index)
-      {
-        ++errors.n_points;
-        const double x =
-          std::abs(bodies.surface.reference_place(point.edge, point.s).x[0]);
-        const double exact = hertz.pressure(x);
-        square += point.weight * std::pow(point.pressure - exact, 2);
-        norm += point.weight * exact * exact;
-        peak            = std::max(peak, point.pressure);
-        const double at = x / hertz.half_width;
-        // next to the edge of the contact any error is large beside p
-        if (at < 0.9)
-          errors.ripple =
-            std::max(errors.ripple, std::abs(point.pressure / exact - 1.));
-        // p^2 is linear in x^2
-        if (at > 0.6 && at < 0.95)
-        {
-          const double X = x * x, Y = point.pressure * point.pressure;
-          const double terms[5] = {1., X, X * X, Y, X * Y};
-          for (unsigned int i = 0; i < 5; ++i)
-            sums[i] += point.weight * terms[i];
-        }
-      }
-    const double zero = (sums[3] * sums[2] - sums[4] * sums[1]) /
-                        (sums[1] * sums[3] - sums[0] * sums[4]);
-    errors.half_width = std::sqrt(zero) / hertz.half_width - 1.;
-    errors.l2         = std::sqrt(square / norm);
-    errors.peak       = peak / hertz.peak() - 1.;
-    errors.force = steps.back().contact.force[1] / (0.5 * hertz.force()) - 1.;
+    const Errors errors = compare(hertz, bodies, steps.back().contact.force[1]);
     std::cout << (is_augmented ? "augmented" : "penalty") << ", edge / b "
               << edge_over_width << ", " << 2 * bodies.covers.n_covers()
               << " unknowns, " << errors.n_points << " points: force "

@@ -158,155 +158,226 @@ namespace
   }
 
 
+  /// Compares a search with brute force, and counts.
+  struct Comparison
+  {
+    const ContactSurface              &surface;
+    const ContactSearch               &search;
+    double                             reach;
+    std::vector<std::vector<Point<2>>> outlines;
+    std::vector<unsigned int>          slave_to_position;
+    unsigned int n_found = 0, n_none = 0, n_entrance = 0, n_corners = 0;
+
+    Comparison(const ContactSurface &surface,
+               const ContactSearch  &search,
+               const double          reach)
+      : surface(surface)
+      , search(search)
+      , reach(reach)
+    {
+    }
+
+    /// After the bodies have moved.
+    void
+    update()
+    {
+      outlines.clear();
+      for (unsigned int b = 0; b < surface.n_bodies(); ++b)
+        outlines.push_back(current_outline(surface, b));
+      slave_to_position.assign(surface.edges().size(), invalid_index);
+      for (unsigned int i = 0; i < search.slaves().size(); ++i)
+        if (search.corner(i) == 2)
+          slave_to_position[search.slaves()[i]] = i;
+    }
+
+    /// Edges of other bodies among the masters at a position.
+    std::vector<unsigned int>
+    masters_of(const unsigned int edge, const unsigned int position) const
+    {
+      std::vector<unsigned int> result;
+      if (position != invalid_index)
+        for (const unsigned int m : search.masters(position))
+          if (surface.edges()[m].body != surface.edges()[edge].body)
+            result.push_back(m);
+      return result;
+    }
+
+    /// Among all edges of other bodies.
+    std::vector<unsigned int>
+    all_masters_of(const unsigned int edge, const bool is_corner) const
+    {
+      std::vector<unsigned int> result;
+      for (unsigned int m = 0; m < surface.edges().size(); ++m)
+        if (surface.edges()[m].body != surface.edges()[edge].body &&
+            (is_corner || search.comes_first(edge, m)))
+          result.push_back(m);
+      return result;
+    }
+
+    void
+    compare_corner(const unsigned int position)
+    {
+      const unsigned int edge   = search.slaves()[position];
+      const unsigned int corner = search.corner(position);
+      const Place        place  = surface.place(edge, corner);
+      const auto         near   = masters_of(edge, position),
+                 all            = all_masters_of(edge, true);
+      const ContactProjection found =
+        search.project_corner(place, {near.data(), near.size()}, invalid_index);
+      const ContactProjection among_all =
+        search.project_corner(place, {all.data(), all.size()}, invalid_index);
+      EXPECT_EQ(found.master, among_all.master);
+      EXPECT_EQ(found.gap, among_all.gap);
+      n_corners += found.master != invalid_index;
+      // in a body it is in the one that the face belongs to
+      if (found.master != invalid_index && std::abs(found.gap) > 1e-7)
+      {
+        EXPECT_EQ(found.gap < 0., is_inside_of(found.master, place.x));
+      }
+    }
+
+    void
+    compare_point(const unsigned int edge, const double s)
+    {
+      const Place place = surface.place(edge, s);
+      bool        is_doubtful;
+      const auto  reference =
+        brute_force(surface, outlines, edge, place, reach, search, is_doubtful);
+      if (is_doubtful)
+        return;
+      // the broad phase leaves nothing out
+      const auto near = masters_of(edge, slave_to_position[edge]),
+                 all  = all_masters_of(edge, false);
+      const ContactProjection found =
+        search.project(place, {near.data(), near.size()});
+      const ContactProjection among_all =
+        search.project(place, {all.data(), all.size()});
+      EXPECT_EQ(found.master, among_all.master);
+      EXPECT_EQ(found.gap, among_all.gap);
+      if (!reference.empty())
+      {
+        compare_face(found, reference, place);
+        return;
+      }
+      // beyond the end of an edge at smooth and concave corners only
+      ++n_none;
+      if (found.master != invalid_index)
+      {
+        EXPECT_TRUE(found.t < 0. || found.t > 1. ||
+                    !is_inside_of(found.master, place.x))
+          << found.gap << ' ' << found.t;
+      }
+    }
+
+  private:
+    bool
+    is_inside_of(const unsigned int edge, const Point<2> &x) const
+    {
+      return is_inside(outlines[surface.edges()[edge].body], x);
+    }
+
+    void
+    compare_face(const ContactProjection      &found,
+                 const std::vector<Reference> &reference,
+                 const Place                  &place)
+    {
+      const auto nearest =
+        *std::min_element(reference.begin(),
+                          reference.end(),
+                          [](const Reference &a, const Reference &b) {
+                            return std::abs(a.gap) < std::abs(b.gap);
+                          });
+      ASSERT_NE(found.master, invalid_index);
+      ++n_found;
+      if (found.master == nearest.edge)
+      {
+        // bodies are straight-sided: what is left is rounding
+        EXPECT_NEAR(found.gap, nearest.gap, 1e-12);
+        return;
+      }
+      // of two faces that meet in a corner the one that faces it more
+      ++n_entrance;
+      EXPECT_EQ(surface.edges()[found.master].body,
+                surface.edges()[nearest.edge].body);
+      EXPECT_GT(-(found.normal * place.normal()), nearest.facing);
+    }
+  };
+
+
+  /// Nine polygons next to each other.
+  Bodies
+  random_bodies(std::mt19937 &generator, const unsigned int seed)
+  {
+    Geometry geometry;
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+        geometry.add_polygon(random_polygon(generator,
+                                            Point<2>(0.81 * i, 0.81 * j)),
+                             "body" + std::to_string(3 * i + j));
+    Bodies::Options options;
+    options.degree    = 1 + seed % 2;
+    options.cell_size = 0.25;
+    options.rotation  = 11. * seed;
+    return Bodies(std::move(geometry), options);
+  }
+
+
+  /// Each body moves by up to 0.1 m; some turn about a corner of theirs.
+  std::vector<Motion>
+  random_motions(const Bodies &bodies, std::mt19937 &generator)
+  {
+    std::uniform_real_distribution<double> random(-1., 1.);
+    std::vector<Motion> motions(bodies.physical_mesh.n_blocks());
+    for (Motion &motion : motions)
+    {
+      const double x = 0.1 * random(generator), y = 0.1 * random(generator);
+      motion.shift = Tensor<1, 2>({x, y});
+    }
+    for (const auto &edge : bodies.surface.edges())
+      if (generator() % 3 == 0)
+      {
+        motions[edge.body].center = edge.start;
+        motions[edge.body].angle  = 0.5 * random(generator);
+      }
+    return motions;
+  }
+
+
   TEST(ContactDetection, RandomPolygonsAgainstBruteForce)
   {
     constexpr double   reach    = 0.2;
     constexpr unsigned n_models = 6, n_motions = 10;
-    unsigned int       n_found = 0, n_none = 0, n_entrance = 0, n_all = 0,
-                 n_corners = 0;
+    unsigned int       n_found = 0, n_none = 0, n_entrance = 0, n_corners = 0;
     for (unsigned int seed = 0; seed < n_models; ++seed)
     {
-      std::mt19937                           generator(seed);
-      std::uniform_real_distribution<double> random(-1., 1.);
-      Geometry                               geometry;
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = 0; j < 3; ++j)
-          geometry.add_polygon(random_polygon(generator,
-                                              Point<2>(0.81 * i, 0.81 * j)),
-                               "body" + std::to_string(3 * i + j));
-      Bodies::Options options;
-      options.degree    = 1 + seed % 2;
-      options.cell_size = 0.25;
-      options.rotation  = 11. * seed;
-      Bodies             bodies(std::move(geometry), options);
-      const unsigned int n_blocks = bodies.physical_mesh.n_blocks();
-      ContactSearch      search(bodies.surface, {});
+      std::mt19937  generator(seed);
+      Bodies        bodies = random_bodies(generator, seed);
+      ContactSearch search(bodies.surface, {});
+      Comparison    comparison(bodies.surface, search, reach);
       for (unsigned int k = 0; k < n_motions; ++k)
       {
         SCOPED_TRACE("seed " + std::to_string(seed) + ", motion " +
                      std::to_string(k));
-        std::vector<Motion> motions(n_blocks);
-        for (unsigned int b = 0; b < n_blocks; ++b)
-          motions[b] = {Point<2>(1., 1.),
-                        0.,
-                        0.1 *
-                          Tensor<1, 2>({random(generator), random(generator)})};
-        // some turn about a corner of theirs
-        for (const auto &edge : bodies.surface.edges())
-          if (generator() % 3 == 0)
-          {
-            motions[edge.body].center = edge.start;
-            motions[edge.body].angle  = 0.5 * random(generator);
-          }
-        const std::vector<double> nodal = move(bodies, motions);
+        const std::vector<double> nodal =
+          move(bodies, random_motions(bodies, generator));
         bodies.surface.set_displacements(&nodal);
         search.update(reach);
-        std::vector<std::vector<Point<2>>> outlines;
-        for (unsigned int b = 0; b < n_blocks; ++b)
-          outlines.push_back(current_outline(bodies.surface, b));
-        const auto &edges = bodies.surface.edges();
-
-        std::vector<unsigned int> slave_to_position(edges.size(),
-                                                    invalid_index);
+        comparison.update();
         for (unsigned int i = 0; i < search.slaves().size(); ++i)
-          if (search.corner(i) == 2)
-            slave_to_position[search.slaves()[i]] = i;
-        for (unsigned int i = 0; i < search.slaves().size(); ++i)
-        {
-          if (search.corner(i) == 2)
-            continue;
-          const unsigned int        e = search.slaves()[i];
-          std::vector<unsigned int> all, near;
-          for (unsigned int m = 0; m < edges.size(); ++m)
-            if (edges[m].body != edges[e].body)
-              all.push_back(m);
-          for (const unsigned int m : search.masters(i))
-            if (edges[m].body != edges[e].body)
-              near.push_back(m);
-          const Place place = bodies.surface.place(e, search.corner(i));
-          const ContactProjection found =
-            search.project_corner(place,
-                                  {near.data(), near.size()},
-                                  invalid_index);
-          const ContactProjection among_all =
-            search.project_corner(place,
-                                  {all.data(), all.size()},
-                                  invalid_index);
-          EXPECT_EQ(found.master, among_all.master);
-          EXPECT_EQ(found.gap, among_all.gap);
-          n_corners += found.master != invalid_index;
-          // in a body it is in the one that the face belongs to
-          if (found.master != invalid_index && std::abs(found.gap) > 1e-7)
-          {
-            EXPECT_EQ(found.gap < 0.,
-                      is_inside(outlines[edges[found.master].body], place.x));
-          }
-        }
-        for (unsigned int e = 0; e < edges.size(); ++e)
+          if (search.corner(i) != 2)
+            comparison.compare_corner(i);
+        for (unsigned int e = 0; e < bodies.surface.edges().size(); ++e)
           for (const double s : {0.031, 0.28, 0.5, 0.77, 0.969})
-          {
-            const Place place = bodies.surface.place(e, s);
-            bool        is_doubtful;
-            const auto  reference = brute_force(
-              bodies.surface, outlines, e, place, reach, search, is_doubtful);
-            if (is_doubtful)
-              continue;
-            std::vector<unsigned int> all, near;
-            for (unsigned int m = 0; m < edges.size(); ++m)
-              if (edges[m].body != edges[e].body && search.comes_first(e, m))
-                all.push_back(m);
-            const unsigned int position = slave_to_position[e];
-            if (position != invalid_index)
-              for (const unsigned int m : search.masters(position))
-                if (edges[m].body != edges[e].body)
-                  near.push_back(m);
-            // the broad phase leaves nothing out
-            const ContactProjection found =
-              search.project(place, {near.data(), near.size()});
-            const ContactProjection among_all =
-              search.project(place, {all.data(), all.size()});
-            EXPECT_EQ(found.master, among_all.master);
-            EXPECT_EQ(found.gap, among_all.gap);
-            ++n_all;
-
-            if (reference.empty())
-            {
-              // beyond the end of an edge at smooth and concave corners only
-              if (found.master != invalid_index)
-              {
-                EXPECT_TRUE(
-                  found.t < 0. || found.t > 1. ||
-                  !is_inside(outlines[edges[found.master].body], place.x))
-                  << found.gap << ' ' << found.t;
-              }
-              ++n_none;
-              continue;
-            }
-            const auto nearest =
-              *std::min_element(reference.begin(),
-                                reference.end(),
-                                [](const Reference &a, const Reference &b) {
-                                  return std::abs(a.gap) < std::abs(b.gap);
-                                });
-            ASSERT_NE(found.master, invalid_index);
-            ++n_found;
-            if (found.master == nearest.edge)
-            {
-              // bodies are straight-sided: what is left is rounding
-              EXPECT_NEAR(found.gap, nearest.gap, 1e-12);
-              continue;
-            }
-            // of two faces that meet in a corner the one that faces it more
-            ++n_entrance;
-            EXPECT_EQ(edges[found.master].body, edges[nearest.edge].body);
-            EXPECT_GT(-(found.normal * place.normal()), nearest.facing);
-          }
+            comparison.compare_point(e, s);
       }
+      n_found += comparison.n_found;
+      n_none += comparison.n_none;
+      n_entrance += comparison.n_entrance;
+      n_corners += comparison.n_corners;
     }
-    std::cout << n_all << " points: " << n_found << " have a face, "
-              << n_entrance << " of them not the nearest, " << n_none
-              << " have none; " << n_corners << " corners have a face"
-              << std::endl;
+    std::cout << n_found << " points have a face, " << n_entrance
+              << " of them not the nearest, " << n_none << " have none; "
+              << n_corners << " corners have a face" << std::endl;
     EXPECT_GT(n_corners, 500U);
     EXPECT_GT(n_found, 2000U);
     EXPECT_GT(n_none, 2000U);

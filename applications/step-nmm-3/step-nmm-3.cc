@@ -28,6 +28,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <random>
 
@@ -267,12 +268,12 @@ namespace StepNMM3
       std::make_unique<NMM::ManifoldMesh>(*mathematical_mesh, *physical_mesh);
     measurement.cutting_time = timer.cpu_time();
 
-    // The surface comes before the constraints: it may make more covers
-    // relevant to a rank.
+    // The surface comes before aggregation and constraints: it makes the covers
+    // of all faces relevant to every rank.
     covers = std::make_unique<NMM::CoverSystem>(*manifold_mesh, MPI_COMM_WORLD);
-    const NMM::Aggregation aggregation = NMM::aggregate(*covers);
-    surface     = std::make_unique<NMM::ContactSurface>(*covers,
+    surface = std::make_unique<NMM::ContactSurface>(*covers,
                                                     std::move(setup.obstacles));
+    const NMM::Aggregation aggregation = NMM::aggregate(*covers);
     constraints = NMM::make_constraints(*covers, aggregation, 2);
     quadrature  = std::make_unique<NMM::QuadratureCollection>(
       *manifold_mesh,
@@ -301,6 +302,21 @@ namespace StepNMM3
   }
 
 
+  // A contact point is on the rank that owns its edge.
+  std::vector<PressurePoint>
+  of_all_ranks(const std::vector<PressurePoint> &points)
+  {
+    std::vector<double> mine;
+    for (const PressurePoint &point : points)
+      mine.insert(mine.end(), {point.x, point.pressure, point.weight});
+    std::vector<PressurePoint> result;
+    for (const auto &part : Utilities::MPI::all_gather(MPI_COMM_WORLD, mine))
+      for (unsigned int i = 0; i < part.size(); i += 3)
+        result.push_back({part[i], part[i + 1], part[i + 2]});
+    return result;
+  }
+
+
   // Hertz's theory is linear: it does not know whether x is where a point was or
   // where it went, and points of the contact move inwards by 3 percent of x at
   // a half-width of 0.1 R. In the linear problem it has to be the reference
@@ -315,7 +331,7 @@ namespace StepNMM3
           {std::abs(surface->reference_place(point.edge, point.s).x[0]),
            point.pressure,
            point.weight});
-    return result;
+    return of_all_ranks(result);
   }
 
 
@@ -334,7 +350,7 @@ namespace StepNMM3
         result.push_back(
           {point.x[0], point.pressure / stretch, point.weight * stretch});
       }
-    return result;
+    return of_all_ranks(result);
   }
 
 
@@ -347,6 +363,8 @@ namespace StepNMM3
       if (point.pressure > 0.)
         result[point.normal[1] > 0. ? 0 : 1] +=
           point.weight * point.pressure * std::abs(point.normal[1]);
+    for (double &force : result)
+      force = Utilities::MPI::sum(force, MPI_COMM_WORLD);
     return result;
   }
 
@@ -369,24 +387,39 @@ namespace StepNMM3
 
     const NMM::DisplacementField field(*covers, problem, u);
     constexpr unsigned int       n_lines = 4, n = 80;
+    const auto                   owned = covers->locally_owned_elements();
+    // line, position on it, and where the point is, for points in this rank's
+    // elements
+    std::vector<double> mine;
     for (unsigned int direction = 0; direction < 2; ++direction)
       for (unsigned int i = 0; i <= 2 * n_lines; ++i)
       {
-        const double a = (i / double(n_lines) - 1.) * 0.98;
-        const double b = std::sqrt(1. - a * a);
+        const double       a    = (i / double(n_lines) - 1.) * 0.98;
+        const double       b    = std::sqrt(1. - a * a);
+        const unsigned int line = stage.material_lines.size();
         stage.material_lines.emplace_back();
         for (unsigned int k = 0; k <= n; ++k)
         {
           const double   c = (2. * k / n - 1.) * b * (1. - 1e-6);
           const Point<2> x = direction == 0 ? Point<2>(a, c) : Point<2>(c, a);
           const unsigned int element = manifold_mesh->find_element(x);
-          if (element != NMM::invalid_index)
-            stage.material_lines.back().push_back(
-              x + field.displacement(element,
-                                     mathematical_mesh->real_to_reference(
-                                       manifold_mesh->cell(element), x)));
+          if (element == NMM::invalid_index || element < owned.first ||
+              element >= owned.second)
+            continue;
+          const Point<2> now =
+            x + field.displacement(element,
+                                   mathematical_mesh->real_to_reference(
+                                     manifold_mesh->cell(element), x));
+          mine.insert(mine.end(), {double(line), double(k), now[0], now[1]});
         }
       }
+    std::map<std::pair<double, double>, Point<2>> points;
+    for (const auto &part : Utilities::MPI::all_gather(MPI_COMM_WORLD, mine))
+      for (unsigned int i = 0; i < part.size(); i += 4)
+        points[{part[i], part[i + 1]}] = Point<2>(part[i + 2], part[i + 3]);
+    for (const auto &[place, point] : points)
+      stage.material_lines[static_cast<unsigned int>(place.first)].push_back(
+        point);
     return stage;
   }
 
@@ -671,11 +704,11 @@ main(int argc, char **argv)
   try
   {
     const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-    AssertThrow(dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1,
-                NMM::InputError("The program runs on several ranks",
-                                "step-nmm-3",
-                                "start it without mpirun: its tables are times "
-                                "of one core"));
+    // All ranks know all results; the first one tells, and its times are its own.
+    const bool is_first =
+      dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+    if (!is_first)
+      std::cout.setstate(std::ios::failbit);
     const Parameters parameters =
       read_parameters(argc > 1 ? argv[1] : "", argc > 2 ? argv[2] : ".");
 
@@ -692,8 +725,11 @@ main(int argc, char **argv)
         run_press(parameters, parameters.press_size, enforcement));
       print_press(parameters, press.back());
     }
-    write_results(parameters, hertz, placements, compression, press);
-    draw_figures(parameters);
+    if (is_first)
+    {
+      write_results(parameters, hertz, placements, compression, press);
+      draw_figures(parameters);
+    }
   }
   catch (const NMM::InputError &error)
   {

@@ -29,7 +29,9 @@ namespace NMM
     , constraints(&constraints)
     , parameters(parameters_in)
     , communicator(surface.cover_system().communicator())
-    , search(surface, parameters_in.body_ranks)
+    , search(surface,
+             parameters_in.body_ranks,
+             parameters_in.integration == ContactIntegration::points)
     , laws((parameters.check(), surface), parameters)
     , has_friction(parameters.has_friction())
     , corner_size(corner_sizes(surface))
@@ -88,11 +90,13 @@ namespace NMM
     d.move_to(u);
     d.reach      = std::max(least_reach, d.parameters.reach);
     d.is_between = false;
-    if (d.search.update(d.reach))
+    // faces that have parted by dilation are still in contact
+    const double reach = d.reach + d.largest_opening();
+    if (d.search.update(reach))
     {
       d.searched_nodal = d.nodal;
       d.searched_time  = d.time;
-      d.searched_reach = d.reach;
+      d.searched_reach = reach;
     }
     d.make_points();
     d.make_pattern();
@@ -120,9 +124,12 @@ namespace NMM
     ContactPoint     &point = points[q];
     const ContactLaw &law   = *point_data[q].law;
     const double      eps   = law.normal_stiffness;
+    const Dilation    dilation =
+      is_between ? point_data[q].dilation : find_dilation(q, slave, projection);
+    point.opening = dilation.opening;
     point.pressure =
       point.multiplier -
-      eps * (projection.gap -
+      eps * (projection.gap - point.opening -
              (is_between ? point_data[q].offset_end : point_data[q].offset));
     if (!point.is_bonded && point.pressure < -eps * touching * reach)
     {
@@ -133,7 +140,8 @@ namespace NMM
     if (!point.is_bonded)
       point.pressure = std::max(point.pressure, 0.);
     traction.pressure         = point.weight * point.pressure;
-    traction.normal_stiffness = point.weight * eps;
+    traction.normal_stiffness = point.weight * eps * dilation.by_gap;
+    traction.pressure_by_slip = -point.weight * eps * dilation.by_slip;
     report.energy +=
       point.weight *
       (point.pressure * point.pressure - point.multiplier * point.multiplier) /
@@ -147,6 +155,82 @@ namespace NMM
         point.weight * point.shear * point.shear / (2. * law.shear_stiffness);
     }
     return traction;
+  }
+
+
+  double
+  Contact::Data::largest_opening() const
+  {
+    bool dilates = parameters.dilation > 0.;
+    for (const ContactPair &pair : parameters.pairs)
+      dilates = dilates || pair.law.dilation > 0.;
+    if (!dilates)
+      return 0.;
+    double slip = 0.;
+    for (const auto &[key, places] : stick_places)
+      for (const StickPlace &place : places)
+        slip = std::max(slip, place.slip);
+    slip           = Parallel::max(slip, communicator);
+    double opening = parameters.opening(slip);
+    for (const ContactPair &pair : parameters.pairs)
+      opening = std::max(opening, pair.law.opening(slip));
+    return opening;
+  }
+
+
+  Contact::Data::Dilation
+  Contact::Data::find_dilation(const unsigned int           q,
+                               const ContactSurface::Place &slave,
+                               const ContactProjection     &projection)
+  {
+    Dilation            result;
+    const ContactPoint &point = points[q];
+    PointData          &fixed = point_data[q];
+    const ContactLaw   &law   = *fixed.law;
+    fixed.new_slip            = 0.;
+    result.opening            = opening_before(q);
+    if (law.dilation == 0. || slip_is_frozen || point.is_bonded)
+      return result;
+    // bodies that do not touch anywhere do not slide on each other
+    const auto &edges = surface->edges();
+    if (energies_of_pairs.count(
+          std::minmax(edges[point.edge].body, edges[projection.master].body)) ==
+        0)
+      return result;
+    const double most = law.dilation_limit == 0.
+                          ? std::numeric_limits<double>::max()
+                          : std::max(0., law.dilation_limit - fixed.slip);
+    if (most == 0.)
+      return result;
+
+    // shear and pressure if nothing slides
+    const Tensor<1, 2> tangent = projection.place.a / projection.place.a.norm();
+    const double       trial =
+      law.shear_stiffness *
+      ((slave.x - surface->place(point.stick_edge, point.stick_t).x) * tangent);
+    const double gap      = projection.gap - fixed.offset - result.opening;
+    const double pressure = point.multiplier - law.normal_stiffness * gap;
+    const double excess =
+      std::abs(trial) - law.friction * pressure - law.cohesion;
+    if (excess <= 0.)
+      return result;
+    // |trial| - eps_t s = mu (pressure + eps_n tan psi s) + c
+    const double rise = law.normal_stiffness * law.dilation;
+    const double h    = law.shear_stiffness + law.friction * rise;
+    double       slip = std::min(most, excess / h);
+    if (pressure + rise * slip <= 0.)
+    {
+      // nothing holds it
+      slip = std::min(most, std::abs(trial) / law.shear_stiffness);
+    }
+    else if (slip < most)
+    {
+      result.by_gap  = law.shear_stiffness / h;
+      result.by_slip = -std::copysign(law.dilation * result.by_gap, trial);
+    }
+    fixed.new_slip = slip;
+    result.opening += law.dilation * slip;
+    return result;
   }
 
 
@@ -191,7 +275,10 @@ namespace NMM
       // it slides to and fro from one iteration to the next, because the tangent
       // of sliding does not hold it: the secant does
       if (point.has_turned)
-        traction.shear_stiffness = stiffness * limit / std::abs(trial);
+      {
+        traction.shear_stiffness  = stiffness * limit / std::abs(trial);
+        traction.pressure_by_slip = 0.;
+      }
     }
     traction.shear = point.weight * point.shear;
   }
@@ -270,6 +357,15 @@ namespace NMM
     // a corner touches in a point if neither of its faces touches along its length
     const ContactSurface::Edge &edge  = surface->edges()[points[q].edge];
     const unsigned int          other = corner == 0 ? edge.previous : edge.next;
+    if (parameters.integration == ContactIntegration::points)
+    {
+      // both edges that end at the vertex have a point there: one spring in all
+      const double other_facing =
+        other == invalid_index
+          ? 0.
+          : -(surface->place(other, 1. - corner).normal() * master_normal);
+      return facing / (facing + std::max(0., other_facing));
+    }
     if (other != invalid_index)
       along = std::max(along,
                        ContactSearch::along_face(
@@ -376,10 +472,10 @@ namespace NMM
     if (fixed.corner < Kind::along ||
         fixed.piece_length > too_short * size_at(q))
       report.largest_penetration =
-        std::max(report.largest_penetration, -projection.gap);
-    deepest =
-      std::max(deepest,
-               (is_between ? fixed.offset_end : fixed.offset) - projection.gap);
+        std::max(report.largest_penetration, point.opening - projection.gap);
+    deepest = std::max(deepest,
+                       (is_between ? fixed.offset_end : fixed.offset) +
+                         point.opening - projection.gap);
 
     ContactSurface::Weights master, stick;
     surface->weights(projection.master, projection.t, master);

@@ -30,6 +30,13 @@ namespace NMM
       master_ends = 3
     };
 
+    /// Opening of a point by slip [m], and the derivatives of gap minus opening
+    /// by the gap and by the distance along the face from where it sticks [-].
+    struct Dilation
+    {
+      double opening = 0., by_gap = 1., by_slip = 0.;
+    };
+
     /// What does not change from one assembly to the next.
     struct PointData
     {
@@ -62,6 +69,10 @@ namespace NMM
       double offset = 0., offset_end = 0.;
       /// Masters at both ends of the step; invalid_index: none.
       unsigned int master_begin = invalid_index, master_end = invalid_index;
+      /// Slip that has dilated at the last accepted state and since then [m].
+      double slip = 0., new_slip = 0.;
+      /// At the end of a time step.
+      Dilation dilation;
     };
 
     void
@@ -75,14 +86,12 @@ namespace NMM
 
     /// History of a point: where it stuck, its multiplier on @p slave.
     void
-    restore(ContactPoint    &point,
-            const PointData &fixed,
-            unsigned int     slave) const;
+    restore(ContactPoint &point, PointData &fixed, unsigned int slave) const;
 
     void
-    take_over_place(ContactPoint    &point,
-                    const PointData &fixed,
-                    unsigned int     slave) const;
+    take_over_place(ContactPoint &point,
+                    PointData    &fixed,
+                    unsigned int  slave) const;
 
     /// All faces move to where @p u (locally relevant) puts them.
     void
@@ -144,6 +153,26 @@ namespace NMM
     share(unsigned int                q,
           const dealii::Tensor<1, 2> &slave_normal,
           const dealii::Tensor<1, 2> &master_normal) const;
+
+    /// Opening at the current positions: since the last accepted state a point
+    /// slides as far as its strength does not hold it, an open one without strength;
+    /// notes the slip.
+    Dilation
+    find_dilation(unsigned int                       q,
+                  const ContactSurface::Place       &slave,
+                  const internal::ContactProjection &projection);
+
+    /// Opening by what had slid at the last accepted state [m].
+    double
+    opening_before(const unsigned int q) const
+    {
+      const ContactLaw *law = point_data[q].law;
+      return law == nullptr ? 0. : law->opening(point_data[q].slip);
+    }
+
+    /// Of any point of any rank at the last accepted state, or more [m].
+    double
+    largest_opening() const;
 
     /// Shear from the place where it sticks, not more than the pressure allows;
     /// decides between stick and slip.
@@ -239,6 +268,8 @@ namespace NMM
     PairEnergies energies_of_pairs;
     /// What is lost from there to the begin of the step [J/m].
     double detection_loss = 0.;
+    /// What has slid at the last accepted state is all that opens faces.
+    bool slip_is_frozen = false;
     /// Of springs, without offsets [m].
     double deepest = 0.;
 

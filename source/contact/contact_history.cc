@@ -48,7 +48,7 @@ namespace NMM
         const double weight = d.rule_weights[q] * length;
         const double eps    = d.point_data[begin + q].law->normal_stiffness;
         const auto   add    = [&](const unsigned int i, const double value) {
-          sums[i] -= eps * value * point.gap;
+          sums[i] -= eps * value * (point.gap - point.opening);
           sums[n + i] += value;
           sums[2 * n + i] += eps * value;
         };
@@ -139,8 +139,9 @@ namespace NMM
       }
       ++count;
       // points are made anew from these places
-      const StickPlace place{point.s, point.stick_edge, point.stick_t, false};
-      auto            &places =
+      const StickPlace place{
+        point.s, point.stick_edge, point.stick_t, false, d.point_data[q].slip};
+      auto &places =
         d.stick_places[d.place_key(point.edge, d.point_data[q].corner)];
       const auto at =
         std::lower_bound(places.begin(),
@@ -162,10 +163,10 @@ namespace NMM
   double
   Contact::Data::accept_shear(const unsigned int q)
   {
-    ContactPoint    &point      = points[q];
-    const PointData &fixed      = point_data[q];
-    const double     eps        = fixed.law->shear_stiffness;
-    double           dissipated = 0.;
+    ContactPoint &point      = points[q];
+    PointData    &fixed      = point_data[q];
+    const double  eps        = fixed.law->shear_stiffness;
+    double        dissipated = 0.;
     if (is_between)
     {
       const double before = spring_energy(q, fixed.shear_begin, eps);
@@ -185,9 +186,19 @@ namespace NMM
     }
     if (point.master == invalid_index)
       return dissipated;
-    StickPlace place{point.s, point.master, point.t, point.is_bonded};
+    // steps know already what rising against the pressure has taken
+    if (!is_between)
+      dissipated -=
+        point.weight * point.pressure * (point.opening - opening_before(q));
+    fixed.slip += fixed.new_slip;
+    fixed.new_slip = 0.;
+    StickPlace place{
+      point.s, point.master, point.t, point.is_bonded, fixed.slip};
     if (point.state == ContactState::stick)
-      place = {point.s, point.stick_edge, point.stick_t, point.is_bonded};
+    {
+      place.edge = point.stick_edge;
+      place.t    = point.stick_t;
+    }
     else if (point.state == ContactState::slip)
     {
       const Tensor<1, 2> a = surface->place(point.master, point.t).a;
@@ -256,7 +267,8 @@ namespace NMM
                                place.s,
                                double(place.edge),
                                place.t,
-                               double(place.is_bonded)})
+                               double(place.is_bonded),
+                               place.slip})
           mine.push_back(x);
     // of the same length: entrances and energies have no edge to stick to;
     // energies are the same on all ranks
@@ -266,10 +278,11 @@ namespace NMM
                                double(pair.second),
                                -2.,
                                energies[0],
-                               energies[1]})
+                               energies[1],
+                               0.})
           mine.push_back(x);
     for (const auto &[key, master] : d.entrances)
-      for (const double x : {double(key), 0., -1., double(master), 0.})
+      for (const double x : {double(key), 0., -1., double(master), 0., 0.})
         mine.push_back(x);
     std::vector<double> result{double(d.is_virgin),
                                double(d.multipliers.size()),
@@ -315,8 +328,8 @@ namespace NMM
     const auto [first, last]   = d.surface->locally_owned_edges();
     const unsigned int n_edges = d.surface->edges().size();
     const bool has_obstacles = Parallel::this_mpi_process(d.communicator) == 0;
-    for (std::size_t i = head + n_multipliers + n_nodal; i + 4 < history.size();
-         i += 5)
+    for (std::size_t i = head + n_multipliers + n_nodal; i + 5 < history.size();
+         i += 6)
     {
       if (history[i + 2] == -2.)
       {
@@ -339,7 +352,8 @@ namespace NMM
           {history[i + 1],
            static_cast<unsigned int>(history[i + 2]),
            history[i + 3],
-           history[i + 4] != 0.});
+           history[i + 4] != 0.,
+           history[i + 5]});
     }
     for (auto &[key, places] : d.stick_places)
       std::sort(places.begin(),

@@ -30,7 +30,7 @@ namespace NMM
 
   void
   Contact::Data::restore(ContactPoint      &point,
-                         const PointData   &fixed,
+                         PointData         &fixed,
                          const unsigned int slave) const
   {
     const auto sticking =
@@ -42,6 +42,7 @@ namespace NMM
       point.stick_edge = stick.edge;
       point.stick_t    = stick.t;
       point.is_bonded  = stick.is_bonded;
+      fixed.slip       = stick.slip;
     }
     if (multiplier_space != nullptr && fixed.corner >= Kind::along)
       point.multiplier = multiplier_space->value(multipliers, slave, fixed.s);
@@ -58,7 +59,9 @@ namespace NMM
     point.edge   = search.slaves()[slave];
     point.s      = fixed.corner;
     // that of the end of an edge of this length, with four Gauss-Lobatto points
-    point.weight = corner_size[2 * point.edge + fixed.corner] / 12.;
+    point.weight = parameters.integration == ContactIntegration::points
+                     ? 1.
+                     : corner_size[2 * point.edge + fixed.corner] / 12.;
     surface->weights(point.edge, point.s, fixed.weights);
     restore(point, fixed, point.edge);
     points.push_back(point);
@@ -126,7 +129,7 @@ namespace NMM
   /// has met sticks to it, seen from the other side.
   void
   Contact::Data::take_over_place(ContactPoint      &point,
-                                 const PointData   &fixed,
+                                 PointData         &fixed,
                                  const unsigned int slave) const
   {
     const auto sticking = stick_places.find(slave);
@@ -140,6 +143,7 @@ namespace NMM
                                 surface->place(point.edge, point.s).a.norm() /
                                 surface->place(slave, fixed.s).a.norm();
     point.is_bonded = stick.is_bonded;
+    fixed.slip      = stick.slip;
   }
 
 

@@ -191,6 +191,9 @@ namespace NMM
         break;
       }
       result.s = s;
+      if (left->s < s && s < right->s)
+        result.slip = left->slip + (s - left->s) / (right->s - left->s) *
+                                     (right->slip - left->slip);
       return true;
     }
   } // namespace internal
@@ -253,6 +256,22 @@ namespace NMM
                 tensile_strength,
                 where,
                 "only bonded joints bear tension: say that it is a bond");
+    check_value(dilation >= 0. && dilation <= friction,
+                "the tangent of the dilation angle",
+                dilation,
+                where,
+                "give that of an angle from 0 to the friction angle, " +
+                  std::to_string(friction) + " at most");
+    check_value(dilation_limit >= 0. && std::isfinite(dilation_limit),
+                "the slip that dilates",
+                dilation_limit,
+                where,
+                "give a length, or 0 for no limit");
+    check_value(dilation > 0. || dilation_limit == 0.,
+                "the slip that dilates",
+                dilation_limit,
+                where,
+                "give a dilation angle, too");
   }
 
 
@@ -269,6 +288,13 @@ namespace NMM
                 penetration_tolerance,
                 where,
                 "give a length, or 0 for the penalty method");
+    check_value(penetration_tolerance == 0. ||
+                  integration == ContactIntegration::length,
+                "the penetration that is allowed",
+                penetration_tolerance,
+                where,
+                "pressures on top of springs are functions along faces: "
+                "integrate over lengths, or leave the tolerance out");
     check_value(reach >= 0., "the reach", reach, where, "give a length, or 0");
     check_value(n_points >= 2 && n_points <= 20,
                 "the number of points",

@@ -115,13 +115,16 @@ namespace NMM
       unsigned int edge;
       double       t;
       bool         is_bonded = false;
+      /// Way that has been slid, as far as it dilates [m].
+      double slip = 0.;
     };
 
     using StickPlaces =
       std::unordered_map<unsigned int, std::vector<StickPlace>>;
 
     /// The place for @p s: linear in s on the master of the nearer place that has
-    /// two, beyond its last place as well; false if there are none.
+    /// two, beyond its last place as well; slip linear between two places; false if
+    /// there are none.
     bool
     find_stick_place(const std::vector<StickPlace> &places,
                      double                         s,

@@ -82,13 +82,19 @@ namespace NMM
 
 
     ContactSearch::ContactSearch(const ContactSurface     &surface,
-                                 std::vector<unsigned int> body_ranks)
+                                 std::vector<unsigned int> body_ranks,
+                                 const bool                only_vertices)
       : surface(&surface)
       , ranks(std::move(body_ranks))
+      , only_vertices(only_vertices)
       , masters_begin(1, 0)
     {
       for (unsigned int body = ranks.size(); body < surface.n_bodies(); ++body)
         ranks.push_back(body);
+      // a direction that no face is likely to have
+      const Tensor<1, 2> side({0.8390715290764524, 0.5440211108893698});
+      for (unsigned int e = 0; e < surface.edges().size(); ++e)
+        edge_to_side.push_back(surface.reference_place(e, 0.5).normal() * side);
     }
 
 
@@ -104,7 +110,13 @@ namespace NMM
       const unsigned int body       = surface->edges()[edge].body;
       const unsigned int other_body = surface->edges()[other].body;
       if (body == other_body)
-        return edge < other;
+      {
+        // beyond rounding: edges of a straight face are on one side, and so none
+        // of them meets what goes on beyond its counterpart's end
+        constexpr double same = 1e-9;
+        const double     more = edge_to_side[edge] - edge_to_side[other];
+        return std::abs(more) > same ? more > 0. : edge < other;
+      }
       return ranks[body] != ranks[other_body] ? ranks[body] < ranks[other_body]
                                               : body < other_body;
     }
@@ -117,7 +129,9 @@ namespace NMM
       const auto &at   = surface->edges()[edge];
       const auto  kind = end == 0 ? at.at_start : at.at_end;
       return kind == ContactSurface::Corner::convex ||
-             (kind == ContactSurface::Corner::end && surface->is_rigid(edge));
+             (kind == ContactSurface::Corner::end && surface->is_rigid(edge)) ||
+             (kind == ContactSurface::Corner::smooth && only_vertices &&
+              at.radius != 0. && !surface->is_rigid(edge));
     }
 
 
@@ -246,11 +260,15 @@ namespace NMM
         for (auto entry = tree.qbegin(bg::index::intersects(box));
              entry != tree.qend();
              ++entry)
+        {
+          ++counts.n_boxes;
           if (accept(entry->second) && may_touch(e, entry->second))
             found.push_back(entry->second);
+        }
+        counts.n_candidates += found.size();
         std::sort(found.begin(), found.end());
       };
-      for (unsigned int e = first; e < last; ++e)
+      for (unsigned int e = first; e < last && !only_vertices; ++e)
       {
         find(e,
              inflated(entries[e].first, broad_reach),
@@ -309,6 +327,7 @@ namespace NMM
                                 double            &t,
                                 Place             &place) const
     {
+      ++counts.n_projections;
       const Point<2>     start = surface->place(edge, 0.).x;
       const Tensor<1, 2> chord = surface->place(edge, 1.).x - start;
       t                        = ((x - start) * chord) / chord.norm_square();

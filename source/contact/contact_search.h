@@ -29,7 +29,7 @@ namespace NMM
      *
      * Of two edges the *slave* carries the contact points: obstacles are always
      * masters, of blocks the one with the lower rank is the slave, within a
-     * block the edge with the lower number.
+     * block the one that looks more to one side: all of a face's edges are the same.
      *
      * Faces that are nearly parallel touch along their length; a corner that points at a
      * face touches in a point, whichever body it belongs to. So convex corners of
@@ -41,8 +41,11 @@ namespace NMM
     {
     public:
       /// @p body_ranks: see ContactParameters; empty: the body's number.
+      /// @p only_vertices: there are no slaves but corners, and ends of arcs are some,
+      /// too.
       ContactSearch(const ContactSurface     &surface,
-                    std::vector<unsigned int> body_ranks);
+                    std::vector<unsigned int> body_ranks,
+                    bool                      only_vertices = false);
       ~ContactSearch();
 
       /**
@@ -57,13 +60,6 @@ namespace NMM
       /// Look for them now, within one and a half times @p reach.
       void
       search(double reach);
-
-      /// Within which candidates are at hand [m]; 0: there are none yet.
-      double
-      searched_reach() const
-      {
-        return broad_reach;
-      }
 
       /// Edges that this rank looks after and that have masters: first slaves
       /// with all of their length, then those of which one end is a corner;
@@ -91,6 +87,21 @@ namespace NMM
       /// their normals.
       static double
       along_face(double facing);
+
+      /// What the search has done on this rank since it was made; times of machines
+      /// say less.
+      struct Statistics
+      {
+        /// Edges whose boxes meet that of a slave or corner; those of them that may
+        /// touch it; nearest points that were computed.
+        std::size_t n_boxes = 0, n_candidates = 0, n_projections = 0;
+      };
+
+      const Statistics &
+      statistics() const
+      {
+        return counts;
+      }
 
       /// Of the slave at a position of slaves(), ascending.
       dealii::ArrayView<const unsigned int>
@@ -204,8 +215,12 @@ namespace NMM
                    double                 &t,
                    ContactSurface::Place  &place) const;
 
-      const ContactSurface         *surface;
-      std::vector<unsigned int>     ranks;
+      const ContactSurface     *surface;
+      std::vector<unsigned int> ranks;
+      /// See comes_first().
+      std::vector<double>           edge_to_side;
+      bool                          only_vertices;
+      mutable Statistics            counts;
       double                        reach = 0., broad_reach = 0.;
       double                        movement_before = 0.;
       std::vector<unsigned int>     slave_edges, masters_begin, master_edges;

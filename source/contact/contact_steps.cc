@@ -123,7 +123,7 @@ namespace NMM
         keep[i] = now[i] > old ? std::sqrt(old / now[i]) : 1.;
       }
       PointData &fixed = point_data[q];
-      fixed.offset     = (1. - keep[0]) * point.gap;
+      fixed.offset     = (1. - keep[0]) * (point.gap - point.opening);
       if (keep[0] == 0.)
         point.state = ContactState::open;
       if (keep[1] < 1. && point.shear != 0.)
@@ -145,12 +145,17 @@ namespace NMM
     d.is_between = false;
     d.time_begin = time;
     set_time(time);
+    // what lies between the last step and this one opens nothing
+    d.slip_is_frozen = true;
     assemble(u, false);
+    d.slip_is_frozen = false;
+    if (d.is_virgin)
+      d.energies_of_pairs = d.pair_energies();
     d.keep_energies();
     d.nodal_begin = d.nodal;
     for (unsigned int q = 0; q < d.points.size(); ++q)
     {
-      d.point_data[q].gap_begin    = d.points[q].gap;
+      d.point_data[q].gap_begin    = d.points[q].gap - d.opening_before(q);
       d.point_data[q].master_begin = d.points[q].master;
       d.point_data[q].shear_begin  = d.points[q].shear;
       // what slides, or bears no shear, sticks where its shear says: places that
@@ -228,18 +233,21 @@ namespace NMM
     // A master that comes into sight, or follows round a corner, pushes back as
     // far as the point moves from now on, and what is stored for one that is left
     // behind is lost: there is no energy in what appears.
+    // Gaps are those that slip has not opened.
     const double least  = 1e-4 * reach;
+    const double rise   = fixed.dilation.opening - opening_before(q);
+    const double motion = opening - rise;
     double       g_0    = fixed.gap_begin - fixed.offset;
     double       g_1    = fixed.gap_end - fixed.offset;
     const bool   is_new = fixed.master_begin == invalid_index;
     if (is_new)
-      g_0 = std::max(0., fixed.gap_end - opening);
+      g_0 = std::max(0., fixed.gap_end - motion);
     fixed.offset_end = is_new ? 0. : fixed.offset;
     bool is_lost     = fixed.master_end == invalid_index;
     if (!is_lost &&
-        std::abs(g_1 - g_0 - opening) > 0.5 * std::abs(opening) + least)
+        std::abs(g_1 - g_0 - motion) > 0.5 * std::abs(opening) + least)
     {
-      g_1              = g_0 + opening;
+      g_1              = g_0 + motion;
       fixed.offset_end = std::min(0., fixed.gap_end - g_1);
       is_lost          = fixed.gap_end > g_1;
       if (is_lost)
@@ -276,13 +284,18 @@ namespace NMM
     // the gap of curved or turning faces changes not quite by this; where
     // nothing moves the ratio of both is rounding
     const double more =
-      (g_1 - g_0 - opening) * opening / (opening * opening + least * least);
+      (g_1 - g_0 - motion) * opening / (opening * opening + least * least);
     const double factor = 1. + std::min(1., std::max(-0.5, more));
+    // what rises against the pressure takes from the loss by friction
     fixed.normal_loss +=
-      point.weight * factor * (spring - point.pressure) * opening;
+      point.weight *
+      (factor * (spring - point.pressure) * opening - spring * rise);
     point.pressure *= factor;
-    traction.pressure         = point.weight * point.pressure;
-    traction.normal_stiffness = -2. * point.weight * derivative;
+    traction.pressure = point.weight * point.pressure;
+    traction.normal_stiffness =
+      -2. * point.weight * derivative * fixed.dilation.by_gap;
+    traction.pressure_by_slip =
+      2. * point.weight * derivative * fixed.dilation.by_slip;
   }
 
 
@@ -348,6 +361,7 @@ namespace NMM
             traction.shear *= factor;
             traction.shear_stiffness *= factor;
             traction.shear_over_pressure *= factor;
+            traction.pressure_by_slip = 0.;
           }
           fixed.shear_work = traction.shear * slip;
         }
@@ -383,12 +397,21 @@ namespace NMM
     {
       if (d.point_data[q].has_angle && d.points[q].weight == 0.)
         continue;
-      const ContactPoint     &point = d.points[q];
-      const ContactProjection projection =
-        d.find_master(q, d.surface->place(point.edge, point.s));
-      d.point_data[q].master_end = projection.master;
-      d.point_data[q].gap_end =
-        projection.master == invalid_index ? d.reach : projection.gap;
+      const ContactPoint         &point = d.points[q];
+      Data::PointData            &fixed = d.point_data[q];
+      const ContactSurface::Place slave = d.surface->place(point.edge, point.s);
+      const ContactProjection     projection = d.find_master(q, slave);
+      fixed.master_end                       = projection.master;
+      fixed.dilation                         = Data::Dilation();
+      fixed.dilation.opening                 = d.opening_before(q);
+      fixed.new_slip                         = 0.;
+      if (fixed.master_begin != invalid_index &&
+          projection.master != invalid_index &&
+          d.goes_on(fixed.master_begin, projection.master))
+        fixed.dilation = d.find_dilation(q, slave, projection);
+      fixed.gap_end = projection.master == invalid_index
+                        ? d.reach
+                        : projection.gap - fixed.dilation.opening;
     }
     d.nodal_end = d.nodal;
 

@@ -45,6 +45,30 @@ namespace NMM
     }
 
 
+    namespace
+    {
+      /// Add @p factor times the derivative of the distance along tau from where it
+      /// sticks to @p row.
+      void
+      add_distance(const ContactKinematics       &f,
+                   const ContactTraction         &traction,
+                   const ContactSurface::Weights &slave,
+                   const ContactSurface::Weights &stick,
+                   const double                   factor,
+                   double                        *row)
+      {
+        for (unsigned int k = 0; k < f.n; ++k)
+          row[k] += factor * traction.normal_distance * f.C[k];
+        for (unsigned int i = 0; i < slave.n; ++i)
+          for (unsigned int c = 0; c < 2; ++c)
+            row[2 * i + c] += factor * slave.w[i] * f.tangent[c];
+        for (unsigned int i = 0; i < stick.n; ++i)
+          for (unsigned int c = 0; c < 2; ++c)
+            row[f.n + 2 * i + c] -= factor * stick.w[i] * f.tangent[c];
+      }
+    } // namespace
+
+
     void
     add_contact_point(const ContactKinematics       &f,
                       const ContactTraction         &traction,
@@ -76,25 +100,26 @@ namespace NMM
       if (stick == nullptr)
         return;
 
-      double change[ContactKinematics::max] = {};
-      if (traction.shear_stiffness != 0.)
+      // of the shear, and the share of the pressure that comes from slip
+      double       change[ContactKinematics::max] = {};
+      const double by_slip                        = traction.pressure_by_slip;
+      const double by_distance = traction.shear_stiffness != 0.
+                                   ? traction.shear_stiffness
+                                   : traction.shear_over_pressure * by_slip;
+      if (by_distance != 0.)
+        add_distance(f, traction, *slave, *stick, by_distance, change);
+      if (traction.shear_stiffness == 0.)
+        for (unsigned int k = 0; k < f.n; ++k)
+          change[k] -=
+            traction.shear_over_pressure * traction.normal_stiffness * f.N[k];
+      if (by_slip != 0.)
       {
+        double rise[ContactKinematics::max] = {};
+        add_distance(f, traction, *slave, *stick, by_slip, rise);
         for (unsigned int k = 0; k < f.n; ++k)
-          change[k] =
-            traction.shear_stiffness * traction.normal_distance * f.C[k];
-        for (unsigned int i = 0; i < slave->n; ++i)
-          for (unsigned int c = 0; c < 2; ++c)
-            change[2 * i + c] +=
-              traction.shear_stiffness * slave->w[i] * f.tangent[c];
-        for (unsigned int i = 0; i < stick->n; ++i)
-          for (unsigned int c = 0; c < 2; ++c)
-            change[f.n + 2 * i + c] -=
-              traction.shear_stiffness * stick->w[i] * f.tangent[c];
+          for (unsigned int l = 0; l < stride; ++l)
+            local.matrix[k * stride + l] -= f.N[k] * rise[l];
       }
-      else
-        for (unsigned int k = 0; k < f.n; ++k)
-          change[k] =
-            -traction.shear_over_pressure * traction.normal_stiffness * f.N[k];
       for (unsigned int k = 0; k < f.n; ++k)
       {
         double *row = local.matrix + k * stride;

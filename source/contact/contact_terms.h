@@ -82,6 +82,9 @@ namespace NMM
       double shear_stiffness = 0.;
       /// Sliding: d shear / d pressure.
       double shear_over_pressure = 0.;
+      /// Dilation: derivative of the pressure, times the weight, by the distance
+      /// along tau from where it sticks [N/m^2].
+      double pressure_by_slip = 0.;
       /// n . (x_s - x_0), x_0 being where it sticks [m].
       double normal_distance = 0.;
     };
@@ -91,7 +94,9 @@ namespace NMM
      * Add forces and, if @p with_tangent, tangent to @p local:
      * @f[ r = -p N + q T,\qquad
      *     K = \epsilon N\otimes N - p\,\Delta\delta g
-     *         + T\otimes\Delta q + q\,(N\otimes C + T_1\otimes D). @f]
+     *         + T\otimes\Delta q + q\,(N\otimes C + T_1\otimes D)
+     *         - N\otimes\partial_s p\,\Delta s, @f]
+     * s being the distance along tau from where it sticks.
      * @p stick: weights at the place where it sticks, covers after those of
      * slave and master; null without friction.
      */

@@ -14,6 +14,7 @@ namespace NMM
       law.friction /= factor;
       law.cohesion /= factor;
       law.tensile_strength /= factor;
+      law.dilation = std::min(law.dilation, law.friction);
     }
 
 

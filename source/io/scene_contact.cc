@@ -229,10 +229,12 @@ namespace NMM
         parameters.shear_stiffness > 0.
           ? parameters.shear_stiffness
           : std::min(law.shear_stiffness, law.normal_stiffness);
-      law.normal_damping = parameters.normal_damping;
-      law.shear_damping  = parameters.shear_damping;
-      law.friction =
-        std::tan(parameters.friction_angle * dealii::numbers::PI / 180.);
+      const double degree  = dealii::numbers::PI / 180.;
+      law.normal_damping   = parameters.normal_damping;
+      law.shear_damping    = parameters.shear_damping;
+      law.friction         = std::tan(parameters.friction_angle * degree);
+      law.dilation         = std::tan(parameters.dilation_angle * degree);
+      law.dilation_limit   = parameters.dilation_limit;
       law.cohesion         = parameters.cohesion;
       law.is_bond          = parameters.is_bonded;
       law.tensile_strength = parameters.tensile_strength;
@@ -292,9 +294,12 @@ namespace NMM
     const Analysis analysis = scene_parameters.model.analysis;
     const bool     is_stiff = !is_augmented && analysis == Analysis::statics;
     ContactLaw     chosen;
-    chosen.normal_stiffness = (is_stiff ? 30. : 10.) * modulus / size;
+    // a spring at a vertex stands for a cell's length, whatever that is
+    const double length =
+      section.integration == ContactIntegration::points ? 1. : size;
+    chosen.normal_stiffness = (is_stiff ? 30. : 10.) * modulus / length;
     chosen.shear_stiffness =
-      (analysis == Analysis::dynamics ? 10. : 1.) * modulus / size;
+      (analysis == Analysis::dynamics ? 10. : 1.) * modulus / length;
     ContactParameters parameters;
     static_cast<ContactLaw &>(parameters) = make_law(section.law, chosen);
     for (const ContactLawParameters &law : section.laws)
@@ -306,9 +311,10 @@ namespace NMM
       parameters.penetration_tolerance = section.penetration_tolerance > 0.
                                            ? section.penetration_tolerance
                                            : 1e-5 * size;
-    parameters.reach      = section.reach;
-    parameters.n_points   = section.n_points;
-    parameters.body_ranks = ranks(moduli);
+    parameters.reach       = section.reach;
+    parameters.n_points    = section.n_points;
+    parameters.integration = section.integration;
+    parameters.body_ranks  = ranks(moduli);
     return parameters;
   }
 

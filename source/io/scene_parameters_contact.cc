@@ -18,6 +18,10 @@ namespace NMM
       {"penalty", Enforcement::penalty},
       {"augmented Lagrangian", Enforcement::augmented_lagrangian}};
 
+    const std::vector<std::pair<std::string, ContactIntegration>> integrations =
+      {{"length", ContactIntegration::length},
+       {"points", ContactIntegration::points}};
+
     constexpr const char *any_face = "any";
   } // namespace
 
@@ -66,6 +70,16 @@ namespace NMM
                       "0",
                       Patterns::Double(),
                       "Bonded: tension at which they break [Pa].");
+    prm.declare_entry("Dilation angle",
+                      "0",
+                      Patterns::Double(),
+                      "Faces that slide part by its tangent times the way they "
+                      "slide; from 0 to the friction angle [degrees].");
+    prm.declare_entry("Dilation limit",
+                      "0",
+                      Patterns::Double(),
+                      "Way of sliding after which they part no further [m]; 0: "
+                      "no limit.");
   }
 
 
@@ -105,6 +119,8 @@ namespace NMM
     cohesion         = prm.get_double("Cohesion");
     is_bonded        = prm.get_bool("Bonded");
     tensile_strength = prm.get_double("Tensile strength");
+    dilation_angle   = prm.get_double("Dilation angle");
+    dilation_limit   = prm.get_double("Dilation limit");
   }
 
 
@@ -160,6 +176,21 @@ namespace NMM
                              " Pa is given for faces that are not bonded",
                            place("Tensile strength"),
                            "set 'Bonded = true', or remove it"));
+    AssertThrow(dilation_angle >= 0. && dilation_angle <= friction_angle,
+                InputError("the dilation angle is " + to_text(dilation_angle) +
+                             " degrees",
+                           place("Dilation angle"),
+                           "give an angle from 0 to the friction angle, which "
+                           "is " +
+                             to_text(friction_angle) + " degrees"));
+    check_size("Dilation limit",
+               dilation_limit,
+               "give a length, or 0 for no limit");
+    AssertThrow(dilation_angle > 0. || dilation_limit == 0.,
+                InputError("a dilation limit of " + to_text(dilation_limit) +
+                             " m is given for faces that do not dilate",
+                           place("Dilation limit"),
+                           "set 'Dilation angle', or remove it"));
   }
 
 
@@ -191,6 +222,13 @@ namespace NMM
                       Patterns::Integer(2, 20),
                       "Contact points on each piece of an edge "
                       "(Gauss-Lobatto).");
+    prm.declare_entry("Integration",
+                      "length",
+                      selection(integrations),
+                      "length: springs along faces; points: springs at "
+                      "vertices, whose stiffness is a force over a length per "
+                      "thickness [N/m^2] (0: chosen with h = 1 m), cohesion "
+                      "and strength forces per thickness [N/m].");
     prm.declare_entry("Open joints",
                       "",
                       Patterns::List(Patterns::Anything(), 0),
@@ -225,6 +263,7 @@ namespace NMM
     penetration_tolerance = prm.get_double("Penetration tolerance");
     reach                 = prm.get_double("Reach");
     n_points              = prm.get_integer("Number of points");
+    integration           = get_selection(prm, "Integration", integrations);
     open_joints           = get_names(prm, "Open joints");
     tied_joints           = get_names(prm, "Tied joints");
     law.parse(prm);
@@ -255,6 +294,10 @@ namespace NMM
     expect("Penetration tolerance", penetration_tolerance, 0.);
     expect("Reach", reach, 0.);
     expect("Number of points", n_points, defaults.n_points);
+    AssertThrow(integration == ContactIntegration::length,
+                InputError("'Integration = points' would not be used by " + by,
+                           "parameter 'Contact/Integration'",
+                           remedy));
     expect("Normal stiffness", law.normal_stiffness, 0.);
     expect("Shear stiffness", law.shear_stiffness, 0.);
     expect("Normal damping", law.normal_damping, 0.);
@@ -263,6 +306,8 @@ namespace NMM
     expect("Cohesion", law.cohesion, 0.);
     expect("Bonded", law.is_bonded ? 1. : 0., 0.);
     expect("Tensile strength", law.tensile_strength, 0.);
+    expect("Dilation angle", law.dilation_angle, 0.);
+    expect("Dilation limit", law.dilation_limit, 0.);
     std::vector<std::string> law_names;
     for (const ContactLawParameters &other : laws)
       law_names.push_back(other.name);
@@ -305,6 +350,21 @@ namespace NMM
                      0.,
                      "the penalty method",
                      "remove it, or set 'Enforcement = augmented Lagrangian'");
+    if (integration == ContactIntegration::points)
+    {
+      AssertThrow(!is_augmented,
+                  InputError("'augmented Lagrangian' is not available with "
+                             "springs at points",
+                             "parameter 'Contact/Enforcement'",
+                             "set it to penalty, or 'Integration = length'"));
+      const ContactSectionParameters defaults;
+      expect_default("Contact",
+                     "Number of points",
+                     n_points,
+                     defaults.n_points,
+                     "springs at vertices",
+                     "remove it, or set 'Integration = length'");
+    }
     for (const auto &[key, value] :
          {std::make_pair("Penetration tolerance", penetration_tolerance),
           std::make_pair("Reach", reach)})

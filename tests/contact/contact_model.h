@@ -2,9 +2,11 @@
 #define nmm_tests_contact_contact_model_h
 
 #include <nmm/contact/contact_statics.h>
+#include <nmm/covers/graded_mesh.h>
 
 #include <gtest/gtest.h>
 #include <mechanics/finite_model.h>
+#include <optional>
 
 namespace NMM
 {
@@ -24,17 +26,23 @@ namespace NMM
         bool                       mesh_of_every_block = false;
         MPI_Comm                   communicator        = MPI_COMM_WORLD;
         std::vector<RigidObstacle> obstacles;
+        /// Instead of a regular mesh.
+        std::optional<GradedMeshParameters> graded_mesh;
       };
 
       Bodies(Geometry geometry, const Options &options)
         : physical_mesh(std::move(geometry))
         , meshes(make_own_meshes(
             std::make_unique<MathematicalMesh>(
-              make_regular_mesh(physical_mesh,
-                                mesh_parameters(options.cell_size,
-                                                options.offset,
-                                                options.rotation),
-                                options.degree)),
+              options.graded_mesh
+                ? make_graded_mesh(physical_mesh,
+                                   *options.graded_mesh,
+                                   options.degree)
+                : make_regular_mesh(physical_mesh,
+                                    mesh_parameters(options.cell_size,
+                                                    options.offset,
+                                                    options.rotation),
+                                    options.degree)),
             physical_mesh,
             own_mesh_parameters(options.mesh_of_every_block)))
         , mesh(*meshes.manifold_mesh)

@@ -149,6 +149,14 @@ namespace
     with([](ContactParameters &p) { p.friction = -0.1; }, "friction");
     with([](ContactParameters &p) { p.friction = std::nan(""); }, "friction");
     with([](ContactParameters &p) { p.cohesion = -0.1; }, "cohesion");
+    with([](ContactParameters &p) { p.dilation = 0.1; }, "dilation");
+    with(
+      [](ContactParameters &p) {
+        p.friction = 0.3;
+        p.dilation = -0.1;
+      },
+      "dilation");
+    with([](ContactParameters &p) { p.dilation_limit = 0.1; }, "dilates");
     with([](ContactParameters &p) { p.reach = -0.1; }, "reach");
     with([](ContactParameters &p) { p.penetration_tolerance = -0.1; },
          "penetration");

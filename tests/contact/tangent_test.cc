@@ -52,14 +52,16 @@ namespace
     bool         is_augmented;
     /// Tangential motion [m]: little sticks, much slips.
     double slide;
+    /// Tangent of the dilation angle, and slip after which it ends [m].
+    double dilation = 0., dilation_limit = 0.;
   };
 
 
   TEST(ContactTangent, AgainstDifferences)
   {
-    const unsigned int               seed = 20261121;
-    std::mt19937                     generator(seed);
-    unsigned int                     n_samples = 0, n_stick = 0, n_slip = 0;
+    const unsigned int seed = 20261121;
+    std::mt19937       generator(seed);
+    unsigned int       n_samples = 0, n_stick = 0, n_slip = 0, n_open = 0;
     std::normal_distribution<double> random;
     for (const Case &c : {Case{1, 0., false, 0.},
                           Case{2, 0., false, 0.},
@@ -68,16 +70,23 @@ namespace
                           Case{1, 0.3, false, 0.03},
                           Case{2, 0.3, false, 0.001},
                           Case{2, 0.3, true, 0.001},
-                          Case{2, 0.3, false, 0.03}})
+                          Case{2, 0.3, false, 0.03},
+                          Case{1, 0.3, false, 0.03, 0.2},
+                          Case{2, 0.3, false, 0.003, 0.3},
+                          Case{2, 0.3, true, 0.003, 0.2},
+                          Case{2, 0.3, false, 0.03, 0.1, 0.005}})
     {
       SCOPED_TRACE("seed " + std::to_string(seed) + ", degree " +
                    std::to_string(c.degree) + ", friction " +
                    std::to_string(c.friction) + ", slide " +
-                   std::to_string(c.slide));
+                   std::to_string(c.slide) + ", dilation " +
+                   std::to_string(c.dilation));
       auto              bodies     = nested_arcs(c.degree);
       ContactParameters parameters = contact_parameters(1e4, 0.1);
       parameters.shear_stiffness   = 3e3;
       parameters.friction          = c.friction;
+      parameters.dilation          = c.dilation;
+      parameters.dilation_limit    = c.dilation_limit;
       if (c.is_augmented)
         parameters.penetration_tolerance = 1e-9;
       bodies->start(parameters);
@@ -106,6 +115,8 @@ namespace
       contact.assemble(u, true);
       n_stick += contact.report().n_stick;
       n_slip += c.friction > 0. ? contact.report().n_slip : 0;
+      for (const ContactPoint &point : contact.points())
+        n_open += point.opening > 0.;
       ASSERT_GT(contact.report().n_stick + contact.report().n_slip, 50U);
 
       Vector base(contact.residual()), owned(base), d(base), product(base),
@@ -151,11 +162,13 @@ namespace
         }
       }
     }
-    EXPECT_EQ(n_samples, 40U);
+    EXPECT_EQ(n_samples, 60U);
     EXPECT_GT(n_stick, 100U);
     EXPECT_GT(n_slip, 100U);
+    EXPECT_GT(n_open, 20U);
     std::cout << n_samples << " samples, points that stick " << n_stick
-              << ", slip " << n_slip << std::endl;
+              << ", slip " << n_slip << ", opened by slip " << n_open
+              << std::endl;
   }
 
 

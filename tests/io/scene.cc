@@ -200,7 +200,9 @@ namespace
                    "Contact/two/Normal stiffness=0.25",
                    "Contact/two/Bonded=true",
                    "Contact/two/Tensile strength=3",
-                   "Contact/two/Normal damping=0"};
+                   "Contact/two/Normal damping=0",
+                   "Contact/Dilation angle=10",
+                   "Contact/Dilation limit=0.5"};
       all.insert(all.end(), settings.begin(), settings.end());
       const Scene            scene(base_scene, all);
       const PhysicalMesh     mesh(scene.make_geometry());
@@ -219,6 +221,12 @@ namespace
     EXPECT_NEAR(parameters.shear_stiffness, 2., 1e-10);
     EXPECT_NEAR(parameters.friction, 1., 1e-15);
     EXPECT_EQ(parameters.cohesion, 2.);
+    EXPECT_NEAR(parameters.dilation,
+                std::tan(10. * dealii::numbers::PI / 180.),
+                1e-15);
+    EXPECT_EQ(parameters.dilation_limit, 0.5);
+    EXPECT_EQ(parameters.pairs[1].law.dilation, 0.);
+    EXPECT_EQ(parameters.integration, ContactIntegration::length);
     EXPECT_EQ(parameters.penetration_tolerance, 0.);
     ASSERT_EQ(parameters.pairs.size(), 2u);
     EXPECT_EQ(parameters.pairs[0].first, "square");
@@ -230,6 +238,12 @@ namespace
     EXPECT_EQ(parameters.pairs[1].law.shear_stiffness, 0.25);
     EXPECT_TRUE(parameters.pairs[1].law.is_bond);
     EXPECT_EQ(parameters.pairs[1].law.tensile_strength, 3.);
+
+    // springs at vertices stand for a length of 1 m, so to say
+    const ContactParameters points = make({"Contact/Integration=points"}, size);
+    EXPECT_EQ(points.integration, ContactIntegration::points);
+    EXPECT_NEAR(points.normal_stiffness, 30., 1e-10);
+    EXPECT_NEAR(points.shear_stiffness, 1., 1e-10);
 
     const ContactParameters augmented =
       make({"Contact/Enforcement=augmented Lagrangian"}, size);

@@ -570,6 +570,9 @@ namespace
                               "Penetration tolerance=1e-6",
                               "Reach=0.1",
                               "Number of points=3",
+                              "Dilation angle=5",
+                              "Dilation limit=0.1",
+                              "Integration=points",
                               "Open joints=crack",
                               "Tied joints=crack"})
     {
@@ -605,6 +608,20 @@ namespace
     rejects("Contact/Cohesion=-3", {"Contact/Cohesion", "-3"});
     rejects("Contact/Tensile strength=5",
             {"Contact/Tensile strength", "5 Pa", "Bonded = true"});
+    rejects("Contact/Dilation angle=5",
+            {"Contact/Dilation angle", "5 degrees", "friction angle"});
+    rejects("Contact/Dilation angle=-1", {"Contact/Dilation angle", "-1"});
+    rejects("Contact/Dilation limit=0.1",
+            {"Contact/Dilation limit", "0.1 m", "Dilation angle"});
+    rejects("Contact/Integration=area", {"area", "points"});
+    expect_rejected_with(
+      touching + std::vector<std::string>{"Contact/Integration=points"},
+      "Contact/Number of points=6",
+      {"Contact/Number of points", "length"});
+    expect_rejected_with(
+      touching + std::vector<std::string>{"Contact/Integration=points"},
+      "Contact/Enforcement=augmented Lagrangian",
+      {"augmented Lagrangian", "Contact/Enforcement", "length"});
     rejects("Contact/Reach=-1", {"Contact/Reach", "-1"});
     rejects("Contact/Number of points=1", {"Number of points"});
     rejects("Contact/Penetration tolerance=1e-6",

@@ -1,12 +1,14 @@
 #ifndef nmm_contact_contact_h
 #define nmm_contact_contact_h
 
+#include <nmm/contact/contact_integration.h>
 #include <nmm/contact/contact_surface.h>
 
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <string>
@@ -40,6 +42,26 @@ namespace NMM
      */
     bool   is_bond          = false;
     double tensile_strength = 0.;
+    /**
+     * Tangent of the dilation angle psi [-], at most that of the friction angle. Faces
+     * that slide in contact ride up on each other: with the length kappa of the way that
+     * a point has slid, whichever way,
+     * @f[ p = \epsilon_n\langle\delta - g\rangle_+,\quad
+     *     \delta = \tan\psi\,\min(\kappa, \kappa_\mathrm{max}),\quad
+     *     |q| \le p\tan\phi + c, \quad
+     *     q = \epsilon_t (g_t - g_t^\mathrm{slip}),\quad
+     *     \dot\kappa = |\dot g_t^\mathrm{slip}|: @f]
+     * Mohr and Coulomb's strength with a flow rule that is not associated, which
+     * dissipates @f$ (p(\tan\phi-\tan\psi) + c)\,\dot\kappa \ge 0 @f$ (Plesha, Int. J.
+     * Numer. Anal. Methods Geomech. 11 (1987) 345, without wear). Where the normal motion is
+     * held, shear strength grows by
+     * @f$ \epsilon_n\tan\phi\tan\psi @f$ per length of slip. The
+     * opening stays with the point as long as there is a face within reach, and grows
+     * there even if the point itself is open, as long as both bodies touch somewhere.
+     */
+    double dilation = 0.;
+    /// The slip kappa_max beyond which nothing opens any more [m]; 0: no limit.
+    double dilation_limit = 0.;
 
     /// @throws InputError naming the value and @p where it is.
     void
@@ -49,6 +71,14 @@ namespace NMM
     has_friction() const
     {
       return friction > 0. || cohesion > 0. || is_bond;
+    }
+
+    /// delta after the slip kappa [m].
+    double
+    opening(const double slip) const
+    {
+      return dilation *
+             (dilation_limit == 0. ? slip : std::min(slip, dilation_limit));
     }
   };
 
@@ -75,7 +105,8 @@ namespace NMM
     /// edge. No point may move further than this in a step.
     double reach = 0.;
     /// Gauss-Lobatto points on each piece of an edge, at least 2.
-    unsigned int n_points = 4;
+    unsigned int       n_points    = 4;
+    ContactIntegration integration = ContactIntegration::length;
     /// Of two blocks the one with the lower number carries the contact points:
     /// the softer or finer one is the better choice. Empty: the block's number.
     std::vector<unsigned int> body_ranks;
@@ -104,13 +135,16 @@ namespace NMM
     /// Edge of the surface and parameter on it.
     unsigned int edge = invalid_index;
     double       s    = 0.;
-    /// Reference length times the cosine of the angle between both faces [m].
+    /// Reference length times the cosine of the angle between both faces [m];
+    /// ContactIntegration::points: share of the vertex [-].
     double weight = 0.;
     /// Edge and parameter of the nearest point; invalid_index: none.
     unsigned int master = invalid_index;
     double       t      = 0.;
     /// Positive: open [m].
     double gap = 0.;
+    /// By which slip has opened the faces: gap without pressure [m].
+    double opening = 0.;
     /// Per reference length of the slave [Pa].
     double       pressure = 0., shear = 0.;
     ContactState state = ContactState::open;
@@ -155,8 +189,8 @@ namespace NMM
    * @f[ \Pi = \sum_q w_q\left(\tfrac{1}{2\epsilon_n}\langle\lambda - \epsilon_n
    *     g\rangle_+^2 + \tfrac{\epsilon_t}{2} g_t^2\right). @f]
    * Edges are divided where the other side's edges end, so that the
-   * rule is exact. The paper has springs at corners only; here their stiffness is
-   * per length, and refinement does not change it.
+   * rule is exact. The paper has springs at corners only, see ContactIntegration; here
+   * their stiffness is per length, and refinement does not change it.
    *
    * Friction: the shear at a point is eps_t times the distance, along the
    * master, from the material point of the master where it sticks; beyond

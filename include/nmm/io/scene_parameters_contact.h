@@ -1,6 +1,8 @@
 #ifndef nmm_io_scene_parameters_contact_h
 #define nmm_io_scene_parameters_contact_h
 
+#include <nmm/contact/contact_integration.h>
+
 #include <deal.II/base/parameter_handler.h>
 
 #include <array>
@@ -40,6 +42,8 @@ namespace NMM
     double cohesion         = 0.;
     bool   is_bonded        = false;
     double tensile_strength = 0.;
+    /// [degrees]; [m], 0: no limit.
+    double dilation_angle = 0., dilation_limit = 0.;
 
     static void
     declare(dealii::ParameterHandler &prm);
@@ -74,8 +78,9 @@ namespace NMM
     /// Augmented Lagrangian [m]; 0: chosen.
     double penetration_tolerance = 0.;
     /// [m]; 0: chosen.
-    double       reach    = 0.;
-    unsigned int n_points = 4;
+    double             reach       = 0.;
+    unsigned int       n_points    = 4;
+    ContactIntegration integration = ContactIntegration::length;
     /// Joints that are faces in contact, or tied, whatever the geometry says.
     std::vector<std::string> open_joints, tied_joints;
 

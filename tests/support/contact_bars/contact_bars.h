@@ -107,7 +107,10 @@ namespace NMM
       /// First step and duration [s].
       double step = 0.005, duration = 1.5;
       /// Share of the critical damping of a block on its springs.
-      double   dashpot      = 0.1;
+      double dashpot = 0.1;
+      /// Tangent of the dilation angle over that of friction [-], and the slip
+      /// after which it ends [m].
+      double   dilation = 0., dilation_limit = 0.;
       MPI_Comm communicator = MPI_COMM_WORLD;
     };
 

@@ -87,6 +87,8 @@ namespace NMM
           contact_parameters(20. * drops.youngs_modulus, 0.05);
         parameters.friction =
           std::tan((15. + 15. * (random(generator) + 1.)) * pi / 180.);
+        parameters.dilation       = drops.dilation * parameters.friction;
+        parameters.dilation_limit = drops.dilation_limit;
         parameters.normal_damping = parameters.shear_damping =
           2. * drops.dashpot *
           std::sqrt(parameters.normal_stiffness * density * 0.5);

@@ -1,0 +1,630 @@
+// Detection against brute force, and what it costs.
+
+#include <contact/contact_model.h>
+#include <contact/contact_search.h>
+#include <random>
+
+using namespace NMM;
+using namespace NMM::Test;
+
+namespace
+{
+  using internal::ContactProjection;
+  using internal::ContactSearch;
+  using Place = ContactSurface::Place;
+
+  constexpr double pi = dealii::numbers::PI;
+
+
+  /// Displacements of the surface: a rigid motion of each block.
+  struct Motion
+  {
+    Point<2>     center;
+    double       angle = 0.;
+    Tensor<1, 2> shift;
+
+    Tensor<1, 2>
+    operator()(const Point<2> &X) const
+    {
+      const Tensor<1, 2> d = X - center;
+      const double       c = std::cos(angle), s = std::sin(angle);
+      return Tensor<1, 2>({c * d[0] - s * d[1], s * d[0] + c * d[1]}) - d +
+             shift;
+    }
+  };
+
+
+  std::vector<double>
+  move(Bodies &bodies, const std::vector<Motion> &motions)
+  {
+    std::vector<double> nodal(2 * bodies.covers.n_covers(), 0.);
+    for (unsigned int e = 0; e < bodies.mesh.n_elements(); ++e)
+      for (const unsigned int cover : bodies.covers.covers(e))
+      {
+        const Tensor<1, 2> u =
+          motions[bodies.mesh.block(e)](bodies.covers.node(cover));
+        nodal[2 * cover]     = u[0];
+        nodal[2 * cover + 1] = u[1];
+      }
+    return nodal;
+  }
+
+
+  /// A star (or a convex polygon) about a centre.
+  std::vector<Point<2>>
+  random_polygon(std::mt19937 &generator, const Point<2> &center)
+  {
+    std::uniform_real_distribution<double> random(0., 1.);
+    const unsigned int                     n         = 4 + generator() % 5;
+    const bool                             is_convex = generator() % 2 == 0;
+    const double                           phase = 2. * pi * random(generator);
+    std::vector<Point<2>>                  corners;
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      const double angle  = phase + 2. * pi * (i + 0.3 * random(generator)) / n;
+      const double radius = is_convex ? 0.4 : 0.2 + 0.2 * random(generator);
+      corners.push_back(
+        center + radius * Tensor<1, 2>({std::cos(angle), std::sin(angle)}));
+    }
+    return corners;
+  }
+
+
+  /// Corners of a straight-sided block in its current position, in order.
+  std::vector<Point<2>>
+  current_outline(const ContactSurface &surface, const unsigned int body)
+  {
+    std::vector<Point<2>> outline;
+    const auto           &edges = surface.edges();
+    unsigned int          first = 0;
+    while (edges[first].body != body)
+      ++first;
+    unsigned int e = first;
+    do
+    {
+      outline.push_back(surface.place(e, 0.).x);
+      e = edges[e].next;
+    } while (e != first);
+    return outline;
+  }
+
+
+  bool
+  is_inside(const std::vector<Point<2>> &outline, const Point<2> &x)
+  {
+    bool result = false;
+    for (unsigned int i = 0; i < outline.size(); ++i)
+    {
+      const Point<2> &a = outline[i], &b = outline[(i + 1) % outline.size()];
+      if ((a[1] > x[1]) != (b[1] > x[1]) &&
+          x[0] < a[0] + (x[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
+        result = !result;
+    }
+    return result;
+  }
+
+
+  /// What brute force says of one edge: straight, and found by its two ends alone.
+  struct Reference
+  {
+    unsigned int edge   = invalid_index;
+    double       gap    = 0.;
+    double       facing = 0.;
+  };
+
+
+  /// All edges of other bodies that face a point within the reach, at places
+  /// inside of them; @p is_doubtful where rounding decides.
+  std::vector<Reference>
+  brute_force(const ContactSurface                     &surface,
+              const std::vector<std::vector<Point<2>>> &outlines,
+              const unsigned int                        slave,
+              const Place                              &place,
+              const double                              reach,
+              const ContactSearch                      &search,
+              bool                                     &is_doubtful)
+  {
+    constexpr double       rounding = 1e-7;
+    std::vector<Reference> result;
+    is_doubtful = false;
+    for (unsigned int m = 0; m < surface.edges().size(); ++m)
+    {
+      if (surface.edges()[m].body == surface.edges()[slave].body ||
+          !search.comes_first(slave, m))
+        continue;
+      const Point<2>     a = surface.place(m, 0.).x, b = surface.place(m, 1.).x;
+      const Tensor<1, 2> d      = b - a;
+      const double       length = d.norm();
+      const Tensor<1, 2> normal({d[1] / length, -d[0] / length});
+      const double       t       = ((place.x - a) * d) / (length * length);
+      const double       gap     = (place.x - a) * normal;
+      const double       facing  = -(normal * place.normal());
+      const bool         is_near = t > -0.5 - rounding && t < 1.5 + rounding &&
+                           std::abs(gap) < reach + rounding;
+      if (is_near &&
+          (std::abs(t) < rounding || std::abs(t - 1.) < rounding ||
+           std::abs(std::abs(gap) - reach) < rounding ||
+           std::abs(gap) < rounding || std::abs(facing - 0.01) < rounding ||
+           std::abs(facing + 0.5) < rounding))
+        is_doubtful = true;
+      if (t < 0. || t > 1. || std::abs(gap) > reach || facing <= 0.01)
+        continue;
+      // behind a face, but not in its body
+      if (gap < 0. && !is_inside(outlines[surface.edges()[m].body], place.x))
+        continue;
+      result.push_back({m, gap, facing});
+    }
+    return result;
+  }
+
+
+  /// Compares a search with brute force, and counts.
+  struct Comparison
+  {
+    const ContactSurface              &surface;
+    const ContactSearch               &search;
+    double                             reach;
+    std::vector<std::vector<Point<2>>> outlines;
+    std::vector<unsigned int>          slave_to_position;
+    unsigned int n_found = 0, n_none = 0, n_entrance = 0, n_corners = 0;
+
+    Comparison(const ContactSurface &surface,
+               const ContactSearch  &search,
+               const double          reach)
+      : surface(surface)
+      , search(search)
+      , reach(reach)
+    {
+    }
+
+    /// After the bodies have moved.
+    void
+    update()
+    {
+      outlines.clear();
+      for (unsigned int b = 0; b < surface.n_bodies(); ++b)
+        outlines.push_back(current_outline(surface, b));
+      slave_to_position.assign(surface.edges().size(), invalid_index);
+      for (unsigned int i = 0; i < search.slaves().size(); ++i)
+        if (search.corner(i) == 2)
+          slave_to_position[search.slaves()[i]] = i;
+    }
+
+    /// Edges of other bodies among the masters at a position.
+    std::vector<unsigned int>
+    masters_of(const unsigned int edge, const unsigned int position) const
+    {
+      std::vector<unsigned int> result;
+      if (position != invalid_index)
+        for (const unsigned int m : search.masters(position))
+          if (surface.edges()[m].body != surface.edges()[edge].body)
+            result.push_back(m);
+      return result;
+    }
+
+    /// Among all edges of other bodies.
+    std::vector<unsigned int>
+    all_masters_of(const unsigned int edge, const bool is_corner) const
+    {
+      std::vector<unsigned int> result;
+      for (unsigned int m = 0; m < surface.edges().size(); ++m)
+        if (surface.edges()[m].body != surface.edges()[edge].body &&
+            (is_corner || search.comes_first(edge, m)))
+          result.push_back(m);
+      return result;
+    }
+
+    void
+    compare_corner(const unsigned int position)
+    {
+      const unsigned int edge   = search.slaves()[position];
+      const unsigned int corner = search.corner(position);
+      const Place        place  = surface.place(edge, corner);
+      const auto         near   = masters_of(edge, position),
+                 all            = all_masters_of(edge, true);
+      const ContactProjection found =
+        search.project_corner(place, {near.data(), near.size()}, invalid_index);
+      const ContactProjection among_all =
+        search.project_corner(place, {all.data(), all.size()}, invalid_index);
+      EXPECT_EQ(found.master, among_all.master);
+      EXPECT_EQ(found.gap, among_all.gap);
+      n_corners += found.master != invalid_index;
+      // in a body it is in the one that the face belongs to
+      if (found.master != invalid_index && std::abs(found.gap) > 1e-7)
+      {
+        EXPECT_EQ(found.gap < 0., is_inside_of(found.master, place.x));
+      }
+    }
+
+    void
+    compare_point(const unsigned int edge, const double s)
+    {
+      const Place place = surface.place(edge, s);
+      bool        is_doubtful;
+      const auto  reference =
+        brute_force(surface, outlines, edge, place, reach, search, is_doubtful);
+      if (is_doubtful)
+        return;
+      // the broad phase leaves nothing out
+      const auto near = masters_of(edge, slave_to_position[edge]),
+                 all  = all_masters_of(edge, false);
+      const ContactProjection found =
+        search.project(place, {near.data(), near.size()});
+      const ContactProjection among_all =
+        search.project(place, {all.data(), all.size()});
+      EXPECT_EQ(found.master, among_all.master);
+      EXPECT_EQ(found.gap, among_all.gap);
+      if (!reference.empty())
+      {
+        compare_face(found, reference, place);
+        return;
+      }
+      // beyond the end of an edge at smooth and concave corners only
+      ++n_none;
+      if (found.master != invalid_index)
+      {
+        EXPECT_TRUE(found.t < 0. || found.t > 1. ||
+                    !is_inside_of(found.master, place.x))
+          << found.gap << ' ' << found.t;
+      }
+    }
+
+  private:
+    bool
+    is_inside_of(const unsigned int edge, const Point<2> &x) const
+    {
+      return is_inside(outlines[surface.edges()[edge].body], x);
+    }
+
+    void
+    compare_face(const ContactProjection      &found,
+                 const std::vector<Reference> &reference,
+                 const Place                  &place)
+    {
+      const auto nearest =
+        *std::min_element(reference.begin(),
+                          reference.end(),
+                          [](const Reference &a, const Reference &b) {
+                            return std::abs(a.gap) < std::abs(b.gap);
+                          });
+      ASSERT_NE(found.master, invalid_index);
+      ++n_found;
+      if (found.master == nearest.edge)
+      {
+        // bodies are straight-sided: what is left is rounding
+        EXPECT_NEAR(found.gap, nearest.gap, 1e-12);
+        return;
+      }
+      // of two faces that meet in a corner the one that faces it more
+      ++n_entrance;
+      EXPECT_EQ(surface.edges()[found.master].body,
+                surface.edges()[nearest.edge].body);
+      EXPECT_GT(-(found.normal * place.normal()), nearest.facing);
+    }
+  };
+
+
+  /// Nine polygons next to each other.
+  Bodies
+  random_bodies(std::mt19937 &generator, const unsigned int seed)
+  {
+    Geometry geometry;
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+        geometry.add_polygon(random_polygon(generator,
+                                            Point<2>(0.81 * i, 0.81 * j)),
+                             "body" + std::to_string(3 * i + j));
+    Bodies::Options options;
+    options.degree    = 1 + seed % 2;
+    options.cell_size = 0.25;
+    options.rotation  = 11. * seed;
+    return Bodies(std::move(geometry), options);
+  }
+
+
+  /// Each body moves by up to 0.1 m; some turn about a corner of theirs.
+  std::vector<Motion>
+  random_motions(const Bodies &bodies, std::mt19937 &generator)
+  {
+    std::uniform_real_distribution<double> random(-1., 1.);
+    std::vector<Motion> motions(bodies.physical_mesh.n_blocks());
+    for (Motion &motion : motions)
+    {
+      const double x = 0.1 * random(generator), y = 0.1 * random(generator);
+      motion.shift = Tensor<1, 2>({x, y});
+    }
+    for (const auto &edge : bodies.surface.edges())
+      if (generator() % 3 == 0)
+      {
+        motions[edge.body].center = edge.start;
+        motions[edge.body].angle  = 0.5 * random(generator);
+      }
+    return motions;
+  }
+
+
+  TEST(ContactDetection, RandomPolygonsAgainstBruteForce)
+  {
+    constexpr double   reach    = 0.2;
+    constexpr unsigned n_models = 6, n_motions = 10;
+    unsigned int       n_found = 0, n_none = 0, n_entrance = 0, n_corners = 0;
+    for (unsigned int seed = 0; seed < n_models; ++seed)
+    {
+      std::mt19937  generator(seed);
+      Bodies        bodies = random_bodies(generator, seed);
+      ContactSearch search(bodies.surface, {});
+      Comparison    comparison(bodies.surface, search, reach);
+      for (unsigned int k = 0; k < n_motions; ++k)
+      {
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", motion " +
+                     std::to_string(k));
+        const std::vector<double> nodal =
+          move(bodies, random_motions(bodies, generator));
+        bodies.surface.set_displacements(&nodal);
+        search.update(reach);
+        comparison.update();
+        for (unsigned int i = 0; i < search.slaves().size(); ++i)
+          if (search.corner(i) != 2)
+            comparison.compare_corner(i);
+        for (unsigned int e = 0; e < bodies.surface.edges().size(); ++e)
+          for (const double s : {0.031, 0.28, 0.5, 0.77, 0.969})
+            comparison.compare_point(e, s);
+      }
+      n_found += comparison.n_found;
+      n_none += comparison.n_none;
+      n_entrance += comparison.n_entrance;
+      n_corners += comparison.n_corners;
+    }
+    std::cout << n_found << " points have a face, " << n_entrance
+              << " of them not the nearest, " << n_none << " have none; "
+              << n_corners << " corners have a face" << std::endl;
+    EXPECT_GT(n_corners, 500U);
+    EXPECT_GT(n_found, 2000U);
+    EXPECT_GT(n_none, 2000U);
+    EXPECT_LT(n_entrance, n_found / 20);
+  }
+
+
+  /// Plates thinner than the reach, on each other: the face next to it is found, not
+  /// the far side, and a plate does not touch itself.
+  TEST(ContactDetection, ThinPlates)
+  {
+    constexpr double thickness = 0.02, reach = 0.1;
+    for (const double opening : {0.005, 0., -0.004})
+    {
+      SCOPED_TRACE(opening);
+      Geometry geometry;
+      add_named_box(geometry, "lower ", {0., 0.}, {1., thickness});
+      add_named_box(geometry,
+                    "upper ",
+                    {0., thickness + 0.01},
+                    {1., 2. * thickness + 0.01});
+      Bodies::Options options;
+      options.cell_size = 0.17;
+      Bodies             bodies(std::move(geometry), options);
+      const unsigned int upper = bodies.mesh.block(
+        bodies.mesh.find_element({0.5, 1.5 * thickness + 0.01}));
+      std::vector<Motion> motions(2);
+      motions[upper].shift            = Tensor<1, 2>({0., opening - 0.01});
+      const std::vector<double> nodal = move(bodies, motions);
+      bodies.surface.set_displacements(&nodal);
+      for (const bool upper_is_slave : {false, true})
+      {
+        std::vector<unsigned int> ranks(2, 0);
+        ranks[upper]     = upper_is_slave ? 0 : 1;
+        ranks[1 - upper] = upper_is_slave ? 1 : 0;
+        ContactSearch search(bodies.surface, ranks);
+        search.update(reach);
+        unsigned int n = 0, n_none = 0;
+        const auto  &edges = bodies.surface.edges();
+        for (unsigned int i = 0; i < search.slaves().size(); ++i)
+        {
+          const unsigned int slave = search.slaves()[i];
+          for (const unsigned int m : search.masters(i))
+            EXPECT_NE(edges[m].body, edges[slave].body);
+          if (search.corner(i) != 2)
+            continue;
+          const std::string name = bodies.surface.name(slave);
+          for (const double s : {0.1, 0.5, 0.9})
+          {
+            const ContactProjection found =
+              search.project(bodies.surface.place(slave, s), search.masters(i));
+            if (name == "lower top" || name == "upper bottom")
+            {
+              ASSERT_NE(found.master, invalid_index);
+              EXPECT_EQ(bodies.surface.name(found.master),
+                        name == "lower top" ? "upper bottom" : "lower top");
+              EXPECT_NEAR(found.gap, opening, 1e-12);
+              ++n;
+            }
+            else if (name == "lower bottom" || name == "upper top")
+            {
+              EXPECT_EQ(found.master, invalid_index)
+                << name << " sees " << bodies.surface.name(found.master)
+                << " at " << found.gap;
+              ++n_none;
+            }
+          }
+        }
+        EXPECT_GE(n, 12U);
+        EXPECT_GE(n_none, 12U);
+      }
+    }
+  }
+
+
+  /// Both faces of a crack meet at its tips, and touch each other up to there.
+  TEST(ContactDetection, CrackTips)
+  {
+    Geometry geometry;
+    add_box(geometry, {0., 0.}, {2., 1.});
+    geometry.add_polyline({{0.5, 0.3}, {0.9, 0.5}, {1.4, 0.6}},
+                          "crack",
+                          CurveRole::joint,
+                          JointState::open);
+    geometry.add_polyline({{-0.1, 0.52}, {0.31, 0.47}},
+                          "notch",
+                          CurveRole::joint,
+                          JointState::open);
+    for (const unsigned int degree : {1U, 2U})
+      for (const double rotation : {0., 8., 23.})
+      {
+        SCOPED_TRACE(std::to_string(degree) + ", " + std::to_string(rotation));
+        Bodies::Options options;
+        options.degree    = degree;
+        options.cell_size = 0.17;
+        options.rotation  = rotation;
+        Bodies              bodies(Geometry(geometry), options);
+        std::vector<double> nodal(2 * bodies.covers.n_covers(), 0.);
+        bodies.surface.set_displacements(&nodal);
+        ContactSearch search(bodies.surface, {});
+        search.update(0.05);
+        const auto  &edges  = bodies.surface.edges();
+        double       length = 0.;
+        unsigned int n_tips = 0;
+        for (unsigned int i = 0; i < search.slaves().size(); ++i)
+        {
+          const unsigned int slave = search.slaves()[i];
+          const std::string  name  = bodies.surface.name(slave);
+          if (search.corner(i) != 2 || (name != "crack" && name != "notch"))
+            continue;
+          bool is_whole = true;
+          for (const double s : {0.001, 0.1, 0.5, 0.9, 0.999})
+          {
+            const Place             place = bodies.surface.place(slave, s);
+            const ContactProjection found =
+              search.project(place, search.masters(i));
+            is_whole = is_whole && found.master != invalid_index;
+            if (found.master == invalid_index)
+              continue;
+            // the other face, there where it is
+            EXPECT_EQ(bodies.surface.name(found.master), name);
+            EXPECT_NEAR(found.normal * place.normal(), -1., 1e-12);
+            EXPECT_LE(found.place.x.distance(place.x), 1e-12);
+          }
+          if (is_whole)
+            length += edges[slave].length;
+          const unsigned int next = edges[slave].next;
+          if (next != invalid_index && edges[next].start == edges[slave].end &&
+              edges[next].end == edges[slave].start)
+          {
+            ++n_tips;
+            EXPECT_TRUE(is_whole);
+          }
+        }
+        // one of both faces carries the points, all along; edges at tips whose
+        // lower number is the following face's first one count there
+        const double expected = std::hypot(0.4, 0.2) + std::hypot(0.5, 0.1) +
+                                0.31 / 0.41 * std::hypot(0.41, 0.05);
+        EXPECT_NEAR(length, expected, 1e-9);
+        EXPECT_GE(n_tips, 1U);
+      }
+  }
+
+
+  /// Disks: normals are those of circles, distances those of circles.
+  TEST(ContactDetection, ArcsHaveTrueNormals)
+  {
+    const unsigned int                     seed = 3;
+    std::mt19937                           generator(seed);
+    std::uniform_real_distribution<double> random(-1., 1.);
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const double   r[2] = {0.5, 0.3};
+    const Point<2> c[2] = {{0., 0.}, {0.85, 0.}};
+    Geometry       geometry;
+    for (unsigned int b = 0; b < 2; ++b)
+      geometry.add(single_piece_curve("disk" + std::to_string(b),
+                                      CurvePiece::circle(c[b], r[b])));
+    Bodies::Options options;
+    options.cell_size = 0.13;
+    Bodies       bodies(std::move(geometry), options);
+    unsigned int n = 0;
+    for (unsigned int k = 0; k < 20; ++k)
+    {
+      std::vector<Motion> motions(2);
+      Point<2>            centers[2];
+      for (unsigned int i = 0; i < 2; ++i)
+      {
+        const unsigned int b =
+          bodies.mesh.block(bodies.mesh.find_element(c[i]));
+        motions[b].center = c[i];
+        motions[b].angle  = 2. * random(generator);
+        motions[b].shift =
+          0.02 * Tensor<1, 2>({random(generator), random(generator)});
+        centers[i] = c[i] + motions[b].shift;
+      }
+      const std::vector<double> nodal = move(bodies, motions);
+      bodies.surface.set_displacements(&nodal);
+      ContactSearch search(bodies.surface, {});
+      search.update(0.1);
+      for (unsigned int i = 0; i < search.slaves().size(); ++i)
+        if (search.corner(i) == 2)
+          for (const double s : {0., 0.37, 0.9})
+          {
+            const Place place = bodies.surface.place(search.slaves()[i], s);
+            const ContactProjection found =
+              search.project(place, search.masters(i));
+            if (found.master == invalid_index)
+              continue;
+            const unsigned int m =
+              bodies.surface.name(found.master) == "disk0" ? 0 : 1;
+            const Tensor<1, 2> d = place.x - centers[m];
+            EXPECT_NEAR(found.gap, d.norm() - r[m], 1e-12);
+            EXPECT_LE((found.normal - d / d.norm()).norm(), 1e-11);
+            ++n;
+          }
+    }
+    EXPECT_GT(n, 100U);
+  }
+
+
+  /// Rows of n, 2n and 4n blocks on another row: work grows by the same factors.
+  TEST(ContactDetection, CostGrowsLinearly)
+  {
+    struct Counts
+    {
+      std::size_t n_edges, n_boxes, n_candidates, n_projections;
+    };
+    std::vector<Counts> counts;
+    for (const unsigned int n : {8U, 16U, 32U})
+    {
+      Geometry geometry;
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < 2; ++j)
+          add_named_box(geometry,
+                        std::to_string(i) + "-" + std::to_string(j) + " ",
+                        Point<2>(1.02 * i + 0.31 * j, 0.52 * j),
+                        Point<2>(1.02 * i + 0.31 * j + 1., 0.52 * j + 0.5));
+      Bodies::Options options;
+      options.cell_size = 0.4;
+      Bodies              bodies(std::move(geometry), options);
+      std::vector<double> nodal(2 * bodies.covers.n_covers(), 0.);
+      bodies.surface.set_displacements(&nodal);
+      ContactSearch search(bodies.surface, {});
+      search.update(0.05);
+      for (unsigned int i = 0; i < search.slaves().size(); ++i)
+        if (search.corner(i) == 2)
+          for (const auto &division : search.divisions(i))
+            search.project(bodies.surface.place(search.slaves()[i], division.s),
+                           search.masters(i));
+      const auto &done = search.statistics();
+      counts.push_back({bodies.surface.edges().size(),
+                        done.n_boxes,
+                        done.n_candidates,
+                        done.n_projections});
+      std::cout << n << " blocks in a row: " << counts.back().n_edges
+                << " edges, " << done.n_boxes << " boxes, " << done.n_candidates
+                << " candidates, " << done.n_projections << " projections"
+                << std::endl;
+    }
+    ASSERT_GT(counts[0].n_candidates, counts[0].n_edges / 2);
+    for (unsigned int i = 0; i < 2; ++i)
+    {
+      // the ends of the rows do without neighbours, hence a little above 2
+      EXPECT_LE(counts[i + 1].n_edges, 2.2 * counts[i].n_edges);
+      EXPECT_LE(counts[i + 1].n_boxes, 2.2 * counts[i].n_boxes);
+      EXPECT_LE(counts[i + 1].n_candidates, 2.2 * counts[i].n_candidates);
+      EXPECT_LE(counts[i + 1].n_projections, 2.2 * counts[i].n_projections);
+    }
+  }
+} // namespace

@@ -101,16 +101,15 @@ namespace
   }
 
 
-  // What is outside of a domain that is no rectangle does not count, exactly: a
-  // triangle with joints of three directions.
+  // What is outside of a domain that is no rectangle does not count, exactly.
   TEST(JointNetwork, IsClippedToTheSolid)
   {
     Geometry geometry;
     geometry.add_polygon({{0., 0.}, {4., 0.}, {0., 4.}}, "triangle");
     geometry.add_circle({1., 1.}, 0.25, "bore", CurveRole::hole);
     const auto mesh = cut(std::move(geometry), {make_set("steep", 90., 1.)});
-    EXPECT_EQ(mesh.n_blocks(),
-              5u); // the bore divides the joint at x = 1, not a block
+    // at x = 1, 2, 3; the bore lies on the first one
+    EXPECT_EQ(mesh.n_blocks(), 4u);
     EXPECT_NEAR(total_area(mesh), 8. - dealii::numbers::PI / 16., 1e-12);
     EXPECT_EQ(mesh.dangling_ends().n_kept, 0u);
     EXPECT_TRUE(mesh.notices().empty());
@@ -219,8 +218,11 @@ namespace
     set.trace_length_scatter = 1. / 0.9 - 1.;
     const auto joints        = make_joints(set, square(50.));
     for (unsigned int i = 1; i < joints.size(); ++i)
-      if (joints[i].start()[1] == joints[i - 1].start()[1])
-        EXPECT_GE(joints[i].start()[0], joints[i - 1].end()[0]);
+    {
+      const bool is_next = joints[i].start()[1] == joints[i - 1].start()[1];
+      EXPECT_TRUE(!is_next ||
+                  joints[i].start()[0] >= joints[i - 1].end()[0] - 1e-9);
+    }
   }
 
 
@@ -245,8 +247,9 @@ namespace
     double sum = 0.;
     for (const Curve &joint : joints)
       sum += joint.start()[0] + 2. * joint.end()[1];
-    EXPECT_EQ(joints.size(), NMM_N);
-    EXPECT_NEAR(sum, NMM_SUM, 1e-9);
+    // found once, frozen
+    EXPECT_EQ(joints.size(), 30u);
+    EXPECT_NEAR(sum, 357.58431661107898, 1e-9);
     set.seed         = 12346;
     const auto other = make_joints(set, square(8.));
     EXPECT_TRUE(other.size() != joints.size() ||

@@ -761,7 +761,7 @@ namespace
                            other,
                            words);
     };
-    rejects("no-such.dxf", {"no-such.dxf"});
+    rejects(NMM_TEST_OUTPUT_DIR "/no-such.dxf", {"no-such.dxf", "exist"});
     rejects(write_scene("text.dxf", "no drawing\nat all\n"),
             {"text.dxf", "DXF"});
     rejects(write_scene("boundary.wkt", square),

@@ -18,7 +18,7 @@ readonly packages=(
   g++ cmake ninja-build pkg-config git clang-format
   libdeal.ii-dev mpi-default-bin libmumps-dev libopenblas0-pthread
   libcgal-dev libeigen3-dev libboost-program-options-dev
-  libcairo2-dev fonts-dejavu-core
+  libcairo2-dev fonts-dejavu-core libdxflib-dev
   libgtest-dev gnuplot-nox)
 
 export OPENBLAS_NUM_THREADS="${OPENBLAS_NUM_THREADS:-1}"

@@ -16,9 +16,9 @@ ContactAnalysis::ContactAnalysis(const Scene        &scene,
                                  CoverSystem        &covers)
   : scene(&scene)
   , covers(&covers)
-  , surface(
-      std::make_unique<ContactSurface>(covers,
-                                       scene.make_obstacles(physical_mesh)))
+  , surface(std::make_unique<ContactSurface>(covers,
+                                             scene.make_obstacles(physical_mesh,
+                                                                  &switches)))
 {
 }
 
@@ -35,6 +35,23 @@ ContactAnalysis::make_contact(
   constexpr double tolerance = 1e-6;
   contact_pointer->set_time(0.);
   surface->check_initial_overlap(tolerance * contact().parameters().reach);
+}
+
+
+const std::vector<ObstacleRelease> &
+ContactAnalysis::releases() const
+{
+  return switches.releases;
+}
+
+
+void
+ContactAnalysis::hold_obstacles(const bool are_held)
+{
+  *switches.is_frozen = are_held;
+  for (const ObstacleRelease &release : switches.releases)
+    *release.is_released = false;
+  contact().set_time(0.);
 }
 
 
@@ -298,9 +315,24 @@ ContactAnalysis::add_to_summary(Summary &summary) const
 }
 
 
+NewtonParameters
+contact_newton_parameters(const Scene &scene)
+{
+  const NewtonParameters &given    = scene.parameters().newton.newton;
+  const NewtonParameters  defaults = NewtonParameters();
+  NewtonParameters        newton = ContactStatics::default_newton_parameters();
+  newton.residual_tolerance      = given.residual_tolerance;
+  if (given.energy_tolerance != defaults.energy_tolerance)
+    newton.energy_tolerance = given.energy_tolerance;
+  if (given.max_iterations != defaults.max_iterations)
+    newton.max_iterations = given.max_iterations;
+  return newton;
+}
+
+
 AccountedContactModel::AccountedContactModel(MechanicalModel &model,
                                              ContactAnalysis &analysis)
-  : ContactModel(model, analysis.contact())
+  : ContactModel(model, analysis.contact(), analysis.releases())
   , analysis(&analysis)
 {
 }

@@ -47,6 +47,14 @@ public:
   std::vector<std::string>
   notices() const;
 
+  /// Obstacles that are gone from some time on.
+  const std::vector<NMM::ObstacleRelease> &
+  releases() const;
+
+  /// While held, obstacles are where they are at t = 0, and none is released.
+  void
+  hold_obstacles(bool are_held);
+
   /// Changes are counted from the present states on.
   void
   remember_states();
@@ -93,6 +101,7 @@ private:
   count_changes() const;
 
   const NMM::Scene                    *scene;
+  NMM::ObstacleSwitches                switches;
   const NMM::CoverSystem              *covers;
   std::unique_ptr<NMM::ContactSurface> surface;
   std::unique_ptr<NMM::Contact>        contact_pointer;
@@ -106,6 +115,12 @@ private:
   /// Of all states [m].
   double largest_penetration = 0.;
 };
+
+
+/// Newton's method for static contact: what the scene leaves at its default is
+/// chosen for contact.
+NMM::NewtonParameters
+contact_newton_parameters(const NMM::Scene &scene);
 
 
 /// A contact model that keeps account of friction and tells which states change.

@@ -172,11 +172,49 @@ DynamicAnalysis::centroid(const unsigned int block) const
 }
 
 
+bool
+DynamicAnalysis::has_start() const
+{
+  return restart.empty() && kind == Analysis::dynamics &&
+         scene.parameters().time.start != TimeParameters::Start::undeformed;
+}
+
+
+void
+DynamicAnalysis::run_start()
+{
+  last_good = integrator->state();
+  Stage start_stage(progress, "start");
+  if (contact)
+    contact->hold_obstacles(true);
+  const Vector u = find_start({scene,
+                               *covers,
+                               *quadrature,
+                               *mass_quadrature,
+                               constraints,
+                               problem,
+                               contact.get(),
+                               progress},
+                              start);
+  if (contact)
+    contact->hold_obstacles(false);
+  Vector v(model->locally_owned(), communicator);
+  if (!scene.parameters().initial_velocities.empty())
+    v = initial_velocity();
+  // releases what is released at 0
+  integrator->initialize(u, v);
+  last_good = integrator->state();
+  write_first_state();
+}
+
+
 void
 DynamicAnalysis::solve()
 {
   try
   {
+    if (has_start())
+      run_start();
     Stage running(progress,
                   kind == Analysis::relaxation ? "relaxation" : "motion");
     stage = &running;

@@ -9,6 +9,7 @@
 
 #include "probe_history.h"
 #include "scene_analysis.h"
+#include "static_start.h"
 #include <memory>
 #include <string>
 #include <vector>
@@ -60,6 +61,7 @@ private:
   /// To go back to if a step fails half-way.
   NMM::DynamicState     last_good;
   NMM::RelaxationReport relaxation;
+  StartReport           start;
   /// Of this run, without what a checkpoint was reached by.
   unsigned int n_steps = 0, n_iterations = 0, n_lost_iterations = 0, n_cuts = 0;
   /// Where this run starts [s].
@@ -86,8 +88,24 @@ private:
   dealii::Point<2>
   centroid(unsigned int block) const;
 
+  /// Does the run begin by looking for equilibrium?
+  bool
+  has_start() const;
+
+  /// Look for it, and go on from there.
+  void
+  run_start();
+
   void
   open_files() override;
+
+  /// The contact is that of the state the run starts from.
+  void
+  take_contact();
+
+  /// What is written of the state the run starts from.
+  void
+  write_first_state();
 
   void
   run_dynamics();

@@ -51,17 +51,29 @@ DynamicAnalysis::open_files()
     if (is_continued)
       directory->resume();
   });
+  if (!has_start() && !is_continued)
+    write_first_state();
+  else if (contact)
+    take_contact();
+}
+
+
+void
+DynamicAnalysis::take_contact()
+{
+  contact->remember_states();
+  contact->take_state(contact_model->friction_work());
+}
+
+
+void
+DynamicAnalysis::write_first_state()
+{
   if (contact)
-  {
-    contact->remember_states();
-    contact->take_state(contact_model->friction_work());
-  }
-  if (!is_continued)
-  {
-    write_rows(StepRecord());
-    if (scene.parameters().output.fields_every > 0)
-      write_state_of_series();
-  }
+    take_contact();
+  write_rows(StepRecord());
+  if (scene.parameters().output.fields_every > 0)
+    write_state_of_series();
 }
 
 
@@ -196,6 +208,11 @@ void
 DynamicAnalysis::verify()
 {
   const std::string &length = scene.parameters().output.length_unit;
+  if (has_start())
+  {
+    summary.add("start_steps", start.n_steps);
+    summary.add("start_iterations", start.n_iterations);
+  }
   summary.add("time_reached", time(), "s");
   summary.add("time_steps", step_number());
   summary.add("newton_iterations",

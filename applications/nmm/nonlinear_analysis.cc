@@ -123,18 +123,10 @@ void
 NonlinearAnalysis::run_contact()
 {
   const SceneParameters &parameters = scene.parameters();
-  // What the scene leaves at its default is better chosen for contact.
-  const NewtonParameters &given    = parameters.newton.newton;
-  const NewtonParameters  defaults = NewtonParameters();
-  NewtonParameters        newton = ContactStatics::default_newton_parameters();
-  newton.residual_tolerance      = given.residual_tolerance;
-  if (given.energy_tolerance != defaults.energy_tolerance)
-    newton.energy_tolerance = given.energy_tolerance;
-  if (given.max_iterations != defaults.max_iterations)
-    newton.max_iterations = given.max_iterations;
-
-  ContactStatics statics(*system, contact->contact(), newton);
-  double         friction_work = 0.;
+  ContactStatics         statics(*system,
+                         contact->contact(),
+                         contact_newton_parameters(scene));
+  double                 friction_work = 0.;
   const auto after_step = [&](const ContactStep &step, const Vector &solution) {
     HistoryRow row;
     row.load_factor       = step.load_factor;

@@ -121,6 +121,7 @@ SceneAnalysis::add_counts()
   summary.add("degree", mathematical_mesh->degree());
   summary.add("blocks", physical_mesh->n_blocks());
   summary.add("regions", physical_mesh->regions().size());
+  add_block_counts();
   summary.add("own_meshes", mathematical_mesh->n_parts() - 1);
   summary.add("cells", mathematical_mesh->n_cells());
   summary.add("cells_cut_exactly", manifold_mesh->n_cells_cut_exactly());
@@ -144,11 +145,73 @@ SceneAnalysis::add_counts()
 
 
 void
+SceneAnalysis::add_block_counts()
+{
+  const std::string  &length = scene.parameters().output.length_unit;
+  std::vector<double> areas(physical_mesh->n_blocks(), 0.);
+  for (const PhysicalMesh::Region &region : physical_mesh->regions())
+    areas[region.block] += region.area;
+  const double limit = scene.parameters().geometry.small_block;
+  summary.add("smallest_block_area",
+              *std::min_element(areas.begin(), areas.end()),
+              length + "^2");
+  summary.add("small_blocks",
+              std::count_if(areas.begin(), areas.end(), [&](const double area) {
+                return area < limit;
+              }));
+  const PhysicalMesh::DanglingEnds &ends = physical_mesh->dangling_ends();
+  summary.add("crack_tips", ends.n_kept);
+  summary.add("crack_length", ends.length_kept, length);
+  summary.add("dropped_ends", ends.n_dropped);
+  summary.add("dropped_length", ends.length_dropped, length);
+}
+
+
+std::vector<std::string>
+SceneAnalysis::block_notices() const
+{
+  const std::string       &length = scene.parameters().output.length_unit;
+  std::vector<std::string> result;
+  const PhysicalMesh::DanglingEnds &ends = physical_mesh->dangling_ends();
+  std::ostringstream                text;
+  if (ends.length_dropped > 0.)
+  {
+    text << "joints that bound no block were dropped over "
+         << ends.length_dropped << ' ' << length << ", " << ends.n_dropped
+         << " end(s)";
+    result.push_back(text.str());
+  }
+  if (ends.length_kept > 0. && !scene.parameters().joint_sets.empty())
+  {
+    text.str("");
+    text << "joints that bound no block are cracks over " << ends.length_kept
+         << ' ' << length << ", with " << ends.n_kept << " tip(s)";
+    result.push_back(text.str());
+  }
+  if (summary.value("small_blocks") > 0.)
+  {
+    text.str("");
+    text << summary.value("small_blocks") << " of " << summary.value("blocks")
+         << " blocks are smaller than "
+         << scene.parameters().geometry.small_block << ' ' << length
+         << "^2, the smallest " << summary.value("smallest_block_area") << ' '
+         << length
+         << "^2: 'Geometry/Cleaning tolerance' moves ends of joints that "
+            "nearly meet";
+    result.push_back(text.str());
+  }
+  return result;
+}
+
+
+void
 SceneAnalysis::print_report()
 {
   for (const CleaningAction &action : cleaning_actions)
     progress.message("  cleaned: " + action.description());
   for (const std::string &notice : physical_mesh->notices())
+    progress.message("  notice: " + notice);
+  for (const std::string &notice : block_notices())
     progress.message("  notice: " + notice);
   for (const std::string &notice : own_mesh_notices)
     progress.message("  notice: " + notice);

@@ -139,6 +139,13 @@ private:
   void
   add_counts();
 
+  /// Joints that bound nothing and blocks that are small.
+  void
+  add_block_counts();
+
+  std::vector<std::string>
+  block_notices() const;
+
   void
   cut();
 

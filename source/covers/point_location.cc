@@ -1,5 +1,8 @@
 #include <nmm/covers/point_location.h>
 
+#include <algorithm>
+#include <map>
+
 namespace NMM
 {
   using namespace dealii;
@@ -91,13 +94,18 @@ namespace NMM
   bool
   is_in_solid(const PhysicalMesh &physical_mesh, const Point<2> &x)
   {
-    bool inside = false;
+    // excavations may overlap all else: each of them counts for itself
+    bool                         is_in_domain = false;
+    std::map<unsigned int, bool> is_in_excavation;
     for (unsigned int i = 0; i < physical_mesh.pieces().size(); ++i)
     {
-      const CurveRole role =
-        physical_mesh.curves()[physical_mesh.piece_to_curve()[i]].role;
-      if (role != CurveRole::boundary && role != CurveRole::hole)
+      const unsigned int c     = physical_mesh.piece_to_curve()[i];
+      const Curve       &curve = physical_mesh.curves()[c];
+      if (curve.role != CurveRole::boundary && curve.role != CurveRole::hole)
         continue;
+      bool &inside = curve.role == CurveRole::hole && curve.is_clipped
+                       ? is_in_excavation[c]
+                       : is_in_domain;
       const CurvePiece &piece = physical_mesh.pieces()[i];
       switch (piece.kind)
       {
@@ -118,7 +126,10 @@ namespace NMM
           break;
       }
     }
-    return inside;
+    return is_in_domain &&
+           std::none_of(is_in_excavation.begin(),
+                        is_in_excavation.end(),
+                        [](const auto &entry) { return entry.second; });
   }
 
 

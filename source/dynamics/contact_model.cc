@@ -5,17 +5,19 @@
 #include <algorithm>
 #include <cmath>
 #include <mechanics/matrix_sum.h>
+#include <utility>
 
 namespace NMM
 {
   struct ContactModel::Data
   {
-    MechanicalModel    *model;
-    Contact            *contact;
-    internal::MatrixSum matrix;
-    Vector              sum;
-    double              scale       = 0.;
-    bool                is_detected = false;
+    MechanicalModel             *model;
+    Contact                     *contact;
+    std::vector<ObstacleRelease> releases;
+    internal::MatrixSum          matrix;
+    Vector                       sum;
+    double                       scale       = 0.;
+    bool                         is_detected = false;
 
     void
     add_contact(const bool with_tangent)
@@ -35,11 +37,14 @@ namespace NMM
   };
 
 
-  ContactModel::ContactModel(MechanicalModel &model, Contact &contact)
+  ContactModel::ContactModel(MechanicalModel             &model,
+                             Contact                     &contact,
+                             std::vector<ObstacleRelease> releases)
     : data(std::make_unique<Data>())
   {
-    data->model   = &model;
-    data->contact = &contact;
+    data->model    = &model;
+    data->contact  = &contact;
+    data->releases = std::move(releases);
     data->sum.reinit(contact.residual());
   }
 
@@ -308,14 +313,73 @@ namespace NMM
   std::vector<double>
   ContactModel::events() const
   {
-    return data->model->events();
+    std::vector<double> times = data->model->events();
+    for (const ObstacleRelease &release : data->releases)
+      times.push_back(release.time);
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    return times;
   }
 
 
   void
   ContactModel::pass_events(const double t)
   {
-    data->model->pass_events(t);
+    Data &d = *data;
+    d.model->pass_events(t);
+    bool is_new = false;
+    for (const ObstacleRelease &release : d.releases)
+    {
+      const bool is_released = release.time <= t;
+      if (*release.is_released == is_released)
+        continue;
+      *release.is_released = is_released;
+      is_new               = is_new || is_released;
+      // what was near is far now, or the other way round
+      d.is_detected = false;
+    }
+    if (is_new)
+      forget_released();
+  }
+
+
+  void
+  ContactModel::forget_released()
+  {
+    Data                 &d       = *data;
+    const ContactSurface &surface = d.contact->surface();
+    const unsigned int    first =
+      surface.n_bodies() -
+      static_cast<unsigned int>(surface.obstacles().size());
+    std::vector<bool> is_gone(surface.n_bodies(), false);
+    for (const ObstacleRelease &release : d.releases)
+      if (*release.is_released)
+        is_gone[first + release.obstacle] = true;
+    const auto body_is_gone = [&](const double body) {
+      return is_gone[static_cast<unsigned int>(body)];
+    };
+    const std::size_t n_edges      = surface.edges().size();
+    const auto        edge_is_gone = [&](const double edge) {
+      return is_gone[surface.edges()[static_cast<std::size_t>(edge) % n_edges]
+                       .body];
+    };
+
+    // Without this the energy that springs held at the last step would count as
+    // dissipated when the next one finds none. See Contact::history().
+    const std::vector<double> history = d.contact->history();
+    const std::size_t         begin = 2 + static_cast<std::size_t>(history[1]);
+    std::vector<double>       kept(history.begin(), history.begin() + begin);
+    for (std::size_t i = begin; i + 4 < history.size(); i += 5)
+    {
+      const double *entry = &history[i];
+      const bool    is_dropped =
+        entry[2] == -2.   ? body_is_gone(entry[0]) || body_is_gone(entry[1])
+           : entry[2] == -1. ? edge_is_gone(entry[0]) || edge_is_gone(entry[3])
+                             : edge_is_gone(entry[0]) || edge_is_gone(entry[2]);
+      if (!is_dropped)
+        kept.insert(kept.end(), entry, entry + 5);
+    }
+    d.contact->restore_history(kept);
   }
 
 

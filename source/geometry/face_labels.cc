@@ -297,15 +297,23 @@ namespace NMM
       for (Face &face : all_faces)
       {
         std::vector<unsigned int> boundaries, holes;
+        bool                      is_excavated = false;
         for (const unsigned int loop : face.loops)
+        {
+          const unsigned int curve = loops.loops[loop].curves.front();
           if (loops.loops[loop].role == CurveRole::boundary)
-            boundaries.push_back(loops.loops[loop].curves.front());
-          else if (loops.loops[loop].role == CurveRole::hole)
-            holes.push_back(loops.loops[loop].curves.front());
+            boundaries.push_back(curve);
+          else if (loops.loops[loop].role != CurveRole::hole)
+            continue;
+          else if (curves[curve].is_clipped)
+            is_excavated = true;
+          else
+            holes.push_back(curve);
+        }
 
         const unsigned int n_boundaries = boundaries.size();
         const unsigned int n_holes      = holes.size();
-        face.is_solid                   = n_boundaries == n_holes + 1;
+        face.is_solid = n_boundaries == n_holes + 1 && !is_excavated;
         if (n_boundaries > n_holes + 1)
         {
           const Curve &first  = curves[boundaries[0]];

@@ -1,6 +1,7 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/geometry/geometry.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -101,6 +102,54 @@ namespace NMM
                            to_string(point),
                            "give it one"));
     all_material_points.emplace_back(point, material);
+  }
+
+
+  void
+  Geometry::add_region(Curve curve)
+  {
+    curve.check();
+    AssertThrow(curve.is_closed(),
+                InputError("the region '" + curve.name + "' is not closed",
+                           to_string(curve.end()),
+                           "let it end where it starts"));
+    for (const Curve &other : all_regions)
+      AssertThrow(other.name != curve.name,
+                  InputError("there are two regions called '" + curve.name +
+                               "'",
+                             to_string(curve.start()),
+                             "rename one"));
+    all_regions.push_back(std::move(curve));
+  }
+
+
+  void
+  Geometry::add_material_region(const std::string &region,
+                                const std::string &material)
+  {
+    AssertThrow(std::any_of(all_regions.begin(),
+                            all_regions.end(),
+                            [&](const Curve &curve) {
+                              return curve.name == region;
+                            }),
+                InputError("there is no region '" + region + "'",
+                           "the material '" + material + "'",
+                           "add the region first"));
+    all_material_regions.emplace_back(region, material);
+  }
+
+
+  const std::vector<Curve> &
+  Geometry::regions() const
+  {
+    return all_regions;
+  }
+
+
+  const std::vector<std::pair<std::string, std::string>> &
+  Geometry::material_regions() const
+  {
+    return all_material_regions;
   }
 
 

@@ -6,6 +6,8 @@
 #include "geometry/face_labels.h"
 #include "geometry/loops.h"
 #include "geometry/messages.h"
+#include "geometry/outline.h"
+#include "geometry/trimming.h"
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -24,6 +26,7 @@ namespace NMM
     std::vector<std::string>      material_names;
     dealii::BoundingBox<2>        bounding_box;
     std::vector<std::string>      notices;
+    DanglingEnds                  dangling_ends;
     internal::PhysicalArrangement arrangement;
     /// See internal::Loops and LabelledFaces::Face::loops.
     std::vector<unsigned int>              curve_to_loop;
@@ -45,6 +48,10 @@ namespace NMM
     void
     assign_material_points(
       const std::vector<std::pair<dealii::Point<2>, std::string>> &points);
+    void
+    assign_material_regions(
+      const std::vector<Curve>                               &places,
+      const std::vector<std::pair<std::string, std::string>> &materials);
     void
     inspect_lines(const internal::LabelledFaces &faces);
     unsigned int
@@ -260,6 +267,37 @@ namespace NMM
 
 
   void
+  PhysicalMesh::Data::assign_material_regions(
+    const std::vector<Curve>                               &places,
+    const std::vector<std::pair<std::string, std::string>> &materials)
+  {
+    for (const auto &[name, material] : materials)
+    {
+      const auto place = std::find_if(places.begin(),
+                                      places.end(),
+                                      [name = name](const Curve &curve) {
+                                        return curve.name == name;
+                                      });
+      Assert(place != places.end(), dealii::ExcInternalError());
+      bool is_used = false;
+      for (Region &region : regions)
+        if (internal::contains(*place, region.inside))
+        {
+          region.material = material_index(material);
+          is_used         = true;
+        }
+      AssertThrow(is_used,
+                  InputError("no block has its middle in the region '" + name +
+                               "', so that nothing consists of '" + material +
+                               "'",
+                             internal::describe_place(*place, place->start()),
+                             "move or enlarge the region, or let it have no "
+                             "material"));
+    }
+  }
+
+
+  void
   PhysicalMesh::Data::assign_material_points(
     const std::vector<std::pair<dealii::Point<2>, std::string>> &points)
   {
@@ -353,6 +391,8 @@ namespace NMM
       if (!is_line(curve))
         continue;
       const std::string name = internal::describe(curve);
+      if (curve.is_clipped || (curve.drops_ends && use.inside == 0.))
+        continue;
       AssertThrow(use.inside + use.along_boundary > 0.,
                   InputError(name + " is wholly outside the solid",
                              internal::describe_place(curve, curve.start()),
@@ -387,16 +427,28 @@ namespace NMM
     const internal::Loops loops = internal::find_loops(data->curves);
     data->curve_to_loop         = loops.curve_to_loop;
     data->insert_pieces();
-    const internal::LabelledFaces faces(data->arrangement.arrangement,
-                                        data->curves,
-                                        data->pieces,
-                                        data->piece_to_curve,
-                                        loops);
-    const auto                    region_to_face = data->make_regions(faces);
-    data->make_blocks(faces);
-    data->assign_loop_materials(faces, loops, region_to_face);
+    internal::Arrangement &arrangement = data->arrangement.arrangement;
+    internal::confine_joints(data->curves,
+                             data->pieces,
+                             data->piece_to_curve,
+                             geometry.regions(),
+                             arrangement);
+    const auto label = [&]() {
+      return std::make_unique<internal::LabelledFaces>(
+        arrangement, data->curves, data->pieces, data->piece_to_curve, loops);
+    };
+    auto faces = label();
+    data->dangling_ends =
+      internal::drop_ends(data->curves, *faces, arrangement);
+    if (data->dangling_ends.length_dropped > 0.)
+      faces = label();
+    const auto region_to_face = data->make_regions(*faces);
+    data->make_blocks(*faces);
+    data->assign_loop_materials(*faces, loops, region_to_face);
+    data->assign_material_regions(geometry.regions(),
+                                  geometry.material_regions());
     data->assign_material_points(points);
-    data->inspect_lines(faces);
+    data->inspect_lines(*faces);
   }
 
 
@@ -495,6 +547,13 @@ namespace NMM
   PhysicalMesh::notices() const
   {
     return data->notices;
+  }
+
+
+  const PhysicalMesh::DanglingEnds &
+  PhysicalMesh::dangling_ends() const
+  {
+    return data->dangling_ends;
   }
 
 

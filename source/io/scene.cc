@@ -140,21 +140,6 @@ namespace NMM
   }
 
 
-  Geometry
-  Scene::make_geometry() const
-  {
-    const GeometryParameters &parameters = scene_parameters.geometry;
-    std::string               text       = parameters.text;
-    std::replace(text.begin(), text.end(), ';', '\n');
-    Geometry geometry =
-      parameters.file.empty()
-        ? parse_geometry(text, file_name + ", parameter 'Geometry/Text'")
-        : read_geometry(relative_to_scene(parameters.file));
-    set_joint_states(geometry);
-    return geometry;
-  }
-
-
   MathematicalMesh
   Scene::make_mathematical_mesh(const PhysicalMesh &physical_mesh) const
   {

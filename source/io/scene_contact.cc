@@ -3,8 +3,9 @@
 #include <nmm/io/scene.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
+#include <io/shapes.h>
+#include <memory>
 #include <set>
 
 // Contact: which faces, how they act on each other, rigid obstacles.
@@ -31,84 +32,6 @@ namespace NMM
     {
       return names.empty() ? nothing
                            : "choose among " + join(near_matches(word, names));
-    }
-
-
-    /// Twice the area on the left of a closed chain; arcs as two chords, which
-    /// tells the sign.
-    double
-    signed_area(const std::vector<CurvePiece> &pieces)
-    {
-      double     area = 0.;
-      const auto add  = [&](const Point<2> &a, const Point<2> &b) {
-        area += a[0] * b[1] - a[1] * b[0];
-      };
-      for (const CurvePiece &piece : pieces)
-        if (piece.kind == CurvePiece::Kind::arc)
-        {
-          add(piece.start, piece.through);
-          add(piece.through, piece.end);
-        }
-        else
-          add(piece.start, piece.end);
-      return area;
-    }
-
-
-    std::vector<CurvePiece>
-    reversed(std::vector<CurvePiece> pieces)
-    {
-      std::reverse(pieces.begin(), pieces.end());
-      for (CurvePiece &piece : pieces)
-        std::swap(piece.start, piece.end);
-      return pieces;
-    }
-
-
-    /// A full circle as two arcs, counter-clockwise.
-    std::vector<CurvePiece>
-    two_arcs(const CurvePiece &circle)
-    {
-      const Point<2> &c = circle.center;
-      const double    r = circle.radius;
-      const Point<2>  right(c[0] + r, c[1]), left(c[0] - r, c[1]);
-      return {CurvePiece::arc(right, Point<2>(c[0], c[1] + r), left),
-              CurvePiece::arc(left, Point<2>(c[0], c[1] - r), right)};
-    }
-
-
-    /// The body on the left: as drawn, but closed boundaries are rigid inside and
-    /// holes outside.
-    std::vector<CurvePiece>
-    oriented_pieces(const Curve &curve)
-    {
-      std::vector<CurvePiece> pieces =
-        curve.pieces.front().kind == CurvePiece::Kind::circle
-          ? two_arcs(curve.pieces.front())
-          : curve.pieces;
-      const bool is_boundary = curve.role == CurveRole::boundary;
-      if (!curve.is_closed() || (!is_boundary && curve.role != CurveRole::hole))
-        return pieces;
-      return (signed_area(pieces) > 0.) == is_boundary ? pieces
-                                                       : reversed(pieces);
-    }
-
-
-    /// Role of the record for a shape alone: polygons and circles are bodies, and
-    /// all else is a line with a body on the left.
-    std::string
-    role_of_shape(const std::string &shape)
-    {
-      std::string word;
-      for (const char c : shape)
-      {
-        if (std::isalpha(static_cast<unsigned char>(c)) == 0)
-          break;
-        word += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-      }
-      return word == "POLYGON" || word == "CURVEPOLYGON" || word == "CIRCLE"
-               ? "boundary"
-               : "interface";
     }
   } // namespace
 
@@ -155,46 +78,78 @@ namespace NMM
   }
 
 
-  RigidObstacle
-  Scene::make_obstacle(const ObstacleParameters &parameters) const
-  {
-    const std::string section = "Obstacles/" + parameters.name;
-    const bool        is_file = !parameters.file.empty();
-    const std::string where =
-      "parameter '" + section + (is_file ? "/File'" : "/Shape'");
-    const Geometry geometry =
-      is_file ? read_geometry(relative_to_scene(parameters.file))
-              : parse_geometry(role_of_shape(parameters.shape) +
-                                 " name=shape " + parameters.shape,
-                               file_name + ", " + where);
-    AssertThrow(
-      geometry.curves().size() == 1,
-      InputError("the obstacle '" + parameters.name + "' consists of " +
-                   std::to_string(geometry.curves().size()) + " curves",
-                 where,
-                 "give one curve; several make several obstacles"));
-    RigidObstacle obstacle;
-    obstacle.name   = parameters.name;
-    obstacle.pieces = oriented_pieces(geometry.curves().front());
-    obstacle.displacement =
-      make_vector_function(parameters.displacement, section + "/Displacement");
-    return obstacle;
-  }
-
-
   std::vector<RigidObstacle>
-  Scene::make_obstacles(const PhysicalMesh &physical_mesh) const
+  Scene::make_obstacles(const PhysicalMesh &physical_mesh,
+                        ObstacleSwitches   *switches) const
   {
+    // Far away, but not so far that numbers lose their digits.
+    constexpr double distance = 1e4;
+    const auto corners = physical_mesh.bounding_box().get_boundary_points();
+    const dealii::Tensor<1, 2> away(
+      {distance * corners.first.distance(corners.second), 0.});
+    const auto is_frozen = std::make_shared<bool>(false);
+    if (switches != nullptr)
+      *switches = {{}, is_frozen};
+
     std::vector<RigidObstacle> obstacles;
+    const auto                 add = [&](const std::string &name,
+                         const Curve       &curve,
+                         const TimeVector  &motion,
+                         const double       release_time,
+                         const std::string &section) {
+      AssertThrow(physical_mesh.find_curve(name) == invalid_index &&
+                    std::none_of(obstacles.begin(),
+                                 obstacles.end(),
+                                 [&](const RigidObstacle &other) {
+                                   return other.name == name;
+                                 }),
+                  InputError("a curve of the geometry or another obstacle is "
+                                             "called '" +
+                               name + "', too",
+                             "parameter '" + section + "/Names'",
+                             "give it another name"));
+      RigidObstacle obstacle;
+      obstacle.name         = name;
+      obstacle.pieces       = internal::oriented_pieces(curve);
+      obstacle.displacement = motion;
+      if (switches != nullptr && (motion || release_time >= 0.))
+      {
+        const auto is_released = std::make_shared<bool>(false);
+        if (release_time >= 0.)
+          switches->releases.push_back(
+            {static_cast<unsigned int>(obstacles.size()),
+             release_time,
+             is_released});
+        obstacle.displacement = [=](const double t) {
+          return *is_released ? away
+                                 : motion     ? motion(*is_frozen ? 0. : t)
+                                              : dealii::Tensor<1, 2>();
+        };
+      }
+      obstacles.push_back(std::move(obstacle));
+    };
     for (const ObstacleParameters &parameters : scene_parameters.obstacles)
     {
-      AssertThrow(physical_mesh.find_curve(parameters.name) == invalid_index,
-                  InputError("a curve of the geometry is called '" +
-                               parameters.name + "', too",
-                             "parameter 'Obstacles/Names'",
-                             "give the obstacle another name"));
-      obstacles.push_back(make_obstacle(parameters));
+      const std::string section = "Obstacles/" + parameters.name;
+      add(parameters.name,
+          internal::read_shape(parameters.shape,
+                               parameters.file.empty()
+                                 ? ""
+                                 : relative_to_scene(parameters.file),
+                               section,
+                               file_name),
+          make_vector_function(parameters.displacement,
+                               section + "/Displacement"),
+          parameters.release_time,
+          "Obstacles");
     }
+    for (const RegionParameters &parameters : scene_parameters.regions)
+      if (parameters.use == RegionParameters::Use::restraint)
+        add(parameters.name,
+            make_region(parameters),
+            {},
+            parameters.release_time,
+            "Regions");
     return obstacles;
   }
 

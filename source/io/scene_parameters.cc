@@ -5,7 +5,7 @@
 #include <io/parsing.h>
 #include <set>
 
-// Geometry, mathematical mesh, covers and solver: how the problem is discretized
+// Mathematical mesh, covers and solver: how the problem is discretized
 // and solved. Its physics is in scene_parameters_mechanics.cc, what is written in
 // scene_parameters_output.cc.
 namespace NMM
@@ -46,50 +46,6 @@ namespace NMM
                       {"direct", LinearSolverParameters::Type::direct},
                       {"iterative", LinearSolverParameters::Type::iterative}};
   } // namespace
-
-
-  void
-  GeometryParameters::declare(ParameterHandler &prm)
-  {
-    prm.declare_entry("File",
-                      "",
-                      Patterns::Anything(),
-                      "Geometry file (WKT records), relative to the folder of "
-                      "the scene file. Either this or Text.");
-    prm.declare_entry("Text",
-                      "",
-                      Patterns::Anything(),
-                      "The geometry itself: the records of a geometry file, "
-                      "separated by semicolons.");
-    prm.declare_entry(
-      "Cleaning tolerance",
-      "0",
-      Patterns::Double(0),
-      "Before cutting, ends of curves nearer than this to a "
-      "vertex or curve are moved onto it and shorter overshoots "
-      "are trimmed; every change is reported [m]. 0: the "
-      "geometry is taken exactly as it is.");
-  }
-
-
-  void
-  GeometryParameters::parse(ParameterHandler &prm)
-  {
-    file               = prm.get("File");
-    text               = prm.get("Text");
-    cleaning_tolerance = prm.get_double("Cleaning tolerance");
-  }
-
-
-  void
-  GeometryParameters::check() const
-  {
-    AssertThrow(file.empty() != text.empty(),
-                InputError(file.empty() ? "the scene has no geometry"
-                                        : "the scene has two geometries",
-                           "section 'Geometry'",
-                           "set either 'File' or 'Text'"));
-  }
 
 
   void
@@ -370,6 +326,9 @@ namespace NMM
   SceneNames::examples()
   {
     SceneNames names;
+    names.traces              = {"<traces>"};
+    names.joint_sets          = {"<joint set>"};
+    names.regions             = {"<region>"};
     names.local_sizes         = {"<local size>"};
     names.materials           = {"<material>"};
     names.boundary_conditions = {"<condition>"};
@@ -391,6 +350,9 @@ namespace NMM
     sections_of_lists(Names &names)
     {
       return std::vector<std::pair<std::string, decltype(&names.materials)>>{
+        {"Traces", &names.traces},
+        {"Joint sets", &names.joint_sets},
+        {"Regions", &names.regions},
         {"Mathematical mesh", &names.local_sizes},
         {"Materials", &names.materials},
         {"Boundary conditions", &names.boundary_conditions},
@@ -449,6 +411,10 @@ namespace NMM
   SceneParameters::check() const
   {
     geometry.check();
+    for (const TraceParameters &file : traces)
+      file.check();
+    for (const RegionParameters &region : regions)
+      region.check();
     mathematical_mesh.check();
     AssertThrow(!materials.empty(),
                 InputError("the scene has no material",
@@ -460,7 +426,12 @@ namespace NMM
     for (const BoundaryConditionParameters &condition : boundary_conditions)
       condition.check();
     const bool has_contact = contact.is_present();
-    load_steps.check(model.kinematics, model.analysis, has_contact);
+    // a static start is a static analysis before a dynamic one
+    const bool starts_static = model.analysis == Analysis::dynamics &&
+                               time.start == TimeParameters::Start::equilibrium;
+    load_steps.check(model.kinematics,
+                     starts_static ? Analysis::statics : model.analysis,
+                     has_contact);
     newton.check(model.kinematics, model.analysis, has_contact);
     output.check();
     for (const ProbeParameters &probe : probes)
@@ -469,5 +440,30 @@ namespace NMM
     check_kinematics();
     check_contact();
     check_analysis();
+    check_restraints();
+  }
+
+
+  void
+  SceneParameters::check_restraints() const
+  {
+    for (const RegionParameters &region : regions)
+    {
+      if (region.use != RegionParameters::Use::restraint)
+        continue;
+      AssertThrow(contact.is_present(),
+                  InputError("the restraint '" + region.name +
+                               "' would not be used by a scene without contact",
+                             "parameter 'Regions/" + region.name + "/Use'",
+                             "remove it, or set 'Contact/Enforcement = "
+                             "penalty'"));
+      if (model.analysis != Analysis::dynamics)
+        expect_default("Regions/" + region.name,
+                       "Release time",
+                       region.release_time,
+                       -1.,
+                       "a " + to_string(model.analysis) + " analysis",
+                       "remove it, or set 'Model/Analysis = dynamic'");
+    }
   }
 } // namespace NMM

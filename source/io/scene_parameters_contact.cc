@@ -401,6 +401,11 @@ namespace NMM
                       "'ux; uy' [m], each an expression of t, or 'file: "
                       "name'; t is the time [s], or the load factor of a "
                       "static analysis. Empty: at rest.");
+    prm.declare_entry("Release time",
+                      "-1",
+                      Patterns::Double(),
+                      "Dynamic analysis: it is gone from this time on [s]. "
+                      "Negative: never.");
   }
 
 
@@ -410,6 +415,7 @@ namespace NMM
     shape        = dealii::Utilities::trim(prm.get("Shape"));
     file         = dealii::Utilities::trim(prm.get("File"));
     displacement = dealii::Utilities::trim(prm.get("Displacement"));
+    release_time = prm.get_double("Release time");
   }
 
 
@@ -422,6 +428,13 @@ namespace NMM
                              " shape",
                            "section 'Obstacles/" + name + "'",
                            "set either 'Shape' or 'File'"));
+    if (analysis != Analysis::dynamics)
+      expect_default("Obstacles/" + name,
+                     "Release time",
+                     release_time,
+                     -1.,
+                     "a " + to_string(analysis) + " analysis",
+                     "remove it, or set 'Model/Analysis = dynamic'");
     AssertThrow(analysis != Analysis::relaxation || displacement.empty(),
                 InputError("the displacement '" + displacement +
                              "' would not be used by a relaxation",

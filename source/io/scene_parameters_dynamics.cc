@@ -18,6 +18,12 @@ namespace NMM
       {"dynamic", Analysis::dynamics},
       {"relaxation", Analysis::relaxation}};
 
+    using Start = TimeParameters::Start;
+    const std::vector<std::pair<std::string, Start>> starts = {
+      {"undeformed", Start::undeformed},
+      {"equilibrium", Start::equilibrium},
+      {"relaxation", Start::relaxation}};
+
     using Scheme = TimeParameters::Scheme;
     const std::vector<std::pair<std::string, Scheme>> schemes = {
       {"automatic", Scheme::automatic},
@@ -241,6 +247,15 @@ namespace NMM
                       "0",
                       Patterns::Double(0),
                       "Dynamic analysis: it runs from 0 to this, > 0 [s].");
+    prm.declare_entry("Start",
+                      "undeformed",
+                      selection(starts),
+                      "What a dynamic analysis starts from. equilibrium: of "
+                      "loads, supports and obstacles as they are at 0 s, "
+                      "before anything is released, in the steps of the "
+                      "section 'Load steps'; relaxation: the same, found by "
+                      "motion that is stopped again and again (section "
+                      "'Relaxation').");
     declare_numbers(prm, step_entries(defaults));
     prm.declare_entry(
       "Scheme",
@@ -261,6 +276,7 @@ namespace NMM
   TimeParameters::parse(ParameterHandler &prm)
   {
     end_time = prm.get_double("End time");
+    start    = get_selection(prm, "Start", starts);
     for (const auto &entries : {step_entries(*this), scheme_entries(*this)})
       for (const NumberEntry &entry : entries)
         entry.value = prm.get_double(entry.key);
@@ -296,7 +312,17 @@ namespace NMM
                      by,
                      "remove it, or set 'Model/Analysis = dynamic'");
       expect_defaults(step_entries(given), step_entries(defaults));
+      AssertThrow(start == Start::undeformed,
+                  InputError("a start would not be used by " + by,
+                             "parameter 'Time/Start'",
+                             "remove it, or set 'Model/Analysis = dynamic'"));
     }
+    AssertThrow(start == Start::undeformed ||
+                  kinematics != Kinematics::incremental,
+                InputError("a start from equilibrium is not available with "
+                           "incremental kinematics",
+                           "parameter 'Time/Start'",
+                           "set 'Model/Kinematics' to small or finite"));
     if (analysis == Analysis::statics)
     {
       expect_defaults(scheme_entries(given), scheme_entries(defaults));

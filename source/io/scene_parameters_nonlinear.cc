@@ -326,7 +326,11 @@ namespace NMM
   SceneParameters::check_analysis() const
   {
     time.check(model.analysis, model.kinematics, contact.is_present());
-    relaxation.check(model.analysis);
+    // a relaxed start is a relaxation before a dynamic analysis
+    relaxation.check(model.analysis == Analysis::dynamics &&
+                         time.start == TimeParameters::Start::relaxation
+                       ? Analysis::relaxation
+                       : model.analysis);
     check_loads_in_time();
     const std::string analysis = to_string(model.analysis) + " analysis";
     AssertThrow(model.analysis == Analysis::dynamics ||

@@ -365,6 +365,24 @@ namespace NMM
   SceneParameters::declare(ParameterHandler &prm, const SceneNames &names)
   {
     declare_section(prm, "Geometry", &GeometryParameters::declare);
+    declare_list(prm,
+                 "Traces",
+                 names.traces,
+                 "Names of files with joints, each with a subsection of its "
+                 "own.",
+                 &TraceParameters::declare);
+    declare_list(prm,
+                 "Joint sets",
+                 names.joint_sets,
+                 "Names of the sets, each with a subsection of its own; their "
+                 "joints are called so.",
+                 &JointSetParameters::declare);
+    declare_list(prm,
+                 "Regions",
+                 names.regions,
+                 "Names of places, each with a subsection of its own: for "
+                 "materials and joint sets, to be excavated, or held.",
+                 &RegionParameters::declare);
     prm.enter_subsection("Mathematical mesh");
     MathematicalMeshParameters::declare(prm, names.local_sizes);
     prm.leave_subsection();
@@ -443,6 +461,14 @@ namespace NMM
                "Initial velocities",
                names.initial_velocities,
                initial_velocities);
+    parse_list(prm, "Traces", names.traces, traces);
+    parse_list(prm, "Regions", names.regions, regions);
+    prm.enter_subsection("Joint sets");
+    joint_sets.clear();
+    for_each_name(prm, names.joint_sets, [&](const std::string &name) {
+      joint_sets.push_back(JointSetParameters::parse(prm, name));
+    });
+    prm.leave_subsection();
     parse_list(prm, "Probes", names.probes, probes);
     parse_list(prm, "Obstacles", names.obstacles, obstacles);
     prm.enter_subsection("Contact");

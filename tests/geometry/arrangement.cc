@@ -1,5 +1,7 @@
 #include "geometry/arrangement.h"
 
+#include <nmm/geometry/physical_mesh.h>
+
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>
@@ -88,4 +90,47 @@ TEST(ExactCurve, passes_through_the_given_points)
   EXPECT_TRUE(circle.is_full());
   EXPECT_EQ(circle.supporting_circle().squared_radius(),
             Kernel::FT(0.3) * Kernel::FT(0.3));
+}
+
+
+// What joints that are dropped, and borders of regions, leave behind: nothing. A
+// corner in the middle of a face would be one more edge of contact.
+TEST(Trimming, leaves_no_corners)
+{
+  const auto count = [](NMM::Geometry geometry) {
+    const NMM::PhysicalMesh mesh(std::move(geometry));
+    const Arrangement      &arrangement = mesh.arrangement().arrangement;
+    return std::make_pair(arrangement.number_of_vertices(),
+                          arrangement.number_of_edges());
+  };
+  NMM::Geometry plain;
+  plain.add_polygon({{0., 0.}, {4., 0.}, {4., 4.}, {0., 4.}}, "square");
+  plain.add_polyline({{0., 2.}, {4., 2.}}, "through", NMM::CurveRole::joint);
+  const auto expected = count(plain);
+  EXPECT_EQ(expected, std::make_pair(std::size_t(6), std::size_t(7)));
+
+  NMM::Geometry stub = plain;
+  stub.add_polyline({{1., 2.}, {1., 3.}}, "stub", NMM::CurveRole::joint);
+  EXPECT_EQ(count(stub), std::make_pair(std::size_t(8), std::size_t(9)));
+  stub.curves().back().drops_ends = true;
+  EXPECT_EQ(count(stub), expected);
+
+  // a joint above the region's border ends there, one below is gone
+  NMM::Geometry confined = plain;
+  NMM::Curve    region;
+  region.name = "top";
+  for (const auto &[a, b] :
+       {std::make_pair(dealii::Point<2>(-1., 3.), dealii::Point<2>(5., 3.)),
+        std::make_pair(dealii::Point<2>(5., 3.), dealii::Point<2>(2., 9.)),
+        std::make_pair(dealii::Point<2>(2., 9.), dealii::Point<2>(-1., 3.))})
+    region.pieces.push_back(NMM::CurvePiece::segment(a, b));
+  confined.add_region(region);
+  confined.add_polyline({{1., 0.}, {1., 1.}}, "gone", NMM::CurveRole::joint);
+  confined.curves().back().within     = "top";
+  confined.curves().back().is_clipped = true;
+  EXPECT_EQ(count(confined), expected);
+  confined.add_polyline({{2., 0.}, {2., 3.5}}, "end", NMM::CurveRole::joint);
+  confined.curves().back().within = "top";
+  // a crack from y = 3 to 3.5
+  EXPECT_EQ(count(confined), std::make_pair(std::size_t(8), std::size_t(8)));
 }

@@ -1,63 +1,9 @@
-#include "run_driver.h"
-#include <filesystem>
-#include <fstream>
-#include <gtest/gtest.h>
-#include <string>
-#include <vector>
+#include "rejected_input.h"
 
-// Everything a user can get wrong ends with exit code 2, a message that names what
-// is wrong, where and what to do, and no output folder.
+using namespace rejected_input;
+
 namespace
 {
-  const std::string base_scene = NMM_SOURCE_DIR "/tests/scenes/base.prm";
-
-  const std::string square =
-    "boundary name=square material=rock POLYGON ((0 0, 1 0, 1 1, 0 1))";
-
-
-  void
-  expect_rejected(std::vector<std::string>        arguments,
-                  const std::vector<std::string> &words,
-                  const unsigned int              n_ranks = 1)
-  {
-    const std::string output = fresh_output_dir("rejected");
-    arguments.insert(arguments.begin(), {"--output", output});
-    const DriverResult result = run_driver(arguments, n_ranks);
-    EXPECT_EQ(result.exit_code, 2) << result.output;
-    for (const std::string &word : words)
-      EXPECT_NE(result.output.find(word), std::string::npos)
-        << "'" << word << "' is missing in: " << result.output;
-    EXPECT_FALSE(std::filesystem::exists(output)) << result.output;
-  }
-
-
-  void
-  expect_rejected_override(const std::string              &override,
-                           const std::vector<std::string> &words)
-  {
-    SCOPED_TRACE(override);
-    expect_rejected({"--set", override, base_scene}, words);
-  }
-
-
-  void
-  expect_rejected_geometry(const std::string              &records,
-                           const std::vector<std::string> &words)
-  {
-    expect_rejected_override("Geometry/Text=" + records, words);
-  }
-
-
-  /// A scene file with the lines of the base scene and @p more.
-  std::string
-  write_scene(const std::string &name, const std::string &text)
-  {
-    const std::string file_name = NMM_TEST_OUTPUT_DIR "/" + name;
-    std::ofstream(file_name) << text;
-    return file_name;
-  }
-
-
   TEST(BadInput, TheBaseSceneIsGood)
   {
     // Otherwise everything below would pass for the wrong reason.
@@ -259,39 +205,6 @@ namespace
 
 
   /// The base scene with these settings and @p override.
-  void
-  expect_rejected_with(std::vector<std::string>        settings,
-                       const std::string              &override,
-                       const std::vector<std::string> &words,
-                       const unsigned int              n_ranks = 1)
-  {
-    settings.push_back(override);
-    std::vector<std::string> arguments;
-    std::string              text;
-    for (const std::string &setting : settings)
-    {
-      arguments.insert(arguments.end(), {"--set", setting});
-      text += setting + " ";
-    }
-    SCOPED_TRACE(text);
-    arguments.push_back(base_scene);
-    expect_rejected(arguments, words, n_ranks);
-  }
-
-
-  const std::vector<std::string> dynamic = {"Model/Analysis=dynamic",
-                                            "Materials/rock/Density=1",
-                                            "Time/End time=1",
-                                            "Time/Initial step=0.1"};
-
-  std::vector<std::string>
-  operator+(std::vector<std::string> a, const std::vector<std::string> &b)
-  {
-    a.insert(a.end(), b.begin(), b.end());
-    return a;
-  }
-
-
   TEST(BadInput, TheDynamicSceneIsGood)
   {
     std::vector<std::string> arguments = {"--check", base_scene};
@@ -537,12 +450,6 @@ namespace
                      base_scene},
                     {"no-such.wkt"});
   }
-
-
-  const std::vector<std::string> touching = {
-    "Contact/Enforcement=penalty",
-    "Obstacles/Names=floor",
-    "Obstacles/floor/Shape=LINESTRING (2 0, -1 0)"};
 
 
   TEST(BadInput, TheSceneWithContactIsGood)

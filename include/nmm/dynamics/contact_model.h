@@ -5,9 +5,27 @@
 #include <nmm/dynamics/mechanical_model.h>
 
 #include <memory>
+#include <vector>
 
 namespace NMM
 {
+  /**
+   * A rigid obstacle that holds until a time and is gone from then on, with the
+   * springs of its contacts: what they hold is taken out of the account as external
+   * work.
+   */
+  struct ObstacleRelease
+  {
+    /// Index into ContactSurface::obstacles().
+    unsigned int obstacle = 0;
+    /// [s]
+    double time = 0.;
+    /// Read by the obstacle's RigidObstacle::displacement, which must lead out of
+    /// everybody's reach while it is true.
+    std::shared_ptr<bool> is_released;
+  };
+
+
   /**
    * A mechanical model whose faces touch: forces, energies and tangent are those of
    * the model plus those of a Contact; obstacles are where they are at the time.
@@ -26,7 +44,9 @@ namespace NMM
   class ContactModel : public MechanicalModel
   {
   public:
-    ContactModel(MechanicalModel &model, Contact &contact);
+    ContactModel(MechanicalModel             &model,
+                 Contact                     &contact,
+                 std::vector<ObstacleRelease> releases = {});
     ~ContactModel() override;
 
     MPI_Comm
@@ -137,6 +157,10 @@ namespace NMM
   private:
     struct Data;
     std::unique_ptr<Data> data;
+
+    /// Nothing that is released is remembered.
+    void
+    forget_released();
   };
 } // namespace NMM
 

@@ -83,6 +83,19 @@ namespace NMM
     /// Joints only.
     JointState state = JointState::open;
 
+    /// Joints only: the domain (name of its boundary) or the region of
+    /// Geometry::regions() outside of which the curve does not count. Empty: the
+    /// solid.
+    std::string within;
+
+    /// Joints only: parts with the same region on both sides, which bound no
+    /// block, do not count.
+    bool drops_ends = false;
+
+    /// Joints: what lies outside the solid, or all of it, is nothing to tell. Holes:
+    /// one may reach beyond its domain, and overlap others, as an excavation does.
+    bool is_clipped = false;
+
     /// Of a boundary: the material of its domain; of a closed interface: the
     /// material inside it. Empty: not said here.
     std::string material;

@@ -56,17 +56,40 @@ namespace NMM
     add_material_point(const dealii::Point<2> &point,
                        const std::string      &material);
 
+    /**
+     * A place that curves can be confined to (Curve::within), and that is no part of
+     * the physical mesh itself: a closed curve with a name of its own. Role and
+     * state mean nothing. @throws InputError unless it is closed, as for add(), and
+     * for a name that another region has.
+     */
+    void
+    add_region(Curve curve);
+
+    /// All regions of the solid whose point PhysicalMesh::Region::inside is in the
+    /// region called @p region consist of @p material; later ones win, material
+    /// points over all. @throws InputError for a region that does not exist.
+    void
+    add_material_region(const std::string &region, const std::string &material);
+
     const std::vector<Curve> &
     curves() const;
 
     std::vector<Curve> &
     curves();
 
+    const std::vector<Curve> &
+    regions() const;
+
+    /// Names of regions and their materials.
+    const std::vector<std::pair<std::string, std::string>> &
+    material_regions() const;
+
     const std::vector<std::pair<dealii::Point<2>, std::string>> &
     material_points() const;
 
   private:
-    std::vector<Curve>                                    all_curves;
+    std::vector<Curve>                               all_curves, all_regions;
+    std::vector<std::pair<std::string, std::string>> all_material_regions;
     std::vector<std::pair<dealii::Point<2>, std::string>> all_material_points;
   };
 

@@ -47,11 +47,21 @@ namespace NMM
       dealii::Point<2> inside;
     };
 
+    /// Parts of joints with the same region on both sides: they bound no block.
+    struct DanglingEnds
+    {
+      /// Crack tips: points inside the solid where one piece of a joint ends.
+      unsigned int n_kept = 0, n_dropped = 0;
+      /// [m].
+      double length_kept = 0., length_dropped = 0.;
+    };
+
     /**
      * Check and build. @throws InputError with the curve's name, coordinates and
      * remedy for: an open or self-intersecting boundary or hole, a hole outside
      * its domain, overlapping domains, a joint or interface wholly outside, a
-     * material point outside, no boundary at all.
+     * joint confined to what does not exist, a material point outside, no
+     * boundary at all.
      */
     explicit PhysicalMesh(Geometry geometry);
 
@@ -109,6 +119,10 @@ namespace NMM
     /// nothing. Sentences for people.
     const std::vector<std::string> &
     notices() const;
+
+    /// Of joints that keep theirs, and of those that do not (Curve::drops_ends).
+    const DanglingEnds &
+    dangling_ends() const;
 
     /// For the covers module: the exact arrangement.
     const internal::PhysicalArrangement &

@@ -2,6 +2,7 @@
 #define nmm_io_scene_h
 
 #include <nmm/contact/contact.h>
+#include <nmm/dynamics/contact_model.h>
 #include <nmm/dynamics/loading.h>
 #include <nmm/geometry/physical_mesh.h>
 #include <nmm/io/scene_parameters.h>
@@ -14,6 +15,15 @@
 
 namespace NMM
 {
+  /// What moves and takes away the obstacles of a scene.
+  struct ObstacleSwitches
+  {
+    std::vector<ObstacleRelease> releases;
+    /// While true, obstacles are where they are at t = 0, whatever the time.
+    std::shared_ptr<bool> is_frozen;
+  };
+
+
   /**
    * A scene as read: its parameters, and the objects of the other modules they
    * describe. The file format is in doc/scene-format.md.
@@ -51,7 +61,8 @@ namespace NMM
     std::string
     title() const;
 
-    /// The geometry before cleaning.
+    /// The geometry before cleaning, with traces, regions and joint sets. @throws
+    /// InputError for files that cannot be read, sets that are wrong.
     Geometry
     make_geometry() const;
 
@@ -70,11 +81,12 @@ namespace NMM
     Loading
     make_loading() const;
 
-    /// Rigid bodies that the solid touches. @throws InputError for a shape or an
-    /// expression that cannot be parsed, a name that a curve of
-    /// @p physical_mesh has.
+    /// Rigid bodies that the solid touches, restraints last. @p switches: null if
+    /// none is ever released. @throws InputError for a shape or an expression that
+    /// cannot be parsed, a name that a curve of @p physical_mesh has.
     std::vector<RigidObstacle>
-    make_obstacles(const PhysicalMesh &physical_mesh) const;
+    make_obstacles(const PhysicalMesh &physical_mesh,
+                   ObstacleSwitches   *switches = nullptr) const;
 
     /**
      * How the faces of @p surface act on each other. What the scene leaves open, E
@@ -98,8 +110,10 @@ namespace NMM
     std::string
     relative_to_scene(const std::string &name) const;
 
+    using TimeVector = std::function<dealii::Tensor<1, 2>(double)>;
+
     /// Two functions of time, separated by a semicolon; null if @p text is empty.
-    std::function<dealii::Tensor<1, 2>(double)>
+    TimeVector
     make_vector_function(const std::string &text,
                          const std::string &parameter) const;
 
@@ -107,8 +121,12 @@ namespace NMM
     void
     set_joint_states(Geometry &geometry) const;
 
-    RigidObstacle
-    make_obstacle(const ObstacleParameters &parameters) const;
+    Curve
+    make_region(const RegionParameters &parameters) const;
+
+    /// As places, and the holes they make.
+    void
+    add_regions(Geometry &geometry) const;
 
     /// @throws InputError unless a law's names are faces that touch.
     void

@@ -6,6 +6,7 @@
 #include <nmm/covers/mathematical_mesh.h>
 #include <nmm/io/scene_parameters_contact.h>
 #include <nmm/io/scene_parameters_dynamics.h>
+#include <nmm/io/scene_parameters_geometry.h>
 #include <nmm/mechanics/elasticity_problem.h>
 #include <nmm/mechanics/newton_solver.h>
 #include <nmm/mechanics/nonlinear_statics.h>
@@ -19,33 +20,6 @@
 
 namespace NMM
 {
-  /**
-   * The sections of a scene file. Every struct declares and parses the entries
-   * of its own section (the caller has entered it) and checks what patterns
-   * cannot express. Units are any consistent set; the help texts name SI ones.
-   *
-   * Sections that hold a list have an entry `Names`; each name has a
-   * subsection of its own, so the list must be known before the entries can be
-   * declared: see SceneNames.
-   */
-  struct GeometryParameters
-  {
-    /// WKT geometry file, relative to the scene file; empty: `text` is used.
-    std::string file;
-    /// Geometry records separated by semicolons.
-    std::string text;
-    /// Tolerance of the cleaning step [m]; 0: off.
-    double cleaning_tolerance = 0.;
-
-    static void
-    declare(dealii::ParameterHandler &prm);
-    void
-    parse(dealii::ParameterHandler &prm);
-    void
-    check() const;
-  };
-
-
   /// Where a graded mathematical mesh is to be fine.
   struct LocalSizeParameters
   {
@@ -342,9 +316,9 @@ namespace NMM
   /// The names in a scene's lists: what decides which subsections exist.
   struct SceneNames
   {
-    std::vector<std::string> local_sizes, materials, boundary_conditions,
-      point_forces, fixed_points, contact_laws, obstacles, initial_velocities,
-      probes;
+    std::vector<std::string> traces, joint_sets, regions, local_sizes,
+      materials, boundary_conditions, point_forces, fixed_points, contact_laws,
+      obstacles, initial_velocities, probes;
 
     /// One name each, for the parameter reference.
     static SceneNames
@@ -364,6 +338,9 @@ namespace NMM
   struct SceneParameters
   {
     GeometryParameters                       geometry;
+    std::vector<TraceParameters>             traces;
+    std::vector<JointSet>                    joint_sets;
+    std::vector<RegionParameters>            regions;
     MathematicalMeshParameters               mathematical_mesh;
     CoverParameters                          covers;
     std::vector<Material>                    materials;
@@ -405,6 +382,8 @@ namespace NMM
     check_analysis() const;
     void
     check_loads_in_time() const;
+    void
+    check_restraints() const;
   };
 } // namespace NMM
 

@@ -116,6 +116,8 @@ namespace NMM
     std::string file, shape;
     /// "ux; uy", each as an amplitude [m]; empty: at rest.
     std::string displacement;
+    /// It is gone from this time on [s]; negative: never.
+    double release_time = -1.;
 
     static void
     declare(dealii::ParameterHandler &prm);

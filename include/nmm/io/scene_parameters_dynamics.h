@@ -66,6 +66,19 @@ namespace NMM
       energy_momentum
     };
 
+    /// What a dynamic analysis starts from.
+    enum class Start
+    {
+      /// No displacements.
+      undeformed,
+      /// Equilibrium of the loads and supports at t = 0, before any release, by
+      /// load steps and Newton's method.
+      equilibrium,
+      /// The same by motion with kinetic damping.
+      relaxation
+    };
+
+    Start  start    = Start::undeformed;
     double end_time = 0.;
     /// StepControlParameters.
     double initial_step = 0., min_step = 0., max_step = 0.,

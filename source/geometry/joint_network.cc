@@ -1,0 +1,397 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/geometry/joint_network.h>
+
+#include <deal.II/base/tensor.h>
+
+#include "geometry/piece_geometry.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <sstream>
+
+namespace NMM
+{
+  using dealii::Point;
+  using dealii::Tensor;
+
+  namespace
+  {
+    constexpr double max_traces = 1e6;
+
+    /// What a random number is for.
+    enum class Draw : std::uint32_t
+    {
+      line,
+      trace
+    };
+
+
+    /**
+     * Random numbers that depend on nothing but the arguments. The distributions
+     * of the standard library differ from one library to the next, its engines and
+     * seed sequences do not.
+     */
+    class RandomNumbers
+    {
+    public:
+      RandomNumbers(const unsigned int seed,
+                    const Draw         purpose,
+                    const std::int64_t line,
+                    const std::int64_t trace)
+      {
+        const auto low  = [](const std::int64_t i) { return std::uint32_t(i); };
+        const auto high = [](const std::int64_t i) {
+          return std::uint32_t(static_cast<std::uint64_t>(i) >> 32);
+        };
+        std::seed_seq sequence{std::uint32_t(seed),
+                               static_cast<std::uint32_t>(purpose),
+                               low(line),
+                               high(line),
+                               low(trace),
+                               high(trace)};
+        engine.seed(sequence);
+      }
+
+      /// From [0, 1), a multiple of 2^-53.
+      double
+      unit()
+      {
+        return std::ldexp(static_cast<double>(engine() >> 11), -53);
+      }
+
+      /// From [-1, 1).
+      double
+      symmetric()
+      {
+        return 2. * unit() - 1.;
+      }
+
+    private:
+      std::mt19937_64 engine;
+    };
+
+
+    struct Box
+    {
+      Point<2> lower{std::numeric_limits<double>::max(),
+                     std::numeric_limits<double>::max()};
+      Point<2> upper{std::numeric_limits<double>::lowest(),
+                     std::numeric_limits<double>::lowest()};
+
+      void
+      include(const Curve &curve)
+      {
+        for (const CurvePiece &piece : curve.pieces)
+        {
+          const auto corners = internal::corners_around(piece);
+          for (unsigned int c = 0; c < 2; ++c)
+          {
+            lower[c] = std::min(lower[c], corners[0][c]);
+            upper[c] = std::max(upper[c], corners[1][c]);
+          }
+        }
+      }
+
+      std::array<Point<2>, 4>
+      corners() const
+      {
+        return {{lower, {upper[0], lower[1]}, upper, {lower[0], upper[1]}}};
+      }
+    };
+
+
+    /// Of the place the set is confined to, a little larger than that.
+    Box
+    find_box(const JointSet &set, const Geometry &geometry)
+    {
+      Box  box;
+      bool is_empty = true;
+      for (const Curve &region : geometry.regions())
+        if (!set.within.empty() && region.name == set.within)
+        {
+          box.include(region);
+          is_empty = false;
+        }
+      if (is_empty)
+        for (const Curve &curve : geometry.curves())
+          if (curve.role == CurveRole::boundary)
+          {
+            box.include(curve);
+            is_empty = false;
+          }
+      AssertThrow(!is_empty,
+                  InputError("the geometry has no outer boundary",
+                             "the joint set '" + set.name + "'",
+                             "add a closed curve of role 'boundary'"));
+      const double margin = 0.01 * box.lower.distance(box.upper);
+      for (unsigned int c = 0; c < 2; ++c)
+      {
+        box.lower[c] -= margin;
+        box.upper[c] += margin;
+      }
+      return box;
+    }
+
+
+    /// Makes the joints of one set.
+    class Generator
+    {
+    public:
+      Generator(const JointSet &set, const Box &box);
+
+      std::vector<Curve>
+      run();
+
+    private:
+      void
+      add_line(std::int64_t line);
+      void
+      add_trace(double begin, double end);
+      Point<2>
+      rounded(const Point<2> &point) const;
+      /// Least and largest projection of the box.
+      std::array<double, 2>
+      range(const Tensor<1, 2> &direction) const;
+
+      const JointSet &set;
+      const Box       box;
+      Tensor<1, 2>    direction, normal;
+      /// Unit that coordinates are multiples of [m].
+      double             unit;
+      std::vector<Curve> joints;
+      /// Of the current line.
+      Point<2>     foot;
+      Tensor<1, 2> along;
+    };
+
+
+    Tensor<1, 2>
+    unit_vector(const double degrees)
+    {
+      const double angle = degrees * (dealii::numbers::PI / 180.);
+      return Point<2>(std::cos(angle), std::sin(angle));
+    }
+
+
+    Generator::Generator(const JointSet &set, const Box &box)
+      : set(set)
+      , box(box)
+      , direction(unit_vector(set.dip))
+      , normal(Point<2>(-direction[1], direction[0]))
+    {
+      const double size =
+        std::max(box.lower.distance(box.upper),
+                 std::max(box.lower.norm(), box.upper.norm()));
+      unit = std::ldexp(1., std::ilogb(size) - 40);
+    }
+
+
+    std::array<double, 2>
+    Generator::range(const Tensor<1, 2> &along_this) const
+    {
+      double least = std::numeric_limits<double>::max(), largest = -least;
+      for (const Point<2> &corner : box.corners())
+      {
+        const double s = Tensor<1, 2>(corner) * along_this;
+        least          = std::min(least, s);
+        largest        = std::max(largest, s);
+      }
+      return {{least, largest}};
+    }
+
+
+    Point<2>
+    Generator::rounded(const Point<2> &point) const
+    {
+      // The unit is a power of 2: exact. Adding 0 turns -0 into 0.
+      return {std::round(point[0] / unit) * unit + 0.,
+              std::round(point[1] / unit) * unit + 0.};
+    }
+
+
+    std::vector<Curve>
+    Generator::run()
+    {
+      // A turned line may leave the box's range at one end and be inside at the
+      // other: look at more lines.
+      const double widening =
+        box.lower.distance(box.upper) *
+        std::sin(std::min(90., set.dip_scatter) * dealii::numbers::PI / 180.);
+      const auto [least, largest] = range(normal);
+      const double first =
+        std::floor((least - widening - set.offset) / set.spacing - 1.);
+      const double last =
+        std::ceil((largest + widening - set.offset) / set.spacing + 1.);
+      const double period = set.trace_length / set.persistence;
+      const double per_line =
+        set.persistence < 1. ? box.lower.distance(box.upper) / period + 2. : 1.;
+      std::ostringstream count;
+      count << (last - first + 1.) * per_line;
+      AssertThrow((last - first + 1.) * per_line <= max_traces,
+                  InputError("the joint set '" + set.name + "' would have " +
+                               count.str() + " traces",
+                             "its spacing and trace length",
+                             "choose them larger"));
+      for (double line = first; line <= last; ++line)
+        add_line(static_cast<std::int64_t>(line));
+      return std::move(joints);
+    }
+
+
+    void
+    Generator::add_line(const std::int64_t line)
+    {
+      RandomNumbers random(set.seed, Draw::line, line, 0);
+      const double  shift = 0.5 * set.spacing_scatter * random.symmetric();
+      const double  turn  = set.dip_scatter * random.symmetric();
+      const double  phase = random.unit();
+
+      const double distance =
+        set.offset + (static_cast<double>(line) + shift) * set.spacing;
+      const Point<2> middle = box.lower + 0.5 * (box.upper - box.lower);
+      foot  = Point<2>(distance * normal + (middle * direction) * direction);
+      along = turn == 0. ? direction : unit_vector(set.dip + turn);
+
+      // From the foot to where it leaves the box.
+      double begin = std::numeric_limits<double>::lowest(), end = -begin;
+      for (unsigned int c = 0; c < 2; ++c)
+      {
+        if (std::abs(along[c]) < 1e-12)
+        {
+          if (foot[c] < box.lower[c] || foot[c] > box.upper[c])
+            return;
+          continue;
+        }
+        const double a = (box.lower[c] - foot[c]) / along[c];
+        const double b = (box.upper[c] - foot[c]) / along[c];
+        begin          = std::max(begin, std::min(a, b));
+        end            = std::min(end, std::max(a, b));
+      }
+      if (begin >= end)
+        return;
+      if (set.persistence == 1.)
+      {
+        add_trace(begin, end);
+        return;
+      }
+
+      // Traces are numbered from the origin's place on the line.
+      const double origin = middle * direction;
+      const double period = set.trace_length / set.persistence;
+      const double first  = std::floor((begin + origin) / period - phase - 1.);
+      const double last   = std::ceil((end + origin) / period - phase + 1.);
+      for (double trace = first; trace <= last; ++trace)
+      {
+        double length = set.trace_length;
+        double place  = 0.5;
+        if (set.trace_length_scatter > 0.)
+        {
+          RandomNumbers numbers(set.seed,
+                                Draw::trace,
+                                line,
+                                static_cast<std::int64_t>(trace));
+          length *= 1. + set.trace_length_scatter * numbers.symmetric();
+          place = numbers.unit();
+        }
+        const double from =
+          (trace + phase) * period - origin + place * (period - length);
+        if (from < end && from + length > begin)
+          add_trace(std::max(begin, from), std::min(end, from + length));
+      }
+    }
+
+
+    void
+    Generator::add_trace(const double begin, const double end)
+    {
+      const Point<2> from = rounded(foot + begin * along);
+      const Point<2> to   = rounded(foot + end * along);
+      if (from.distance(to) <= 16. * unit)
+        return;
+      Curve curve;
+      curve.name       = set.name;
+      curve.role       = CurveRole::joint;
+      curve.state      = set.state;
+      curve.within     = set.within;
+      curve.drops_ends = set.drops_ends;
+      curve.is_clipped = true;
+      curve.source     = "joint set '" + set.name + "'";
+      curve.pieces     = {CurvePiece::segment(from, to)};
+      joints.push_back(std::move(curve));
+    }
+  } // namespace
+
+
+  void
+  JointSet::check() const
+  {
+    const auto check = [this](const bool         is_good,
+                              const std::string &what,
+                              const double       value,
+                              const std::string &unit,
+                              const std::string &remedy) {
+      std::ostringstream text;
+      text << what << " of the joint set '" << name << "' is " << value << unit;
+      AssertThrow(is_good,
+                  InputError(text.str(), "joint set '" + name + "'", remedy));
+    };
+    check(std::isfinite(dip), "the dip", dip, " degrees", "give an angle");
+    check(dip_scatter >= 0. && dip_scatter <= 90.,
+          "the scatter of the dip",
+          dip_scatter,
+          " degrees",
+          "give an angle from 0 to 90 degrees");
+    check(spacing > 0. && std::isfinite(spacing),
+          "the spacing",
+          spacing,
+          " m",
+          "give a positive length");
+    check(spacing_scatter >= 0. && spacing_scatter < 1.,
+          "the scatter of the spacing",
+          spacing_scatter,
+          "",
+          "give a share from 0 to below 1");
+    check(persistence > 0. && persistence <= 1.,
+          "the persistence",
+          persistence,
+          "",
+          "give a share above 0 and up to 1, which is through-going");
+    check(std::isfinite(offset), "the offset", offset, " m", "give a length");
+    if (persistence == 1.)
+    {
+      check(trace_length == 0. && trace_length_scatter == 0.,
+            "the persistence",
+            persistence,
+            "",
+            "remove the trace length and its scatter, which through-going "
+            "joints do not have, or give a persistence below 1");
+      return;
+    }
+    check(trace_length > 0. && std::isfinite(trace_length),
+          "the trace length",
+          trace_length,
+          " m",
+          "give the mean length of a trace, or let the persistence be 1");
+    // the longest trace still has a bridge behind it
+    std::ostringstream limit;
+    limit << 1. / persistence - 1.;
+    check(trace_length_scatter >= 0. &&
+            trace_length_scatter <= std::min(1., 1. / persistence - 1.),
+          "the scatter of the trace length",
+          trace_length_scatter,
+          "",
+          "give a share from 0 to at most 1 and at most " + limit.str() +
+            ", so that traces do not meet");
+  }
+
+
+  std::vector<Curve>
+  make_joints(const JointSet &set, const Geometry &geometry)
+  {
+    set.check();
+    return Generator(set, find_box(set, geometry)).run();
+  }
+} // namespace NMM

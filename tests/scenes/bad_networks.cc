@@ -1,0 +1,118 @@
+#include "rejected_input.h"
+
+using namespace rejected_input;
+
+// Joint sets, traces, regions and what is released.
+namespace
+{
+  TEST(BadInput, JointSets)
+  {
+    const auto rejects = [](const std::string              &entry,
+                            const std::vector<std::string> &words) {
+      expect_rejected_with({"Joint sets/Names=beds",
+                            "Joint sets/beds/Spacing=0.25"},
+                           "Joint sets/beds/" + entry,
+                           words);
+    };
+    rejects("Spacing=0", {"'beds'", "spacing", "0 m", "positive"});
+    rejects("Spacing=-1", {"'beds'", "spacing", "-1 m"});
+    rejects("Spacing=1e-9", {"'beds'", "traces", "larger"});
+    rejects("Spacing scatter=1", {"'beds'", "spacing", "below 1"});
+    rejects("Persistence=0", {"'beds'", "persistence", "above 0"});
+    rejects("Persistence=1.2", {"'beds'", "persistence", "1.2"});
+    rejects("Persistence=0.5", {"'beds'", "trace length", "0 m"});
+    rejects("Trace length=1", {"'beds'", "trace length", "persistence"});
+    rejects("Dip scatter=100", {"'beds'", "dip", "100", "90"});
+    rejects("Within=bench", {"'beds'", "'bench'", "region"});
+    rejects("State=ajar", {"ajar", "Joint sets/beds/State", "closed"});
+    expect_rejected_override("Joint sets/Names=square",
+                             {"'square'", "spacing"});
+    expect_rejected_with({"Joint sets/Names=square"},
+                         "Joint sets/square/Spacing=0.25",
+                         {"'square'", "joint", "rename"});
+  }
+
+
+  TEST(BadInput, Traces)
+  {
+    expect_rejected_override("Traces/Names=survey", {"'survey'", "File"});
+    const auto rejects = [](const std::string              &file,
+                            const std::vector<std::string> &words,
+                            const std::string &other = "Model/Thickness=1") {
+      expect_rejected_with({"Traces/Names=survey",
+                            "Traces/survey/File=" +
+                              std::filesystem::relative(
+                                file,
+                                std::filesystem::path(base_scene).parent_path())
+                                .string()},
+                           other,
+                           words);
+    };
+    rejects(NMM_TEST_OUTPUT_DIR "/no-such.dxf", {"no-such.dxf", "exist"});
+    rejects(write_scene("text.dxf", "no drawing\nat all\n"),
+            {"text.dxf", "DXF"});
+    rejects(write_scene("boundary.wkt", square),
+            {"'survey'", "boundary", "'square'", "boundary.wkt:1"});
+    rejects(write_scene("joints.wkt", "joint LINESTRING (0 0, 1 1)"),
+            {"joints.wkt", "Traces/survey/Layers", ".dxf"},
+            "Traces/survey/Layers=J1");
+    rejects(NMM_SOURCE_DIR "/tests/scenes/network-drawing/joints.dxf",
+            {"joints.dxf", "'J9'", "layer"},
+            "Traces/survey/Layers=J9");
+    rejects(NMM_SOURCE_DIR "/tests/scenes/network-drawing/joints.dxf",
+            {"joints.dxf", "SPLINE", "'sketch'"});
+  }
+
+
+  TEST(BadInput, Regions)
+  {
+    const auto rejects = [](const std::string              &entry,
+                            const std::vector<std::string> &words) {
+      expect_rejected_with({"Regions/Names=pit",
+                            "Regions/pit/Shape=CIRCLE (0.5 1, 0.25)"},
+                           "Regions/pit/" + entry,
+                           words);
+    };
+    rejects("Shape=", {"'pit'", "no shape", "Regions/pit"});
+    rejects("File=pit.wkt", {"'pit'", "more than one shape"});
+    rejects("Shape=LINESTRING (0 0, 1 1)", {"'pit'", "not closed", "POLYGON"});
+    rejects("Material=soil", {"'pit'", "'soil'", "middle"});
+    rejects("Use=restraint", {"'pit'", "Regions/pit/Use", "contact"});
+    rejects("Release time=1", {"Release time", "restraint"});
+    expect_rejected_with({"Regions/Names=pit",
+                          "Regions/pit/Shape=CIRCLE (0.5 1, 0.25)",
+                          "Regions/pit/Material=rock"},
+                         "Regions/pit/Use=excavation",
+                         {"'rock'", "Regions/pit/Material", "taken out"});
+    expect_rejected_with({"Regions/Names=square"},
+                         "Regions/square/Shape=CIRCLE (0.5 1, 0.25)",
+                         {"'square'", "Regions/Names", "another name"});
+    expect_rejected_with(touching +
+                           std::vector<std::string>{"Regions/Names=pit",
+                                                    "Regions/pit/Use=restraint",
+                                                    "Regions/pit/Release "
+                                                    "time=1"},
+                         "Regions/pit/Shape=CIRCLE (0.5 2, 0.25)",
+                         {"Release time", "static analysis"});
+    expect_rejected_with(touching,
+                         "Obstacles/floor/Release time=0",
+                         {"Obstacles/floor", "Release time", "dynamic"});
+  }
+
+
+  TEST(BadInput, StartsFromEquilibrium)
+  {
+    expect_rejected_override("Time/Start=equilibrium",
+                             {"Time/Start", "dynamic"});
+    expect_rejected_with(dynamic,
+                         "Time/Start=rest",
+                         {"rest", "Time/Start", "equilibrium"});
+    expect_rejected_with(dynamic + std::vector<std::string>{"Model/Kinematics="
+                                                            "incremental"},
+                         "Time/Start=equilibrium",
+                         {"Time/Start", "incremental"});
+    expect_rejected_with(dynamic,
+                         "Time/Start=relaxation",
+                         {"Relaxation/Step", "period"});
+  }
+} // namespace

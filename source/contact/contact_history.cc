@@ -256,6 +256,38 @@ namespace NMM
   }
 
 
+  void
+  Contact::forget_bodies(const std::vector<bool> &is_gone)
+  {
+    Data &d = *data;
+    AssertDimension(is_gone.size(), d.surface->n_bodies());
+    const std::size_t n_edges      = d.surface->edges().size();
+    const auto        edge_is_gone = [&](const unsigned int edge) {
+      return is_gone[d.surface->edges()[edge % n_edges].body];
+    };
+    const auto erase_if = [](auto &entries, const auto &is_dropped) {
+      for (auto entry = entries.begin(); entry != entries.end();)
+        entry = is_dropped(*entry) ? entries.erase(entry) : std::next(entry);
+    };
+    erase_if(d.energies_of_pairs, [&](const auto &entry) {
+      return is_gone[entry.first.first] || is_gone[entry.first.second];
+    });
+    erase_if(d.entrances, [&](const auto &entry) {
+      return edge_is_gone(entry.first) || edge_is_gone(entry.second);
+    });
+    for (auto &[key, places] : d.stick_places)
+      places.erase(std::remove_if(places.begin(),
+                                  places.end(),
+                                  [&](const StickPlace &place) {
+                                    return edge_is_gone(place.edge);
+                                  }),
+                   places.end());
+    erase_if(d.stick_places, [&](const auto &entry) {
+      return entry.second.empty() || edge_is_gone(entry.first);
+    });
+  }
+
+
   std::vector<double>
   Contact::history() const
   {

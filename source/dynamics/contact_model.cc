@@ -355,31 +355,7 @@ namespace NMM
     for (const ObstacleRelease &release : d.releases)
       if (*release.is_released)
         is_gone[first + release.obstacle] = true;
-    const auto body_is_gone = [&](const double body) {
-      return is_gone[static_cast<unsigned int>(body)];
-    };
-    const std::size_t n_edges      = surface.edges().size();
-    const auto        edge_is_gone = [&](const double edge) {
-      return is_gone[surface.edges()[static_cast<std::size_t>(edge) % n_edges]
-                       .body];
-    };
-
-    // Without this the energy that springs held at the last step would count as
-    // dissipated when the next one finds none. See Contact::history().
-    const std::vector<double> history = d.contact->history();
-    const std::size_t         begin = 2 + static_cast<std::size_t>(history[1]);
-    std::vector<double>       kept(history.begin(), history.begin() + begin);
-    for (std::size_t i = begin; i + 4 < history.size(); i += 5)
-    {
-      const double *entry = &history[i];
-      const bool    is_dropped =
-        entry[2] == -2.   ? body_is_gone(entry[0]) || body_is_gone(entry[1])
-           : entry[2] == -1. ? edge_is_gone(entry[0]) || edge_is_gone(entry[3])
-                             : edge_is_gone(entry[0]) || edge_is_gone(entry[2]);
-      if (!is_dropped)
-        kept.insert(kept.end(), entry, entry + 5);
-    }
-    d.contact->restore_history(kept);
+    d.contact->forget_bodies(is_gone);
   }
 
 

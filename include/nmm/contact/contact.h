@@ -343,6 +343,14 @@ namespace NMM
     std::vector<double>
     history() const;
 
+    /**
+     * Bodies that are taken away: what springs against them held at the last
+     * accepted state is forgotten, and does not count as dissipated.
+     * @p is_gone: by body of the surface.
+     */
+    void
+    forget_bodies(const std::vector<bool> &is_gone);
+
     /// Take over what history() returned, on any number of ranks.
     void
     restore_history(const std::vector<double> &history);

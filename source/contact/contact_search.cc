@@ -639,7 +639,7 @@ namespace NMM
         now.gap             = (slave_place.x - now.place.x) * now.normal;
         if (facing < facing_away && now.t >= -smooth_extension &&
             now.t <= 1. + smooth_extension)
-          outside.emplace_back(edge.body, now.gap);
+          outside.emplace_back(master, now.gap);
         if (facing <= least_facing || std::abs(now.gap) > largest_gap ||
             !admitted.holds(now) || now.t < -extension(edge.at_start, slack) ||
             now.t > 1. + extension(edge.at_end, slack))
@@ -669,10 +669,16 @@ namespace NMM
           best_facing    = facing;
         }
       }
-      for (const auto &[body_outside, gap] : outside)
-        if (best.master != invalid_index && best.gap < 0. &&
-            body_outside == surface->edges()[best.master].body &&
-            std::abs(gap) < -best.gap)
+      if (best.master == invalid_index || best.gap >= 0.)
+        return best;
+      const ContactSurface::Edge &edge    = surface->edges()[best.master];
+      constexpr auto              concave = ContactSurface::Corner::concave;
+      for (const auto &[far, gap] : outside)
+        if (surface->edges()[far].body == edge.body &&
+            std::abs(gap) < -best.gap &&
+            // both faces of a notch: the body is on either side of them
+            !(far == edge.previous && edge.at_start == concave) &&
+            !(far == edge.next && edge.at_end == concave))
           return ContactProjection();
       return best;
     }

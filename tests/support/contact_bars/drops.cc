@@ -59,7 +59,8 @@ namespace NMM
         double gain = 0., energy = 0.;
         /// Of the bodies, and what the springs at a corner give way by when all of
         /// the energy of motion presses one corner of the shortest edge: both its
-        /// points have a twelfth of the edge's length, at 60 degrees half of it.
+        /// points have a twelfth of the edge's length, at 60 degrees half of it; where a
+        /// face nearly lies on another one, less.
         double overlap = 0., elastic_overlap = 0.;
       };
 
@@ -176,7 +177,7 @@ namespace NMM
                        overlap_ratio,
                        0.,
                        1.,
-                       1.,
+                       2.,
                        total);
     }
   } // namespace ContactBars

@@ -1,0 +1,125 @@
+// Blocks on slopes with known limits, reduced from nmm-block-bars.
+
+#include <gtest/gtest.h>
+#include <support/block_bars/block_bars.h>
+
+namespace NMM
+{
+  namespace BlockBars
+  {
+    namespace
+    {
+      void
+      expect_holds(const Measurements &measurements)
+      {
+        EXPECT_FALSE(measurements.all().empty());
+        EXPECT_EQ(measurements.failures(), "");
+      }
+    } // namespace
+
+
+    // Textbooks round the limit of the chain of columns to 0.7855.
+    TEST(BlockBars, LimitOfTheChainOfColumns)
+    {
+      EXPECT_NEAR(limit_friction_of_columns(), 0.7851, 1e-4);
+    }
+
+
+    TEST(BlockBars, ColumnsTopple)
+    {
+      Measurements measurements;
+      Toppling     toppling;
+      toppling.tolerance = 0.01;
+      topple_columns(toppling, measurements);
+      expect_holds(measurements);
+    }
+
+
+    TEST(BlockBars, MapOfABlockOnAnIncline)
+    {
+      Measurements measurements;
+      InclineMap   map;
+      map.n = 5;
+      map_incline(map, measurements);
+      expect_holds(measurements);
+    }
+
+
+    TEST(BlockBars, FactorsOfSafety)
+    {
+      Measurements measurements;
+      slide_wedge(Slides(), measurements);
+      slide_two_blocks(Slides(), measurements);
+      expect_holds(measurements);
+    }
+
+
+    // Half of the motion; twice the step.
+    TEST(BlockBars, ShakenBlock)
+    {
+      Measurements measurements;
+      BaseMotion   motion;
+      motion.step     = 0.004;
+      motion.duration = 10.;
+      shake_block(motion, measurements);
+      expect_holds(measurements);
+    }
+
+
+    TEST(SafetyFactor, BracketsAndBisects)
+    {
+      for (const double limit : {0.3, 0.97, 1., 4.})
+      {
+        unsigned int n_trials = 0;
+        const auto   factor   = find_safety_factor([&](const double tried) {
+          ++n_trials;
+          StrengthTrial trial;
+          trial.factor = tried;
+          trial.stands = tried <= limit;
+          return trial;
+        });
+        EXPECT_LE(factor.stands_at, limit);
+        EXPECT_GT(factor.moves_at, limit);
+        EXPECT_NEAR(factor.value(), limit, 0.01 * limit);
+        EXPECT_EQ(factor.trials.size(), n_trials);
+        // 1.5 wide after the bracket is found, halved six times
+        EXPECT_LE(n_trials, 12u);
+      }
+    }
+
+
+    TEST(SafetyFactor, OneOutcomeOnly)
+    {
+      for (const bool stands : {true, false})
+      {
+        SafetyFactorParameters parameters;
+        const auto             factor = find_safety_factor(
+          [&](const double) {
+            StrengthTrial trial;
+            trial.stands = stands;
+            return trial;
+          },
+          parameters);
+        EXPECT_EQ(factor.value(),
+                  stands ? parameters.highest : parameters.lowest);
+        EXPECT_EQ(factor.stands_at > 0., stands);
+        EXPECT_EQ(std::isfinite(factor.moves_at), !stands);
+      }
+    }
+
+
+    TEST(SafetyFactor, BadInput)
+    {
+      EXPECT_THROW((void)reduce_strength(ContactParameters(), 0.), InputError);
+      const auto expect_refused = [](auto change) {
+        SafetyFactorParameters parameters;
+        change(parameters);
+        EXPECT_THROW(parameters.check(), InputError);
+      };
+      expect_refused([](auto &p) { p.ratio = 1.; });
+      expect_refused([](auto &p) { p.tolerance = 0.; });
+      expect_refused([](auto &p) { p.lowest = 0.; });
+      expect_refused([](auto &p) { p.first = 100.; });
+    }
+  } // namespace BlockBars
+} // namespace NMM

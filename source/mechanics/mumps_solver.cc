@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <dmumps_c.h>
+#include <mechanics/frontal_solver.h>
 #include <mechanics/mumps_solver.h>
 #include <numeric>
 #include <string>
@@ -171,7 +172,10 @@ namespace NMM
 
     struct DirectSolver::Data
     {
-      bool is_symmetric;
+      bool is_symmetric, is_regular;
+      /// Is FrontalSolver used? Its object is on the first rank.
+      bool                           is_frontal = false;
+      std::unique_ptr<FrontalSolver> frontal;
       /// Null on other ranks than the first if that one does all.
       std::unique_ptr<Mumps> mumps;
       Triplets               triplets;
@@ -195,13 +199,29 @@ namespace NMM
         check(info, stage);
       }
 
+      /// Coordinates of all entries to where they are needed.
       void
-      set_matrix(const dealii::TrilinosWrappers::SparseMatrix &matrix);
+      set_pattern(const dealii::TrilinosWrappers::SparseMatrix &matrix);
+
+      void
+      set_matrix();
+
+      Triplets &
+      all_entries()
+      {
+        return is_serial ? all_triplets : triplets;
+      }
+
+      bool
+      is_host() const
+      {
+        return dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+      }
     };
 
 
     void
-    DirectSolver::Data::set_matrix(
+    DirectSolver::Data::set_pattern(
       const dealii::TrilinosWrappers::SparseMatrix &matrix)
     {
       triplets.set_pattern(matrix.trilinos_matrix(), is_symmetric);
@@ -211,6 +231,12 @@ namespace NMM
         gather(triplets.columns, MPI_INT, communicator, all_triplets.columns);
         all_triplets.values.resize(all_triplets.rows.size());
       }
+    }
+
+
+    void
+    DirectSolver::Data::set_matrix()
+    {
       if (!mumps)
         return;
       DMUMPS_STRUC_C &m = mumps->data;
@@ -224,7 +250,7 @@ namespace NMM
         m.a_loc            = triplets.values.data();
         return;
       }
-      Triplets &all = is_serial ? all_triplets : triplets;
+      Triplets &all = all_entries();
       m.nnz         = all.values.size();
       m.irn         = all.rows.data();
       m.jcn         = all.columns.data();
@@ -232,10 +258,11 @@ namespace NMM
     }
 
 
-    DirectSolver::DirectSolver(const Symmetry symmetry)
+    DirectSolver::DirectSolver(const Symmetry symmetry, const bool is_regular)
       : data(std::make_unique<Data>())
     {
       data->is_symmetric = symmetry == Symmetry::symmetric;
+      data->is_regular   = is_regular;
     }
 
 
@@ -251,18 +278,37 @@ namespace NMM
       data->n         = matrix.m();
       data->is_serial = data->n_ranks > 1 && data->n < n_distributed;
       data->mumps.reset();
+      data->set_pattern(matrix);
+      data->is_analyzed = true;
+      data->is_frontal =
+        data->is_regular && (data->n_ranks == 1 || data->is_serial);
+      if (!data->is_frontal)
+        analyze_by_mumps();
+      else if (data->is_host())
+      {
+        data->frontal       = std::make_unique<FrontalSolver>();
+        const Triplets &all = data->all_entries();
+        data->frontal->analyze(data->n,
+                               all.rows,
+                               all.columns,
+                               data->is_symmetric);
+      }
+    }
+
+
+    void
+    DirectSolver::analyze_by_mumps()
+    {
       if (!data->is_serial)
         data->mumps =
           std::make_unique<Mumps>(data->communicator, data->is_symmetric);
-      else if (dealii::Utilities::MPI::this_mpi_process(data->communicator) ==
-               0)
+      else if (data->is_host())
         data->mumps =
           std::make_unique<Mumps>(MPI_COMM_SELF, data->is_symmetric);
-      data->set_matrix(matrix);
+      data->set_matrix();
       if (data->mumps)
         set_controls();
       data->run(1, "analysis");
-      data->is_analyzed = true;
     }
 
 
@@ -295,6 +341,19 @@ namespace NMM
                MPI_DOUBLE,
                data->communicator,
                data->all_triplets.values);
+      if (data->is_frontal)
+      {
+        bool is_done = data->frontal == nullptr ||
+                       data->frontal->factorize(data->all_entries().values);
+        if (data->is_serial)
+          is_done =
+            dealii::Utilities::MPI::broadcast(data->communicator, is_done);
+        if (is_done)
+          return;
+        data->is_frontal = false;
+        data->frontal.reset();
+        analyze_by_mumps();
+      }
       data->run(2, "factorization");
     }
 
@@ -309,13 +368,17 @@ namespace NMM
       {
         if (&rhs != &solution)
           std::copy(rhs.begin(), rhs.end(), solution.begin());
+        if (data->is_frontal)
+        {
+          data->frontal->solve(&*solution.begin());
+          return;
+        }
         data->mumps->data.rhs = &*solution.begin();
         data->run(3, "solution");
         return;
       }
-      const MPI_Comm communicator = data->communicator;
-      const bool     is_host =
-        dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+      const MPI_Comm         communicator = data->communicator;
+      const bool             is_host      = data->is_host();
       const std::vector<int> counts =
         dealii::Utilities::MPI::all_gather(communicator, n_local);
       std::vector<int> offsets(data->n_ranks, 0);
@@ -334,7 +397,10 @@ namespace NMM
                   communicator);
       if (data->mumps)
         data->mumps->data.rhs = global.data();
-      data->run(3, "solution");
+      if (!data->is_frontal)
+        data->run(3, "solution");
+      else if (data->frontal)
+        data->frontal->solve(global.data());
       MPI_Scatterv(global.data(),
                    counts.data(),
                    offsets.data(),

@@ -28,6 +28,11 @@ namespace NMM
      * n_distributed unknowns are therefore factorized by the first rank alone, which
      * gives the same bits always and takes no longer.
      *
+     * Matrices that inertia makes regular are factorized by FrontalSolver instead
+     * if one rank does all: MUMPS' set-up takes longer than small systems whose
+     * pattern changes, such as those of bodies that touch, are worth. What that
+     * one gives up is left to MUMPS.
+     *
      * Rows are consecutive per rank.
      */
     class DirectSolver
@@ -41,7 +46,10 @@ namespace NMM
 
       static constexpr unsigned int n_distributed = 30000;
 
-      explicit DirectSolver(Symmetry symmetry = Symmetry::symmetric);
+      /// @p is_regular: pivots need not be looked for outside of small parts of
+      /// the matrix.
+      explicit DirectSolver(Symmetry symmetry   = Symmetry::symmetric,
+                            bool     is_regular = false);
       ~DirectSolver();
 
       /// Order the unknowns for the pattern of @p matrix. @throws
@@ -63,6 +71,9 @@ namespace NMM
     private:
       void
       set_controls();
+
+      void
+      analyze_by_mumps();
 
       struct Data;
       std::unique_ptr<Data> data;

@@ -92,7 +92,8 @@ namespace NMM
       n             = system->tangent().m();
       direct_solver = std::make_unique<internal::DirectSolver>(
         is_symmetric ? internal::DirectSolver::Symmetry::symmetric
-                     : internal::DirectSolver::Symmetry::unsymmetric);
+                     : internal::DirectSolver::Symmetry::unsymmetric,
+        system->tangent_is_regular());
     }
     direct_solver->factorize(system->tangent());
     report->factorization_time += timer.wall_time();

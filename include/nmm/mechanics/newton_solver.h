@@ -41,6 +41,14 @@ namespace NMM
     virtual bool
     tangent_is_symmetric() const = 0;
 
+    /// Is the tangent regular wherever a body is cut off from others, such as that of
+    /// a time step, to which inertia adds mass?
+    virtual bool
+    tangent_is_regular() const
+    {
+      return false;
+    }
+
     /// Size of the forces that are in balance, what |r| is compared with [N/m].
     virtual double
     force_scale() const = 0;

@@ -374,7 +374,8 @@ namespace NMM
           const Point<2> x = surface->place(master, end).x;
           double         t;
           Place          place;
-          if (find_nearest(slave, x, t, place) && t > same && t < 1. - same &&
+          if (!surface->is_further(slave, x, reach, 0., 0.) &&
+              find_nearest(slave, x, t, place) && t > same && t < 1. - same &&
               place.x.distance(x) <= reach &&
               along_face(
                 -(place.normal() * surface->place(master, end).normal())) > 0.)
@@ -456,11 +457,13 @@ namespace NMM
       {
         const ContactSurface::Edge &edge = surface->edges()[master];
         ContactProjection           now;
-        now.master = master;
+        now.master          = master;
+        const double before = extension(edge.at_start, same);
+        const double after  = extension(edge.at_end, same);
         if (n == n_at_most ||
+            surface->is_further(master, slave_place.x, reach, before, after) ||
             !find_nearest(master, slave_place.x, now.t, now.place) ||
-            now.t < -extension(edge.at_start, same) ||
-            now.t > 1. + extension(edge.at_end, same))
+            now.t < -before || now.t > 1. + after)
           continue;
         now.normal = now.place.normal();
         now.gap    = (slave_place.x - now.place.x) * now.normal;
@@ -571,11 +574,16 @@ namespace NMM
         const double slack =
           given_slack < 0. || master == home || home == any_edge ? given_slack
                                                                  : rounding;
+        const double before = extension(edge.at_start, slack);
+        const double after  = extension(edge.at_end, slack);
+        // neither in contact nor what the point is just outside of
+        if (surface->is_further(
+              master, slave_place.x, largest_gap, before, after))
+          continue;
         ContactProjection now;
         now.master = master;
         if (!find_nearest(master, slave_place.x, now.t, now.place) ||
-            now.t < -extension(edge.at_start, slack) ||
-            now.t > 1. + extension(edge.at_end, slack))
+            now.t < -before || now.t > 1. + after)
           continue;
         now.normal          = now.place.normal();
         const double facing = -(now.normal * slave_normal);

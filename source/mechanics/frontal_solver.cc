@@ -48,23 +48,46 @@ namespace NMM
     } // namespace
 
 
-    FrontalSolver::Graph
-    FrontalSolver::compress(const unsigned int      n,
-                            const std::vector<int> &rows,
-                            const std::vector<int> &columns)
+    void
+    FrontalSolver::set_pattern(const unsigned int      n,
+                               const std::vector<int> &rows,
+                               const std::vector<int> &columns,
+                               const bool              triangle)
     {
-      // both unknowns of a cover are coupled to the same ones; both ways
-      const unsigned int                                 n_covers = (n + 1) / 2;
-      std::vector<std::pair<unsigned int, unsigned int>> pairs;
-      pairs.reserve(rows.size() / 2);
-      for (unsigned int k = 0; k < n_covers; ++k)
-        pairs.emplace_back(k, k);
+      n_unknowns  = n;
+      is_triangle = triangle;
+      is_analyzed = false;
+      blocks.clear();
+      coordinates.clear();
+      coordinates.reserve(rows.size());
+      // of each column, the last block it was met in
+      std::vector<unsigned int> last((n + 1) / 2, none);
       for (std::size_t i = 0; i < rows.size(); ++i)
       {
-        const unsigned int r = (rows[i] - 1) / 2, c = (columns[i] - 1) / 2;
-        if (r != c && (pairs.back().first != r || pairs.back().second != c))
-          pairs.emplace_back(r, c);
+        const unsigned int r = rows[i] - 1, c = columns[i] - 1;
+        unsigned int      &block = last[c / 2];
+        if (block == none || blocks[block].first != r / 2)
+        {
+          block = blocks.size();
+          blocks.emplace_back(r / 2, c / 2);
+        }
+        coordinates.push_back({block, r % 2, c % 2});
       }
+    }
+
+
+    FrontalSolver::Graph
+    FrontalSolver::compress() const
+    {
+      // both unknowns of a cover are coupled to the same ones; both ways
+      const unsigned int n = n_unknowns, n_covers = (n + 1) / 2;
+      std::vector<std::pair<unsigned int, unsigned int>> pairs;
+      pairs.reserve(2 * blocks.size() + n_covers);
+      for (unsigned int k = 0; k < n_covers; ++k)
+        pairs.emplace_back(k, k);
+      for (std::size_t b = 0; b < blocks.size(); ++b)
+        if (counts[b] && blocks[b].first != blocks[b].second)
+          pairs.push_back(blocks[b]);
       const std::size_t n_pairs = pairs.size();
       for (std::size_t i = n_covers; i < n_pairs; ++i)
         pairs.emplace_back(pairs[i].second, pairs[i].first);
@@ -338,22 +361,45 @@ namespace NMM
 
 
     void
-    FrontalSolver::place_entries(const std::vector<int> &rows,
-                                 const std::vector<int> &columns,
-                                 const bool              is_triangle)
+    FrontalSolver::place_entries()
     {
-      // by front, which is that of the unknown eliminated first
+      // by front, which is that of the cover eliminated first
+      struct Site
+      {
+        unsigned int front, row, column;
+      };
+      std::vector<Site> sites(blocks.size());
+      const auto place = [&](const Front &front, const unsigned int unknown) {
+        if (unknown < front.first + front.n_pivots)
+          return unknown - front.first;
+        const auto from = later_unknowns.begin() + front.later;
+        const auto to   = from + (front.n - front.n_pivots);
+        const auto at   = std::lower_bound(from, to, unknown);
+        Assert(at != to && *at == unknown, dealii::ExcInternalError());
+        return front.n_pivots + static_cast<unsigned int>(at - from);
+      };
+      for (std::size_t b = 0; b < blocks.size(); ++b)
+        if (counts[b])
+        {
+          const unsigned int r = old_to_new[2 * blocks[b].first];
+          const unsigned int c = old_to_new[2 * blocks[b].second];
+          sites[b].front  = std::min(unknown_to_front[r], unknown_to_front[c]);
+          sites[b].row    = place(fronts[sites[b].front], r);
+          sites[b].column = place(fronts[sites[b].front], c);
+        }
+
       std::vector<std::size_t> begin(fronts.size() + 1, 0);
       const auto               for_each = [&](const auto &action) {
-        for (std::size_t i = 0; i < rows.size(); ++i)
+        for (std::size_t i = 0; i < coordinates.size(); ++i)
         {
-          const unsigned int r = old_to_new[rows[i] - 1];
-          const unsigned int c = old_to_new[columns[i] - 1];
-          const unsigned int f =
-            std::min(unknown_to_front[r], unknown_to_front[c]);
-          action(f, i, r, c);
+          const Coordinates &at = coordinates[i];
+          if (!counts[at.block])
+            continue;
+          const Site        &site = sites[at.block];
+          const unsigned int r = site.row + at.row, c = site.column + at.column;
+          action(site.front, i, r, c);
           if (is_triangle && r != c)
-            action(f, i, c, r);
+            action(site.front, i, c, r);
         }
       };
       for_each(
@@ -367,38 +413,69 @@ namespace NMM
         fronts[f].entries_end   = begin[f + 1];
       }
       entries.resize(begin.back());
-      const auto place = [&](const Front &front, const unsigned int unknown) {
-        if (unknown < front.first + front.n_pivots)
-          return unknown - front.first;
-        const auto from = later_unknowns.begin() + front.later;
-        const auto to   = from + (front.n - front.n_pivots);
-        const auto at   = std::lower_bound(from, to, unknown);
-        Assert(at != to && *at == unknown, dealii::ExcInternalError());
-        return front.n_pivots + static_cast<unsigned int>(at - from);
-      };
       for_each([&](const unsigned int f,
                    const std::size_t  i,
                    const unsigned int r,
                    const unsigned int c) {
-        const Front &front  = fronts[f];
         entries[begin[f]++] = {static_cast<unsigned int>(i),
-                               place(front, r) * front.n + place(front, c)};
+                               r * fronts[f].n + c};
       });
     }
 
 
     void
-    FrontalSolver::analyze(const unsigned int      n,
-                           const std::vector<int> &rows,
-                           const std::vector<int> &columns,
-                           const bool              is_triangle)
+    FrontalSolver::analyze()
     {
       std::vector<std::vector<unsigned int>> pivots, later;
       std::vector<unsigned int>              parents;
-      const Graph                            graph = compress(n, rows, columns);
+      const Graph                            graph = compress();
       find_fronts(graph, pivots, later, parents);
       number_unknowns(graph, pivots, later, parents);
-      place_entries(rows, columns, is_triangle);
+      place_entries();
+      is_analyzed = true;
+    }
+
+
+    void
+    FrontalSolver::forget()
+    {
+      is_new = true;
+    }
+
+
+    /// Find the order anew if blocks count that have not.
+    void
+    FrontalSolver::count_blocks(const std::vector<double> &values)
+    {
+      is_nonzero.assign(blocks.size(), 0);
+      for (std::size_t i = 0; i < values.size(); ++i)
+        is_nonzero[coordinates[i].block] |= values[i] != 0.;
+      if (!is_analyzed || is_new)
+      {
+        if (!is_analyzed || is_nonzero != counts)
+        {
+          counts = is_nonzero;
+          analyze();
+        }
+      }
+      else
+      {
+        bool is_more = false;
+        for (std::size_t b = 0; b < blocks.size(); ++b)
+          if (is_nonzero[b] && !counts[b])
+            counts[b] = is_more = true;
+        if (is_more)
+          analyze();
+      }
+      is_new = false;
+    }
+
+
+    bool
+    FrontalSolver::factorize(const std::vector<double> &values)
+    {
+      count_blocks(values);
+      return assemble_and_eliminate(values);
     }
 
 
@@ -476,7 +553,7 @@ namespace NMM
 
 
     bool
-    FrontalSolver::factorize(const std::vector<double> &values)
+    FrontalSolver::assemble_and_eliminate(const std::vector<double> &values)
     {
       // what fronts have left, the last one on top
       std::size_t top = 0;

@@ -1,6 +1,7 @@
 #ifndef nmm_source_mechanics_frontal_solver_h
 #define nmm_source_mechanics_frontal_solver_h
 
+#include <utility>
 #include <vector>
 
 namespace NMM
@@ -20,6 +21,10 @@ namespace NMM
      * solver is made for the opposite. Factorizing 2,400 unknowns of 200
      * triangles that touch takes a tenth of MUMPS' time.
      *
+     * Of the pattern only blocks that are not zero count: of all faces that may touch few
+     * do, and what does not touch fills nothing. Where other blocks become nonzero the
+     * order is found anew.
+     *
      * Pivots are looked for among the unknowns of a front that are eliminated there
      * only. Matrices to which inertia adds a mass are regular enough for that;
      * what is not is said by factorize().
@@ -27,13 +32,19 @@ namespace NMM
     class FrontalSolver
     {
     public:
-      /// For @p n unknowns and entries at coordinates from 1; of a symmetric
-      /// matrix those of one triangle, each off the diagonal standing for two.
+      /// For @p n unknowns, two a cover, and entries row by row at coordinates from 1; of
+      /// a symmetric matrix those of one triangle, each off the diagonal standing for
+      /// two.
       void
-      analyze(unsigned int            n,
-              const std::vector<int> &rows,
-              const std::vector<int> &columns,
-              bool                    is_triangle);
+      set_pattern(unsigned int            n,
+                  const std::vector<int> &rows,
+                  const std::vector<int> &columns,
+                  bool                    is_triangle);
+
+      /// Blocks that are zero in the next matrix do not count, whatever they have been:
+      /// from here on factors do not depend on matrices before.
+      void
+      forget();
 
       /// @p values in the order of the entries. False: a pivot is lost in rounding.
       [[nodiscard]] bool
@@ -76,10 +87,12 @@ namespace NMM
         std::vector<unsigned int> unknown_to_node, begin, neighbors, weight;
       };
 
-      static Graph
-      compress(unsigned int            n,
-               const std::vector<int> &rows,
-               const std::vector<int> &columns);
+      /// Find the order for the blocks that count.
+      void
+      analyze();
+
+      Graph
+      compress() const;
 
       /// Nodes of each front, those that are eliminated first; children before
       /// parents; and the parents.
@@ -96,12 +109,29 @@ namespace NMM
                       const std::vector<unsigned int>              &parents);
 
       void
-      place_entries(const std::vector<int> &rows,
-                    const std::vector<int> &columns,
-                    bool                    is_triangle);
+      place_entries();
+
+      void
+      count_blocks(const std::vector<double> &values);
+
+      bool
+      assemble_and_eliminate(const std::vector<double> &values);
 
       bool
       eliminate(const Front &front, double *matrix);
+
+      /// An entry of the matrix: its block and its place therein.
+      struct Coordinates
+      {
+        unsigned int block, row, column;
+      };
+
+      unsigned int n_unknowns  = 0;
+      bool         is_triangle = false, is_analyzed = false, is_new = true;
+      std::vector<Coordinates> coordinates;
+      /// Blocks of two covers, and whether they count.
+      std::vector<std::pair<unsigned int, unsigned int>> blocks;
+      std::vector<char>                                  counts, is_nonzero;
 
       std::vector<Front>        fronts;
       std::vector<unsigned int> old_to_new, later_unknowns, children,

@@ -174,7 +174,7 @@ namespace NMM
     {
       bool is_symmetric, is_regular;
       /// Is FrontalSolver used? Its object is on the first rank.
-      bool                           is_frontal = false;
+      bool                           is_frontal = false, frontal_is_set = false;
       std::unique_ptr<FrontalSolver> frontal;
       /// Null on other ranks than the first if that one does all.
       std::unique_ptr<Mumps> mumps;
@@ -282,17 +282,27 @@ namespace NMM
       data->is_analyzed = true;
       data->is_frontal =
         data->is_regular && (data->n_ranks == 1 || data->is_serial);
+      data->frontal_is_set = data->is_frontal;
       if (!data->is_frontal)
         analyze_by_mumps();
       else if (data->is_host())
       {
         data->frontal       = std::make_unique<FrontalSolver>();
         const Triplets &all = data->all_entries();
-        data->frontal->analyze(data->n,
-                               all.rows,
-                               all.columns,
-                               data->is_symmetric);
+        data->frontal->set_pattern(data->n,
+                                   all.rows,
+                                   all.columns,
+                                   data->is_symmetric);
       }
+    }
+
+
+    void
+    DirectSolver::forget()
+    {
+      data->is_frontal = data->is_frontal || data->frontal_is_set;
+      if (data->frontal)
+        data->frontal->forget();
     }
 
 
@@ -351,7 +361,6 @@ namespace NMM
         if (is_done)
           return;
         data->is_frontal = false;
-        data->frontal.reset();
         analyze_by_mumps();
       }
       data->run(2, "factorization");

@@ -57,6 +57,10 @@ namespace NMM
       void
       analyze(const dealii::TrilinosWrappers::SparseMatrix &matrix);
 
+      /// From here on factors do not depend on matrices before.
+      void
+      forget();
+
       /// Factorize; analyze() is called if it has not been. The pattern must be
       /// the one analyzed. @throws NumericalFailure with MUMPS' error code for a
       /// singular matrix or lack of memory.

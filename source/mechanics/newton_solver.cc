@@ -272,6 +272,9 @@ namespace NMM
     data->owned.reinit(u.locally_owned_elements(), u.get_mpi_communicator());
     data->owned = u;
 
+    // a continuation begins with no matrix before
+    if (data->direct_solver)
+      data->direct_solver->forget();
     Vector last_increment(u), before(u);
     double largest_energy = 0.;
     while (report.iterations.size() < data->parameters.max_iterations)

@@ -192,7 +192,7 @@ namespace
   struct Phase
   {
     std::string name;
-    double      seconds = 0., n_steps = 0., n_iterations = 0., n_cuts = 0.,
+    double end = 0., seconds = 0., n_steps = 0., n_iterations = 0., n_cuts = 0.,
            n_points = 0., n_pairs = 0., n_patterns = 0., overlap = 0.;
     Stages stages;
   };
@@ -259,6 +259,7 @@ namespace
 
     Phase phase;
     phase.name = name;
+    phase.end  = end;
     StepControlParameters control;
     control.initial_step = time_step;
     control.min_step     = 1e-4 * time_step;
@@ -313,7 +314,7 @@ namespace
 
 
   constexpr const char *head =
-    "blocks,elements_per_block,unknowns_per_block,phase,steps,cuts,"
+    "blocks,elements_per_block,unknowns_per_block,phase,end_s,steps,cuts,"
     "iterations_per_step,new_patterns_per_step,block_steps_per_s,"
     "us_per_block_and_step,search_us,contact_us,elements_us,factorization_us,"
     "substitution_us,rest_us,touching_points_per_block,touching_pairs_per_"
@@ -333,7 +334,7 @@ namespace
     csv.precision(4);
     csv << n << ',' << bodies->mesh.n_elements() / n << ','
         << 2 * bodies->covers.n_covers() / n << ',' << phase.name << ','
-        << phase.n_steps << ',' << phase.n_cuts << ','
+        << phase.end << ',' << phase.n_steps << ',' << phase.n_cuts << ','
         << phase.n_iterations / phase.n_steps << ','
         << phase.n_patterns / phase.n_steps << ','
         << n * phase.n_steps / phase.seconds;

@@ -389,7 +389,8 @@ namespace NMM
           const Point<2> x = surface->place(master, end).x;
           double         t;
           Place          place;
-          if (find_nearest(slave, x, t, place) && t > same && t < 1. - same &&
+          if (!surface->is_further(slave, x, reach, 0., 0.) &&
+              find_nearest(slave, x, t, place) && t > same && t < 1. - same &&
               place.x.distance(x) <= reach &&
               along_face(
                 -(place.normal() * surface->place(master, end).normal())) > 0.)
@@ -496,10 +497,12 @@ namespace NMM
       {
         const ContactSurface::Edge &edge = surface->edges()[master];
         ContactProjection           now;
-        now.master = master;
-        if (!find_nearest(master, slave_place.x, now.t, now.place) ||
-            now.t < -extension(edge.at_start, same) ||
-            now.t > 1. + extension(edge.at_end, same))
+        now.master          = master;
+        const double before = extension(edge.at_start, same);
+        const double after  = extension(edge.at_end, same);
+        if (surface->is_further(master, slave_place.x, reach, before, after) ||
+            !find_nearest(master, slave_place.x, now.t, now.place) ||
+            now.t < -before || now.t > 1. + after)
           continue;
         now.normal = now.place.normal();
         now.gap    = (slave_place.x - now.place.x) * now.normal;
@@ -630,6 +633,15 @@ namespace NMM
         const double slack =
           given_slack < 0. || master == home || home == any_edge ? given_slack
                                                                  : rounding;
+        const double before = extension(edge.at_start, slack);
+        const double after  = extension(edge.at_end, slack);
+        // neither in contact nor a far side
+        if (surface->is_further(master,
+                                slave_place.x,
+                                largest_gap,
+                                std::max(before, smooth_extension),
+                                std::max(after, smooth_extension)))
+          continue;
         ContactProjection now;
         now.master = master;
         if (!find_nearest(master, slave_place.x, now.t, now.place))
@@ -641,8 +653,7 @@ namespace NMM
             now.t <= 1. + smooth_extension)
           outside.emplace_back(master, now.gap);
         if (facing <= least_facing || std::abs(now.gap) > largest_gap ||
-            !admitted.holds(now) || now.t < -extension(edge.at_start, slack) ||
-            now.t > 1. + extension(edge.at_end, slack))
+            !admitted.holds(now) || now.t < -before || now.t > 1. + after)
           continue;
         // how far beyond the edge's ends [m]
         const double overshoot =

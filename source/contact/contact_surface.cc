@@ -499,13 +499,14 @@ namespace NMM
   ContactSurface::Place
   ContactSurface::place(const unsigned int e, const double t) const
   {
-    Place place = reference_place(e, t);
+    const Edge &edge  = all_edges[e];
+    Place       place = reference_place(e, t);
     if (is_rigid(e))
     {
-      place.x += obstacle_displacements[all_edges[e].body - n_blocks];
+      place.x += obstacle_displacements[edge.body - n_blocks];
       return place;
     }
-    if (all_edges[e].radius == 0.)
+    if (edge.radius == 0.)
     {
       const auto &d = edge_displacements[e].d;
       place.x += d[0] + t * (d[1] + t * d[2]);
@@ -527,6 +528,38 @@ namespace NMM
       }
     }
     return place;
+  }
+
+
+  bool
+  ContactSurface::is_further(const unsigned int e,
+                             const Point<2>    &x,
+                             const double       distance,
+                             const double       before,
+                             const double       after) const
+  {
+    const Edge &edge = all_edges[e];
+    if (edge.radius != 0.)
+      return false;
+    Tensor<1, 2> way = x - edge.start, chord = edge.end - edge.start;
+    double       most = distance;
+    if (is_rigid(e))
+      way -= obstacle_displacements[edge.body - n_blocks];
+    else
+    {
+      // the place is on the chord but for d_2 t (t - 1), |t (t - 1)| <= 3/4
+      const auto &d = edge_displacements[e].d;
+      way -= d[0];
+      chord += d[1] + d[2];
+      most += 0.75 * d[2].norm();
+    }
+    const double square = chord.norm_square();
+    const double across = way[0] * chord[1] - way[1] * chord[0];
+    if (across * across > most * most * square)
+      return true;
+    const double along = way * chord, more = most * std::sqrt(square);
+    return along < -before * square - more ||
+           along > (1. + after) * square + more;
   }
 
 

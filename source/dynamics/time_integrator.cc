@@ -551,9 +551,11 @@ namespace NMM
     {
       const NewtonReport newton =
         d.newton.solve(d, d.model->constraints(), d.u_end);
-      report.n_iterations = newton.iterations.size();
-      report.converged    = newton.converged;
-      report.reason       = newton.reason;
+      report.n_iterations       = newton.iterations.size();
+      report.converged          = newton.converged;
+      report.reason             = newton.reason;
+      report.factorization_time = newton.factorization_time;
+      report.substitution_time  = newton.substitution_time;
     }
     if (report.converged)
       d.measure(report);

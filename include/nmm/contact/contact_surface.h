@@ -174,6 +174,16 @@ namespace NMM
     Place
     place(unsigned int edge, double t) const;
 
+    /// Is a point surely further than @p distance [m] from all places
+    /// -before <= t <= 1 + after, both at most 1/2? For straight edges; of arcs this is
+    /// not known. Much less work than looking for the nearest place.
+    bool
+    is_further(unsigned int            edge,
+               const dealii::Point<2> &x,
+               double                  distance,
+               double                  before,
+               double                  after) const;
+
     void
     weights(unsigned int edge, double t, Weights &weights) const;
 

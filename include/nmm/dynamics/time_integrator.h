@@ -66,6 +66,9 @@ namespace NMM
     std::string  reason;
     double       step         = 0.;
     unsigned int n_iterations = 0;
+    /// Wall times of the equations' factorization and of substitutions [s]; 0 if
+    /// the step is linear.
+    double factorization_time = 0., substitution_time = 0.;
     /// Largest displacement of a cover in the step [m].
     double max_displacement = 0.;
     /**

@@ -1,0 +1,382 @@
+// Blocks that fall into a box and form a heap: time per block and step, where it goes,
+// and memory. Argument 1: number of blocks, argument 2: cells across a block, 0 for a
+// triangle of its own for each, argument 3: duration [s], argument 4: the file that two
+// lines are added to, one for the first half of the time, while blocks fall, and one for
+// the second, when they lie on each other. One run per process, since the largest
+// memory is that of the process.
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/timer.h>
+#include <deal.II/base/utilities.h>
+
+#include <cmath>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <random>
+#include <set>
+#include <sstream>
+#include <support/contact_bars/moving_bodies.h>
+#include <support/contact_bars/overlap.h>
+
+using namespace NMM;
+using namespace NMM::ContactBars;
+
+namespace
+{
+  constexpr double density = 2500., youngs_modulus = 1e9, time_step = 0.005;
+  /// Of blocks at first, and how far their corners are from those of a square [m].
+  constexpr double spacing = 1.16, jitter = 0.07;
+
+
+  /// Processor times of the stages [s].
+  struct Stages
+  {
+    double search = 0., elements = 0., contact = 0., factorization = 0.,
+           substitution = 0.;
+  };
+
+
+  /// Of this process [s]: on a machine that others use, too, time on the clock says little.
+  double
+  processor_time()
+  {
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+  }
+
+
+  /// Adds the processor time of its life to a sum.
+  class Stopwatch
+  {
+  public:
+    explicit Stopwatch(double &sum)
+      : sum(sum)
+      , begin(processor_time())
+    {
+    }
+
+    Stopwatch(const Stopwatch &) = delete;
+    Stopwatch &
+    operator=(const Stopwatch &) = delete;
+
+    ~Stopwatch()
+    {
+      sum += processor_time() - begin;
+    }
+
+  private:
+    double &sum;
+    double  begin;
+  };
+
+
+  class TimedElements : public FiniteModel
+  {
+  public:
+    TimedElements(FiniteElasticity           &elasticity,
+                  const QuadratureCollection &quadrature,
+                  Stages                     &stages)
+      : FiniteModel(elasticity, quadrature)
+      , stages(&stages)
+    {
+    }
+
+    Deformation
+    assemble(const Vector &u,
+             const double  t,
+             const Tangent tangent,
+             const Vector *increment) override
+    {
+      const Stopwatch watch(stages->elements);
+      return FiniteModel::assemble(u, t, tangent, increment);
+    }
+
+    Deformation
+    assemble_between(const Vector &begin,
+                     const Vector &end,
+                     const double  t_0,
+                     const double  t_1,
+                     const Tangent tangent) override
+    {
+      const Stopwatch watch(stages->elements);
+      return FiniteModel::assemble_between(begin, end, t_0, t_1, tangent);
+    }
+
+  private:
+    Stages *stages;
+  };
+
+
+  class TimedContact : public ContactModel
+  {
+  public:
+    TimedContact(MechanicalModel &model, Contact &contact, Stages &stages)
+      : ContactModel(model, contact)
+      , stages(&stages)
+    {
+    }
+
+    Deformation
+    assemble_between(const Vector &begin,
+                     const Vector &end,
+                     const double  t_0,
+                     const double  t_1,
+                     const Tangent tangent) override
+    {
+      const double    elements = stages->elements;
+      const Stopwatch watch(stages->contact);
+      const auto      state =
+        ContactModel::assemble_between(begin, end, t_0, t_1, tangent);
+      stages->contact -= stages->elements - elements;
+      return state;
+    }
+
+    void
+    begin_step(const Vector &begin,
+               const Vector &predicted,
+               const double  t,
+               const double  h) override
+    {
+      const Stopwatch watch(stages->search);
+      ContactModel::begin_step(begin, predicted, t, h);
+    }
+
+  private:
+    Stages *stages;
+  };
+
+
+  /// Convex quadrilaterals, nearly squares of 1 m, in rows above the floor, every other
+  /// row half a block to the right; the box's width and the heap's height.
+  Geometry
+  blocks(const unsigned int n, double &width, double &height)
+  {
+    std::mt19937                           generator(6);
+    std::uniform_real_distribution<double> random(-1., 1.);
+    const auto   n_columns = static_cast<unsigned int>(std::sqrt(3.2 * n));
+    Geometry     geometry;
+    unsigned int row = 0;
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      row = i / n_columns;
+      const Tensor<1, 2> center =
+        Point<2>(spacing * (i % n_columns + (row % 2 == 0 ? 0.5 : 1.)),
+                 spacing * (row + 0.5));
+      std::vector<Point<2>> corners;
+      for (const auto &[x, y] : {std::make_pair(-0.5, -0.5),
+                                 std::make_pair(0.5, -0.5),
+                                 std::make_pair(0.5, 0.5),
+                                 std::make_pair(-0.5, 0.5)})
+        corners.push_back(Point<2>(x + jitter * random(generator),
+                                   y + jitter * random(generator)) +
+                          center);
+      add_block(geometry, "block " + std::to_string(i), corners);
+    }
+    width  = (n_columns + 0.5) * spacing;
+    height = (row + 1) * spacing;
+    return geometry;
+  }
+
+
+  double
+  peak_memory()
+  {
+    dealii::Utilities::System::MemoryStats stats;
+    dealii::Utilities::System::get_memory_stats(stats);
+    return static_cast<double>(stats.VmHWM);
+  }
+
+
+  /// What happened in a part of the time.
+  struct Phase
+  {
+    std::string name;
+    double end = 0., seconds = 0., n_steps = 0., n_iterations = 0., n_cuts = 0.,
+           n_points = 0., n_pairs = 0., n_patterns = 0., overlap = 0.;
+    Stages stages;
+  };
+
+
+  struct Heap
+  {
+    Heap(unsigned int n_blocks, double n_cells);
+
+    /// Steps until @p end.
+    Phase
+    run(const std::string &name, double end);
+
+    void
+    write(const Phase &phase, std::ostream &csv) const;
+
+    unsigned int                  n_blocks;
+    double                        n_cells;
+    Stages                        stages;
+    std::unique_ptr<MovingBodies> bodies;
+    double                        memory_before;
+    double energy = 0., last = 0., gain = 0., largest_kinetic = 0.;
+  };
+
+
+  Heap::Heap(const unsigned int n_blocks, const double n_cells)
+    : n_blocks(n_blocks)
+    , n_cells(n_cells)
+    , memory_before(peak_memory())
+  {
+    double                width, height;
+    Geometry              geometry = blocks(n_blocks, width, height);
+    MovingBodies::Options options;
+    options.cell_size           = n_cells > 0. ? 1. / n_cells : 2.5;
+    options.mesh_of_every_block = n_cells == 0.;
+    options.obstacles           = {obstacle(
+      "box", {{width, 2. * height}, {width, 0.}, {0., 0.}, {0., 2. * height}})};
+    bodies = std::make_unique<MovingBodies>(std::move(geometry), options);
+    bodies->problem.materials = {
+      material("rock", youngs_modulus, 0.2, density)};
+    bodies->problem.gravity = Tensor<1, 2>({0., -standard_gravity});
+    ContactParameters parameters =
+      contact_parameters(10. * youngs_modulus, 0.05);
+    parameters.friction       = std::tan(degrees(30.));
+    parameters.normal_damping = parameters.shear_damping =
+      0.2 * std::sqrt(parameters.normal_stiffness * density * 0.5);
+    static_cast<Bodies &>(*bodies).start(parameters,
+                                         /* is_linearized = */ false);
+    bodies->mechanics = std::make_unique<TimedElements>(*bodies->elasticity,
+                                                        bodies->quadrature,
+                                                        stages);
+    bodies->model     = std::make_unique<TimedContact>(*bodies->mechanics,
+                                                   *bodies->contact,
+                                                   stages);
+    bodies->integrate(TimeScheme::energy_momentum());
+  }
+
+
+  Phase
+  Heap::run(const std::string &name, const double end)
+  {
+    // overlaps are those of all against all
+    constexpr unsigned int steps_between = 25;
+
+    Phase phase;
+    phase.name = name;
+    phase.end  = end;
+    StepControlParameters control;
+    control.initial_step = time_step;
+    control.min_step     = 1e-4 * time_step;
+    StepRecord   record;
+    unsigned int version = bodies->contact->pattern_version();
+    stages               = Stages();
+    bool goes_on         = true;
+    while (goes_on)
+    {
+      const double  begin = processor_time();
+      dealii::Timer timer;
+      goes_on = StepControl(control).advance(*bodies->integrator, end, record);
+      if (!goes_on)
+        break;
+      const double seconds = processor_time() - begin;
+      // Newton's method measures on the clock
+      const double share = seconds / timer.wall_time();
+      phase.seconds += seconds;
+      phase.n_steps += 1.;
+      phase.n_cuts += record.n_cuts;
+      phase.n_iterations +=
+        record.report.n_iterations + record.n_lost_iterations;
+      stages.factorization += share * record.report.factorization_time;
+      stages.substitution += share * record.report.substitution_time;
+      phase.n_patterns += bodies->contact->pattern_version() != version;
+      version = bodies->contact->pattern_version();
+
+      std::set<std::pair<unsigned int, unsigned int>> pairs;
+      const auto &edges = bodies->surface.edges();
+      for (const ContactPoint &point : bodies->contact->points())
+        if (point.state != ContactState::open)
+        {
+          phase.n_points += 1.;
+          pairs.insert(
+            std::minmax(edges[point.edge].body, edges[point.master].body));
+        }
+      phase.n_pairs += pairs.size();
+
+      const Account &account = bodies->integrator->account();
+      const double now = account.kinetic + account.strain + account.conditions -
+                         account.external_work;
+      gain            = std::max(gain, now - last);
+      last            = now;
+      largest_kinetic = std::max(largest_kinetic, account.kinetic);
+      if (static_cast<unsigned int>(phase.n_steps) % steps_between == 0)
+        phase.overlap = std::max(phase.overlap, find_overlap(bodies->surface));
+    }
+    phase.overlap = std::max(phase.overlap, find_overlap(bodies->surface));
+    phase.stages  = stages;
+    return phase;
+  }
+
+
+  constexpr const char *head =
+    "blocks,elements_per_block,unknowns_per_block,phase,end_s,steps,cuts,"
+    "iterations_per_step,new_patterns_per_step,block_steps_per_s,"
+    "us_per_block_and_step,search_us,contact_us,elements_us,factorization_us,"
+    "substitution_us,rest_us,touching_points_per_block,touching_pairs_per_"
+    "block,"
+    "us_per_touching_point_and_step,memory_kB_per_block,largest_overlap_m,"
+    "energy_gained,kinetic_energy\n";
+
+
+  void
+  Heap::write(const Phase &phase, std::ostream &csv) const
+  {
+    const double  n            = n_blocks;
+    const double  microseconds = 1e6 / (n * phase.n_steps);
+    const Stages &s            = phase.stages;
+    const double  known =
+      s.search + s.contact + s.elements + s.factorization + s.substitution;
+    csv.precision(4);
+    csv << n << ',' << bodies->mesh.n_elements() / n << ','
+        << 2 * bodies->covers.n_covers() / n << ',' << phase.name << ','
+        << phase.end << ',' << phase.n_steps << ',' << phase.n_cuts << ','
+        << phase.n_iterations / phase.n_steps << ','
+        << phase.n_patterns / phase.n_steps << ','
+        << n * phase.n_steps / phase.seconds;
+    for (const double seconds : {phase.seconds,
+                                 s.search,
+                                 s.contact,
+                                 s.elements,
+                                 s.factorization,
+                                 s.substitution,
+                                 phase.seconds - known})
+      csv << ',' << microseconds * seconds;
+    csv << ',' << phase.n_points / (n * phase.n_steps) << ','
+        << phase.n_pairs / (n * phase.n_steps) << ','
+        << 1e6 * phase.seconds / phase.n_points << ','
+        << (peak_memory() - memory_before) / n << ',' << phase.overlap << ','
+        << gain / largest_kinetic << ','
+        << bodies->integrator->account().kinetic / largest_kinetic << '\n';
+  }
+} // namespace
+
+
+int
+main(int argc, char **argv)
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const unsigned int n_blocks = argc > 1 ? std::stoi(argv[1]) : 20;
+  const double       n_cells  = argc > 2 ? std::stod(argv[2]) : 0.;
+  const double       duration = argc > 3 ? std::stod(argv[3]) : 2.;
+
+  Heap               heap(n_blocks, n_cells);
+  std::ostringstream lines;
+  for (const auto &[name, end] : {std::make_pair("falls", 0.5 * duration),
+                                  std::make_pair("lies", duration)})
+  {
+    heap.write(heap.run(name, end), lines);
+    std::cout << name << " done" << std::endl;
+  }
+  std::cout << head << lines.str();
+  if (argc > 4)
+  {
+    const bool is_new = !std::filesystem::exists(argv[4]);
+    std::ofstream(argv[4], std::ios::app)
+      << (is_new ? head : "") << lines.str();
+  }
+}

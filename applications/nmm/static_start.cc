@@ -8,6 +8,7 @@
 #include <nmm/mechanics/elastic_system.h>
 #include <nmm/mechanics/nonlinear_statics.h>
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -98,6 +99,22 @@ namespace
   }
 
 
+  /// Which of many points stick takes its iterations, and with shorter steps they
+  /// are as many: a step that is cut is lost.
+  NewtonParameters
+  relaxation_newton_parameters(const Scene &scene)
+  {
+    constexpr unsigned int enough = 40;
+    NewtonParameters       newton = TimeIntegrator::default_newton_parameters();
+    const auto            &parameters = scene.parameters();
+    newton.residual_tolerance = parameters.newton.newton.residual_tolerance;
+    newton.max_iterations     = parameters.newton.newton.max_iterations;
+    if (parameters.contact.is_present())
+      newton.max_iterations = std::max(newton.max_iterations, enough);
+    return newton;
+  }
+
+
   Vector
   relax_to_rest(const StartInput &input, StartReport &report)
   {
@@ -134,7 +151,9 @@ namespace
     TimeIntegrator integrator(*moved,
                               time.time_scheme(Analysis::relaxation,
                                                parameters.model.kinematics,
-                                               input.contact != nullptr));
+                                               input.contact != nullptr),
+                              {},
+                              relaxation_newton_parameters(scene));
     relax(integrator,
           parameters.relaxation.relaxation,
           [&](const StepRecord &record) {

@@ -98,8 +98,19 @@ namespace NMM
       d.searched_time  = d.time;
       d.searched_reach = reach;
     }
+    d.search.begin(d.is_virgin ? ContactSearch::Begin::reference
+                               : ContactSearch::Begin::unchanged);
+    d.set_admitted_depth();
     d.make_points();
     d.make_pattern();
+  }
+
+
+  void
+  Contact::Data::set_admitted_depth()
+  {
+    constexpr double rounding = 1e-6;
+    admitted_depth = 2. * search.motion_since_begin() + rounding * reach;
   }
 
 
@@ -290,16 +301,25 @@ namespace NMM
   {
     const PointData &fixed   = point_data[q];
     const auto       masters = search.masters(fixed.slave);
+
+    AdmittedContact admitted;
+    admitted.depth = admitted_depth;
+    if (points[q].edge < touching.size())
+    {
+      const auto &known = touching[points[q].edge];
+      admitted.touching = {known.data(), known.size()};
+    }
     if (fixed.corner >= Kind::along)
     {
       ContactProjection result =
         fixed.corner == Kind::along
-          ? search.project(slave, masters, fixed.slack, fixed.home)
+          ? search.project(slave, masters, fixed.slack, fixed.home, admitted)
           : search.project(slave,
                            dealii::ArrayView<const unsigned int>(
                              &search.slaves()[fixed.slave], 1),
                            fixed.slack,
-                           fixed.home);
+                           fixed.home,
+                           admitted);
       // what overlaps far more deeply than it is long came in by the other face
       constexpr double deep = 4.;
       if (result.master != invalid_index &&
@@ -310,10 +330,11 @@ namespace NMM
     const auto entrance =
       entrances.find(place_key(points[q].edge, fixed.corner));
     return search.project_corner(slave,
+                                 normal_of_other_edge(q),
                                  masters,
-                                 entrance == entrances.end()
-                                   ? invalid_index
-                                   : entrance->second);
+                                 entrance == entrances.end() ? invalid_index
+                                                             : entrance->second,
+                                 admitted);
   }
 
 
@@ -343,6 +364,17 @@ namespace NMM
   }
 
 
+  Tensor<1, 2>
+  Contact::Data::normal_of_other_edge(const unsigned int q) const
+  {
+    const unsigned int          corner = point_data[q].corner;
+    const ContactSurface::Edge &edge   = surface->edges()[points[q].edge];
+    const unsigned int          other = corner == 0 ? edge.previous : edge.next;
+    return other == invalid_index ? Tensor<1, 2>()
+                                  : surface->place(other, 1. - corner).normal();
+  }
+
+
   double
   Contact::Data::share(const unsigned int  q,
                        const Tensor<1, 2> &slave_normal,
@@ -354,23 +386,12 @@ namespace NMM
     const unsigned int corner = point_data[q].corner;
     if (corner >= Kind::along)
       return facing * along;
-    // a corner touches in a point if neither of its faces touches along its length
-    const ContactSurface::Edge &edge  = surface->edges()[points[q].edge];
-    const unsigned int          other = corner == 0 ? edge.previous : edge.next;
+    const double other_facing = -(normal_of_other_edge(q) * master_normal);
+    // both edges that end at a vertex have a point there: one spring in all
     if (parameters.integration == ContactIntegration::points)
-    {
-      // both edges that end at the vertex have a point there: one spring in all
-      const double other_facing =
-        other == invalid_index
-          ? 0.
-          : -(surface->place(other, 1. - corner).normal() * master_normal);
       return facing / (facing + std::max(0., other_facing));
-    }
-    if (other != invalid_index)
-      along = std::max(along,
-                       ContactSearch::along_face(
-                         -(surface->place(other, 1. - corner).normal() *
-                           master_normal)));
+    // a corner touches in a point if neither of its faces touches along its length
+    along = std::max(along, ContactSearch::along_face(other_facing));
     return facing * (1. - along);
   }
 
@@ -545,6 +566,7 @@ namespace NMM
       return;
     }
     d.move_to(u);
+    d.set_admitted_depth();
     d.block_system->reset(with_tangent);
     for (unsigned int q = 0; q < d.points.size(); ++q)
       d.add_point(q, with_tangent);

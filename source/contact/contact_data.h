@@ -121,6 +121,18 @@ namespace NMM
             unsigned int other,
             unsigned int n_edges = 4) const;
 
+    /// New contact may be as deep as faces have moved since the begin of the step,
+    /// at first since the reference configuration, in which blocks do not overlap.
+    void
+    set_admitted_depth();
+
+    void
+    note_touching();
+
+    /// Of two edges.
+    void
+    note_touching(unsigned int edge, unsigned int master);
+
     /// As ContactSearch finds it for a point along an edge, or a corner.
     internal::ContactProjection
     find_master(unsigned int q, const ContactSurface::Place &slave) const;
@@ -146,6 +158,11 @@ namespace NMM
     find_pressure_between(unsigned int               q,
                           double                     opening,
                           internal::ContactTraction &traction);
+
+    /// Unit normal of the edge that meets the one of a corner there; zero if none
+    /// does.
+    dealii::Tensor<1, 2>
+    normal_of_other_edge(unsigned int q) const;
 
     /// Share of the contact with a face of this normal that a point has, see
     /// ContactSearch.
@@ -260,6 +277,11 @@ namespace NMM
     /// Of corners that were in contact at the last accepted state: the master, by
     /// place_key().
     std::map<unsigned int, unsigned int> entrances;
+    /// By edge: those that it has been behind at the last accepted state, or that
+    /// have been behind it, and what goes on from them; the same on all ranks.
+    std::vector<std::vector<unsigned int>> touching;
+    /// How deep new contact may be [m], see AdmittedContact.
+    double admitted_depth = 0.;
     /// No state has been accepted yet: faces that touch may be bonded.
     bool is_virgin = true;
     /// By bonds that broke since the last accepted state [J/m].

@@ -221,6 +221,63 @@ namespace NMM
   }
 
 
+  void
+  Contact::Data::note_touching(const unsigned int edge,
+                               const unsigned int master)
+  {
+    // corners turn round to the next edge of the slave, and points go on along
+    // smooth boundaries
+    const ContactSurface::Edge &slave  = surface->edges()[edge];
+    const ContactSurface::Edge &other  = surface->edges()[master];
+    constexpr auto              smooth = ContactSurface::Corner::smooth;
+    const auto note = [&](const unsigned int from, const unsigned int to) {
+      auto &known = touching[from];
+      if (std::find(known.begin(), known.end(), to) == known.end())
+        known.push_back(to);
+    };
+    for (const unsigned int a : {edge, slave.previous, slave.next})
+      for (const unsigned int b :
+           {master,
+            other.at_start == smooth ? other.previous : invalid_index,
+            other.at_end == smooth ? other.next : invalid_index})
+        if (a != invalid_index && b != invalid_index)
+        {
+          note(a, b);
+          note(b, a);
+        }
+  }
+
+
+  void
+  Contact::Data::note_touching()
+  {
+    touching.resize(surface->edges().size());
+    for (auto &known : touching)
+      known.clear();
+    std::vector<unsigned int> pairs;
+    for (unsigned int q = 0; q < points.size(); ++q)
+    {
+      const unsigned int edge = points[q].edge, master = points[q].master;
+      const unsigned int n = pairs.size();
+      if (master != invalid_index && points[q].gap < 0. &&
+          (n == 0 || pairs[n - 2] != edge || pairs[n - 1] != master))
+      {
+        pairs.push_back(edge);
+        pairs.push_back(master);
+      }
+    }
+    if (Parallel::n_mpi_processes(communicator) > 1)
+    {
+      const auto all = Parallel::all_gather(communicator, pairs);
+      pairs.clear();
+      for (const auto &part : all)
+        pairs.insert(pairs.end(), part.begin(), part.end());
+    }
+    for (unsigned int i = 0; i < pairs.size(); i += 2)
+      note_touching(pairs[i], pairs[i + 1]);
+  }
+
+
   double
   Contact::accept()
   {
@@ -232,6 +289,8 @@ namespace NMM
           d.points[q].state != ContactState::open)
         d.entrances[d.place_key(d.points[q].edge, d.point_data[q].corner)] =
           d.points[q].master;
+    d.note_touching();
+    d.search.begin(ContactSearch::Begin::here);
     d.is_virgin = false;
     // the same on all ranks
     double dissipated =
@@ -275,6 +334,14 @@ namespace NMM
     erase_if(d.entrances, [&](const auto &entry) {
       return edge_is_gone(entry.first) || edge_is_gone(entry.second);
     });
+    for (unsigned int edge = 0; edge < d.touching.size(); ++edge)
+    {
+      auto &known = d.touching[edge];
+      known.erase(std::remove_if(known.begin(), known.end(), edge_is_gone),
+                  known.end());
+      if (edge_is_gone(edge))
+        known.clear();
+    }
     for (auto &[key, places] : d.stick_places)
       places.erase(std::remove_if(places.begin(),
                                   places.end(),
@@ -316,6 +383,11 @@ namespace NMM
     for (const auto &[key, master] : d.entrances)
       for (const double x : {double(key), 0., -1., double(master), 0., 0.})
         mine.push_back(x);
+    if (Parallel::this_mpi_process(d.communicator) == 0)
+      for (unsigned int edge = 0; edge < d.touching.size(); ++edge)
+        for (const unsigned int other : d.touching[edge])
+          for (const double x : {double(edge), 0., -3., double(other), 0., 0.})
+            mine.push_back(x);
     std::vector<double> result{double(d.is_virgin),
                                double(d.multipliers.size()),
                                double(d.searched_nodal.size()),
@@ -337,13 +409,15 @@ namespace NMM
     Data &d = *data;
     d.stick_places.clear();
     d.entrances.clear();
+    d.touching.clear();
     d.energies_of_pairs.clear();
     if (history.empty())
       return;
     constexpr unsigned int head = 5;
     d.is_virgin                 = history[0] != 0.;
-    const auto n_multipliers    = static_cast<unsigned int>(history[1]);
-    const auto n_nodal          = static_cast<unsigned int>(history[2]);
+    d.search.begin(ContactSearch::Begin::unknown);
+    const auto n_multipliers = static_cast<unsigned int>(history[1]);
+    const auto n_nodal       = static_cast<unsigned int>(history[2]);
     if (n_multipliers == d.multipliers.size())
       std::copy_n(history.begin() + head, n_multipliers, d.multipliers.begin());
     if (n_nodal > 0)
@@ -372,6 +446,12 @@ namespace NMM
       }
       const auto         key  = static_cast<unsigned int>(history[i]);
       const unsigned int edge = key % n_edges;
+      if (history[i + 2] == -3.)
+      {
+        d.touching.resize(n_edges);
+        d.touching[key].push_back(static_cast<unsigned int>(history[i + 3]));
+        continue;
+      }
       // corners of masters are with the slave's rank
       if (key / n_edges <= Data::master_ends &&
           !(edge >= first && edge < last) &&

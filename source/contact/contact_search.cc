@@ -216,12 +216,13 @@ namespace NMM
       // more candidates than these are not worth keeping
       constexpr double far = 4.;
 
-      const double moved = known_positions.empty() ? 0. : movement();
+      begin_positions.resize(3 * surface->edges().size());
+      for (unsigned int i = 0; i < begin_positions.size(); ++i)
+        begin_positions[i] = surface->place(i / 3, 0.5 * (i % 3)).x;
       if (broad_reach > 0. && broad_reach <= far * new_reach &&
-          new_reach + 2. * moved <= broad_reach)
+          new_reach + 2. * largest_distance(known_positions) <= broad_reach)
       {
-        reach           = new_reach;
-        movement_before = moved;
+        reach = new_reach;
         return false;
       }
       search(new_reach);
@@ -236,7 +237,6 @@ namespace NMM
 
       reach                = new_reach;
       broad_reach          = (1. + margin) * new_reach;
-      movement_before      = 0.;
       const unsigned int n = surface->edges().size();
       std::vector<Entry> entries;
       entries.reserve(n);
@@ -308,15 +308,30 @@ namespace NMM
     }
 
 
+    void
+    ContactSearch::begin(const Begin where)
+    {
+      if (where == Begin::unchanged && !accepted_positions.empty())
+        return;
+      accepted_positions.resize(
+        where == Begin::unknown ? 0 : 3 * surface->edges().size());
+      for (unsigned int i = 0; i < accepted_positions.size(); ++i)
+        accepted_positions[i] =
+          where == Begin::reference
+            ? surface->reference_place(i / 3, 0.5 * (i % 3)).x
+            : surface->place(i / 3, 0.5 * (i % 3)).x;
+    }
+
+
     double
-    ContactSearch::movement() const
+    ContactSearch::largest_distance(
+      const std::vector<Point<2>> &positions) const
     {
       double square = 0.;
-      for (unsigned int i = 0; i < known_positions.size(); ++i)
-        square =
-          std::max(square,
-                   (surface->place(i / 3, 0.5 * (i % 3)).x - known_positions[i])
-                     .norm_square());
+      for (unsigned int i = 0; i < positions.size(); ++i)
+        square = std::max(
+          square,
+          surface->place(i / 3, 0.5 * (i % 3)).x.distance_square(positions[i]));
       return std::sqrt(square);
     }
 
@@ -399,6 +414,29 @@ namespace NMM
     }
 
 
+    double
+    ContactSearch::gap_beyond_corner(const unsigned int edge,
+                                     const Point<2>    &x) const
+    {
+      const auto &at     = surface->edges()[edge];
+      double      result = -std::numeric_limits<double>::max();
+      for (const auto &[neighbor, corner] :
+           {std::make_pair(at.previous, at.at_start),
+            std::make_pair(at.next, at.at_end)})
+      {
+        double t;
+        Place  place;
+        if (corner != ContactSurface::Corner::convex ||
+            !find_nearest(neighbor, x, t, place))
+          continue;
+        const double gap = (x - place.x) * place.normal();
+        if (gap >= 0.)
+          result = std::max(result, gap);
+      }
+      return result;
+    }
+
+
     /// Along a few edges, since one of them may be a sliver.
     bool
     ContactSearch::meet_in_convex_corner(const unsigned int edge,
@@ -429,53 +467,72 @@ namespace NMM
     ContactSearch::project(const Place                                &place,
                            const dealii::ArrayView<const unsigned int> masters,
                            const double                                slack,
-                           const unsigned int home) const
+                           const unsigned int                          home,
+                           const AdmittedContact &admitted) const
     {
       const unsigned int body =
         home < any_edge ? surface->edges()[home].body : invalid_index;
-      return project_within(place, masters, slack, home, body, reach);
+      return project_within(place, masters, slack, home, body, reach, admitted);
     }
 
 
     ContactProjection
     ContactSearch::project_corner(
       const Place                                &slave_place,
+      const Tensor<1, 2>                         &other_normal,
       const dealii::ArrayView<const unsigned int> masters,
-      const unsigned int                          entrance) const
+      const unsigned int                          entrance,
+      const AdmittedContact                      &admitted) const
     {
       // parts of an edge and of the reach that are rounding
       constexpr double same = 1e-9;
       // faces at nearly a right angle, or that look the same way, do not touch
-      constexpr double       least_facing = 0.01;
-      constexpr unsigned int n_at_most    = 16;
+      constexpr double least_facing = 0.01;
 
-      const Tensor<1, 2> slave_normal = slave_place.normal();
-      ContactProjection  near[n_at_most];
-      unsigned int       n = 0;
+      const Tensor<1, 2>              slave_normal = slave_place.normal();
+      std::vector<ContactProjection> &near         = near_faces;
+      near.clear();
       for (const unsigned int master : masters)
       {
         const ContactSurface::Edge &edge = surface->edges()[master];
         ContactProjection           now;
         now.master = master;
-        if (n == n_at_most ||
-            !find_nearest(master, slave_place.x, now.t, now.place) ||
+        if (!find_nearest(master, slave_place.x, now.t, now.place) ||
             now.t < -extension(edge.at_start, same) ||
             now.t > 1. + extension(edge.at_end, same))
           continue;
         now.normal = now.place.normal();
         now.gap    = (slave_place.x - now.place.x) * now.normal;
         if (std::abs(now.gap) <= reach)
-          near[n++] = now;
+          near.push_back(now);
       }
+      const unsigned int n = near.size();
 
       ContactProjection best;
       for (unsigned int i = 0; i < n; ++i)
       {
         ContactProjection &now = near[i];
-        if (-(now.normal * slave_normal) <= least_facing)
+        if (-(now.normal * slave_normal) <= least_facing ||
+            !admitted.holds(now))
           continue;
         if (now.gap < 0. && now.master == entrance)
           return now;
+        now.gap =
+          std::max(now.gap,
+                   now.gap < 0. ? gap_beyond_corner(now.master, slave_place.x)
+                                : now.gap);
+        // it came in through a face that only the other edge of the corner faces, or
+        // touches that one
+        bool is_of_other_edge = false;
+        for (unsigned int j = 0; j < n && now.gap < 0.; ++j)
+          is_of_other_edge =
+            is_of_other_edge ||
+            (near[j].gap > now.gap &&
+             -(near[j].normal * slave_normal) <= least_facing &&
+             -(near[j].normal * other_normal) > least_facing &&
+             meet_in_convex_corner(now.master, near[j].master));
+        if (is_of_other_edge)
+          continue;
         // outside of the corner's other face
         for (unsigned int j = 0; j < n && now.gap < 0.; ++j)
           if (near[j].gap >= 0. &&
@@ -507,7 +564,8 @@ namespace NMM
                               0.,
                               invalid_index,
                               invalid_index,
-                              far * reach)
+                              far * reach,
+                              AdmittedContact())
                  .master;
       return master == invalid_index ? -largest_slack : largest_slack;
     }
@@ -526,7 +584,8 @@ namespace NMM
                                                       end_of_master,
                                                       any_edge,
                                                       edges[master].body,
-                                                      reach);
+                                                      reach,
+                                                      AdmittedContact());
       if (result.master == invalid_index)
         return invalid_index;
       const double beyond =
@@ -544,7 +603,8 @@ namespace NMM
       const double                                given_slack,
       const unsigned int                          home,
       const unsigned int                          body,
-      const double                                largest_gap) const
+      const double                                largest_gap,
+      const AdmittedContact                      &admitted) const
     {
       // gaps that differ by less than this part of the reach are equal
       constexpr double same = 1e-9;
@@ -559,10 +619,9 @@ namespace NMM
       ContactProjection  best;
       double             best_overshoot = 0.;
       double             best_facing    = 0.;
-      // bodies that the point is outside of, before a face that looks its way
-      constexpr unsigned int          n_outside_at_most = 4;
-      std::pair<unsigned int, double> outside[n_outside_at_most];
-      unsigned int                    n_outside = 0;
+      // far sides: faces of bodies that look the point's way
+      auto &outside = outside_of;
+      outside.clear();
       for (const unsigned int master : masters)
       {
         const ContactSurface::Edge &edge = surface->edges()[master];
@@ -573,17 +632,17 @@ namespace NMM
                                                                  : rounding;
         ContactProjection now;
         now.master = master;
-        if (!find_nearest(master, slave_place.x, now.t, now.place) ||
-            now.t < -extension(edge.at_start, slack) ||
-            now.t > 1. + extension(edge.at_end, slack))
+        if (!find_nearest(master, slave_place.x, now.t, now.place))
           continue;
         now.normal          = now.place.normal();
         const double facing = -(now.normal * slave_normal);
         now.gap             = (slave_place.x - now.place.x) * now.normal;
-        if (facing < facing_away && now.gap > 0. && now.t >= 0. &&
-            now.t <= 1. && n_outside < n_outside_at_most)
-          outside[n_outside++] = {edge.body, now.gap};
-        if (facing <= least_facing || std::abs(now.gap) > largest_gap)
+        if (facing < facing_away && now.t >= -smooth_extension &&
+            now.t <= 1. + smooth_extension)
+          outside.emplace_back(master, now.gap);
+        if (facing <= least_facing || std::abs(now.gap) > largest_gap ||
+            !admitted.holds(now) || now.t < -extension(edge.at_start, slack) ||
+            now.t > 1. + extension(edge.at_end, slack))
           continue;
         // how far beyond the edge's ends [m]
         const double overshoot =
@@ -610,10 +669,16 @@ namespace NMM
           best_facing    = facing;
         }
       }
-      for (unsigned int i = 0; i < n_outside; ++i)
-        if (best.master != invalid_index && best.gap < 0. &&
-            outside[i].first == surface->edges()[best.master].body &&
-            outside[i].second < -best.gap)
+      if (best.master == invalid_index || best.gap >= 0.)
+        return best;
+      const ContactSurface::Edge &edge    = surface->edges()[best.master];
+      constexpr auto              concave = ContactSurface::Corner::concave;
+      for (const auto &[far, gap] : outside)
+        if (surface->edges()[far].body == edge.body &&
+            std::abs(gap) < -best.gap &&
+            // both faces of a notch: the body is on either side of them
+            !(far == edge.previous && edge.at_start == concave) &&
+            !(far == edge.next && edge.at_end == concave))
           return ContactProjection();
       return best;
     }

@@ -3,6 +3,8 @@
 
 #include <nmm/contact/contact_surface.h>
 
+#include <algorithm>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -19,6 +21,25 @@ namespace NMM
       double                gap = 0.;
       dealii::Tensor<1, 2>  normal;
       ContactSurface::Place place;
+    };
+
+
+    /// What a point may be in contact with.
+    struct AdmittedContact
+    {
+      /// New contact begins at the surface: no face that a point lies further
+      /// behind than this [m] has been reached from outside.
+      double depth = std::numeric_limits<double>::max();
+      /// Faces that the point was behind before, however deep.
+      dealii::ArrayView<const unsigned int> touching;
+
+      bool
+      holds(const ContactProjection &projection) const
+      {
+        return projection.gap >= -depth ||
+               std::find(touching.begin(), touching.end(), projection.master) !=
+                 touching.end();
+      }
     };
 
 
@@ -107,18 +128,33 @@ namespace NMM
       dealii::ArrayView<const unsigned int>
       masters(unsigned int position) const;
 
-      /// Has an end or the middle of an edge moved by more than the reach since
-      /// update()? Then masters may be missing.
-      bool
-      is_outrun() const
+      /// Largest way [m] that an end or the middle of an edge has moved since
+      /// update(), on this rank's knowledge, which is that of all ranks.
+      double
+      motion() const
       {
-        return movement() > reach + movement_before;
+        return largest_distance(begin_positions);
       }
 
-      /// Largest way [m] that an end or the middle of an edge has moved since
-      /// search(), on this rank's knowledge, which is that of all ranks.
+      /// Where a step begins: where faces are now, or in the reference configuration;
+      /// unchanged, or here if it is not known.
+      enum class Begin
+      {
+        here,
+        reference,
+        unchanged,
+        unknown
+      };
+
+      void
+      begin(Begin where);
+
+      /// As motion(), since the begin of the step.
       double
-      movement() const;
+      motion_since_begin() const
+      {
+        return largest_distance(accepted_positions);
+      }
 
       /// As the home of project(): all of the masters.
       static constexpr unsigned int any_edge = invalid_index - 1;
@@ -146,8 +182,9 @@ namespace NMM
        * before one that has it beyond them, by however little. Of two that meet in a convex corner: the one that faces
        * it more, whichever is nearer (Shi's entrance edge: with a corner in the other
        * body, both are penetrated); the same for two at equal distance, then the lower
-       * number. There is none, either, if the point lies outside of the master's body,
-       * before a face that looks its own way: the far side of a thin body. Beyond a
+       * number. There is none, either, if a face of the master's body that looks the
+       * point's own way is nearer, the far side of a thin body: it is not by the master that
+       * the point is inside, if it is. Beyond a
        * convex corner or an open end there is no master, beyond a smooth joint or a concave
        * corner an edge goes on. @p slack: part of an edge by which the edge @p home goes on at convex corners
        * and open ends, other bodies than its own being left out; negative: by which all end earlier, see end_slack().
@@ -156,20 +193,25 @@ namespace NMM
       project(const ContactSurface::Place          &slave_place,
               dealii::ArrayView<const unsigned int> masters,
               double                                slack = 0.,
-              unsigned int                          home = invalid_index) const;
+              unsigned int                          home  = invalid_index,
+              const AdmittedContact &admitted = AdmittedContact()) const;
 
       /**
        * The master of a corner. The corner is in a body if it is behind a face, and of
        * two faces that meet in a convex corner behind both. It is then pushed out
        * through the face by which it came in, @p entrance, as long as it is behind
        * that one; at first through the one that it is least behind (Shi's entrance
-       * edge), at equal depths through the one with the lower number. A corner that is in
-       * no body has the nearest face for master.
+       * edge), at equal depths through the one with the lower number. Where that is a face
+       * that only the corner's other edge faces, whose unit normal is @p other_normal
+       * (zero: there is none), the point of that other edge is pushed out. A corner that is
+       * in no body has the nearest face for master.
        */
       ContactProjection
       project_corner(const ContactSurface::Place          &slave_place,
+                     const dealii::Tensor<1, 2>           &other_normal,
                      dealii::ArrayView<const unsigned int> masters,
-                     unsigned int                          entrance) const;
+                     unsigned int                          entrance,
+                     const AdmittedContact &admitted = AdmittedContact()) const;
 
       /**
        * For the point @p s at which a piece of a slave begins or ends: it lies
@@ -204,7 +246,16 @@ namespace NMM
                      double                                slack,
                      unsigned int                          home,
                      unsigned int                          body,
-                     double                                largest_gap) const;
+                     double                                largest_gap,
+                     const AdmittedContact                &admitted) const;
+
+      double
+      largest_distance(const std::vector<dealii::Point<2>> &positions) const;
+
+      /// How far @p x, behind a face, is outside of the body because of a face
+      /// that meets this one in a convex corner [m]; negative: it is not.
+      double
+      gap_beyond_corner(unsigned int edge, const dealii::Point<2> &x) const;
 
       bool
       meet_in_convex_corner(unsigned int edge, unsigned int other) const;
@@ -218,14 +269,18 @@ namespace NMM
       const ContactSurface     *surface;
       std::vector<unsigned int> ranks;
       /// See comes_first().
-      std::vector<double>           edge_to_side;
-      bool                          only_vertices;
-      mutable Statistics            counts;
-      double                        reach = 0., broad_reach = 0.;
-      double                        movement_before = 0.;
-      std::vector<unsigned int>     slave_edges, masters_begin, master_edges;
-      std::vector<unsigned int>     corners;
-      std::vector<dealii::Point<2>> known_positions;
+      std::vector<double>       edge_to_side;
+      bool                      only_vertices;
+      mutable Statistics        counts;
+      double                    reach = 0., broad_reach = 0.;
+      std::vector<unsigned int> slave_edges, masters_begin, master_edges;
+      std::vector<unsigned int> corners;
+      /// At search(), at update() and where begin() says.
+      std::vector<dealii::Point<2>> known_positions, begin_positions;
+      std::vector<dealii::Point<2>> accepted_positions;
+      /// Of one projection; kept so that none allocates.
+      mutable std::vector<ContactProjection>               near_faces;
+      mutable std::vector<std::pair<unsigned int, double>> outside_of;
     };
   } // namespace internal
 } // namespace NMM

@@ -393,6 +393,7 @@ namespace NMM
       d.obstacle_changes[i] = d.surface->obstacle_displacement(i);
     d.step = time - d.time_begin;
     d.move_to(end);
+    d.set_admitted_depth();
     for (unsigned int q = 0; q < d.points.size(); ++q)
     {
       if (d.point_data[q].has_angle && d.points[q].weight == 0.)
@@ -483,7 +484,7 @@ namespace NMM
       text << "a penetration of " << d.deepest
            << " m, more than half of the distance of " << d.reach
            << " m within which faces are looked for";
-    else if (d.search.is_outrun())
+    else if (d.search.motion() > d.reach)
       text << "a point of a face that moved further than the distance of "
            << d.reach << " m within which faces are looked for";
     return text.str();

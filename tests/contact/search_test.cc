@@ -104,6 +104,28 @@ namespace
   }
 
 
+  /// Is a face of the body that looks the point's own way nearer than a depth?
+  bool
+  is_far_side_nearer(const ContactSurface &surface,
+                     const unsigned int    body,
+                     const Place          &place,
+                     const double          depth)
+  {
+    for (unsigned int m = 0; m < surface.edges().size(); ++m)
+    {
+      const Point<2>     a = surface.place(m, 0.).x, b = surface.place(m, 1.).x;
+      const Tensor<1, 2> d      = b - a;
+      const double       length = d.norm();
+      const Tensor<1, 2> normal({d[1] / length, -d[0] / length});
+      const double       t = ((place.x - a) * d) / (length * length);
+      if (surface.edges()[m].body == body && normal * place.normal() > 0.5 &&
+          t >= -0.1 && t <= 1.1 && std::abs((place.x - a) * normal) < depth)
+        return true;
+    }
+    return false;
+  }
+
+
   /// What brute force says of one edge: straight, and found by its two ends alone.
   struct Reference
   {
@@ -149,8 +171,10 @@ namespace
         is_doubtful = true;
       if (t < 0. || t > 1. || std::abs(gap) > reach || facing <= 0.01)
         continue;
-      // behind a face, but not in its body
-      if (gap < 0. && !is_inside(outlines[surface.edges()[m].body], place.x))
+      // behind a face, but not in its body, or not by that face
+      const unsigned int body = surface.edges()[m].body;
+      if (gap < 0. && (!is_inside(outlines[body], place.x) ||
+                       is_far_side_nearer(surface, body, place, -gap)))
         continue;
       result.push_back({m, gap, facing});
     }
@@ -222,10 +246,15 @@ namespace
       const Place        place  = surface.place(edge, corner);
       const auto         near   = masters_of(edge, position),
                  all            = all_masters_of(edge, true);
-      const ContactProjection found =
-        search.project_corner(place, {near.data(), near.size()}, invalid_index);
-      const ContactProjection among_all =
-        search.project_corner(place, {all.data(), all.size()}, invalid_index);
+      const auto        &slave  = surface.edges()[edge];
+      const unsigned int other  = corner == 0 ? slave.previous : slave.next;
+      const Tensor<1, 2> other_normal =
+        other == invalid_index ? Tensor<1, 2>()
+                               : surface.place(other, 1. - corner).normal();
+      const ContactProjection found = search.project_corner(
+        place, other_normal, {near.data(), near.size()}, invalid_index);
+      const ContactProjection among_all = search.project_corner(
+        place, other_normal, {all.data(), all.size()}, invalid_index);
       EXPECT_EQ(found.master, among_all.master);
       EXPECT_EQ(found.gap, among_all.gap);
       n_corners += found.master != invalid_index;

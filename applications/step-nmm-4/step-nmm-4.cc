@@ -142,9 +142,9 @@ namespace StepNMM4
   }
 
 
-  // Springs conserve: without dashpots blocks would bounce for ever. These take
-  // some 0.4 of what is critical for a block of a ton and a half per square metre of
-  // face.
+  // Springs conserve: without dashpots blocks would bounce for ever. A face of two
+  // metres of rock on a spring of 1e10 Pa/m is critically damped by 1.4e7 Pa s/m; a
+  // corner, which has less spring, needs more.
   NMM::ContactParameters
   make_contact_parameters(const Parameters &parameters,
                           const double      friction_angle)
@@ -374,6 +374,9 @@ namespace StepNMM4
         ++next_stage;
     };
 
+    const double rest = parameters.rest * parameters.density *
+                        parameters.gravity * block_size() *
+                        physical_mesh->n_blocks() * block_size() * block_size();
     record(false);
     NMM::StepRecord step_record;
     while (!outcome.is_at_rest &&
@@ -385,7 +388,7 @@ namespace StepNMM4
       outcome.n_cuts += step_record.n_cuts;
       const NMM::Account &account = integrator.account();
       const double        time    = integrator.state().time;
-      if (account.kinetic > parameters.rest * std::abs(account.external_work))
+      if (account.kinetic > rest)
         at_rest_since = -1.;
       else if (at_rest_since < 0.)
         at_rest_since = time;

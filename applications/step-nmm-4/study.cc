@@ -54,7 +54,7 @@ namespace StepNMM4
                         positive,
                         "Of faces, normal and along them [Pa/m].");
       prm.declare_entry("Dashpot",
-                        "5e6",
+                        "2e7",
                         Patterns::Double(0.),
                         "The same [Pa s/m].");
     }
@@ -301,7 +301,7 @@ namespace StepNMM4
     note << title << ", t = " << std::fixed << std::setprecision(2) << time
          << " s";
     NMM::PictureFrame frame;
-    frame.view = std::make_pair(Point<2>(-14., -1.), Point<2>(21.5, 20.5));
+    frame.view = std::make_pair(Point<2>(-24., -1.), Point<2>(21.5, 20.5));
     NMM::draw_picture(data,
                       parameters,
                       note.str(),

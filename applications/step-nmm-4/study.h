@@ -25,7 +25,7 @@ namespace StepNMM4
     /// The paper's springs, 1,000,000 t/m, taken per length of a face [Pa/m].
     double spring = 1e6 * 9806.65;
     /// Dashpots, normal and along faces [Pa s/m].
-    double dashpot = 5e6;
+    double dashpot = 2e7;
 
     /// Of layers [degrees], [m]; length of blocks along them [m].
     double dip = 30., layer = 2., block_length = 2.3;
@@ -37,8 +37,9 @@ namespace StepNMM4
     bool   is_halved = true;
     /// Runs end here, or at rest [s].
     double end_time = 12.;
-    /// Rest: kinetic energy over what was released, at most, for so long [s].
-    double rest = 1e-6, rest_duration = 0.5;
+    /// Rest: kinetic energy over what all would gain by falling as far as a block is
+    /// wide, at most, for so long [s].
+    double rest = 1e-8, rest_duration = 0.5;
     /// Of pictures besides the begin; the last one is at the end [s].
     std::vector<double> stages = {1., 2.};
     /// Between frames of the animation and rows of the table on the screen [s].

@@ -120,16 +120,34 @@ SafetyFactorAnalysis::solve()
   Stage recovery_stage(progress, "stress recovery");
   show();
   is_solved = result.stands_at > 0. && std::isfinite(result.moves_at);
+  if (!is_solved)
+    give_up();
   std::ostringstream line;
-  line << "  factor of safety ";
-  if (is_solved)
-    line << result.value() << ": stands at " << result.stands_at
-         << ", moves at " << result.moves_at;
-  else if (result.stands_at > 0.)
-    line << "above " << result.stands_at << ", where it still stands";
-  else
-    line << "below " << result.moves_at << ", where it still moves";
+  line << "  factor of safety " << result.value() << ": stands at "
+       << result.stands_at << ", moves at " << result.moves_at;
   progress.message(line.str());
+}
+
+
+void
+SafetyFactorAnalysis::give_up()
+{
+  const SafetyFactorParameters &search =
+    scene.parameters().safety_factor.search;
+  const bool stands = result.stands_at > 0.;
+  verify();
+  std::ostringstream what;
+  what << "The blocks " << (stands ? "stand" : "move")
+       << " at all factors tried, from " << search.first
+       << (stands ? " up to " : " down to ")
+       << (stands ? result.stands_at : result.moves_at);
+  AssertThrow(false,
+              NumericalFailure(what.str(),
+                               std::string("parameter 'Safety factor/") +
+                                 (stands ? "Highest'" : "Lowest'"),
+                               stands ? "raise it, if blocks can move at all"
+                                      : "lower it, or see safety_factor.csv "
+                                        "for what moves"));
 }
 
 

@@ -64,6 +64,10 @@ private:
   bool
   tells_more(const NMM::StrengthTrial &trial) const;
 
+  /// No bracket was found. @throws NMM::NumericalFailure.
+  void
+  give_up();
+
   void
   write_trials() const;
 

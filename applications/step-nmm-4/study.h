@@ -39,7 +39,7 @@ namespace StepNMM4
     double end_time = 12.;
     /// Rest: kinetic energy over what all would gain by falling as far as a block is
     /// wide, at most, for so long [s].
-    double rest = 1e-8, rest_duration = 0.5;
+    double rest = 1e-7, rest_duration = 0.5;
     /// Of pictures besides the begin; the last one is at the end [s].
     std::vector<double> stages = {1., 2.};
     /// Between frames of the animation and rows of the table on the screen [s].

@@ -337,14 +337,17 @@ namespace StepNMM4
   }
 
 
-  // Until nothing moves any more, or the end.
+  // Until nothing moves any more, or the end. Contact needs some eight iterations
+  // whatever the step: unless that counts as few, steps that were cut never grow
+  // again.
   void
   Slope::set_in_motion(NMM::TimeIntegrator &integrator,
                        const double         step,
                        Outcome             &outcome)
   {
     NMM::StepControlParameters steps;
-    steps.initial_step = step;
+    steps.initial_step   = step;
+    steps.few_iterations = 12;
     const NMM::StepControl control(steps);
 
     Film       film(parameters, outcome);

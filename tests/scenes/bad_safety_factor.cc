@@ -33,7 +33,6 @@ namespace
     rejects("Relaxation/Step=0", {"Relaxation/Step", "0 s"});
     rejects("Materials/rock/Density=0", {"density", "safety factor"});
     rejects("Contact/Friction angle=0", {"strength", "friction"});
-    rejects("Contact/Enforcement=none", {"floor", "contact"});
     rejects("Obstacles/floor/Release time=1",
             {"floor", "Release time", "safety factor"});
     rejects("Obstacles/floor/Displacement=0; t",
@@ -51,6 +50,11 @@ namespace
                                {key, "static", "Model/Analysis"});
     expect_rejected_override("Safety factor/Start=settled",
                              {"Start", "static", "safety factor"});
+    expect_rejected_with({"Model/Analysis=safety factor",
+                          "Materials/rock/Density=1",
+                          "Relaxation/Step=0.1"},
+                         "Safety factor/Largest displacement=0.01",
+                         {"without contact", "strength", "Enforcement"});
     expect_rejected_override("Model/Analysis=safety factor",
                              {"Relaxation/Step"});
   }

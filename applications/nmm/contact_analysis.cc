@@ -1,6 +1,7 @@
 #include "contact_analysis.h"
 
 #include <nmm/base/exceptions.h>
+#include <nmm/dynamics/strength_reduction.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -28,9 +29,11 @@ ContactAnalysis::make_contact(
   const dealii::AffineConstraints<double> &constraints,
   const ElasticityProblem                 &problem)
 {
-  cell_size       = contact_cell_size(*surface);
-  contact_pointer = std::make_unique<Contact>(
-    *surface, constraints, scene->make_contact_parameters(*surface, problem));
+  cell_size         = contact_cell_size(*surface);
+  this->constraints = &constraints;
+  full_strength     = scene->make_contact_parameters(*surface, problem);
+  contact_pointer =
+    std::make_unique<Contact>(*surface, constraints, full_strength);
   // Rounding of arcs, in parts of the range that is looked at.
   constexpr double tolerance = 1e-6;
   contact_pointer->set_time(0.);
@@ -42,6 +45,31 @@ const std::vector<ObstacleRelease> &
 ContactAnalysis::releases() const
 {
   return switches.releases;
+}
+
+
+void
+ContactAnalysis::divide_strength(const double factor)
+{
+  contact_pointer =
+    std::make_unique<Contact>(*surface,
+                              *constraints,
+                              reduce_strength(full_strength, factor));
+  contact_pointer->set_time(0.);
+}
+
+
+const ContactAnalysis::State &
+ContactAnalysis::last_state() const
+{
+  return state;
+}
+
+
+void
+ContactAnalysis::show_state(const State &earlier)
+{
+  state = earlier;
 }
 
 
@@ -165,12 +193,12 @@ ContactAnalysis::count_changes() const
     return a.edge != b.edge ? a.edge < b.edge : a.s < b.s;
   };
   unsigned int count    = 0;
-  bool         are_same = contact_points.size() == remembered.size();
+  bool         are_same = state.points.size() == remembered.size();
   for (std::size_t i = 0; are_same && i < remembered.size(); ++i)
   {
-    are_same = contact_points[i].edge == remembered[i].edge &&
-               contact_points[i].s == remembered[i].s;
-    count += contact_points[i].state != remembered[i].state;
+    are_same = state.points[i].edge == remembered[i].edge &&
+               state.points[i].s == remembered[i].s;
+    count += state.points[i].state != remembered[i].state;
   }
   if (are_same)
     return Parallel::sum(count, covers->communicator());
@@ -180,7 +208,7 @@ ContactAnalysis::count_changes() const
   count                          = 0;
   std::vector<PointState> sorted = remembered;
   std::stable_sort(sorted.begin(), sorted.end(), is_before);
-  for (const ContactPoint &point : contact_points)
+  for (const ContactPoint &point : state.points)
   {
     const PointState here{point.edge, point.s, point.state};
     const auto       after =
@@ -229,36 +257,36 @@ ContactAnalysis::columns() const
 void
 ContactAnalysis::take_state(const double work)
 {
-  contact_points.clear();
-  report = ContactReport();
+  state.points.clear();
+  state.report = ContactReport();
   if (!contact().is_idle())
   {
-    contact_points = contact().points();
-    report         = contact().report();
+    state.points = contact().points();
+    state.report = contact().report();
   }
-  report.n_changes = count_changes();
-  pressure         = largest_pressure(*surface, contact_points);
-  forces           = obstacle_forces(*surface, contact_points);
-  friction_work    = work;
+  state.report.n_changes = count_changes();
+  state.pressure         = largest_pressure(*surface, state.points);
+  state.forces           = obstacle_forces(*surface, state.points);
+  state.friction_work    = work;
   largest_penetration =
-    std::max(largest_penetration, report.largest_penetration);
+    std::max(largest_penetration, state.report.largest_penetration);
 }
 
 
 std::vector<double>
 ContactAnalysis::numbers(const double thickness) const
 {
-  std::vector<double> values = {double(report.n_open),
-                                double(report.n_stick),
-                                double(report.n_slip),
-                                double(report.n_bonded),
-                                double(report.n_changes),
-                                report.largest_penetration,
-                                report.largest_penetration / cell_size,
-                                pressure,
-                                thickness * report.energy,
-                                thickness * friction_work};
-  for (const auto &force : forces)
+  std::vector<double> values = {double(state.report.n_open),
+                                double(state.report.n_stick),
+                                double(state.report.n_slip),
+                                double(state.report.n_bonded),
+                                double(state.report.n_changes),
+                                state.report.largest_penetration,
+                                state.report.largest_penetration / cell_size,
+                                state.pressure,
+                                thickness * state.report.energy,
+                                thickness * state.friction_work};
+  for (const auto &force : state.forces)
     values.insert(values.end(), {thickness * force[0], thickness * force[1]});
   return values;
 }
@@ -267,7 +295,7 @@ ContactAnalysis::numbers(const double thickness) const
 std::vector<ContactSample>
 ContactAnalysis::points() const
 {
-  return gather_contact_points(*surface, contact_points);
+  return gather_contact_points(*surface, state.points);
 }
 
 
@@ -276,12 +304,12 @@ ContactAnalysis::progress() const
 {
   std::ostringstream text;
   text.precision(2);
-  text << report.n_stick << " stick, " << report.n_slip << " slip, "
-       << report.n_open << " open";
-  if (report.n_bonded > 0)
-    text << ", " << report.n_bonded << " bonded";
-  text << ", " << report.n_changes << " change(s), penetration "
-       << report.largest_penetration << ' '
+  text << state.report.n_stick << " stick, " << state.report.n_slip << " slip, "
+       << state.report.n_open << " open";
+  if (state.report.n_bonded > 0)
+    text << ", " << state.report.n_bonded << " bonded";
+  text << ", " << state.report.n_changes << " change(s), penetration "
+       << state.report.largest_penetration << ' '
        << scene->parameters().output.length_unit;
   return text.str();
 }
@@ -296,21 +324,23 @@ ContactAnalysis::add_to_summary(Summary &summary) const
     output.stress_unit + "*" + output.length_unit + "^3";
   const std::string force =
     output.stress_unit + "*" + output.length_unit + "^2";
-  summary.add("contact_open", report.n_open);
-  summary.add("contact_stick", report.n_stick);
-  summary.add("contact_slip", report.n_slip);
-  summary.add("contact_bonded", report.n_bonded);
-  summary.add("largest_pressure", pressure, output.stress_unit);
-  summary.add("penetration", report.largest_penetration, output.length_unit);
+  summary.add("contact_open", state.report.n_open);
+  summary.add("contact_stick", state.report.n_stick);
+  summary.add("contact_slip", state.report.n_slip);
+  summary.add("contact_bonded", state.report.n_bonded);
+  summary.add("largest_pressure", state.pressure, output.stress_unit);
+  summary.add("penetration",
+              state.report.largest_penetration,
+              output.length_unit);
   summary.add("largest_penetration", largest_penetration, output.length_unit);
   summary.add("largest_penetration_over_cell", largest_penetration / cell_size);
-  summary.add("contact_energy", thickness * report.energy, energy);
-  summary.add("friction_work", thickness * friction_work, energy);
-  for (unsigned int i = 0; i < forces.size(); ++i)
+  summary.add("contact_energy", thickness * state.report.energy, energy);
+  summary.add("friction_work", thickness * state.friction_work, energy);
+  for (unsigned int i = 0; i < state.forces.size(); ++i)
     for (unsigned int c = 0; c < 2; ++c)
       summary.add(surface->obstacles()[i].name + "_force_" +
                     std::string(1, "xy"[c]),
-                  thickness * forces[i][c],
+                  thickness * state.forces[i][c],
                   force);
 }
 

@@ -55,6 +55,11 @@ public:
   void
   hold_obstacles(bool are_held);
 
+  /// Contact anew, without history, its strength divided by @p factor, see
+  /// NMM::reduce_strength(). Whoever refers to contact() has to go first.
+  void
+  divide_strength(double factor);
+
   /// Changes are counted from the present states on.
   void
   remember_states();
@@ -63,6 +68,22 @@ public:
   /// @p work: what friction, dashpots and breaking bonds have dissipated so far [J/m].
   void
   take_state(double work);
+
+  /// What was told of the state that was taken last.
+  struct State
+  {
+    std::vector<NMM::ContactPoint>    points;
+    NMM::ContactReport                report;
+    std::vector<dealii::Tensor<1, 2>> forces;
+    double                            pressure = 0., friction_work = 0.;
+  };
+
+  const State &
+  last_state() const;
+
+  /// Tell of an earlier state.
+  void
+  show_state(const State &earlier);
 
   /// Names of the numbers of a state.
   std::vector<std::string>
@@ -100,18 +121,16 @@ private:
   unsigned int
   count_changes() const;
 
-  const NMM::Scene                    *scene;
-  NMM::ObstacleSwitches                switches;
-  const NMM::CoverSystem              *covers;
-  std::unique_ptr<NMM::ContactSurface> surface;
-  std::unique_ptr<NMM::Contact>        contact_pointer;
-  double                               cell_size = 0.;
-  std::vector<PointState>              remembered;
-  // Of the state that was taken last.
-  std::vector<NMM::ContactPoint>    contact_points;
-  NMM::ContactReport                report;
-  std::vector<dealii::Tensor<1, 2>> forces;
-  double                            pressure = 0., friction_work = 0.;
+  const NMM::Scene                        *scene;
+  NMM::ObstacleSwitches                    switches;
+  const NMM::CoverSystem                  *covers;
+  std::unique_ptr<NMM::ContactSurface>     surface;
+  std::unique_ptr<NMM::Contact>            contact_pointer;
+  double                                   cell_size   = 0.;
+  const dealii::AffineConstraints<double> *constraints = nullptr;
+  NMM::ContactParameters                   full_strength;
+  std::vector<PointState>                  remembered;
+  State                                    state;
   /// Of all states [m].
   double largest_penetration = 0.;
 };

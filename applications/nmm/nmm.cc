@@ -10,6 +10,7 @@
 
 #include "dynamic_analysis.h"
 #include "nonlinear_analysis.h"
+#include "safety_factor_analysis.h"
 #include "static_analysis.h"
 #include <boost/program_options.hpp>
 #include <filesystem>
@@ -202,6 +203,10 @@ namespace
                                 "--restart " + restart,
                                 "give the scene the checkpoint was written "
                                 "with"));
+    if (model.analysis == NMM::Analysis::safety_factor)
+      return std::make_unique<SafetyFactorAnalysis>(scene,
+                                                    progress,
+                                                    communicator);
     if (model.analysis != NMM::Analysis::statics)
       return std::make_unique<DynamicAnalysis>(scene,
                                                progress,

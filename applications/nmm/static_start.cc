@@ -8,6 +8,7 @@
 #include <nmm/mechanics/elastic_system.h>
 #include <nmm/mechanics/nonlinear_statics.h>
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -134,7 +135,9 @@ namespace
     TimeIntegrator integrator(*moved,
                               time.time_scheme(Analysis::relaxation,
                                                parameters.model.kinematics,
-                                               input.contact != nullptr));
+                                               input.contact != nullptr),
+                              {},
+                              relaxation_newton_parameters(scene));
     relax(integrator,
           parameters.relaxation.relaxation,
           [&](const StepRecord &record) {
@@ -147,11 +150,29 @@ namespace
 } // namespace
 
 
+NewtonParameters
+relaxation_newton_parameters(const Scene &scene)
+{
+  // Which of many points stick takes its iterations, and with shorter steps they
+  // are as many: a step that is cut is lost.
+  constexpr unsigned int enough     = 40;
+  const auto            &parameters = scene.parameters();
+  NewtonParameters       newton = TimeIntegrator::default_newton_parameters();
+  newton.residual_tolerance     = parameters.newton.newton.residual_tolerance;
+  newton.max_iterations         = parameters.newton.newton.max_iterations;
+  if (parameters.contact.is_present())
+    newton.max_iterations = std::max(newton.max_iterations, enough);
+  return newton;
+}
+
+
 Vector
 find_start(const StartInput &input, StartReport &report)
 {
-  const bool is_relaxed =
-    input.scene.parameters().time.start == TimeParameters::Start::relaxation;
+  const SceneParameters &parameters = input.scene.parameters();
+  const bool             is_relaxed =
+    parameters.model.analysis == Analysis::safety_factor ||
+    parameters.time.start == TimeParameters::Start::relaxation;
   try
   {
     return is_relaxed ? relax_to_rest(input, report)
@@ -162,7 +183,9 @@ find_start(const StartInput &input, StartReport &report)
     AssertThrow(false,
                 NumericalFailure(
                   "There is no equilibrium to start from: " + error.message(),
-                  "parameter 'Time/Start'",
+                  parameters.model.analysis == Analysis::safety_factor
+                    ? "parameter 'Safety factor/Start'"
+                    : "parameter 'Time/Start'",
                   is_relaxed
                     ? "see that obstacles and supports hold every block"
                     : "let faces touch at the start, with friction, or "

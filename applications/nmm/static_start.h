@@ -5,6 +5,7 @@
 #include <nmm/io/progress.h>
 #include <nmm/io/scene.h>
 #include <nmm/mechanics/finite_elasticity.h>
+#include <nmm/mechanics/newton_solver.h>
 #include <nmm/quadrature/element_quadrature.h>
 
 #include <deal.II/lac/affine_constraints.h>
@@ -30,6 +31,11 @@ struct StartReport
 {
   unsigned int n_steps = 0, n_iterations = 0;
 };
+
+
+/// Newton's method for relaxation, with more iterations where there is contact.
+NMM::NewtonParameters
+relaxation_newton_parameters(const NMM::Scene &scene);
 
 
 /**

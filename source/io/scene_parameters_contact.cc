@@ -435,9 +435,13 @@ namespace NMM
                      -1.,
                      "a " + to_string(analysis) + " analysis",
                      "remove it, or set 'Model/Analysis = dynamic'");
-    AssertThrow(analysis != Analysis::relaxation || displacement.empty(),
+    const bool is_relaxed =
+      analysis == Analysis::relaxation || analysis == Analysis::safety_factor;
+    AssertThrow(!is_relaxed || displacement.empty(),
                 InputError("the displacement '" + displacement +
-                             "' would not be used by a relaxation",
+                             "' would not be used by a " + to_string(analysis) +
+                             (analysis == Analysis::relaxation ? ""
+                                                               : " analysis"),
                            "parameter 'Obstacles/" + name + "/Displacement'",
                            "remove it, or set 'Model/Analysis' to static or "
                            "dynamic"));

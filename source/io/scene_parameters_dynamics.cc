@@ -16,7 +16,8 @@ namespace NMM
     const std::vector<std::pair<std::string, Analysis>> analyses = {
       {"static", Analysis::statics},
       {"dynamic", Analysis::dynamics},
-      {"relaxation", Analysis::relaxation}};
+      {"relaxation", Analysis::relaxation},
+      {"safety factor", Analysis::safety_factor}};
 
     using Start = TimeParameters::Start;
     const std::vector<std::pair<std::string, Start>> starts = {
@@ -180,7 +181,9 @@ namespace NMM
                         "static: equilibrium; dynamic: the motion, see section "
                         "Time; relaxation: equilibrium, found by a motion that "
                         "is stopped whenever its energy has passed a peak, see "
-                        "section Relaxation.");
+                        "section Relaxation; safety factor: by how much the "
+                        "strength of contact can be divided before blocks "
+                        "move, see section Safety factor.");
     }
 
 
@@ -476,6 +479,7 @@ namespace NMM
         break;
     }
     if (analysis == Analysis::relaxation ||
+        analysis == Analysis::safety_factor ||
         kinematics == Kinematics::incremental)
       return TimeScheme::constant_acceleration();
     return kinematics == Kinematics::finite || has_contact

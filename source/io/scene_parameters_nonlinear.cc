@@ -1,6 +1,7 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/io/scene_parameters.h>
 
+#include <algorithm>
 #include <io/parsing.h>
 #include <sstream>
 
@@ -326,11 +327,16 @@ namespace NMM
   SceneParameters::check_analysis() const
   {
     time.check(model.analysis, model.kinematics, contact.is_present());
-    // a relaxed start is a relaxation before a dynamic analysis
-    relaxation.check(model.analysis == Analysis::dynamics &&
-                         time.start == TimeParameters::Start::relaxation
+    // a relaxed start is a relaxation before a dynamic analysis, and trials of
+    // strength are relaxations
+    const bool has_relaxed_start =
+      model.analysis == Analysis::dynamics &&
+      time.start == TimeParameters::Start::relaxation;
+    relaxation.check(has_relaxed_start ||
+                         model.analysis == Analysis::safety_factor
                        ? Analysis::relaxation
                        : model.analysis);
+    check_safety_factor();
     check_loads_in_time();
     const std::string analysis = to_string(model.analysis) + " analysis";
     AssertThrow(model.analysis == Analysis::dynamics ||
@@ -366,6 +372,34 @@ namespace NMM
                              "parameter 'Materials/" + material.name +
                                "/Density'",
                              "a " + analysis + " needs it above 0"));
+  }
+
+
+  void
+  SceneParameters::check_safety_factor() const
+  {
+    safety_factor.check(model.analysis);
+    if (model.analysis != Analysis::safety_factor)
+      return;
+    AssertThrow(contact.is_present(),
+                InputError("a scene without contact has no strength",
+                           "parameter 'Model/Analysis'",
+                           "set 'Contact/Enforcement = penalty', and a "
+                           "friction angle or a cohesion"));
+    const auto has_strength = [](const ContactLawParameters &law) {
+      return law.friction_angle > 0. || law.cohesion > 0. || law.is_bonded;
+    };
+    AssertThrow(has_strength(contact.law) || std::any_of(contact.laws.begin(),
+                                                         contact.laws.end(),
+                                                         has_strength),
+                InputError("no law of contact has strength to be reduced",
+                           "section 'Contact'",
+                           "give a friction angle or a cohesion"));
+    AssertThrow(output.fields_every == 0,
+                InputError("a series of fields is not available with a "
+                           "safety factor analysis",
+                           "parameter 'Output/Fields every'",
+                           "remove it"));
   }
 
 

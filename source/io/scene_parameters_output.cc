@@ -427,6 +427,9 @@ namespace NMM
                  &InitialVelocityParameters::declare);
     declare_section(prm, "Time", &TimeParameters::declare);
     declare_section(prm, "Relaxation", &RelaxationSectionParameters::declare);
+    declare_section(prm,
+                    "Safety factor",
+                    &SafetyFactorSectionParameters::declare);
     declare_section(prm, "Solver", &SolverParameters::declare);
     declare_section(prm, "Load steps", &LoadStepParameters::declare);
     declare_section(prm, "Newton", &NewtonSectionParameters::declare);
@@ -449,6 +452,7 @@ namespace NMM
     parse_section(prm, "Model", model);
     parse_section(prm, "Time", time);
     parse_section(prm, "Relaxation", relaxation);
+    parse_section(prm, "Safety factor", safety_factor);
     parse_section(prm, "Load steps", load_steps);
     parse_section(prm, "Newton", newton);
     parse_section(prm, "Output", output);

@@ -354,6 +354,7 @@ namespace NMM
     std::vector<ObstacleParameters>        obstacles;
     TimeParameters                         time;
     RelaxationSectionParameters            relaxation;
+    SafetyFactorSectionParameters          safety_factor;
     std::vector<InitialVelocityParameters> initial_velocities;
     LinearSolverParameters                 solver;
     LoadStepParameters                     load_steps;
@@ -380,6 +381,8 @@ namespace NMM
     check_contact() const;
     void
     check_analysis() const;
+    void
+    check_safety_factor() const;
     void
     check_loads_in_time() const;
     void

@@ -2,6 +2,7 @@
 #define nmm_io_scene_parameters_dynamics_h
 
 #include <nmm/dynamics/step_control.h>
+#include <nmm/dynamics/strength_reduction.h>
 #include <nmm/dynamics/time_scheme.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -23,7 +24,9 @@ namespace NMM
     /// Motion in time.
     dynamics,
     /// Equilibrium, found by motion with kinetic damping.
-    relaxation
+    relaxation,
+    /// By how much the strength of contact can be divided before blocks move.
+    safety_factor
   };
 
   /// Its name in scene files.
@@ -118,6 +121,33 @@ namespace NMM
   struct RelaxationSectionParameters
   {
     RelaxationParameters relaxation;
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
+    /// @throws InputError as TimeParameters::check().
+    void
+    check(Analysis analysis) const;
+  };
+
+
+  /// The section `Safety factor`.
+  struct SafetyFactorSectionParameters
+  {
+    /// What each trial begins with.
+    enum class Start
+    {
+      /// No displacements: blocks are put together under reduced strength.
+      unstressed,
+      /// Equilibrium under full strength, with places of sticking.
+      settled
+    };
+
+    SafetyFactorParameters search;
+    /// Further than this [m] is motion.
+    double max_displacement = 0.;
+    Start  start            = Start::unstressed;
 
     static void
     declare(dealii::ParameterHandler &prm);

@@ -1,0 +1,322 @@
+#include "study.h"
+
+#include <nmm/base/exceptions.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/patterns.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+
+namespace StepNMM4
+{
+  using namespace dealii;
+
+  // @sect3{Parameters}
+
+  namespace
+  {
+    void
+    declare(ParameterHandler &prm)
+    {
+      const Patterns::Double positive(1e-300);
+      prm.declare_entry("Friction angles",
+                        "35, 20",
+                        Patterns::List(Patterns::Double(0., 89.), 1),
+                        "One run for each [degrees].");
+      prm.declare_entry("Time step", "0.01", positive, "The longest [s].");
+      prm.declare_entry("Half step",
+                        "true",
+                        Patterns::Bool(),
+                        "Compute what falls with half of the step, too.");
+      prm.declare_entry("End time", "12", positive, "Or at rest [s].");
+      prm.declare_entry("Stages",
+                        "1, 2",
+                        Patterns::List(Patterns::Double(0.), 0),
+                        "Times of pictures besides begin and end [s].");
+      prm.declare_entry("Block length",
+                        "2.3",
+                        Patterns::Double(0.5, 10.),
+                        "Along the layers [m].");
+      prm.declare_entry("Layer",
+                        "2",
+                        Patterns::Double(0.5, 5.),
+                        "Thickness of layers [m].");
+      prm.declare_entry("Spring",
+                        "9.80665e9",
+                        positive,
+                        "Of faces, normal and along them [Pa/m].");
+      prm.declare_entry("Dashpot",
+                        "2e7",
+                        Patterns::Double(0.),
+                        "The same [Pa s/m].");
+    }
+
+
+    bool
+    is_first_rank()
+    {
+      return Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+    }
+  } // namespace
+
+
+  Parameters
+  read_parameters(const std::string &file_name,
+                  const std::string &output_directory)
+  {
+    ParameterHandler prm;
+    declare(prm);
+    if (!file_name.empty())
+    {
+      std::ifstream file(file_name);
+      AssertThrow(file,
+                  NMM::InputError("the parameter file cannot be read",
+                                  file_name,
+                                  "check its name"));
+      try
+      {
+        prm.parse_input(file, file_name);
+      }
+      catch (const ExceptionBase &exception)
+      {
+        std::ostringstream reason;
+        exception.print_info(reason);
+        AssertThrow(false,
+                    NMM::InputError("the parameter file is wrong (" +
+                                      reason.str() + ")",
+                                    file_name,
+                                    "see step-nmm-4.prm"));
+      }
+    }
+    const auto numbers = [&](const std::string &entry) {
+      return Utilities::string_to_double(
+        Utilities::split_string_list(prm.get(entry)));
+    };
+    Parameters parameters;
+    parameters.friction_angles  = numbers("Friction angles");
+    parameters.step             = prm.get_double("Time step");
+    parameters.is_halved        = prm.get_bool("Half step");
+    parameters.end_time         = prm.get_double("End time");
+    parameters.stages           = numbers("Stages");
+    parameters.block_length     = prm.get_double("Block length");
+    parameters.layer            = prm.get_double("Layer");
+    parameters.spring           = prm.get_double("Spring");
+    parameters.dashpot          = prm.get_double("Dashpot");
+    parameters.output_directory = output_directory;
+    std::sort(parameters.stages.begin(), parameters.stages.end());
+    return parameters;
+  }
+
+
+  // @sect3{Outcomes}
+
+  void
+  Outcome::finish()
+  {
+    released = rows.back().external_work;
+    for (const Row &row : rows)
+    {
+      account_error = std::max(account_error, std::abs(row.balance));
+      largest_penetration =
+        std::max(largest_penetration, row.penetration_over_block);
+    }
+    if (released != 0.)
+      account_error /= std::abs(released);
+    penetration_at_rest = rows.back().penetration_over_block;
+  }
+
+
+  bool
+  Outcome::stands() const
+  {
+    constexpr double settlement = 0.05;
+    return is_at_rest && rows.back().center_of_mass.distance(
+                           rows.front().center_of_mass) < settlement;
+  }
+
+
+  // @sect3{Tables}
+
+  void
+  print_header(const Outcome &outcome)
+  {
+    std::cout
+      << "\nFriction angle " << outcome.friction_angle << " degrees, steps of "
+      << outcome.step << " s: " << outcome.n_blocks << " blocks, "
+      << outcome.n_unknowns << " unknowns\n"
+      << " time   centre of mass       kinetic   released  dissipated   "
+         "balance  stick  slip  penetration\n"
+      << "    s                m          kJ/m       kJ/m        kJ/m "
+         "     kJ/m                    block"
+      << std::endl;
+  }
+
+
+  void
+  print(const Row &row)
+  {
+    std::cout << std::fixed << std::setprecision(2) << std::setw(5) << row.time
+              << std::setprecision(4) << std::setw(9) << row.center_of_mass[0]
+              << std::setw(9) << row.center_of_mass[1] << std::setprecision(2)
+              << std::setw(14) << 1e-3 * row.kinetic << std::setw(11)
+              << 1e-3 * row.external_work << std::setw(12)
+              << 1e-3 * row.dissipated << std::scientific
+              << std::setprecision(1) << std::setw(10) << 1e-3 * row.balance
+              << std::defaultfloat << std::setw(7) << row.n_stick
+              << std::setw(6) << row.n_slip << std::scientific
+              << std::setprecision(1) << std::setw(13)
+              << row.penetration_over_block << std::defaultfloat << std::endl;
+  }
+
+
+  void
+  print_summary(const std::vector<Outcome> &outcomes)
+  {
+    std::cout << "\nrun            outcome        time [s]  steps  cuts  "
+                 "iterations  account   penetration: largest, last  s\n";
+    for (const Outcome &outcome : outcomes)
+      std::cout << std::left << std::setw(15) << outcome.name << std::setw(15)
+                << (outcome.stands()     ? "stands"
+                    : outcome.is_at_rest ? "slid to rest"
+                                         : "moves at end")
+                << std::right << std::fixed << std::setprecision(2)
+                << std::setw(8) << outcome.rows.back().time << std::setw(7)
+                << outcome.n_steps << std::setw(6) << outcome.n_cuts
+                << std::setw(12) << outcome.n_iterations << std::scientific
+                << std::setprecision(1) << std::setw(9) << outcome.account_error
+                << std::setw(14) << outcome.largest_penetration << std::setw(13)
+                << outcome.penetration_at_rest << std::fixed << std::setw(8)
+                << outcome.start_time + outcome.motion_time << std::defaultfloat
+                << '\n';
+    for (unsigned int i = 1; i < outcomes.size(); ++i)
+    {
+      const Outcome &coarse = outcomes[i - 1], &fine = outcomes[i];
+      if (fine.name != coarse.name + "-half-step")
+        continue;
+      const Tensor<1, 2> way =
+        fine.rows.back().center_of_mass - fine.rows.front().center_of_mass;
+      const double difference = fine.rows.back().center_of_mass.distance(
+        coarse.rows.back().center_of_mass);
+      std::cout << "Half of the step moves the centre of mass at the end by "
+                << std::setprecision(3) << difference << " m, "
+                << 100. * difference / way.norm() << " % of its way of "
+                << way.norm() << " m" << std::endl;
+    }
+  }
+
+
+  void
+  write_results(const Parameters           &parameters,
+                const std::vector<Outcome> &outcomes)
+  {
+    const std::string prefix = parameters.output_directory + "/step-nmm-4-";
+    std::ofstream     runs(prefix + "runs.csv");
+    runs << "run,friction_angle,step,blocks,unknowns,steps,cuts,iterations,"
+            "is_at_rest,stands,end_time,released,account_error,"
+            "largest_penetration,penetration_at_rest,start_seconds,"
+            "motion_seconds\n"
+         << std::setprecision(10);
+    for (const Outcome &o : outcomes)
+    {
+      runs << o.name << ',' << o.friction_angle << ',' << o.step << ','
+           << o.n_blocks << ',' << o.n_unknowns << ',' << o.n_steps << ','
+           << o.n_cuts << ',' << o.n_iterations << ',' << o.is_at_rest << ','
+           << o.stands() << ',' << o.rows.back().time << ',' << o.released
+           << ',' << o.account_error << ',' << o.largest_penetration << ','
+           << o.penetration_at_rest << ',' << o.start_time << ','
+           << o.motion_time << '\n';
+      std::ofstream table(prefix + o.name + ".csv");
+      table << "time,x,y,kinetic,strain,contact,dissipated,external_work,"
+               "balance,stick,slip,penetration,penetration_over_block\n"
+            << std::setprecision(10);
+      for (const Row &r : o.rows)
+        table << r.time << ',' << r.center_of_mass[0] << ','
+              << r.center_of_mass[1] << ',' << r.kinetic << ',' << r.strain
+              << ',' << r.contact << ',' << r.dissipated << ','
+              << r.external_work << ',' << r.balance << ',' << r.n_stick << ','
+              << r.n_slip << ',' << r.penetration << ','
+              << r.penetration_over_block << '\n';
+    }
+    AssertThrow(runs.flush().good(),
+                NMM::InputError("results cannot be written",
+                                prefix + "runs.csv",
+                                "name a folder that can be written to"));
+    std::cout << "Results: " << prefix << "*.csv, *.png, *-animation.html"
+              << std::endl;
+  }
+
+
+  // @sect3{Pictures}
+
+  // All in the same part of the plane.
+  Film::Film(const Parameters &parameters_in, const Outcome &outcome)
+    : prefix(parameters_in.output_directory + "/step-nmm-4-" + outcome.name)
+  {
+    std::ostringstream text;
+    text << "Slope, friction angle " << outcome.friction_angle << " degrees";
+    title                        = text.str();
+    parameters.quantity          = NMM::Quantity::displacement;
+    parameters.deformation_scale = 1.;
+    parameters.mesh_lines        = false;
+    parameters.picture_width     = 1200;
+    if (is_first_rank())
+    {
+      // an earlier run's frames
+      std::filesystem::remove(prefix + "-animation.frames");
+      animation =
+        std::make_unique<NMM::Animation>(prefix + "-animation.frames");
+    }
+  }
+
+
+  const NMM::OutputParameters &
+  Film::output() const
+  {
+    return parameters;
+  }
+
+
+  void
+  Film::add_frame(const double time, const NMM::PictureData &data)
+  {
+    if (animation)
+      animation->add_frame(time, data);
+  }
+
+
+  void
+  Film::draw_stage(const double time, const NMM::PictureData &data)
+  {
+    if (!animation)
+      return;
+    std::ostringstream note;
+    note << title << ", t = " << std::fixed << std::setprecision(2) << time
+         << " s";
+    NMM::PictureFrame frame;
+    frame.view = std::make_pair(Point<2>(-24., -1.), Point<2>(21.5, 20.5));
+    NMM::draw_picture(data,
+                      parameters,
+                      note.str(),
+                      prefix + "-stage-" + std::to_string(++n_stages) + ".png",
+                      frame);
+  }
+
+
+  void
+  Film::finish()
+  {
+    if (!animation)
+      return;
+    std::ofstream out(prefix + "-animation.html");
+    animation->write(out, title, parameters);
+    animation->discard();
+  }
+} // namespace StepNMM4

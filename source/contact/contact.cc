@@ -110,7 +110,11 @@ namespace NMM
   Contact::Data::set_admitted_depth()
   {
     constexpr double rounding = 1e-6;
-    admitted_depth = 2. * search.motion_since_begin() + rounding * reach;
+    // conserving steps need no such bound: what is found deep brings no energy
+    // with it, and must not be lost for good when it is missed once
+    admitted_depth = is_conserving
+                       ? std::numeric_limits<double>::max()
+                       : 2. * search.motion_since_begin() + rounding * reach;
   }
 
 
@@ -464,7 +468,10 @@ namespace NMM
     const ContactState          before = point.state;
     const ContactSurface::Place slave  = surface->place(point.edge, point.s);
     const ContactProjection     projection = project(q, slave);
-    if (projection.master == invalid_index || point.weight == 0.)
+    // what the last assembly between begin and end has left out stores nothing
+    const bool is_left_out =
+      is_between && point_data[q].master_end == invalid_index;
+    if (projection.master == invalid_index || point.weight == 0. || is_left_out)
     {
       point.pressure = point.shear = 0.;
       point.state                  = ContactState::open;

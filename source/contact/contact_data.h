@@ -282,6 +282,8 @@ namespace NMM
     std::vector<std::vector<unsigned int>> touching;
     /// How deep new contact may be [m], see AdmittedContact.
     double admitted_depth = 0.;
+    /// A step that conserves energy has been tried.
+    bool is_conserving = false;
     /// No state has been accepted yet: faces that touch may be bonded.
     bool is_virgin = true;
     /// By bonds that broke since the last accepted state [J/m].

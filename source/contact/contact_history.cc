@@ -388,7 +388,7 @@ namespace NMM
         for (const unsigned int other : d.touching[edge])
           for (const double x : {double(edge), 0., -3., double(other), 0., 0.})
             mine.push_back(x);
-    std::vector<double> result{double(d.is_virgin),
+    std::vector<double> result{double(d.is_virgin) + 2. * d.is_conserving,
                                double(d.multipliers.size()),
                                double(d.searched_nodal.size()),
                                d.searched_time,
@@ -413,8 +413,10 @@ namespace NMM
     d.energies_of_pairs.clear();
     if (history.empty())
       return;
-    constexpr unsigned int head = 5;
-    d.is_virgin                 = history[0] != 0.;
+    constexpr unsigned int head  = 5;
+    const auto             flags = static_cast<unsigned int>(history[0]);
+    d.is_virgin                  = (flags & 1U) != 0;
+    d.is_conserving              = (flags & 2U) != 0;
     d.search.begin(ContactSearch::Begin::unknown);
     const auto n_multipliers = static_cast<unsigned int>(history[1]);
     const auto n_nodal       = static_cast<unsigned int>(history[2]);

@@ -527,7 +527,8 @@ namespace NMM
         // it came in through a face that only the other edge of the corner faces, or
         // touches that one
         bool is_of_other_edge = false;
-        for (unsigned int j = 0; j < n && now.gap < 0.; ++j)
+        for (unsigned int j = 0; j < n && now.gap < 0. && admitted.is_bound();
+             ++j)
           is_of_other_edge =
             is_of_other_edge ||
             (near[j].gap > now.gap &&
@@ -686,7 +687,7 @@ namespace NMM
       constexpr auto              concave = ContactSurface::Corner::concave;
       for (const auto &[far, gap] : outside)
         if (surface->edges()[far].body == edge.body &&
-            std::abs(gap) < -best.gap &&
+            std::abs(gap) < -best.gap && (gap > 0. || admitted.is_bound()) &&
             // both faces of a notch: the body is on either side of them
             !(far == edge.previous && edge.at_start == concave) &&
             !(far == edge.next && edge.at_end == concave))

@@ -33,6 +33,13 @@ namespace NMM
       /// Faces that the point was behind before, however deep.
       dealii::ArrayView<const unsigned int> touching;
 
+      /// What is found far inside of a body may have got there.
+      bool
+      is_bound() const
+      {
+        return depth < std::numeric_limits<double>::max();
+      }
+
       bool
       holds(const ContactProjection &projection) const
       {

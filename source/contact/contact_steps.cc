@@ -393,6 +393,7 @@ namespace NMM
       d.obstacle_changes[i] = d.surface->obstacle_displacement(i);
     d.step = time - d.time_begin;
     d.move_to(end);
+    d.is_conserving = true;
     d.set_admitted_depth();
     for (unsigned int q = 0; q < d.points.size(); ++q)
     {

@@ -104,28 +104,6 @@ namespace
   }
 
 
-  /// Is a face of the body that looks the point's own way nearer than a depth?
-  bool
-  is_far_side_nearer(const ContactSurface &surface,
-                     const unsigned int    body,
-                     const Place          &place,
-                     const double          depth)
-  {
-    for (unsigned int m = 0; m < surface.edges().size(); ++m)
-    {
-      const Point<2>     a = surface.place(m, 0.).x, b = surface.place(m, 1.).x;
-      const Tensor<1, 2> d      = b - a;
-      const double       length = d.norm();
-      const Tensor<1, 2> normal({d[1] / length, -d[0] / length});
-      const double       t = ((place.x - a) * d) / (length * length);
-      if (surface.edges()[m].body == body && normal * place.normal() > 0.5 &&
-          t >= -0.1 && t <= 1.1 && std::abs((place.x - a) * normal) < depth)
-        return true;
-    }
-    return false;
-  }
-
-
   /// What brute force says of one edge: straight, and found by its two ends alone.
   struct Reference
   {
@@ -171,10 +149,8 @@ namespace
         is_doubtful = true;
       if (t < 0. || t > 1. || std::abs(gap) > reach || facing <= 0.01)
         continue;
-      // behind a face, but not in its body, or not by that face
-      const unsigned int body = surface.edges()[m].body;
-      if (gap < 0. && (!is_inside(outlines[body], place.x) ||
-                       is_far_side_nearer(surface, body, place, -gap)))
+      // behind a face, but not in its body
+      if (gap < 0. && !is_inside(outlines[surface.edges()[m].body], place.x))
         continue;
       result.push_back({m, gap, facing});
     }

@@ -334,7 +334,8 @@ namespace NMM
     const auto entrance =
       entrances.find(place_key(points[q].edge, fixed.corner));
     return search.project_corner(slave,
-                                 normal_of_other_edge(q),
+                                 admitted.is_bound() ? normal_of_other_edge(q)
+                                                     : Tensor<1, 2>(),
                                  masters,
                                  entrance == entrances.end() ? invalid_index
                                                              : entrance->second,
@@ -468,10 +469,7 @@ namespace NMM
     const ContactState          before = point.state;
     const ContactSurface::Place slave  = surface->place(point.edge, point.s);
     const ContactProjection     projection = project(q, slave);
-    // what the last assembly between begin and end has left out stores nothing
-    const bool is_left_out =
-      is_between && point_data[q].master_end == invalid_index;
-    if (projection.master == invalid_index || point.weight == 0. || is_left_out)
+    if (projection.master == invalid_index || point.weight == 0.)
     {
       point.pressure = point.shear = 0.;
       point.state                  = ContactState::open;

@@ -122,7 +122,8 @@ namespace NMM
             unsigned int n_edges = 4) const;
 
     /// New contact may be as deep as faces have moved since the begin of the step,
-    /// at first since the reference configuration, in which blocks do not overlap.
+    /// at first since the reference configuration, in which blocks do not overlap; in
+    /// steps that conserve energy as deep as it likes.
     void
     set_admitted_depth();
 

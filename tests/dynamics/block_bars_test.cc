@@ -2,22 +2,12 @@
 
 #include <gtest/gtest.h>
 #include <support/block_bars/block_bars.h>
+#include <support/contact_bars/expect_holds.h>
 
 namespace NMM
 {
   namespace BlockBars
   {
-    namespace
-    {
-      void
-      expect_holds(const Measurements &measurements)
-      {
-        EXPECT_FALSE(measurements.all().empty());
-        EXPECT_EQ(measurements.failures(), "");
-      }
-    } // namespace
-
-
     // Textbooks round the limit of the chain of columns to 0.7855.
     TEST(BlockBars, LimitOfTheChainOfColumns)
     {

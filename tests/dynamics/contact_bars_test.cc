@@ -3,22 +3,12 @@
 
 #include <gtest/gtest.h>
 #include <support/contact_bars/contact_bars.h>
+#include <support/contact_bars/expect_holds.h>
 
 namespace NMM
 {
   namespace ContactBars
   {
-    namespace
-    {
-      void
-      expect_holds(const Measurements &measurements)
-      {
-        EXPECT_FALSE(measurements.all().empty());
-        EXPECT_EQ(measurements.failures(), "");
-      }
-    } // namespace
-
-
     // Falling onto its springs costs the block 3e-5 m of a way of 1 m.
     TEST(ContactBars, SlidesDownInclines)
     {

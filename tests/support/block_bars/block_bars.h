@@ -13,7 +13,7 @@ namespace NMM
   {
     using namespace ContactBars;
 
-    /// @name Blocks on slopes with known limits. Each adds its measurements, of the bar that it is for.
+    /// @name Blocks on slopes with known limits: each adds its measurements, of the bar it is for
     /// @{
 
     /**

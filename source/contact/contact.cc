@@ -493,10 +493,11 @@ namespace NMM
     const PointData    &fixed = point_data[q];
     ++(point.state == ContactState::stick ? report.n_stick : report.n_slip);
     report.n_bonded += point.is_bonded;
-    // at a piece of a face too short to bear anything the other face that meets
-    // it in a corner tells how deep it is
-    if (fixed.corner < Kind::along ||
-        fixed.piece_length > too_short * size_at(q))
+    // What presses tells how deep it is: not what was found behind a face without
+    // having come in by it, which stores nothing, nor a piece of a face too
+    // short to bear anything, where the other face does that meets it in a corner.
+    if (point.pressure > 0. && (fixed.corner < Kind::along ||
+                                fixed.piece_length > too_short * size_at(q)))
       report.largest_penetration =
         std::max(report.largest_penetration, point.opening - projection.gap);
     deepest = std::max(deepest,

@@ -113,6 +113,13 @@ namespace NMM
 
 
   bool
+  ContactModel::set_stiffness_damping(const double coefficient)
+  {
+    return data->model->set_stiffness_damping(coefficient);
+  }
+
+
+  bool
   ContactModel::is_linear() const
   {
     return data->contact->is_idle() && data->model->is_linear();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace NMM
 {
@@ -20,6 +21,14 @@ namespace NMM
     set_amplitudes(amplitudes_at(0.));
     (void)elasticity->assemble(zero, 0., Tangent::consistent);
     return elasticity->tangent();
+  }
+
+
+  bool
+  FiniteModel::set_stiffness_damping(const double coefficient)
+  {
+    damping = coefficient;
+    return true;
   }
 
 
@@ -72,7 +81,14 @@ namespace NMM
     const LoadAmplitudes first = amplitudes_at(t_0), last = amplitudes_at(t_1);
     set_amplitudes(amplitudes_at(t));
     const Deformation state =
-      elasticity->assemble_between(begin, end, 1., tangent, &first, &last);
+      elasticity->assemble_between(begin,
+                                   end,
+                                   1.,
+                                   tangent,
+                                   &first,
+                                   &last,
+                                   damping > 0. ? damping / (t_1 - t_0) : 0.);
+    dissipated_between = elasticity->energies().dissipated;
     if (state == Deformation::admissible)
     {
       sum = elasticity->residual();
@@ -93,6 +109,14 @@ namespace NMM
   FiniteModel::energies() const
   {
     return {elasticity->energies().strain, elasticity->energies().conditions};
+  }
+
+
+  /// Steps that do not conserve have no assembly between.
+  double
+  FiniteModel::accept_step(const Vector &, const double)
+  {
+    return std::exchange(dissipated_between, 0.);
   }
 
 

@@ -75,6 +75,13 @@ namespace NMM
     void
     make_matrix();
 
+    /// Is there a stiffness in C?
+    bool
+    damps_by_stiffness() const
+    {
+      return damping.stiffness > 0. && !model_damps;
+    }
+
     /// out += factor C in
     void
     add_damping(double factor, const Vector &in, Vector &out);
@@ -105,9 +112,11 @@ namespace NMM
     void
     add_work();
 
-    MechanicalModel                       *model;
-    TimeScheme                             scheme;
-    RayleighDamping                        damping;
+    MechanicalModel *model;
+    TimeScheme       scheme;
+    RayleighDamping  damping;
+    /// The model has the damping by the stiffness in its forces.
+    bool                                   model_damps = false;
     NewtonSolver                           newton;
     dealii::TrilinosWrappers::SparseMatrix stiffness_at_rest;
     internal::MatrixSum                    matrix;
@@ -184,7 +193,9 @@ namespace NMM
     scratch.compress(dealii::VectorOperation::insert);
     model.mass().vmult(forces, scratch);
     total_mass = scratch * forces;
-    if (damping.stiffness > 0.)
+    model_damps =
+      scheme.is_conserving && model.set_stiffness_damping(damping.stiffness);
+    if (damps_by_stiffness())
     {
       const auto &stiffness = model.stiffness_at_rest();
       stiffness_at_rest.reinit(stiffness);
@@ -220,7 +231,7 @@ namespace NMM
       model->mass().vmult(other_scratch, in);
       out.add(factor * damping.mass, other_scratch);
     }
-    if (damping.stiffness > 0.)
+    if (damps_by_stiffness())
     {
       stiffness_at_rest.vmult(other_scratch, in);
       out.add(factor * damping.stiffness, other_scratch);
@@ -256,7 +267,7 @@ namespace NMM
                     k,
                     model->mass(),
                     m + c * damping.mass,
-                    damping.stiffness > 0. ? &stiffness_at_rest : nullptr,
+                    damps_by_stiffness() ? &stiffness_at_rest : nullptr,
                     c * damping.stiffness,
                     model->pattern_version());
   }
@@ -448,7 +459,7 @@ namespace NMM
         0.5 * (model->work_of_supports(u_begin, state.time, state.time, t_1) +
                model->work_of_supports(u_end, t_1, state.time, t_1));
     }
-    if (damping.mass > 0. || damping.stiffness > 0.)
+    if (damping.mass > 0. || damps_by_stiffness())
     {
       loads = 0.;
       add_damping(1. / h, change, loads);

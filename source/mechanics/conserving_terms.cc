@@ -277,8 +277,10 @@ namespace NMM
     ConservingLaw::evaluate(const Tensor<2, 2> &F_0,
                             const Tensor<2, 2> &F_1,
                             const bool          with_tangent,
+                            const double        damping,
                             Tensor<2, 2>       &P,
-                            double (&A)[4][4]) const
+                            double (&A)[4][4],
+                            double &dissipated) const
     {
       const Tensor<2, 2>    F = 0.5 * (F_0 + F_1);
       SymmetricTensor<2, 2> S;
@@ -298,11 +300,28 @@ namespace NMM
         S[0][0] += pressure;
         S[1][1] += pressure;
       }
+      dissipated = 0.;
+      if (damping > 0.)
+      {
+        const SymmetricTensor<2, 2> change =
+          green_strain(F_1) - green_strain(F_0);
+        SymmetricTensor<2, 2> viscous = (2. * damping * elasticity.mu) * change;
+        const double          pressure =
+          damping * elasticity.lambda * dealii::trace(change);
+        viscous[0][0] += pressure;
+        viscous[1][1] += pressure;
+        dissipated = viscous * change;
+        S += viscous;
+      }
       P = F * Tensor<2, 2>(S);
       if (!with_tangent)
         return Deformation::admissible;
 
-      const Tensor<2, 2> b = F * dealii::transpose(F_1);
+      // 2 dS/dE_1 over the moduli: the mean of strains has 1
+      const double       moduli = (is_neo_hookean ? 0. : 1.) + 2. * damping;
+      const double       lambda = moduli * elasticity.lambda;
+      const double       mu     = moduli * elasticity.mu;
+      const Tensor<2, 2> b      = F * dealii::transpose(F_1);
       for (unsigned int i = 0; i < 2; ++i)
         for (unsigned int J = 0; J < 2; ++J)
           for (unsigned int k = 0; k < 2; ++k)
@@ -315,10 +334,9 @@ namespace NMM
                   for (unsigned int N = 0; N < 2; ++N)
                     a += F[i][M] * D[2 * M + J][2 * N + L] * F_1[k][N];
               }
-              else
-                a += elasticity.lambda * F[i][J] * F_1[k][L] +
-                     elasticity.mu *
-                       (F[i][L] * F_1[k][J] + (J == L ? b[i][k] : 0.));
+              if (moduli > 0.)
+                a += lambda * F[i][J] * F_1[k][L] +
+                     mu * (F[i][L] * F_1[k][J] + (J == L ? b[i][k] : 0.));
               A[2 * i + J][2 * k + L] = a;
             }
       return Deformation::admissible;
@@ -334,10 +352,12 @@ namespace NMM
           const LocalDisplacement   &begin,
           const LocalDisplacement   &end,
           const bool                 with_tangent,
-          LocalSystem               &local)
+          const double               damping,
+          LocalSystem               &local,
+          double                    &dissipated)
       {
         Tensor<2, 2> P;
-        double       A[4][4];
+        double       A[4][4], loss;
         for (unsigned int q = 0; q < table.n_points; ++q)
         {
           const double(*g)[2] = table.gradients + q * n;
@@ -345,10 +365,13 @@ namespace NMM
           if (law.evaluate(deformation_gradient(n, begin.values, g),
                            deformation_gradient(n, end.values, g),
                            with_tangent,
+                           damping,
                            P,
-                           A) != Deformation::admissible)
+                           A,
+                           loss) != Deformation::admissible)
             return Deformation::inverted;
           P *= weight;
+          dissipated += weight * loss;
           for (unsigned int i = 0; i < n; ++i)
           {
             local.rhs[2 * i] += P[0][0] * g[i][0] + P[0][1] * g[i][1];
@@ -385,11 +408,18 @@ namespace NMM
                          const LocalDisplacement   &begin,
                          const LocalDisplacement   &end,
                          const bool                 with_tangent,
-                         LocalSystem               &local)
+                         const double               damping,
+                         LocalSystem               &local,
+                         double                    &dissipated)
     {
-      return n_per_cell == 3
-               ? add<3>(law, table, begin, end, with_tangent, local)
-               : add<6>(law, table, begin, end, with_tangent, local);
+      return (n_per_cell == 3 ? add<3> : add<6>)(law,
+                                                 table,
+                                                 begin,
+                                                 end,
+                                                 with_tangent,
+                                                 damping,
+                                                 local,
+                                                 dissipated);
     }
   } // namespace internal
 } // namespace NMM

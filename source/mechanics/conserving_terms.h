@@ -53,14 +53,24 @@ namespace NMM
     public:
       ConservingLaw(const Material &material, PlaneState plane_state);
 
-      /// P [Pa] and, if @p with_tangent, A = 2 dP/dF_1, the derivative by F_m at
-      /// given F_0, at [2i + J][2k + L]. Not symmetric.
+      /**
+       * P [Pa] and, if @p with_tangent, A = 2 dP/dF_1, the derivative by F_m at
+       * given F_0, at [2i + J][2k + L]. Not symmetric.
+       *
+       * To S is added what damps in proportion to the stiffness,
+       * @f[ S_v = \frac{\beta}{h}\,C : (E_1 - E_0), @f]
+       * C being the moduli at rest and @p damping = beta / h [-]. It is a Kelvin-Voigt
+       * solid: what moves rigidly is not damped, however far it has turned, no
+       * momentum is lost, and @p dissipated is S_v : (E_1 - E_0) >= 0 [J/m^3].
+       */
       Deformation
       evaluate(const dealii::Tensor<2, 2> &F_0,
                const dealii::Tensor<2, 2> &F_1,
                bool                        with_tangent,
+               double                      damping,
                dealii::Tensor<2, 2>       &P,
-               double (&A)[4][4]) const;
+               double (&A)[4][4],
+               double &dissipated) const;
 
       /// How S changes with E between two states, each at [2M + J][2N + L].
       struct Secant
@@ -118,7 +128,8 @@ namespace NMM
     /**
      * Internal forces of an element between the displacements @p begin and @p end
      * and their derivative by the mean displacement at given @p begin, into
-     * @p local.
+     * @p local. What ConservingLaw::evaluate() dissipates by @p damping is added to
+     * @p dissipated [J/m].
      */
     Deformation
     add_conserving_terms(const ConservingLaw       &law,
@@ -127,7 +138,9 @@ namespace NMM
                          const LocalDisplacement   &begin,
                          const LocalDisplacement   &end,
                          bool                       with_tangent,
-                         LocalSystem               &local);
+                         double                     damping,
+                         LocalSystem               &local,
+                         double                    &dissipated);
 
 
     /**

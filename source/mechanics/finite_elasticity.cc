@@ -37,6 +37,7 @@ namespace NMM
       /// Between two states, see assemble_between().
       bool                  is_between = false;
       const LoadAmplitudes *first = nullptr, *last = nullptr;
+      double                damping = 0.;
     };
 
     /// Amplitude of a condition times the load factor.
@@ -381,7 +382,9 @@ namespace NMM
                                   first,
                                   second,
                                   task.with_tangent,
-                                  local);
+                                  task.damping,
+                                  local,
+                                  energies.dissipated);
     }
     if (task.has_increment)
       first.gather(element_covers, nodal_increment);
@@ -498,15 +501,16 @@ namespace NMM
     add_dead_loads(task);
 
     // inverted somewhere is inverted for all
-    double sums[6] = {state == Deformation::inverted ? 1. : 0.,
+    double sums[7] = {state == Deformation::inverted ? 1. : 0.,
                       force_square,
                       energies.strain,
                       energies.conditions,
                       energies.loads,
-                      energies.work_of_conditions};
-    dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums, 6),
+                      energies.work_of_conditions,
+                      energies.dissipated};
+    dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums, 7),
                                 covers->communicator(),
-                                dealii::ArrayView<double>(sums, 6));
+                                dealii::ArrayView<double>(sums, 7));
     if (sums[0] > 0.)
       return Deformation::inverted;
     force_scale         = std::hypot(std::sqrt(sums[1]), least_force_scale);
@@ -514,6 +518,7 @@ namespace NMM
     energies.conditions = sums[3];
     energies.loads      = sums[4];
     energies.work_of_conditions = sums[5];
+    energies.dissipated         = sums[6];
     largest_jump =
       dealii::Utilities::MPI::max(largest_jump, covers->communicator());
 
@@ -568,7 +573,8 @@ namespace NMM
                                      const double          load_factor,
                                      const Tangent         tangent,
                                      const LoadAmplitudes *first,
-                                     const LoadAmplitudes *last)
+                                     const LoadAmplitudes *last,
+                                     const double          damping)
   {
     read_nodal_values(*data->covers, begin, data->nodal_begin);
     read_nodal_values(*data->covers, end, data->nodal_end);
@@ -582,6 +588,7 @@ namespace NMM
     task.is_between = true;
     task.first      = first;
     task.last       = last;
+    task.damping    = damping;
     return data->assemble(task);
   }
 

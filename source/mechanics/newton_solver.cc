@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <mechanics/mumps_solver.h>
 
 namespace NMM
@@ -26,6 +27,8 @@ namespace NMM
     /// Owned unknowns.
     Vector owned, correction;
     bool   use_increment = true;
+    /// From an iteration on that went round, residuals must go down.
+    bool goes_round = false;
 
     Deformation
     assemble(const Vector &u, Tangent tangent, const Vector *increment);
@@ -40,6 +43,12 @@ namespace NMM
     line_search(Vector                  &u,
                 NewtonReport::Iteration &iteration,
                 bool                     is_searched);
+
+    Deformation
+    descend(Vector &u, NewtonReport::Iteration &iteration);
+
+    bool
+    is_going_round() const;
 
     bool
     iterate(Vector &u, const Vector *increment);
@@ -175,6 +184,69 @@ namespace NMM
   }
 
 
+  /// Did none of the last iterations bring |r| far below what had been reached before?
+  /// Contact points that stick and slip by turns make Newton's method go round
+  /// three states and more, between which r . du goes up and down as it should.
+  bool
+  NewtonSolver::Data::is_going_round() const
+  {
+    constexpr unsigned int n_last = 3;
+    constexpr double       enough = 0.7;
+    const auto            &all    = report->iterations;
+    if (all.size() < 2 * n_last)
+      return false;
+    const auto less = [](const auto &a, const auto &b) {
+      return a.relative_residual < b.relative_residual;
+    };
+    const auto last = all.end() - n_last;
+    return std::min_element(last, all.end(), less)->relative_residual >
+           enough *
+             std::min_element(all.begin(), last, less)->relative_residual;
+  }
+
+
+  /// Choose eta such that |r| goes down by a quarter of what it does where r is linear,
+  /// or else the best that was tried: along a path of ever smaller residuals
+  /// states change one after the other (Katzenelson's method for piecewise linear
+  /// equations). Moves u and assembles its residual.
+  Deformation
+  NewtonSolver::Data::descend(Vector &u, NewtonReport::Iteration &iteration)
+  {
+    constexpr double least_share = 1. / 16.;
+
+    const double first  = system->residual().l2_norm();
+    const Vector before = owned;
+    double       best = std::numeric_limits<double>::max(), best_share = 1.;
+    const auto   move_by = [&](const double share) {
+      iteration.line_search = share;
+      owned                 = before;
+      owned.add(-share, correction);
+      constraints->distribute(owned);
+      u = owned;
+      return assemble(u, Tangent::none, nullptr);
+    };
+    const double unknown = best;
+    for (double share = 1.;
+         share >= (best == unknown ? parameters.min_line_search : least_share);
+         share *= 0.5)
+    {
+      if (move_by(share) == Deformation::admissible)
+      {
+        const double norm = system->residual().l2_norm();
+        if (norm <= (1. - 0.25 * share) * first)
+          return Deformation::admissible;
+        if (norm < best)
+        {
+          best       = norm;
+          best_share = share;
+        }
+      }
+      ++report->n_line_search_cuts;
+    }
+    return move_by(best_share);
+  }
+
+
   /// One iteration; r(u) is assembled afterwards. False if it failed.
   bool
   NewtonSolver::Data::iterate(Vector &u, const Vector *increment)
@@ -216,7 +288,10 @@ namespace NMM
     const bool is_late =
       k > n_young && iteration.energy > report->iterations[k - 2].energy;
     use_increment = use_increment && !is_late;
-    if (line_search(u, iteration, is_late || parameters.always_search) !=
+    goes_round    = goes_round || is_going_round();
+    if ((goes_round
+           ? descend(u, iteration)
+           : line_search(u, iteration, is_late || parameters.always_search)) !=
         Deformation::admissible)
     {
       report->reason =
@@ -268,6 +343,7 @@ namespace NMM
     data->constraints   = &constraints;
     data->report        = &report;
     data->use_increment = data->parameters.use_increment;
+    data->goes_round    = false;
     data->owned.reinit(u.locally_owned_elements(), u.get_mpi_communicator());
     data->owned = u;
 

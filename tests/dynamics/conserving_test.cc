@@ -129,7 +129,9 @@ namespace
            {PlaneState::plane_strain, PlaneState::plane_stress})
       {
         Body         body = free_square(law, state, 20.);
-        std::mt19937 generator(7);
+        const double h    = 0.1;
+        body.mechanics->set_stiffness_damping(0.05);
+        std::mt19937                           generator(7);
         std::uniform_real_distribution<double> random(-0.15, 0.15);
         const auto                             field = [&] {
           Tensor<2, 2> G;
@@ -153,7 +155,7 @@ namespace
           EXPECT_EQ(body.mechanics->assemble_between(relevant(begin),
                                                      relevant(at),
                                                      0.,
-                                                     0.,
+                                                     h,
                                                      with_tangent
                                                        ? Tangent::consistent
                                                        : Tangent::none),
@@ -175,6 +177,101 @@ namespace
         // truncation and rounding of the difference
         EXPECT_LT(product.l2_norm(), 1e-8 * norm);
       }
+  }
+
+
+  // A turn is not damped, wherever the body is in it: what is left of the damping is
+  // of the strain that comes with the spin, rho omega^2 / (12 E) = 1e-11.
+  TEST(Conserving, DampingDoesNotStopTurning)
+  {
+    Body body =
+      free_square(MaterialLaw::linear, PlaneState::plane_strain, 1e10);
+    TimeIntegrator integrator(*body.mechanics,
+                              TimeScheme::energy_momentum(),
+                              {/* mass = */ 0., /* stiffness = */ 1e-2});
+    RigidVelocity  spin;
+    spin.angular_velocity = 1.;
+    integrator.initialize(body.zero(), body.velocity(spin));
+    const double kinetic = integrator.account().kinetic;
+    const Drift  drift   = run(body, integrator, 0.15, 60);
+    // what Newton's method leaves, 1e-9 of the forces
+    EXPECT_LT(drift.angular_momentum, 1e-9);
+    EXPECT_LT(drift.energy, 1e-8);
+    EXPECT_NEAR(integrator.account().kinetic, kinetic, 1e-8 * kinetic);
+  }
+
+
+  // Energy goes, and the account says where it went; the momenta stay. In the end the
+  // body turns as a rigid one.
+  TEST(Conserving, DampedSoftBodiesKeepMomenta)
+  {
+    for (const MaterialLaw law :
+         {MaterialLaw::st_venant_kirchhoff, MaterialLaw::neo_hookean})
+    {
+      Body           body = free_square(law, PlaneState::plane_strain, 20.);
+      TimeIntegrator integrator(*body.mechanics,
+                                TimeScheme::energy_momentum(),
+                                {/* mass = */ 0., /* stiffness = */ 0.05});
+      integrator.initialize(body.zero(), body.velocity([](const Point<2> &x) {
+        Tensor<1, 2> v;
+        v[0] = 0.3 - x[1] + 0.6 * x[0];
+        v[1] = 0.1 + x[0] + 0.5 * x[0] * x[1];
+        return v;
+      }));
+      const double kinetic = integrator.account().kinetic;
+      double       last    = 0.;
+      Drift        drift;
+      for (unsigned int i = 0; i < 4; ++i)
+      {
+        drift = run(body, integrator, 0.1, 25);
+        EXPECT_GT(integrator.account().dissipated, last);
+        last = integrator.account().dissipated;
+        EXPECT_LT(drift.energy, 1e-9);
+        EXPECT_LT(drift.angular_momentum, 1e-13);
+        EXPECT_LT(drift.linear_momentum, 1e-13);
+      }
+      EXPECT_GT(last, 0.01 * kinetic);
+      // beside that of its translation, of 1 kg/m
+      const auto turning = [&] {
+        const Account &now = integrator.account();
+        return now.kinetic - 0.5 * now.linear_momentum.norm_square();
+      };
+      const double before = turning();
+      run(body, integrator, 0.1, 10);
+      // what still vibrates has decayed by exp(-beta omega^2 t / 2) with the lowest
+      // omega^2, about 40: by e^-10
+      EXPECT_NEAR(turning(), before, 1e-4 * before);
+    }
+  }
+
+
+  // Small vibrations: the same as Rayleigh's matrix, to the amplitude, 1e-6.
+  TEST(Conserving, DampingOfSmallVibrationsIsRayleighs)
+  {
+    const auto at_end = [](const bool is_finite) {
+      Body body =
+        free_square(MaterialLaw::linear, PlaneState::plane_strain, 20.);
+      if (!is_finite)
+        body.make_small();
+      TimeIntegrator integrator(*body.mechanics,
+                                TimeScheme::energy_momentum(),
+                                {/* mass = */ 0., /* stiffness = */ 0.02});
+      integrator.initialize(body.zero(), body.velocity([](const Point<2> &x) {
+        return 1e-6 * Tensor<1, 2>({x[0] + x[1] * x[1], -0.3 * x[0]});
+      }));
+      for (unsigned int i = 0; i < 20; ++i)
+        step(integrator, 0.05);
+      EXPECT_GT(integrator.account().dissipated,
+                0.1 * integrator.account().kinetic);
+      return std::make_pair(integrator.state().u,
+                            integrator.account().dissipated);
+    };
+    const auto [u, lost]       = at_end(true);
+    const auto [other, energy] = at_end(false);
+    Vector difference(u);
+    difference -= other;
+    EXPECT_LT(difference.l2_norm(), 1e-5 * u.l2_norm());
+    EXPECT_NEAR(lost, energy, 1e-5 * energy);
   }
 
 

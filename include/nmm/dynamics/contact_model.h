@@ -75,6 +75,9 @@ namespace NMM
     stiffness_at_rest() override;
 
     bool
+    set_stiffness_damping(double coefficient) override;
+
+    bool
     is_linear() const override;
 
     bool

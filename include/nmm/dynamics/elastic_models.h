@@ -97,7 +97,9 @@ namespace NMM
   };
 
 
-  /// Total Lagrangian kinematics: FiniteElasticity in time.
+  /// Total Lagrangian kinematics: FiniteElasticity in time. In conserving steps damping
+  /// in proportion to the stiffness acts on rates of the Green-Lagrange strain of
+  /// the material, not on turning, supports and ties.
   class FiniteModel : public ElasticModel
   {
   public:
@@ -108,6 +110,9 @@ namespace NMM
 
     const Matrix &
     stiffness_at_rest() override;
+
+    bool
+    set_stiffness_damping(double coefficient) override;
 
     bool
     is_linear() const override;
@@ -137,6 +142,9 @@ namespace NMM
     Energies
     energies() const override;
 
+    double
+    accept_step(const Vector &end, double t) override;
+
     void
     external_forces(const Vector &u, double t, Vector &forces) override;
 
@@ -161,6 +169,8 @@ namespace NMM
     unsigned int known_at  = 0;
     bool         has_known = false;
     bool         has_follower;
+    /// Coefficient of the stiffness [s]; dissipated by the last assemble_between().
+    double damping = 0., dissipated_between = 0.;
   };
 
 

@@ -67,6 +67,18 @@ namespace NMM
     virtual const Matrix &
     stiffness_at_rest() = 0;
 
+    /**
+     * From now on the forces of assemble_between() shall be those of damping in
+     * proportion to the stiffness, too, with the @p coefficient [s]; accept_step()
+     * says what they dissipated. False if the model leaves that to its caller, who
+     * has stiffness_at_rest() for it, which must not turn.
+     */
+    virtual bool
+    set_stiffness_damping(double /*coefficient*/)
+    {
+      return false;
+    }
+
     /// Is r linear in u, with one tangent between events?
     virtual bool
     is_linear() const = 0;

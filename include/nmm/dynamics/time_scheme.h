@@ -60,7 +60,9 @@ namespace NMM
   };
 
 
-  /// C = mass M + stiffness K(u = 0), see MechanicalModel::stiffness_at_rest().
+  /// C = mass M + stiffness K(u = 0), see MechanicalModel::stiffness_at_rest(). K(u = 0)
+  /// does not turn with a body; in conserving steps of `finite` kinematics the
+  /// damping does, see MechanicalModel::set_stiffness_damping().
   struct RayleighDamping
   {
     /// [1/s]

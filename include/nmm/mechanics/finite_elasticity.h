@@ -107,16 +107,21 @@ namespace NMM
      * the beginning and at the end, where these are given, else by the amplitudes
      * that were set. tangent() is the
      * derivative by the mean displacement at given @p begin, i.e. twice that by
-     * @p end, and not symmetric. Of energies() only `loads` and
-     * `work_of_conditions` are set.
+     * @p end, and not symmetric. Of energies() only `loads`,
+     * `work_of_conditions` and `dissipated` are set.
+     *
+     * @p damping: a coefficient of the stiffness [s] over the step; adds to the second
+     * Piola-Kirchhoff stress the moduli at rest times the change of the
+     * Green-Lagrange strain times it.
      */
     Deformation
     assemble_between(const Vector         &begin,
                      const Vector         &end,
                      double                load_factor,
                      Tangent               tangent,
-                     const LoadAmplitudes *first = nullptr,
-                     const LoadAmplitudes *last  = nullptr);
+                     const LoadAmplitudes *first   = nullptr,
+                     const LoadAmplitudes *last    = nullptr,
+                     double                damping = 0.);
 
     /**
      * Let the penalties gamma grow with the moduli A(u) at the boundary once these
@@ -154,6 +159,8 @@ namespace NMM
       double loads = 0.;
       /// Done in assemble_between() by the change of what is prescribed [J/m].
       double work_of_conditions = 0.;
+      /// In assemble_between() by damping [J/m].
+      double dissipated = 0.;
     };
 
     const Energies &

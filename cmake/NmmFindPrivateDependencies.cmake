@@ -13,6 +13,14 @@ if(NOT dxflib_FOUND)
   message(STATUS "dxflib (libdxflib-dev) is not there: DXF drawings cannot be read")
 endif()
 
+# SuiteSparse of Debian 12 has no package file.
+find_path(NMM_KLU_INCLUDE_DIR klu.h PATH_SUFFIXES suitesparse REQUIRED)
+find_library(NMM_KLU_LIBRARY klu REQUIRED)
+mark_as_advanced(NMM_KLU_INCLUDE_DIR NMM_KLU_LIBRARY)
+add_library(nmm_klu INTERFACE)
+target_include_directories(nmm_klu SYSTEM INTERFACE "${NMM_KLU_INCLUDE_DIR}")
+target_link_libraries(nmm_klu INTERFACE "${NMM_KLU_LIBRARY}")
+
 add_library(nmm_cgal INTERFACE)
 foreach(_property LINK_LIBRARIES COMPILE_DEFINITIONS)
   get_target_property(_value CGAL::CGAL INTERFACE_${_property})

@@ -36,6 +36,11 @@ namespace StepNMM4
                         "true",
                         Patterns::Bool(),
                         "Compute what falls with half of the step, too.");
+      prm.declare_entry("Perturbation",
+                        "1e-7",
+                        Patterns::Double(0.),
+                        "Of the friction angle, in one more run of what falls; "
+                        "0: none [degrees].");
       prm.declare_entry("End time", "12", positive, "Or at rest [s].");
       prm.declare_entry("Stages",
                         "1, 2",
@@ -57,6 +62,10 @@ namespace StepNMM4
                         "2e7",
                         Patterns::Double(0.),
                         "The same [Pa s/m].");
+      prm.declare_entry("Rock damping",
+                        "1e-3",
+                        Patterns::Double(0.),
+                        "Of blocks, times their stiffness [s].");
     }
 
 
@@ -110,8 +119,23 @@ namespace StepNMM4
     parameters.layer            = prm.get_double("Layer");
     parameters.spring           = prm.get_double("Spring");
     parameters.dashpot          = prm.get_double("Dashpot");
+    parameters.damping          = prm.get_double("Rock damping");
+    parameters.perturbation     = prm.get_double("Perturbation");
     parameters.output_directory = output_directory;
     std::sort(parameters.stages.begin(), parameters.stages.end());
+    try
+    {
+      std::filesystem::create_directories(output_directory);
+    }
+    catch (const std::filesystem::filesystem_error &error)
+    {
+      AssertThrow(false,
+                  NMM::InputError(std::string("the folder for results cannot "
+                                              "be made (") +
+                                    error.code().message() + ")",
+                                  output_directory,
+                                  "name one that can be written to"));
+    }
     return parameters;
   }
 
@@ -177,6 +201,50 @@ namespace StepNMM4
   }
 
 
+  namespace
+  {
+    /// Of the centres of mass at times that the rows on the screen have.
+    void
+    print_difference(const Outcome &first, const Outcome &other)
+    {
+      std::cout << "\ncentre of mass of the run '" << other.name
+                << "' against '" << first.name
+                << "'\n time   difference    of its way\n";
+      const Point<2> start = first.rows.front().center_of_mass;
+      double         next  = 0.5;
+      auto           row   = other.rows.begin();
+      for (const Row &at : first.rows)
+      {
+        if (at.time < next && &at != &first.rows.back())
+          continue;
+        next = std::floor(2. * at.time) / 2. + 0.5;
+        // between the rows of the other run, or where that rests
+        while (row + 1 != other.rows.end() && (row + 1)->time < at.time)
+          ++row;
+        Point<2> position = row->center_of_mass;
+        if (row + 1 != other.rows.end())
+          position += (at.time - row->time) / ((row + 1)->time - row->time) *
+                      ((row + 1)->center_of_mass - row->center_of_mass);
+        const double difference = position.distance(at.center_of_mass);
+        std::cout << std::fixed << std::setprecision(2) << std::setw(5)
+                  << at.time << std::setprecision(4) << std::setw(11)
+                  << difference << " m" << std::setprecision(3) << std::setw(10)
+                  << 100. * difference / at.center_of_mass.distance(start)
+                  << " %\n"
+                  << std::defaultfloat;
+      }
+      const double at_end = other.rows.back().center_of_mass.distance(
+        first.rows.back().center_of_mass);
+      std::cout << " ends" << std::fixed << std::setprecision(4)
+                << std::setw(11) << at_end << " m" << std::setprecision(3)
+                << std::setw(10)
+                << 100. * at_end /
+                     first.rows.back().center_of_mass.distance(start)
+                << " %" << std::defaultfloat << std::endl;
+    }
+  } // namespace
+
+
   void
   print_summary(const std::vector<Outcome> &outcomes)
   {
@@ -196,20 +264,10 @@ namespace StepNMM4
                 << outcome.penetration_at_rest << std::fixed << std::setw(8)
                 << outcome.start_time + outcome.motion_time << std::defaultfloat
                 << '\n';
-    for (unsigned int i = 1; i < outcomes.size(); ++i)
-    {
-      const Outcome &coarse = outcomes[i - 1], &fine = outcomes[i];
-      if (fine.name != coarse.name + "-half-step")
-        continue;
-      const Tensor<1, 2> way =
-        fine.rows.back().center_of_mass - fine.rows.front().center_of_mass;
-      const double difference = fine.rows.back().center_of_mass.distance(
-        coarse.rows.back().center_of_mass);
-      std::cout << "Half of the step moves the centre of mass at the end by "
-                << std::setprecision(3) << difference << " m, "
-                << 100. * difference / way.norm() << " % of its way of "
-                << way.norm() << " m" << std::endl;
-    }
+    for (const Outcome &other : outcomes)
+      for (const Outcome &first : outcomes)
+        if (&other != &first && other.name.rfind(first.name + '-', 0) == 0)
+          print_difference(first, other);
   }
 
 

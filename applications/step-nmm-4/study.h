@@ -26,6 +26,9 @@ namespace StepNMM4
     double spring = 1e6 * 9806.65;
     /// Dashpots, normal and along faces [Pa s/m].
     double dashpot = 2e7;
+    /// Of the rock, times its stiffness [s]: a block's own vibrations, which steps do
+    /// not resolve, end within a few milliseconds.
+    double damping = 1e-3;
 
     /// Of layers [degrees], [m]; length of blocks along them [m].
     double dip = 30., layer = 2., block_length = 2.3;
@@ -35,6 +38,9 @@ namespace StepNMM4
     /// Longest step [s], and whether what falls is computed with half of it, too.
     double step      = 0.01;
     bool   is_halved = true;
+    /// What falls is computed once more with a friction angle that differs by this
+    /// [degrees]; 0: it is not. Tells what of the end can be predicted at all.
+    double perturbation = 1e-7;
     /// Runs end here, or at rest [s].
     double end_time = 12.;
     /// Rest: kinetic energy over what all would gain by falling as far as a block is

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <dmumps_c.h>
+#include <mechanics/klu_solver.h>
 #include <mechanics/mumps_solver.h>
 #include <numeric>
 #include <string>
@@ -182,7 +183,10 @@ namespace NMM
       unsigned int n_ranks;
       bool         is_analyzed = false;
       /// Does the first rank do all?
-      bool is_serial = false;
+      bool      is_serial = false;
+      KluSolver klu;
+      /// The last factorization is KLU's.
+      bool is_klus = false;
 
       void
       run(const int job, const std::string &stage)
@@ -286,6 +290,14 @@ namespace NMM
     DirectSolver::factorize(
       const dealii::TrilinosWrappers::SparseMatrix &matrix)
     {
+      data->is_klus = dealii::Utilities::MPI::n_mpi_processes(
+                        matrix.get_mpi_communicator()) == 1 &&
+                      data->klu.is_suitable(matrix);
+      if (data->is_klus)
+      {
+        data->klu.factorize(matrix);
+        return;
+      }
       if (!data->is_analyzed)
         analyze(matrix);
       AssertDimension(matrix.m(), data->n);
@@ -303,6 +315,11 @@ namespace NMM
     DirectSolver::solve(const dealii::TrilinosWrappers::MPI::Vector &rhs,
                         dealii::TrilinosWrappers::MPI::Vector       &solution)
     {
+      if (data->is_klus)
+      {
+        data->klu.solve(rhs, solution);
+        return;
+      }
       // right-hand side and solution are on the host
       const int n_local = rhs.locally_owned_size();
       if (data->n_ranks == 1)

@@ -28,6 +28,8 @@ namespace NMM
      * n_distributed unknowns are therefore factorized by the first rank alone, which
      * gives the same bits always and takes no longer.
      *
+     * What falls apart into small systems goes to KluSolver instead, on one rank.
+     *
      * Rows are consecutive per rank.
      */
     class DirectSolver
@@ -44,7 +46,7 @@ namespace NMM
       explicit DirectSolver(Symmetry symmetry = Symmetry::symmetric);
       ~DirectSolver();
 
-      /// Order the unknowns for the pattern of @p matrix. @throws
+      /// Order the unknowns for the pattern of @p matrix, for MUMPS. @throws
       /// NumericalFailure for lack of memory.
       void
       analyze(const dealii::TrilinosWrappers::SparseMatrix &matrix);

@@ -1,0 +1,57 @@
+#ifndef nmm_source_mechanics_klu_solver_h
+#define nmm_source_mechanics_klu_solver_h
+
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <memory>
+
+namespace NMM
+{
+  namespace internal
+  {
+    /**
+     * Solves A x = b for many small systems in one: blocks that hang
+     * together where they touch and else not at all. SuiteSparse's KLU permutes A to
+     * block triangular form and factorizes its diagonal blocks one by one (Davis &
+     * Palamadai Natarajan, ACM Trans. Math. Softw. 37 (2010) 36).
+     *
+     * Entries that are exactly zero are left out: places that are kept for contact
+     * that may come would make one system of all. Ordering is therefore done anew each
+     * time, for a tenth of what MUMPS takes per matrix: 2,000 blocks of 12 unknowns
+     * of which every tenth touches another take 5 instead of 38 us per block and matrix.
+     *
+     * One rank.
+     */
+    class KluSolver
+    {
+    public:
+      /// Of a system that hangs together: larger ones are better off
+      /// with dense kernels, which KLU lacks.
+      static constexpr unsigned int max_group = 360;
+
+      KluSolver();
+      ~KluSolver();
+
+      /// Does no group of unknowns that are coupled by values other than zero have more
+      /// than max_group? Looks no further than to the first that has.
+      bool
+      is_suitable(const dealii::TrilinosWrappers::SparseMatrix &matrix);
+
+      /// @throws NumericalFailure for a singular matrix or lack of memory.
+      void
+      factorize(const dealii::TrilinosWrappers::SparseMatrix &matrix);
+
+      /// @p solution may be the same vector as @p rhs.
+      void
+      solve(const dealii::TrilinosWrappers::MPI::Vector &rhs,
+            dealii::TrilinosWrappers::MPI::Vector       &solution);
+
+    private:
+      struct Data;
+      std::unique_ptr<Data> data;
+    };
+  } // namespace internal
+} // namespace NMM
+
+#endif

@@ -3,6 +3,7 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/dynamics/checkpoint.h>
 
+#include "static_start.h"
 #include <algorithm>
 #include <cmath>
 
@@ -60,17 +61,14 @@ DynamicAnalysis::make_integrator()
   if (contact)
     contact_model = std::make_unique<AccountedContactModel>(*model, *contact);
 
-  NewtonParameters newton   = TimeIntegrator::default_newton_parameters();
-  newton.residual_tolerance = parameters.newton.newton.residual_tolerance;
-  newton.max_iterations     = parameters.newton.newton.max_iterations;
-  MechanicalModel *moved    = contact_model.get();
+  MechanicalModel *moved = contact_model.get();
   if (!contact)
     moved = model.get();
   integrator = std::make_unique<TimeIntegrator>(
     *moved,
     parameters.time.time_scheme(kind, kinematics, contact != nullptr),
     parameters.time.damping,
-    newton);
+    motion_newton_parameters(scene));
 
   if (!restart.empty())
   {
@@ -255,9 +253,14 @@ void
 DynamicAnalysis::run_dynamics()
 {
   const TimeParameters &parameters = scene.parameters().time;
-  const StepControl     control(parameters.step_control());
-  StepRecord            record;
-  const auto            count_lost = [&]() {
+  StepControlParameters steps      = parameters.step_control();
+  // contact takes some eight iterations however short the step: steps that were cut
+  // would never grow again
+  if (contact)
+    steps.few_iterations = 12;
+  const StepControl control(steps);
+  StepRecord        record;
+  const auto        count_lost = [&]() {
     n_cuts += record.n_cuts;
     n_lost_iterations += record.n_lost_iterations;
   };

@@ -64,7 +64,7 @@ SafetyFactorAnalysis::try_factor(const double factor)
                                 parameters.model.kinematics,
                                 /* has_contact = */ true),
     {},
-    relaxation_newton_parameters(scene));
+    motion_newton_parameters(scene));
   if (parameters.safety_factor.start == Start::settled)
   {
     contact->contact().restore_history(settled_contact);

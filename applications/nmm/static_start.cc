@@ -137,7 +137,7 @@ namespace
                                                parameters.model.kinematics,
                                                input.contact != nullptr),
                               {},
-                              relaxation_newton_parameters(scene));
+                              motion_newton_parameters(scene));
     relax(integrator,
           parameters.relaxation.relaxation,
           [&](const StepRecord &record) {
@@ -151,7 +151,7 @@ namespace
 
 
 NewtonParameters
-relaxation_newton_parameters(const Scene &scene)
+motion_newton_parameters(const Scene &scene)
 {
   // Which of many points stick takes its iterations, and with shorter steps they
   // are as many: a step that is cut is lost.
@@ -160,8 +160,9 @@ relaxation_newton_parameters(const Scene &scene)
   NewtonParameters       newton = TimeIntegrator::default_newton_parameters();
   newton.residual_tolerance     = parameters.newton.newton.residual_tolerance;
   newton.max_iterations         = parameters.newton.newton.max_iterations;
-  if (parameters.contact.is_present())
-    newton.max_iterations = std::max(newton.max_iterations, enough);
+  if (parameters.contact.is_present() &&
+      newton.max_iterations == NewtonParameters().max_iterations)
+    newton.max_iterations = enough;
   return newton;
 }
 

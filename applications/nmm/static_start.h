@@ -33,9 +33,10 @@ struct StartReport
 };
 
 
-/// Newton's method for relaxation, with more iterations where there is contact.
+/// Newton's method for time steps and relaxation; more iterations than the default
+/// where there is contact and the scene does not say how many.
 NMM::NewtonParameters
-relaxation_newton_parameters(const NMM::Scene &scene);
+motion_newton_parameters(const NMM::Scene &scene);
 
 
 /**

@@ -128,6 +128,43 @@ namespace
   }
 
 
+  // Blocks slide on each other and fall; all that contact remembers has to be in the
+  // checkpoint.
+  TEST(Restart, SlopeGoesOnInItsSlide)
+  {
+    const Arguments   settings{"--set",
+                             "Contact/Friction angle=20",
+                             "--set",
+                             "Output/Checkpoint every=1000",
+                             "--set",
+                             "Output/Fields every=0",
+                             NMM_SOURCE_DIR
+                             "/applications/nmm/scenes/slope.prm"};
+    const std::string straight = fresh_output_dir("straight-slope");
+    const std::string stopped  = fresh_output_dir("stopped-slope");
+    run(settings + Arguments{"-o", straight, "--set", "Time/End time=0.2"});
+    const std::string history = read_file(straight + "/history.csv");
+    // at the end of a step of that run, whose length contact has chosen: two lines of
+    // names, the begin, and ten steps
+    std::istringstream lines(history);
+    std::string        line;
+    for (unsigned int i = 0; i < 13; ++i)
+      std::getline(lines, line);
+    const std::string half = line.substr(0, line.find(','));
+    run(settings + Arguments{"-o", stopped, "--set", "Time/End time=" + half});
+    run(settings + Arguments{"-o",
+                             stopped,
+                             "--set",
+                             "Time/End time=0.2",
+                             "--restart",
+                             stopped + "/checkpoint.nmm"});
+    EXPECT_GT(std::count(history.begin(), history.end(), '\n'), 20);
+    EXPECT_TRUE(history == read_file(stopped + "/history.csv"));
+    EXPECT_TRUE(read_file(straight + "/checkpoint.nmm") ==
+                read_file(stopped + "/checkpoint.nmm"));
+  }
+
+
   TEST(Restart, GoesOnInAnotherFolder)
   {
     const std::string first  = fresh_output_dir("first");

@@ -53,6 +53,9 @@ private:
   double                                      incremental_time = 0.;
   unsigned int                                incremental_step = 0;
 
+  /// Of the state that is shown [m/s].
+  std::unique_ptr<NMM::DisplacementField> velocity_field;
+
   /// On the first rank.
   std::unique_ptr<NMM::History>   history;
   std::unique_ptr<NMM::TimeTable> incremental_history;

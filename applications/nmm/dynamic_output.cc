@@ -200,7 +200,14 @@ DynamicAnalysis::show()
                                      incremental->stresses());
   else if (scene.parameters().model.kinematics == Kinematics::finite)
     law = CurrentStress::finite(*elasticity);
-  evaluator = std::make_unique<FieldEvaluator>(*field, *recovery, problem, law);
+  Vector relevant(covers->locally_owned_dofs(2),
+                  covers->locally_relevant_dofs(2),
+                  communicator);
+  relevant = velocity();
+  velocity_field =
+    std::make_unique<DisplacementField>(*covers, problem, relevant);
+  evaluator = std::make_unique<FieldEvaluator>(
+    *field, *recovery, problem, law, velocity_field.get());
 }
 
 

@@ -225,13 +225,20 @@ namespace NMM
     displacement,
     displacement_x,
     displacement_y,
+    velocity,
+    velocity_x,
+    velocity_y,
     block,
     material
   };
 
-  /// Its name in scene files and pictures, e.g. "von Mises stress".
+  /// Its name, e.g. "von Mises stress".
   const std::string &
   to_string(Quantity quantity);
+
+  /// Is it a component of the velocity, or its length?
+  bool
+  is_velocity(Quantity quantity);
 
   struct OutputParameters
   {
@@ -243,10 +250,12 @@ namespace NMM
     /// A checkpoint after every so many steps; 0: none.
     unsigned int checkpoint_every = 0;
     /// With a series of pictures: animation.html as well.
-    bool        animation = true;
-    bool        picture   = true;
-    std::string title;
-    Quantity    quantity = Quantity::von_mises;
+    bool animation = true;
+    /// What its page can be coloured by beside `quantity`, by choice.
+    std::vector<Quantity> animation_quantities;
+    bool                  picture = true;
+    std::string           title;
+    Quantity              quantity = Quantity::von_mises;
     /// Colour by the recovered instead of the direct stress.
     bool recovered = true;
     /// Centre of the polar coordinates of radial and hoop stress [m].
@@ -383,6 +392,8 @@ namespace NMM
     check_analysis() const;
     void
     check_safety_factor() const;
+    void
+    check_output_quantities() const;
     void
     check_loads_in_time() const;
     void

@@ -71,6 +71,7 @@ DynamicAnalysis::make_integrator()
     parameters.time.time_scheme(kind, kinematics, contact != nullptr),
     parameters.time.damping,
     newton);
+  make_leaving();
 
   if (!restart.empty())
   {

@@ -82,6 +82,24 @@ namespace NMM
   }
 
 
+  void
+  FieldEvaluator::hide_blocks(const std::vector<unsigned int> &blocks)
+  {
+    is_hidden.assign(
+      field->cover_system().manifold_mesh().physical_mesh().n_blocks(), false);
+    for (const unsigned int block : blocks)
+      is_hidden[block] = true;
+  }
+
+
+  bool
+  FieldEvaluator::shows(const unsigned int element) const
+  {
+    return is_hidden.empty() ||
+           !is_hidden[field->cover_system().manifold_mesh().block(element)];
+  }
+
+
   dealii::Tensor<1, 2>
   FieldEvaluator::displacement(const unsigned int      element,
                                const dealii::Point<2> &x) const
@@ -111,6 +129,9 @@ namespace NMM
     const ManifoldMesh &mesh = covers.manifold_mesh();
     const auto [first, last] = covers.locally_owned_elements();
     for (unsigned int element = first; element < last; ++element)
+    {
+      if (evaluator != nullptr && !evaluator->shows(element))
+        continue;
       for (const QuadraticTriangle &triangle : triangulate(mesh, element))
       {
         nodes.push_back(triangle);
@@ -120,6 +141,7 @@ namespace NMM
           for (unsigned int i = 0; i < triangle.size(); ++i)
             samples.back()[i] = (*evaluator)(element, triangle[i]);
       }
+    }
   }
 
 

@@ -256,7 +256,8 @@ namespace NMM
     };
     const auto [first, last] = covers.locally_owned_elements();
     for (unsigned int element = first; element < last; ++element)
-      add_lines(mesh, element, parameters.mesh_lines, displacement, data);
+      if (evaluator == nullptr || evaluator->shows(element))
+        add_lines(mesh, element, parameters.mesh_lines, displacement, data);
 
     if (dealii::Utilities::MPI::n_mpi_processes(covers.communicator()) > 1)
     {

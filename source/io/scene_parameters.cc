@@ -5,7 +5,7 @@
 #include <io/parsing.h>
 #include <set>
 
-// Mathematical mesh, covers and solver: how the problem is discretized
+// Mathematical mesh and solver: how the problem is discretized
 // and solved. Its physics is in scene_parameters_mechanics.cc, what is written in
 // scene_parameters_output.cc.
 namespace NMM
@@ -449,6 +449,17 @@ namespace NMM
   {
     for (const RegionParameters &region : regions)
     {
+      AssertThrow(
+        region.use != RegionParameters::Use::limit ||
+          (model.analysis == Analysis::dynamics &&
+           model.kinematics != Kinematics::incremental),
+        InputError("the limit '" + region.name + "' would not be used by " +
+                     (model.analysis == Analysis::dynamics
+                        ? to_string(model.kinematics) + " kinematics"
+                        : "a " + to_string(model.analysis) + " analysis"),
+                   "parameter 'Regions/" + region.name + "/Use'",
+                   "remove it, or set 'Model/Analysis = dynamic' with "
+                   "small or finite kinematics"));
       if (region.use != RegionParameters::Use::restraint)
         continue;
       AssertThrow(contact.is_present(),

@@ -84,6 +84,22 @@ namespace
                           "Regions/pit/Material=rock"},
                          "Regions/pit/Use=excavation",
                          {"'rock'", "Regions/pit/Material", "taken out"});
+    rejects("Use=limit", {"'pit'", "Regions/pit/Use", "static analysis"});
+    const std::vector<std::string> limit = {"Regions/Names=edge",
+                                            "Regions/edge/Use=limit"};
+    expect_rejected_with(dynamic + limit +
+                           std::vector<std::string>{
+                             "Model/Kinematics=incremental"},
+                         "Regions/edge/Shape=CIRCLE (0.5 0.5, 1)",
+                         {"'edge'", "Regions/edge/Use", "incremental"});
+    expect_rejected_with(dynamic + limit,
+                         "Regions/edge/Shape=CIRCLE (5 0.5, 1)",
+                         {"Regions/edge/Shape", "outside", "(0, 0)"});
+    expect_rejected_with(dynamic + limit +
+                           std::vector<std::string>{
+                             "Regions/edge/Shape=CIRCLE (0.5 0.5, 1)"},
+                         "Regions/edge/Material=rock",
+                         {"Regions/edge/Material", "limit"});
     expect_rejected_with({"Regions/Names=square"},
                          "Regions/square/Shape=CIRCLE (0.5 1, 0.25)",
                          {"'square'", "Regions/Names", "another name"});

@@ -67,6 +67,13 @@ namespace NMM
     bool
     has_velocity() const;
 
+    /// Blocks that have left are in no output.
+    void
+    hide_blocks(const std::vector<unsigned int> &blocks);
+
+    bool
+    shows(unsigned int element) const;
+
     /// Displacement alone [m].
     dealii::Tensor<1, 2>
     displacement(unsigned int element, const dealii::Point<2> &x) const;
@@ -78,6 +85,8 @@ namespace NMM
     std::vector<unsigned int> region_to_material;
     StressLaw                 law;
     const DisplacementField  *velocity;
+    /// By block; empty: none is.
+    std::vector<bool> is_hidden;
 
     double
     stress_zz(unsigned int element, const dealii::Tensor<2, 2> &gradient) const;

@@ -66,6 +66,10 @@ namespace NMM
     Geometry
     make_geometry() const;
 
+    /// Of the scene: blocks that leave them are dropped; empty: none are.
+    std::vector<Curve>
+    make_limits() const;
+
     /// @throws InputError for a curve that does not exist, an unreadable file.
     MathematicalMesh
     make_mathematical_mesh(const PhysicalMesh &physical_mesh) const;

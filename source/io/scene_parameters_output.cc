@@ -417,7 +417,9 @@ namespace NMM
     prm.enter_subsection("Mathematical mesh");
     MathematicalMeshParameters::declare(prm, names.local_sizes);
     prm.leave_subsection();
-    declare_section(prm, "Covers", &CoverParameters::declare);
+    prm.enter_subsection("Covers");
+    CoverParameters::declare(prm, names.block_meshes);
+    prm.leave_subsection();
     declare_list(prm,
                  "Materials",
                  names.materials,

@@ -116,6 +116,43 @@ namespace
   }
 
 
+  TEST(BadInput, ChoicesOfMathematicalMeshes)
+  {
+    expect_rejected_override("Mathematical mesh/Cell size=0", {"Cell size"});
+    expect_rejected_override("Covers/Own meshes=automatic",
+                             {"Covers/Elements across", "at least 1"});
+    expect_rejected_override("Covers/Elements across=2",
+                             {"2 elements", "Covers/Elements across"});
+    const std::vector<std::string> named = {"Covers/Names=key"};
+    expect_rejected_with(named,
+                         "Covers/key/Own mesh=always",
+                         {"'key'", "Covers/key/Block"});
+    expect_rejected_with(named,
+                         "Covers/key/Block=here",
+                         {"'here'", "Covers/key/Block", "two numbers"});
+    expect_rejected_with(named,
+                         "Covers/key/Block=0.5, 0.5",
+                         {"Covers/key/Elements across", "at least 1"});
+    const std::vector<std::string> here = {"Covers/key/Block=0.5, 0.5"};
+    expect_rejected_with(
+      named + here + std::vector<std::string>{"Covers/key/Own mesh=never"},
+      "Covers/key/Elements across=3",
+      {"3 elements", "Covers/key/Elements across"});
+    expect_rejected_with(
+      named + std::vector<std::string>{"Covers/key/Elements across=3"},
+      "Covers/key/Block=1.5, 0.5",
+      {"(1.5, 0.5)", "no block", "Covers/key/Block"});
+    // a block on the common mesh needs its size
+    expect_rejected_with(named + here +
+                           std::vector<std::string>{"Covers/key/Own mesh=never",
+                                                    "Covers/Own "
+                                                    "meshes=automatic",
+                                                    "Covers/Elements across=2"},
+                         "Mathematical mesh/Cell size=0",
+                         {"Cell size"});
+  }
+
+
   TEST(BadInput, StartsFromEquilibrium)
   {
     expect_rejected_override("Time/Start=equilibrium",

@@ -74,6 +74,11 @@ namespace NMM
     MathematicalMesh
     make_mathematical_mesh(const PhysicalMesh &physical_mesh) const;
 
+    /// Which mathematical mesh each region is on. @throws InputError for a block
+    /// that does not exist.
+    std::vector<RegionMesh>
+    make_region_meshes(const PhysicalMesh &physical_mesh) const;
+
     /// @throws InputError for an expression that cannot be parsed.
     ElasticityProblem
     make_problem() const;

@@ -5,6 +5,7 @@
 #include <nmm/covers/graded_mesh.h>
 #include <nmm/covers/mathematical_mesh.h>
 #include <nmm/io/scene_parameters_contact.h>
+#include <nmm/io/scene_parameters_covers.h>
 #include <nmm/io/scene_parameters_dynamics.h>
 #include <nmm/io/scene_parameters_geometry.h>
 #include <nmm/mechanics/elasticity_problem.h>
@@ -51,30 +52,9 @@ namespace NMM
             const std::vector<std::string> &local_size_names);
     void
     parse(dealii::ParameterHandler &prm);
+    /// @p may_choose_size: a regular mesh need have no cell size.
     void
-    check() const;
-  };
-
-
-  struct CoverParameters
-  {
-    Stabilization stabilization = Stabilization::aggregation;
-    /// Least element_support() that makes an element good [-].
-    double threshold = default_aggregation_threshold;
-    /// Which regions get mathematical meshes of their own, see
-    /// make_own_meshes().
-    enum class OwnMeshes
-    {
-      where_needed,
-      every_region,
-      never
-    };
-    OwnMeshes own_meshes = OwnMeshes::where_needed;
-
-    static void
-    declare(dealii::ParameterHandler &prm);
-    void
-    parse(dealii::ParameterHandler &prm);
+    check(bool may_choose_size) const;
   };
 
 
@@ -326,8 +306,8 @@ namespace NMM
   struct SceneNames
   {
     std::vector<std::string> traces, joint_sets, regions, local_sizes,
-      materials, boundary_conditions, point_forces, fixed_points, contact_laws,
-      obstacles, initial_velocities, probes;
+      block_meshes, materials, boundary_conditions, point_forces, fixed_points,
+      contact_laws, obstacles, initial_velocities, probes;
 
     /// One name each, for the parameter reference.
     static SceneNames

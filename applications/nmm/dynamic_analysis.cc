@@ -69,6 +69,7 @@ DynamicAnalysis::make_integrator()
     parameters.time.time_scheme(kind, kinematics, contact != nullptr),
     parameters.time.damping,
     motion_newton_parameters(scene));
+  make_leaving();
 
   if (!restart.empty())
   {

@@ -4,6 +4,7 @@
 #include <nmm/dynamics/elastic_models.h>
 #include <nmm/dynamics/history.h>
 #include <nmm/dynamics/incremental_dynamics.h>
+#include <nmm/dynamics/leaving_blocks.h>
 #include <nmm/dynamics/step_control.h>
 #include <nmm/io/time_table.h>
 
@@ -47,16 +48,22 @@ private:
   std::unique_ptr<NMM::ElasticModel>     model;
   std::unique_ptr<AccountedContactModel> contact_model;
   std::unique_ptr<NMM::TimeIntegrator>   integrator;
+  /// Null if no block may leave.
+  std::unique_ptr<NMM::LeavingBlocks> leaving;
   /// Incremental kinematics.
   std::unique_ptr<NMM::IncrementalElasticity> incremental;
   std::unique_ptr<NMM::IncrementalDynamics>   incremental_dynamics;
   double                                      incremental_time = 0.;
   unsigned int                                incremental_step = 0;
 
+  /// Of the state that is shown [m/s].
+  std::unique_ptr<NMM::DisplacementField> velocity_field;
+
   /// On the first rank.
   std::unique_ptr<NMM::History>   history;
   std::unique_ptr<NMM::TimeTable> incremental_history;
   std::unique_ptr<ProbeHistory>   probe_history;
+  std::unique_ptr<NMM::TimeTable> departures;
 
   /// To go back to if a step fails half-way.
   NMM::DynamicState     last_good;
@@ -78,6 +85,23 @@ private:
 
   void
   make_incremental();
+
+  /// @throws NMM::InputError for a block that is out of the scene at the begin.
+  void
+  make_leaving();
+
+  /// Drop blocks that have left the scene, and write who they are.
+  void
+  drop_blocks();
+
+  void
+  open_departures(int continue_after);
+
+  /// Names and values of what histories have of blocks that have left.
+  std::vector<std::string>
+  further_columns() const;
+  std::vector<double>
+  further_values() const;
 
   /// From the scene's list. @throws NMM::InputError for a block that does not
   /// exist.

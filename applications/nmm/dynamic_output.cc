@@ -46,8 +46,8 @@ DynamicAnalysis::open_files()
       history = std::make_unique<History>(name,
                                           MPI_COMM_SELF,
                                           continue_after,
-                                          contact ? contact->columns()
-                                                  : std::vector<std::string>());
+                                          further_columns());
+    open_departures(continue_after);
     if (is_continued)
       directory->resume();
   });
@@ -82,6 +82,8 @@ DynamicAnalysis::after_step(const StepRecord &record)
 {
   ++n_steps;
   n_iterations += record.report.n_iterations;
+  if (leaving)
+    drop_blocks();
   if (integrator)
   {
     last_good              = integrator->state();
@@ -107,9 +109,7 @@ DynamicAnalysis::after_step(const StepRecord &record)
 void
 DynamicAnalysis::write_rows(const StepRecord &record)
 {
-  std::vector<double> row;
-  if (contact)
-    row = contact->numbers(/* thickness = */ 1.);
+  std::vector<double> row = further_values();
   if (incremental)
   {
     const DisplacementField current(*covers, problem, displacement());
@@ -180,6 +180,9 @@ DynamicAnalysis::show_progress()
     }
     if (contact)
       line << "; " << contact->progress();
+    if (leaving && !integrator->state().left_blocks.empty())
+      line << "; " << integrator->state().left_blocks.size()
+           << " block(s) have left";
     return line.str();
   });
 }
@@ -200,7 +203,16 @@ DynamicAnalysis::show()
                                      incremental->stresses());
   else if (scene.parameters().model.kinematics == Kinematics::finite)
     law = CurrentStress::finite(*elasticity);
-  evaluator = std::make_unique<FieldEvaluator>(*field, *recovery, problem, law);
+  Vector relevant(covers->locally_owned_dofs(2),
+                  covers->locally_relevant_dofs(2),
+                  communicator);
+  relevant = velocity();
+  velocity_field =
+    std::make_unique<DisplacementField>(*covers, problem, relevant);
+  evaluator = std::make_unique<FieldEvaluator>(
+    *field, *recovery, problem, law, velocity_field.get());
+  if (leaving)
+    evaluator->hide_blocks(integrator->state().left_blocks);
 }
 
 
@@ -230,6 +242,8 @@ DynamicAnalysis::verify()
                 length + "^2");
   if (contact)
     contact->add_to_summary(summary);
+  if (leaving)
+    summary.add("blocks_left", integrator->state().left_blocks.size());
   if (!incremental)
     summary.add("direct_stress_covers",
                 dealii::Utilities::MPI::sum(recovery->n_direct(),
@@ -268,6 +282,8 @@ DynamicAnalysis::add_energies()
   summary.add("conditions_energy", t * account.conditions, energy);
   summary.add("dissipated_energy", t * account.dissipated, energy);
   summary.add("external_work", t * account.external_work, energy);
+  if (leaving)
+    summary.add("left_energy", t * account.left, energy);
   summary.add("energy_balance", t * account.balance, energy);
   summary.add("energy_balance_relative",
               largest_energy > 0. ? largest_balance / largest_energy : 0.);

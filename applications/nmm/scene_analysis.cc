@@ -66,12 +66,9 @@ SceneAnalysis::build()
 void
 SceneAnalysis::cut()
 {
-  using Choice                  = CoverParameters::OwnMeshes;
-  const CoverParameters &covers = scene.parameters().covers;
-  OwnMeshParameters      parameters;
-  parameters.threshold =
-    covers.own_meshes == Choice::never ? 0. : covers.threshold;
-  parameters.every_region = covers.own_meshes == Choice::every_region;
+  OwnMeshParameters parameters;
+  parameters.threshold = scene.parameters().covers.threshold;
+  parameters.regions   = scene.make_region_meshes(*physical_mesh);
   OwnMeshes meshes =
     make_own_meshes(std::move(mathematical_mesh), *physical_mesh, parameters);
   mathematical_mesh = std::move(meshes.mathematical_mesh);

@@ -1,6 +1,7 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/covers/element_support.h>
 #include <nmm/covers/own_meshes.h>
+#include <nmm/covers/point_location.h>
 
 #include "cutting.h"
 #include "fitted_mesh.h"
@@ -24,6 +25,10 @@ namespace NMM
       /// Longest edge of that element's cell [m].
       double cell_size = 0.;
     };
+
+
+    /// Of a number of cells that a size was made from.
+    constexpr double rounding = 1e-9;
 
 
     void
@@ -87,9 +92,18 @@ namespace NMM
       {
       }
 
+      /// Longer side of the rectangle around a region [m].
+      double
+      longer_side(unsigned int region) const
+      {
+        return internal::RegionShape(edges, region).sides[0];
+      }
+
       /// A mesh for @p region, whose elements fill the main mesh like this.
       FittedMesh
-      fit(unsigned int region, const Filling &on_main_mesh);
+      fit(unsigned int      region,
+          const Filling    &on_main_mesh,
+          const RegionMesh &choice);
 
     private:
       /// How the region fills cells of @p mesh, by cutting it alone.
@@ -173,12 +187,17 @@ namespace NMM
 
 
     FittedMesh
-    Fitter::fit(const unsigned int region, const Filling &on_main_mesh)
+    Fitter::fit(const unsigned int region,
+                const Filling     &on_main_mesh,
+                const RegionMesh  &choice)
     {
       const internal::RegionShape shape(edges, region);
-      const double                h = on_main_mesh.cell_size;
-      FittedMesh                  best;
-      const auto try_mesh = [&](MeshPart &&mesh, const Outcome outcome) {
+      const bool   if_better = choice.kind == RegionMesh::Kind::where_needed;
+      const double h         = choice.n_across > 0
+                                 ? (1. + rounding) * shape.sides[0] / choice.n_across
+                                 : on_main_mesh.cell_size;
+      FittedMesh   best;
+      const auto   try_mesh = [&](MeshPart &&mesh, const Outcome outcome) {
         const Filling filling = measure(region, shape, mesh);
         if (filling.best > best.filling.best)
           best = {std::move(mesh), outcome, filling};
@@ -196,7 +215,7 @@ namespace NMM
                      1.,
                      static_cast<double>(parameters.n_cells_at_most)));
       unsigned int first_level = 0;
-      if (n[1] > 1 && !parameters.every_region)
+      if (n[1] > 1 && if_better)
       {
         // cells of the main mesh's size have been tried
         first_level = 1;
@@ -217,8 +236,7 @@ namespace NMM
           count *= 2;
       }
 
-      if (!parameters.every_region &&
-          best.filling.best <= 2. * on_main_mesh.best)
+      if (if_better && best.filling.best <= 2. * on_main_mesh.best)
         return {};
       best.outcome = Outcome::badly_filled;
       return best;
@@ -276,6 +294,29 @@ namespace NMM
     }
 
 
+    std::vector<RegionMesh>
+    region_meshes(const OwnMeshParameters &parameters,
+                  const std::size_t        n_regions)
+    {
+      using Kind = RegionMesh::Kind;
+      if (parameters.regions.empty())
+        return std::vector<RegionMesh>(
+          n_regions,
+          {parameters.every_region ? Kind::own : Kind::where_needed, 0});
+      AssertThrow(parameters.regions.size() == n_regions,
+                  InputError(std::to_string(parameters.regions.size()) +
+                               " choices of a mathematical mesh",
+                             std::to_string(n_regions) + " regions",
+                             "give one for each region, or none"));
+      for (const RegionMesh &choice : parameters.regions)
+        AssertThrow(choice.n_across > 0 || choice.kind != Kind::automatic,
+                    InputError("no number of cells across a region",
+                               "the choice of its mathematical mesh",
+                               "give at least 1 for an automatic choice"));
+      return parameters.regions;
+    }
+
+
     MathematicalMesh
     combine(const MathematicalMesh &main_mesh, std::vector<MeshPart> &parts)
     {
@@ -294,22 +335,41 @@ namespace NMM
     OwnMeshes result;
     result.manifold_mesh =
       std::make_unique<ManifoldMesh>(*main_mesh, physical_mesh);
-    result.mathematical_mesh            = std::move(main_mesh);
-    const std::vector<Filling> fillings = measure(*result.manifold_mesh);
-    std::vector<unsigned int>  needy;
+    result.mathematical_mesh               = std::move(main_mesh);
+    const std::vector<Filling>    fillings = measure(*result.manifold_mesh);
+    const std::vector<RegionMesh> choices =
+      region_meshes(parameters, fillings.size());
+    // most meshes need none
+    std::unique_ptr<Fitter> fitter;
+    const auto              make_fitter = [&]() -> Fitter              &{
+      if (fitter == nullptr)
+        fitter = std::make_unique<Fitter>(physical_mesh, parameters);
+      return *fitter;
+    };
+    const auto wants_own = [&](const unsigned int region) {
+      using Kind                = RegionMesh::Kind;
+      const RegionMesh &choice  = choices[region];
+      const Filling    &filling = fillings[region];
+      if (choice.kind == Kind::main_mesh || choice.kind == Kind::own)
+        return choice.kind == Kind::own;
+      return filling.best < parameters.threshold ||
+             (choice.kind == Kind::automatic &&
+              filling.cell_size * choice.n_across >
+                (1. + rounding) * make_fitter().longer_side(region));
+    };
+    std::vector<unsigned int> needy;
     for (unsigned int r = 0; r < fillings.size(); ++r)
-      if (parameters.every_region || fillings[r].best < parameters.threshold)
+      if (wants_own(r))
         needy.push_back(r);
     if (needy.empty())
       return result;
 
-    Fitter                   fitter(physical_mesh, parameters);
     std::vector<MeshPart>    parts(1);
     std::map<Outcome, Group> groups;
     result.region_to_part.assign(fillings.size(), 0);
     for (const unsigned int r : needy)
     {
-      FittedMesh fitted = fitter.fit(r, fillings[r]);
+      FittedMesh fitted = make_fitter().fit(r, fillings[r], choices[r]);
       Group     &group  = groups[fitted.outcome];
       ++group.n_regions;
       group.n_cells += fitted.mesh.cells.size();
@@ -342,5 +402,37 @@ namespace NMM
                                      result.region_to_part);
     result.mathematical_mesh = std::move(combined);
     return result;
+  }
+
+
+  unsigned int
+  find_region(const PhysicalMesh &physical_mesh, const Point<2> &x)
+  {
+    const internal::PhysicalEdges edges(physical_mesh);
+    for (unsigned int r = 0; r < physical_mesh.regions().size(); ++r)
+    {
+      std::vector<ElementEdge> around;
+      for (const unsigned int e : edges.region_edges(r))
+      {
+        // not those that end inside
+        const auto &sides = edges.edges()[e].regions;
+        if (sides[0] != sides[1])
+          around.push_back(edges.edges()[e].shape);
+      }
+      if (is_inside({around.data(), around.size()}, x))
+        return r;
+    }
+    return invalid_index;
+  }
+
+
+  double
+  largest_extent(const PhysicalMesh &physical_mesh)
+  {
+    const internal::PhysicalEdges edges(physical_mesh);
+    double                        largest = 0.;
+    for (unsigned int r = 0; r < physical_mesh.regions().size(); ++r)
+      largest = std::max(largest, internal::RegionShape(edges, r).sides[0]);
+    return largest;
   }
 } // namespace NMM

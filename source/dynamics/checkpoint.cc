@@ -22,7 +22,7 @@ namespace NMM
     using Bytes  = std::vector<char>;
 
     constexpr char          magic[8] = {'N', 'M', 'M', 'S', 'T', 'A', 'T', 'E'};
-    constexpr std::uint32_t version  = 4;
+    constexpr std::uint32_t version  = 5;
 
     std::uint64_t
     sum(const char *bytes, const std::size_t n)
@@ -78,6 +78,7 @@ namespace NMM
       action(state.sums.initial);
       action(state.sums.external_work);
       action(state.sums.dissipated);
+      action(state.sums.left);
     }
 
 
@@ -191,6 +192,9 @@ namespace NMM
     put(bytes, static_cast<std::uint64_t>(state.u.size()));
     for (const Vector *vector : {&state.u, &state.v, &state.a})
       append_global(*vector, bytes);
+    put(bytes, static_cast<std::uint64_t>(state.left_blocks.size()));
+    for (const unsigned int block : state.left_blocks)
+      put(bytes, static_cast<std::uint64_t>(block));
     const std::vector<double> internal = model.internal_state();
     put(bytes, static_cast<std::uint64_t>(internal.size()));
     for (const double x : internal)
@@ -248,7 +252,7 @@ namespace NMM
     });
     const auto n = get<std::uint64_t>(position);
     if (n != state.u.size() ||
-        position + (3 * n + 2) * sizeof(double) > bytes.data() + bytes.size())
+        position + (3 * n + 3) * sizeof(double) > bytes.data() + bytes.size())
       refuse("The checkpoint has " + std::to_string(n) +
                " unknowns instead of " + std::to_string(state.u.size()),
              filename,
@@ -263,6 +267,15 @@ namespace NMM
       vector->compress(dealii::VectorOperation::insert);
       position += n * sizeof(double);
     }
+    const auto n_left = get<std::uint64_t>(position);
+    if (n_left > model.n_blocks())
+      refuse("The checkpoint has " + std::to_string(n_left) +
+               " blocks that have left, of " + std::to_string(model.n_blocks()),
+             filename,
+             "continue with the scene it was written with");
+    state.left_blocks.clear();
+    for (std::uint64_t i = 0; i < n_left; ++i)
+      state.left_blocks.push_back(get<std::uint64_t>(position));
     std::vector<double> internal(get<std::uint64_t>(position));
     if (position + (internal.size() + 1) * sizeof(double) !=
         bytes.data() + bytes.size())

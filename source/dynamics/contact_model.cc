@@ -18,6 +18,12 @@ namespace NMM
     Vector                       sum;
     double                       scale       = 0.;
     bool                         is_detected = false;
+    std::vector<bool>            absent_blocks;
+    /// What takes each absent block to a place of its own, out of everybody's reach
+    /// (owned unknowns) [m].
+    Vector parking;
+    /// Displacements with it: owned, and relevant unknowns.
+    Vector parked_owned, parked;
 
     void
     add_contact(const bool with_tangent)
@@ -152,13 +158,13 @@ namespace NMM
     d.contact->set_time(t);
     if (!d.is_detected)
     {
-      d.contact->detect(u);
+      d.contact->detect(placed(u));
       d.is_detected = true;
     }
     const Deformation state = d.model->assemble(u, t, tangent, increment);
     if (state != Deformation::admissible || d.contact->is_idle())
       return state;
-    d.contact->assemble(u, tangent != Tangent::none);
+    d.contact->assemble(placed(u), tangent != Tangent::none);
     d.add_contact(tangent != Tangent::none);
     return state;
   }
@@ -177,7 +183,7 @@ namespace NMM
     if (state != Deformation::admissible || d.contact->is_idle())
       return state;
     const bool with_tangent = tangent != Tangent::none;
-    d.contact->assemble_between(end, t_1, with_tangent);
+    d.contact->assemble_between(placed(end), t_1, with_tangent);
     d.add_contact(with_tangent);
     return state;
   }
@@ -275,10 +281,10 @@ namespace NMM
           (obstacle.displacement(t + h) - obstacle.displacement(t)).norm());
     constexpr double margin = 1.5;
     d.contact->set_time(t);
-    d.contact->detect(begin, margin * (2. * largest + obstacles));
+    d.contact->detect(placed(begin), margin * (2. * largest + obstacles));
     d.is_detected = true;
     if (!d.contact->is_idle())
-      d.contact->begin_step(begin, t);
+      d.contact->begin_step(placed(begin), t);
     d.contact->set_time(t + h);
   }
 
@@ -287,7 +293,7 @@ namespace NMM
   ContactModel::find_fault(const Vector &end)
   {
     const std::string fault = data->model->find_fault(end);
-    return fault.empty() ? data->contact->find_fault(end) : fault;
+    return fault.empty() ? data->contact->find_fault(placed(end)) : fault;
   }
 
 
@@ -297,7 +303,7 @@ namespace NMM
     Data        &d          = *data;
     const double dissipated = d.model->accept_step(end, t);
     d.contact->set_time(t);
-    d.contact->assemble(end, /* with_tangent = */ false);
+    d.contact->assemble(placed(end), /* with_tangent = */ false);
     return dissipated + d.contact->accept();
   }
 
@@ -314,6 +320,92 @@ namespace NMM
   {
     data->contact->restore_history(state);
     data->is_detected = false;
+  }
+
+
+  namespace
+  {
+    /// Longer than the solid, the obstacles as they are drawn and the way between
+    /// them [m].
+    double
+    extent(const ContactSurface &surface)
+    {
+      dealii::Point<2> lower(1e300, 1e300), upper(-1e300, -1e300);
+      const auto       add = [&](const dealii::Point<2> &x) {
+        for (unsigned int d = 0; d < 2; ++d)
+        {
+          lower[d] = std::min(lower[d], x[d]);
+          upper[d] = std::max(upper[d], x[d]);
+        }
+      };
+      for (const ContactSurface::Edge &edge : surface.edges())
+      {
+        const dealii::Tensor<1, 2> radius(
+          {std::abs(edge.radius), std::abs(edge.radius)});
+        add(edge.start);
+        add(edge.end);
+        if (edge.radius != 0.)
+        {
+          add(edge.center + radius);
+          add(edge.center - radius);
+        }
+      }
+      return lower.distance(upper);
+    }
+  } // namespace
+
+
+  void
+  ContactModel::set_absent_blocks(const std::vector<bool> &is_absent)
+  {
+    Data &d = *data;
+    d.model->set_absent_blocks(is_absent);
+    d.absent_blocks = is_absent;
+    d.is_detected   = false;
+    if (is_absent.empty())
+      return;
+    d.parking.reinit(locally_owned(), communicator());
+    d.parked_owned.reinit(locally_owned(), communicator());
+    d.parked.reinit(locally_owned(), locally_relevant(), communicator());
+    const CoverSystem  &covers = d.contact->surface().cover_system();
+    const ManifoldMesh &mesh   = covers.manifold_mesh();
+    // blocks may have come some way before they left
+    constexpr double far  = 100.;
+    const double     size = extent(d.contact->surface());
+    for (unsigned int e = 0; e < mesh.n_elements(); ++e)
+      if (is_absent[mesh.block(e)])
+        for (const unsigned int k : covers.covers(e))
+          if (covers.locally_owned_covers().is_element(k))
+            d.parking(2 * k + 1) = size * far * (mesh.block(e) + 1.);
+    d.parking.compress(dealii::VectorOperation::insert);
+    forget_gone();
+  }
+
+
+  unsigned int
+  ContactModel::n_blocks() const
+  {
+    return data->model->n_blocks();
+  }
+
+
+  dealii::IndexSet
+  ContactModel::absent_unknowns() const
+  {
+    return data->model->absent_unknowns();
+  }
+
+
+  const ContactModel::Vector &
+  ContactModel::placed(const Vector &u)
+  {
+    Data &d = *data;
+    if (d.absent_blocks.empty())
+      return u;
+    d.parked_owned = u;
+    d.parked_owned += d.parking;
+    d.parked = d.parked_owned;
+    return d.parked;
   }
 
 
@@ -346,12 +438,12 @@ namespace NMM
       d.is_detected = false;
     }
     if (is_new)
-      forget_released();
+      forget_gone();
   }
 
 
   void
-  ContactModel::forget_released()
+  ContactModel::forget_gone()
   {
     Data                 &d       = *data;
     const ContactSurface &surface = d.contact->surface();
@@ -362,6 +454,8 @@ namespace NMM
     for (const ObstacleRelease &release : d.releases)
       if (*release.is_released)
         is_gone[first + release.obstacle] = true;
+    for (unsigned int b = 0; b < d.absent_blocks.size(); ++b)
+      is_gone[b] = d.absent_blocks[b];
     d.contact->forget_bodies(is_gone);
   }
 

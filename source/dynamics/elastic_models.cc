@@ -75,18 +75,71 @@ namespace NMM
       for (unsigned int c = 0; c < 2; ++c)
         positions(2 * k + c) = covers.node(k)[c];
     positions.compress(dealii::VectorOperation::insert);
+    absent.set_size(positions.size());
+    set_mass_of_translation();
+    elasticity.set_amplitudes(current);
+    set_amplitudes(amplitudes_at(0.));
+  }
+
+
+  void
+  ElasticModel::set_mass_of_translation()
+  {
     for (unsigned int c = 0; c < 2; ++c)
     {
       Vector translation(locally_owned(), communicator());
-      for (const auto k : covers.locally_owned_covers())
-        if (!constraints().is_constrained(2 * k + c))
+      for (const auto k : elasticity->cover_system().locally_owned_covers())
+        if (!constraints().is_constrained(2 * k + c) &&
+            !absent.is_element(2 * k + c))
           translation(2 * k + c) = 1.;
       translation.compress(dealii::VectorOperation::insert);
       mass_of_translation[c].reinit(translation);
       mass_matrix.vmult(mass_of_translation[c], translation);
     }
-    elasticity.set_amplitudes(current);
-    set_amplitudes(amplitudes_at(0.));
+  }
+
+
+  void
+  ElasticModel::set_absent_blocks(const std::vector<bool> &is_absent)
+  {
+    elasticity->set_absent_blocks(is_absent);
+    const CoverSystem  &covers = elasticity->cover_system();
+    const ManifoldMesh &mesh   = covers.manifold_mesh();
+    absent.clear();
+    absent.set_size(positions.size());
+    if (!is_absent.empty())
+    {
+      std::vector<dealii::types::global_dof_index> unknowns;
+      for (unsigned int e = 0; e < mesh.n_elements(); ++e)
+        if (is_absent[mesh.block(e)])
+          for (const unsigned int k : covers.covers(e))
+            if (covers.locally_owned_covers().is_element(k))
+              unknowns.insert(unknowns.end(), {2 * k, 2 * k + 1});
+      std::sort(unknowns.begin(), unknowns.end());
+      unknowns.erase(std::unique(unknowns.begin(), unknowns.end()),
+                     unknowns.end());
+      absent.add_indices(unknowns.begin(), unknowns.end());
+    }
+    absent.compress();
+    ++n_departures;
+    set_mass_of_translation();
+  }
+
+
+  unsigned int
+  ElasticModel::n_blocks() const
+  {
+    return elasticity->cover_system()
+      .manifold_mesh()
+      .physical_mesh()
+      .n_blocks();
+  }
+
+
+  dealii::IndexSet
+  ElasticModel::absent_unknowns() const
+  {
+    return absent;
   }
 
 

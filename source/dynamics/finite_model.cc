@@ -124,7 +124,7 @@ namespace NMM
   FiniteModel::external_forces(const Vector &u, const double t, Vector &forces)
   {
     // dead loads do not depend on u, and often not on t
-    if (has_follower || !has_known || known_at != n_passed || loads_change())
+    if (has_follower || !has_known || known_at != version() || loads_change())
     {
       // at rest unless they follow u: the same bits whenever they are asked for
       const Vector &at = has_follower ? u : zero;
@@ -138,7 +138,7 @@ namespace NMM
           Deformation::admissible)
         known_forces -= elasticity->residual();
       has_known = true;
-      known_at  = n_passed;
+      known_at  = version();
     }
     forces = known_forces;
     add_base_force(t, -1., forces);

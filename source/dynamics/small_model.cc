@@ -20,11 +20,11 @@ namespace NMM
   SmallModel::update(const double t)
   {
     const bool is_changed = set_amplitudes(amplitudes_at(t));
-    if (!has_stiffness || stiffness_at != n_passed)
+    if (!has_stiffness || stiffness_at != version())
     {
       // without loads: the tangent of follower pressure is none of `small`'s
       (void)elasticity->assemble(zero, 0., Tangent::consistent);
-      stiffness_at  = n_passed;
+      stiffness_at  = version();
       has_stiffness = true;
       has_load      = false;
     }
@@ -83,8 +83,11 @@ namespace NMM
   {
     update(t);
     elasticity->tangent().vmult(forces, owned);
-    // constrained unknowns have a diagonal entry of their own
+    // unknowns that are constrained or absent have a diagonal entry of their own
     constraints().set_zero(forces);
+    for (const auto i : absent)
+      forces(i) = 0.;
+    forces.compress(dealii::VectorOperation::insert);
     strain_energy = 0.5 * (owned * forces);
     forces -= load;
     add_base_force(t, 1., forces);

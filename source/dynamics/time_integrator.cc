@@ -3,6 +3,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <cmath>
 #include <mechanics/matrix_sum.h>
 #include <mechanics/mumps_solver.h>
@@ -112,6 +113,10 @@ namespace NMM
     void
     add_work();
 
+    /// The model knows who has left, and what all others weigh is known.
+    void
+    set_absent_blocks();
+
     MechanicalModel *model;
     TimeScheme       scheme;
     RayleighDamping  damping;
@@ -187,12 +192,7 @@ namespace NMM
                      model.locally_relevant(),
                      model.communicator());
 
-    for (const auto i : model.locally_owned())
-      if (i % 2 == 0 && !model.constraints().is_constrained(i))
-        scratch(i) = 1.;
-    scratch.compress(dealii::VectorOperation::insert);
-    model.mass().vmult(forces, scratch);
-    total_mass = scratch * forces;
+    set_absent_blocks();
     model_damps =
       scheme.is_conserving && model.set_stiffness_damping(damping.stiffness);
     if (damps_by_stiffness())
@@ -201,6 +201,31 @@ namespace NMM
       stiffness_at_rest.reinit(stiffness);
       stiffness_at_rest.copy_from(stiffness);
     }
+  }
+
+
+  void
+  TimeIntegrator::Data::set_absent_blocks()
+  {
+    std::vector<bool> is_absent;
+    if (!state.left_blocks.empty())
+    {
+      is_absent.resize(model->n_blocks(), false);
+      for (const unsigned int block : state.left_blocks)
+        is_absent[block] = true;
+    }
+    model->set_absent_blocks(is_absent);
+    linear_solver.reset();
+
+    const dealii::IndexSet absent = model->absent_unknowns();
+    scratch                       = 0.;
+    for (const auto i : model->locally_owned())
+      if (i % 2 == 0 && !model->constraints().is_constrained(i) &&
+          !absent.is_element(i))
+        scratch(i) = 1.;
+    scratch.compress(dealii::VectorOperation::insert);
+    model->mass().vmult(forces, scratch);
+    total_mass = scratch * forces;
   }
 
 
@@ -427,8 +452,9 @@ namespace NMM
     state.kinetic         = account.kinetic;
     account.external_work = state.sums.external_work;
     account.dissipated    = state.sums.dissipated;
-    account.balance = account.kinetic + stored_energy() + account.dissipated -
-                      account.external_work - state.sums.initial;
+    account.left          = state.sums.left;
+    account.balance = account.kinetic + stored_energy() + account.dissipated +
+                      account.left - account.external_work - state.sums.initial;
   }
 
 
@@ -506,6 +532,11 @@ namespace NMM
     d.state.v             = v;
     d.model->constraints().distribute(d.state.u);
     d.model->constraints().distribute(d.state.v);
+    if (!d.state.left_blocks.empty())
+    {
+      d.state.left_blocks.clear();
+      d.set_absent_blocks();
+    }
     d.model->pass_events(time);
     d.u_begin = d.state.u;
     d.model->external_forces(d.u_begin, time, d.external);
@@ -524,9 +555,12 @@ namespace NMM
   void
   TimeIntegrator::restore(const DynamicState &state)
   {
-    Data &d         = *data;
-    d.state         = state;
-    d.has_candidate = false;
+    Data      &d          = *data;
+    const bool is_another = d.state.left_blocks != state.left_blocks;
+    d.state               = state;
+    d.has_candidate       = false;
+    if (is_another)
+      d.set_absent_blocks();
     d.model->pass_events(state.events_passed);
     d.u_begin = d.state.u;
     d.model->external_forces(d.u_begin, state.time, d.external);
@@ -635,6 +669,43 @@ namespace NMM
                 dealii::ExcInternalError());
     d.set_accelerations();
     d.take_account();
+  }
+
+
+  void
+  TimeIntegrator::drop_blocks(const std::vector<unsigned int> &blocks)
+  {
+    Data &d = *data;
+    for (const unsigned int block : blocks)
+    {
+      const bool is_new = block < d.model->n_blocks() &&
+                          std::find(d.state.left_blocks.begin(),
+                                    d.state.left_blocks.end(),
+                                    block) == d.state.left_blocks.end();
+      AssertThrow(is_new,
+                  InputError("Block " + std::to_string(block) + " is not there",
+                             "time " + std::to_string(d.state.time) + " s",
+                             "drop only blocks that are"));
+      d.state.left_blocks.push_back(block);
+    }
+    const double before = d.account.kinetic + d.stored_energy();
+    d.set_absent_blocks();
+    for (const auto i : d.model->absent_unknowns())
+      d.state.v(i) = d.state.a(i) = 0.;
+    d.state.v.compress(dealii::VectorOperation::insert);
+    d.state.a.compress(dealii::VectorOperation::insert);
+    d.has_candidate = false;
+    d.u_begin       = d.state.u;
+    d.model->external_forces(d.u_begin, d.state.time, d.external);
+    AssertThrow(d.model->assemble(d.u_begin, d.state.time, Tangent::none) ==
+                  Deformation::admissible,
+                dealii::ExcInternalError());
+    d.set_accelerations();
+    d.take_account();
+    const double lost = before - d.account.kinetic - d.stored_energy();
+    d.state.sums.left += lost;
+    d.account.left += lost;
+    d.account.balance += lost;
   }
 
 

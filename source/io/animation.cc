@@ -17,7 +17,7 @@ namespace NMM
     using dealii::Point;
     using Vertex = PictureData::Vertex;
 
-    constexpr char         magic[]     = "NMMfram2";
+    constexpr char         magic[]     = "NMMfram3";
     constexpr std::size_t  magic_size  = 8;
     constexpr std::size_t  header_size = magic_size + 2 * 8;
     constexpr unsigned int max_places  = 12;
@@ -128,6 +128,14 @@ namespace NMM
           packer.add(static_cast<float>(bar.traction[d]));
         packer.add(static_cast<std::uint32_t>(bar.kind));
       }
+      packer.add(static_cast<std::uint64_t>(data.layers.size()));
+      for (const PictureData::Layer &layer : data.layers)
+      {
+        packer.add(static_cast<std::uint32_t>(layer.quantity));
+        for (const auto &values : layer.values)
+          for (const double value : values)
+            packer.add(static_cast<float>(value));
+      }
       return packer.buffer;
     }
 
@@ -169,7 +177,28 @@ namespace NMM
           static_cast<PictureData::Bar::Kind>(unpacker.get<std::uint32_t>());
         data.contacts.push_back(bar);
       }
+      for (auto n = unpacker.get<std::uint64_t>(); n > 0; --n)
+      {
+        PictureData::Layer layer;
+        layer.quantity = static_cast<Quantity>(unpacker.get<std::uint32_t>());
+        layer.values.resize(data.triangles.size());
+        for (auto &values : layer.values)
+          for (double &value : values)
+            value = unpacker.get<float>();
+        data.layers.push_back(std::move(layer));
+      }
       return data;
+    }
+
+
+    /// Put the values of @p quantity into the triangles, if they are in a layer.
+    void
+    choose_layer(const Quantity quantity, PictureData &data)
+    {
+      for (const PictureData::Layer &layer : data.layers)
+        if (layer.quantity == quantity)
+          for (std::size_t t = 0; t < data.triangles.size(); ++t)
+            data.triangles[t].values = layer.values[t];
     }
 
 
@@ -338,6 +367,30 @@ namespace NMM
   }
 
 
+  std::vector<Quantity>
+  Animation::common_quantities(const std::vector<Record>   &shown,
+                               const std::vector<Quantity> &quantities) const
+  {
+    std::vector<Quantity> common = quantities;
+    for (const Record &record : shown)
+    {
+      const auto layers = read(record).layers;
+      common.erase(std::remove_if(common.begin(),
+                                  common.end(),
+                                  [&](const Quantity quantity) {
+                                    return std::none_of(
+                                      layers.begin(),
+                                      layers.end(),
+                                      [&](const auto &layer) {
+                                        return layer.quantity == quantity;
+                                      });
+                                  }),
+                   common.end());
+    }
+    return common;
+  }
+
+
   void
   Animation::write(std::ostream              &out,
                    const std::string         &title,
@@ -359,31 +412,55 @@ namespace NMM
       scale = choose_deformation_scale(at_rest.largest_displacement(),
                                        lower.distance(upper));
     }
-    PictureFrame frame;
-    frame.view  = animation.view;
-    frame.range = animation.range;
-    PictureExtents extents;
-    for (const Record &record : chosen)
-      extents.add(read(record), scale);
-    if (!frame.view)
-      frame.view = extents.view(0.01);
-    if (!frame.range && !(parameters.range_min < parameters.range_max))
-      frame.range = extents.range();
-    frame.bar_scale = extents.largest_traction();
-
-    const TimeText text(chosen.front().time, chosen.back().time, chosen.size());
-    OutputParameters of_frames = parameters;
-    of_frames.picture_width    = animation.width;
-    AnimationPage page(out, title);
+    std::vector<Quantity> quantities = {parameters.quantity};
+    for (const Quantity quantity :
+         common_quantities(chosen, parameters.animation_quantities))
+      quantities.push_back(quantity);
+    // the first one's values are the triangles' own
+    std::vector<PictureExtents> extents(quantities.size());
     for (const Record &record : chosen)
     {
-      PictureData data       = read(record);
-      data.deformation_scale = scale;
-      frame.note             = text(record.time, animation);
-      page.add_frame(record.time,
-                     frame.note,
-                     draw_picture_in_memory(
-                       data, of_frames, title, frame, animation.n_colours));
+      PictureData data = read(record);
+      for (std::size_t q = 0; q < quantities.size(); ++q)
+      {
+        if (q > 0)
+          choose_layer(quantities[q], data);
+        extents[q].add(data, scale);
+      }
+    }
+    std::vector<PictureFrame>     frames(quantities.size());
+    std::vector<OutputParameters> of_frames(quantities.size(), parameters);
+    std::vector<std::string>      names;
+    for (std::size_t q = 0; q < quantities.size(); ++q)
+    {
+      frames[q].view = animation.view ? *animation.view : extents[q].view(0.01);
+      frames[q].bar_scale        = extents[q].largest_traction();
+      of_frames[q].quantity      = quantities[q];
+      of_frames[q].picture_width = animation.width;
+      names.push_back(to_string(quantities[q]));
+      if (q == 0 && animation.range)
+        frames[q].range = animation.range;
+      else if (q > 0 || !(parameters.range_min < parameters.range_max))
+        frames[q].range = extents[q].range();
+    }
+
+    const TimeText text(chosen.front().time, chosen.back().time, chosen.size());
+    AnimationPage  page(out, title, names);
+    for (const Record &record : chosen)
+    {
+      PictureData data               = read(record);
+      data.deformation_scale         = scale;
+      const std::string        label = text(record.time, animation);
+      std::vector<std::string> pictures;
+      for (std::size_t q = 0; q < quantities.size(); ++q)
+      {
+        if (q > 0)
+          choose_layer(quantities[q], data);
+        frames[q].note = label;
+        pictures.push_back(draw_picture_in_memory(
+          data, of_frames[q], title, frames[q], animation.n_colours));
+      }
+      page.add_frame(record.time, label, pictures);
     }
     out << "</body>\n</html>\n";
   }

@@ -39,6 +39,7 @@ button:hover { background: #eaeaea; }
 <span id="label"></span>
 </div>
 <div class="row">
+<label id="choice" hidden>Colour <select id="quantity"></select></label>
 <label>Speed <select id="speed">
 <option value="0.25">&times; &frac14;</option>
 <option value="0.5">&times; &frac12;</option>
@@ -59,6 +60,11 @@ and last.</p>
 const frames = [], at = id => document.getElementById(id);
 let current = 0, playing = false, clock = 0, elapsed = 0;
 
+function choices(names) {
+  for (const name of names) at("quantity").add(new Option(name));
+  at("choice").hidden = names.length < 2;
+}
+
 function frame(data) {
   frames.push(data);
   at("position").max = frames.length - 1;
@@ -69,7 +75,7 @@ function show(k) {
   if (n === 0) return;
   current = Math.max(0, Math.min(n - 1, k));
   const f = frames[current];
-  at("picture").src = "data:image/png;base64," + f.png;
+  at("picture").src = "data:image/png;base64," + f.png[at("quantity").selectedIndex];
   at("picture").alt = f.label;
   at("position").value = current;
   at("label").textContent = f.label;
@@ -118,6 +124,7 @@ at("play").onclick = () => play(!playing);
 at("back").onclick = () => go(current - 1);
 at("next").onclick = () => go(current + 1);
 at("position").oninput = () => go(Number(at("position").value));
+at("quantity").onchange = () => show(current);
 document.onkeydown = e => {
   const keys = { " ": () => play(!playing), ArrowLeft: () => go(current - 1),
                  ArrowRight: () => go(current + 1), Home: () => go(0),
@@ -215,43 +222,57 @@ window.onload = () => { show(0); play(true); };
   } // namespace
 
 
-  AnimationPage::AnimationPage(std::ostream &out, const std::string &title)
+  AnimationPage::AnimationPage(std::ostream                   &out,
+                               const std::string              &title,
+                               const std::vector<std::string> &choices)
     : out(&out)
+    , n_choices(choices.size())
   {
     out << "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n"
            "<meta charset=\"utf-8\">\n"
            "<meta name=\"viewport\" content=\"width=device-width\">\n<title>"
         << html(title) << "</title>\n"
-        << style_and_controls << script;
+        << style_and_controls << script << "<script>choices([";
+    for (std::size_t c = 0; c < choices.size(); ++c)
+      out << (c > 0 ? "," : "") << json(choices[c]);
+    out << "])</script>\n";
   }
 
 
   void
-  AnimationPage::add_frame(const double       time,
-                           const std::string &label,
-                           const std::string &png)
+  AnimationPage::add_frame(const double                    time,
+                           const std::string              &label,
+                           const std::vector<std::string> &png)
   {
     AssertThrow(std::isfinite(time) && time >= last_time,
                 InputError("time " + std::to_string(time) + " after " +
                              std::to_string(last_time),
                            "a frame of a moving picture",
                            "add frames in the order of their times"));
-    const auto size_here = png_size(png);
+    AssertThrow(!png.empty() && png.size() == n_choices,
+                InputError(std::to_string(png.size()) + " pictures",
+                           "a frame of a moving picture",
+                           "give " + std::to_string(n_choices) +
+                             ", one for each choice"));
     if (n_written == 0)
-      size = size_here;
+      size = png_size(png.front());
     const auto text = [](const auto &s) {
       return std::to_string(s.first) + " x " + std::to_string(s.second);
     };
-    AssertThrow(size_here == size,
-                InputError(text(size_here) + " pixels instead of " + text(size),
-                           "a frame of a moving picture",
-                           "draw all frames with the same view"));
+    for (const std::string &picture : png)
+      AssertThrow(png_size(picture) == size,
+                  InputError(text(png_size(picture)) + " pixels instead of " +
+                               text(size),
+                             "a frame of a moving picture",
+                             "draw all frames with the same view"));
     last_time = time;
     ++n_written;
     *out << "<script>frame({\"time\":"
          << std::setprecision(std::numeric_limits<double>::max_digits10) << time
-         << ",\"label\":" << json(label) << ",\"png\":\"" << base64(png)
-         << "\"})</script>\n";
+         << ",\"label\":" << json(label) << ",\"png\":[";
+    for (std::size_t c = 0; c < png.size(); ++c)
+      *out << (c > 0 ? ",\"" : "\"") << base64(png[c]) << '"';
+    *out << "]})</script>\n";
   }
 
 

@@ -34,13 +34,15 @@ namespace NMM
   FieldEvaluator::FieldEvaluator(const DisplacementField &field,
                                  const StressRecovery    &recovery,
                                  const ElasticityProblem &problem,
-                                 StressLaw                law)
+                                 StressLaw                law,
+                                 const DisplacementField *velocity)
     : field(&field)
     , recovery(&recovery)
     , problem(&problem)
     , region_to_material(problem.region_to_material(
         field.cover_system().manifold_mesh().physical_mesh()))
     , law(std::move(law))
+    , velocity(velocity)
   {
   }
 
@@ -57,6 +59,8 @@ namespace NMM
     const dealii::Tensor<2, 2> direct    = field->gradient(element, xi);
     const dealii::Tensor<2, 2> recovered = recovery->gradient(element, xi);
     sample.displacement                  = field->displacement(element, xi);
+    if (velocity != nullptr)
+      sample.velocity = velocity->displacement(element, xi);
     if (law)
     {
       sample.direct    = law(element, xi, direct);
@@ -68,6 +72,31 @@ namespace NMM
     sample.recovered.in_plane = field->stress_from_gradient(element, recovered);
     sample.recovered.zz       = stress_zz(element, recovered);
     return sample;
+  }
+
+
+  bool
+  FieldEvaluator::has_velocity() const
+  {
+    return velocity != nullptr;
+  }
+
+
+  void
+  FieldEvaluator::hide_blocks(const std::vector<unsigned int> &blocks)
+  {
+    is_hidden.assign(
+      field->cover_system().manifold_mesh().physical_mesh().n_blocks(), false);
+    for (const unsigned int block : blocks)
+      is_hidden[block] = true;
+  }
+
+
+  bool
+  FieldEvaluator::shows(const unsigned int element) const
+  {
+    return is_hidden.empty() ||
+           !is_hidden[field->cover_system().manifold_mesh().block(element)];
   }
 
 
@@ -95,10 +124,14 @@ namespace NMM
 
   FieldTriangles::FieldTriangles(const CoverSystem    &covers,
                                  const FieldEvaluator *evaluator)
+    : has_velocity(evaluator != nullptr && evaluator->has_velocity())
   {
     const ManifoldMesh &mesh = covers.manifold_mesh();
     const auto [first, last] = covers.locally_owned_elements();
     for (unsigned int element = first; element < last; ++element)
+    {
+      if (evaluator != nullptr && !evaluator->shows(element))
+        continue;
       for (const QuadraticTriangle &triangle : triangulate(mesh, element))
       {
         nodes.push_back(triangle);
@@ -108,6 +141,7 @@ namespace NMM
           for (unsigned int i = 0; i < triangle.size(); ++i)
             samples.back()[i] = (*evaluator)(element, triangle[i]);
       }
+    }
   }
 
 
@@ -140,6 +174,17 @@ namespace NMM
                  const dealii::Point<2> &x,
                  const OutputParameters &parameters)
   {
+    return quantity_value(sample, ids, x, parameters, parameters.quantity);
+  }
+
+
+  double
+  quantity_value(const FieldSample      &sample,
+                 const ElementIds       &ids,
+                 const dealii::Point<2> &x,
+                 const OutputParameters &parameters,
+                 const Quantity          quantity)
+  {
     const FieldSample::Stress &stress =
       parameters.recovered ? sample.recovered : sample.direct;
     const auto along = [&](const dealii::Tensor<1, 2> &direction) {
@@ -150,7 +195,7 @@ namespace NMM
       return r.norm() > 0. ? r / r.norm() : dealii::Tensor<1, 2>({1., 0.});
     };
 
-    switch (parameters.quantity)
+    switch (quantity)
     {
       case Quantity::von_mises:
         return von_mises_stress(stress);
@@ -174,6 +219,12 @@ namespace NMM
         return sample.displacement[0];
       case Quantity::displacement_y:
         return sample.displacement[1];
+      case Quantity::velocity:
+        return sample.velocity.norm();
+      case Quantity::velocity_x:
+        return sample.velocity[0];
+      case Quantity::velocity_y:
+        return sample.velocity[1];
       case Quantity::block:
         return ids.block;
       case Quantity::material:

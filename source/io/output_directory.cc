@@ -63,6 +63,7 @@ namespace NMM
       const std::string extension = fs::path(name).extension().string();
       if (name == "summary.csv" || name == "probes.csv" ||
           name == "picture.png" || name == "contacts.vtp" ||
+          name == "animation.html" ||
           (starts_with(name, "fields.") &&
            (extension == ".vtu" || extension == ".pvtu")))
         return true;
@@ -71,6 +72,7 @@ namespace NMM
       return name == "history.csv" || name == "probes-history.csv" ||
              name == "checkpoint.nmm" || name == "fields.pvd" ||
              name == "contacts.csv" || name == "contacts.pvd" ||
+             name == "left-blocks.csv" || name == "animation.frames" ||
              (starts_with(name, "contacts-") && extension == ".vtp") ||
              (starts_with(name, "fields-") &&
               (extension == ".vtu" || extension == ".pvtu")) ||

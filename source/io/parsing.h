@@ -9,6 +9,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,36 @@ namespace NMM
       const std::vector<double> numbers = dealii::Utilities::string_to_double(
         dealii::Utilities::split_string_list(prm.get(key), ','));
       return {numbers[0], numbers[1]};
+    }
+
+
+    /// A point, or nothing where the text is @p word.
+    inline std::optional<dealii::Point<2>>
+    get_optional_point(const dealii::ParameterHandler &prm,
+                       const std::string              &key,
+                       const std::string              &word,
+                       const std::string              &section)
+    {
+      const std::string text = prm.get(key);
+      if (text == word)
+        return std::nullopt;
+      try
+      {
+        const std::vector<double> numbers = dealii::Utilities::string_to_double(
+          dealii::Utilities::split_string_list(text, ','));
+        if (numbers.size() == 2 && std::isfinite(numbers[0]) &&
+            std::isfinite(numbers[1]))
+          return dealii::Point<2>(numbers[0], numbers[1]);
+      }
+      catch (const dealii::ExceptionBase &)
+      {
+      }
+      AssertThrow(false,
+                  InputError("'" + text + "' is no point",
+                             "parameter '" + section + "/" + key + "'",
+                             "give two numbers 'x, y', or " +
+                               (word.empty() ? "nothing" : "'" + word + "'")));
+      return std::nullopt;
     }
 
 

@@ -377,14 +377,17 @@ namespace NMM
       const bool         is_stress = quantity < Quantity::displacement;
       const bool         is_index =
         quantity == Quantity::block || quantity == Quantity::material;
+      const std::string unit =
+        is_stress
+          ? parameters.stress_unit
+          : parameters.length_unit + (is_velocity(quantity) ? "/s" : "");
       if (is_stress && !parameters.recovered)
         text << "direct ";
       text << to_string(quantity);
       if (!is_index)
         text << " ["
              << (exponent == 0 ? "" : "10" + superscript(exponent) + " ")
-             << (is_stress ? parameters.stress_unit : parameters.length_unit)
-             << ']';
+             << unit << ']';
       if (data.deformation_scale != 0.)
       {
         // No exponent below a million.

@@ -130,6 +130,21 @@ namespace NMM
 
 
     void
+    gather_layers(const MPI_Comm                   communicator,
+                  std::vector<PictureData::Layer> &layers)
+    {
+      for (PictureData::Layer &layer : layers)
+      {
+        const auto all =
+          dealii::Utilities::MPI::gather(communicator, layer.values);
+        layer.values.clear();
+        for (const auto &part : all)
+          layer.values.insert(layer.values.end(), part.begin(), part.end());
+      }
+    }
+
+
+    void
     gather_triangles(const MPI_Comm                      communicator,
                      std::vector<PictureData::Triangle> &triangles)
     {
@@ -207,6 +222,9 @@ namespace NMM
     PictureData         data;
     data.deformation_scale = choose_scale(covers, triangles, parameters);
 
+    for (const Quantity quantity : parameters.animation_quantities)
+      data.layers.push_back({quantity, {}});
+
     for (std::size_t t = 0; t < triangles.nodes.size(); ++t)
     {
       const ElementIds      ids = element_ids(mesh, triangles.elements[t]);
@@ -219,6 +237,16 @@ namespace NMM
         triangle.values[i]        = quantity_value(sample, ids, x, parameters);
       }
       data.triangles.push_back(triangle);
+      for (PictureData::Layer &layer : data.layers)
+      {
+        layer.values.emplace_back();
+        for (unsigned int i = 0; i < 6; ++i)
+          layer.values.back()[i] = quantity_value(triangles.samples[t][i],
+                                                  ids,
+                                                  triangles.nodes[t][i],
+                                                  parameters,
+                                                  layer.quantity);
+      }
     }
 
     const auto displacement = [&](const unsigned int element,
@@ -228,11 +256,13 @@ namespace NMM
     };
     const auto [first, last] = covers.locally_owned_elements();
     for (unsigned int element = first; element < last; ++element)
-      add_lines(mesh, element, parameters.mesh_lines, displacement, data);
+      if (evaluator == nullptr || evaluator->shows(element))
+        add_lines(mesh, element, parameters.mesh_lines, displacement, data);
 
     if (dealii::Utilities::MPI::n_mpi_processes(covers.communicator()) > 1)
     {
       gather_triangles(covers.communicator(), data.triangles);
+      gather_layers(covers.communicator(), data.layers);
       gather_lines(covers.communicator(), data.outlines);
       gather_lines(covers.communicator(), data.interfaces);
       gather_lines(covers.communicator(), data.mesh_lines);

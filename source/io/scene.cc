@@ -157,9 +157,39 @@ namespace NMM
       case MathematicalMeshParameters::Type::regular:
         break;
     }
-    return make_regular_mesh(physical_mesh,
-                             parameters.regular,
-                             parameters.degree);
+    RegularMeshParameters regular = parameters.regular;
+    if (regular.cell_size == 0.)
+    {
+      // one region is resolved by this mesh; more have meshes of their own, and
+      // this one has to be too coarse for all of them
+      const unsigned int n_across = scene_parameters.covers.mesh.n_across;
+      const bool is_alone = physical_mesh.regions().size() == 1 && n_across > 1;
+      regular.cell_size =
+        largest_extent(physical_mesh) * (is_alone ? 1. / n_across : 1.5);
+    }
+    return make_regular_mesh(physical_mesh, regular, parameters.degree);
+  }
+
+
+  std::vector<RegionMesh>
+  Scene::make_region_meshes(const PhysicalMesh &physical_mesh) const
+  {
+    const CoverParameters  &parameters = scene_parameters.covers;
+    const auto             &regions    = physical_mesh.regions();
+    std::vector<RegionMesh> choices(regions.size(), parameters.mesh);
+    for (const BlockMeshParameters &block : parameters.blocks)
+    {
+      const unsigned int found = find_region(physical_mesh, block.block);
+      AssertThrow(found != invalid_index,
+                  InputError("the point " + to_string(block.block) +
+                               " lies in no block",
+                             "parameter 'Covers/" + block.name + "/Block'",
+                             "give a point inside the block that is meant"));
+      for (unsigned int r = 0; r < regions.size(); ++r)
+        if (regions[r].block == regions[found].block)
+          choices[r] = block.mesh;
+    }
+    return choices;
   }
 
 

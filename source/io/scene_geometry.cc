@@ -60,6 +60,17 @@ namespace NMM
   }
 
 
+  std::vector<Curve>
+  Scene::make_limits() const
+  {
+    std::vector<Curve> limits;
+    for (const RegionParameters &parameters : scene_parameters.regions)
+      if (parameters.use == RegionParameters::Use::limit)
+        limits.push_back(make_region(parameters));
+    return limits;
+  }
+
+
   void
   Scene::add_regions(Geometry &geometry) const
   {
@@ -80,7 +91,7 @@ namespace NMM
       geometry.add_region(region);
       if (!parameters.material.empty())
         geometry.add_material_region(parameters.name, parameters.material);
-      if (parameters.use == Use::place)
+      if (parameters.use == Use::place || parameters.use == Use::limit)
         continue;
       // the faces it leaves; those of a restraint must not be called as the body
       // that holds them

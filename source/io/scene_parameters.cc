@@ -5,7 +5,7 @@
 #include <io/parsing.h>
 #include <set>
 
-// Mathematical mesh, covers and solver: how the problem is discretized
+// Mathematical mesh and solver: how the problem is discretized
 // and solved. Its physics is in scene_parameters_mechanics.cc, what is written in
 // scene_parameters_output.cc.
 namespace NMM
@@ -29,17 +29,6 @@ namespace NMM
     const std::vector<std::pair<std::string, MeshPattern>> mesh_patterns = {
       {"equilateral", MeshPattern::equilateral},
       {"right-angled", MeshPattern::right_angled}};
-
-    const std::vector<std::pair<std::string, Stabilization>> stabilizations = {
-      {"aggregation", Stabilization::aggregation},
-      {"ghost penalty", Stabilization::ghost_penalty},
-      {"none", Stabilization::none}};
-
-    const std::vector<std::pair<std::string, CoverParameters::OwnMeshes>>
-      own_mesh_choices = {
-        {"where needed", CoverParameters::OwnMeshes::where_needed},
-        {"every region", CoverParameters::OwnMeshes::every_region},
-        {"never", CoverParameters::OwnMeshes::never}};
 
     const std::vector<std::pair<std::string, LinearSolverParameters::Type>>
       solver_types = {{"automatic", LinearSolverParameters::Type::automatic},
@@ -203,10 +192,11 @@ namespace NMM
 
 
   void
-  MathematicalMeshParameters::check() const
+  MathematicalMeshParameters::check(const bool may_choose_size) const
   {
     const std::string section = "section 'Mathematical mesh'";
-    AssertThrow(type == Type::gmsh || regular.cell_size > 0.,
+    AssertThrow(type == Type::gmsh || regular.cell_size > 0. ||
+                  (type == Type::regular && may_choose_size),
                 InputError("the cell size of the mathematical mesh is " +
                              std::to_string(regular.cell_size) + " m",
                            section,
@@ -222,47 +212,6 @@ namespace NMM
                 InputError("local sizes would not be used by this type of mesh",
                            section,
                            "set 'Type = graded', or leave 'Names' empty"));
-  }
-
-
-  void
-  CoverParameters::declare(ParameterHandler &prm)
-  {
-    prm.declare_entry("Stabilization",
-                      "aggregation",
-                      selection(stabilizations),
-                      "What is done about physical covers with little support. "
-                      "aggregation: they follow the polynomial of the nearest "
-                      "well-supported element of the same block, so accuracy "
-                      "and conditioning do not depend on how the mesh is cut; "
-                      "ghost penalty: the difference between the polynomials "
-                      "of such elements and their neighbours' costs energy; "
-                      "none: the plain method.");
-    prm.declare_entry("Threshold",
-                      dealii::Patterns::Tools::to_string(
-                        default_aggregation_threshold),
-                      Patterns::Double(0, 1),
-                      "An element is well supported if it sees at least this "
-                      "share of the energy of any linear strain of its cell "
-                      "[-]; 0: all are.");
-    prm.declare_entry(
-      "Own meshes",
-      "where needed",
-      selection(own_mesh_choices),
-      "Regions with a mathematical mesh of their own size and "
-      "shape. where needed: those smaller or thinner than the "
-      "cells, none of whose elements is well supported; every "
-      "region: each, down to a single six-node triangle; never: "
-      "all are on one mesh.");
-  }
-
-
-  void
-  CoverParameters::parse(ParameterHandler &prm)
-  {
-    stabilization = get_selection(prm, "Stabilization", stabilizations);
-    threshold     = prm.get_double("Threshold");
-    own_meshes    = get_selection(prm, "Own meshes", own_mesh_choices);
   }
 
 
@@ -330,6 +279,7 @@ namespace NMM
     names.joint_sets          = {"<joint set>"};
     names.regions             = {"<region>"};
     names.local_sizes         = {"<local size>"};
+    names.block_meshes        = {"<block>"};
     names.materials           = {"<material>"};
     names.boundary_conditions = {"<condition>"};
     names.point_forces        = {"<force>"};
@@ -354,6 +304,7 @@ namespace NMM
         {"Joint sets", &names.joint_sets},
         {"Regions", &names.regions},
         {"Mathematical mesh", &names.local_sizes},
+        {"Covers", &names.block_meshes},
         {"Materials", &names.materials},
         {"Boundary conditions", &names.boundary_conditions},
         {"Point forces", &names.point_forces},
@@ -415,7 +366,8 @@ namespace NMM
       file.check();
     for (const RegionParameters &region : regions)
       region.check();
-    mathematical_mesh.check();
+    covers.check();
+    mathematical_mesh.check(covers.may_choose_cell_size());
     AssertThrow(!materials.empty(),
                 InputError("the scene has no material",
                            "section 'Materials'",
@@ -449,6 +401,17 @@ namespace NMM
   {
     for (const RegionParameters &region : regions)
     {
+      AssertThrow(
+        region.use != RegionParameters::Use::limit ||
+          (model.analysis == Analysis::dynamics &&
+           model.kinematics != Kinematics::incremental),
+        InputError("the limit '" + region.name + "' would not be used by " +
+                     (model.analysis == Analysis::dynamics
+                        ? to_string(model.kinematics) + " kinematics"
+                        : "a " + to_string(model.analysis) + " analysis"),
+                   "parameter 'Regions/" + region.name + "/Use'",
+                   "remove it, or set 'Model/Analysis = dynamic' with "
+                   "small or finite kinematics"));
       if (region.use != RegionParameters::Use::restraint)
         continue;
       AssertThrow(contact.is_present(),

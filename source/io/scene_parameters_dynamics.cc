@@ -125,37 +125,6 @@ namespace NMM
                           Patterns::Double(entry.least, entry.greatest),
                           entry.help);
     }
-
-
-    /// "a", "b" or nothing as a point.
-    std::optional<dealii::Point<2>>
-    get_optional_point(const ParameterHandler &prm,
-                       const std::string      &key,
-                       const std::string      &word,
-                       const std::string      &name)
-    {
-      const std::string text = prm.get(key);
-      if (text == word)
-        return std::nullopt;
-      try
-      {
-        const std::vector<double> numbers = dealii::Utilities::string_to_double(
-          dealii::Utilities::split_string_list(text, ','));
-        if (numbers.size() == 2 && std::isfinite(numbers[0]) &&
-            std::isfinite(numbers[1]))
-          return dealii::Point<2>(numbers[0], numbers[1]);
-      }
-      catch (const dealii::ExceptionBase &)
-      {
-      }
-      AssertThrow(false,
-                  InputError("'" + text + "' is no point",
-                             "parameter 'Initial velocities/" + name + "/" +
-                               key + "'",
-                             "give two numbers 'x, y', or " +
-                               (word.empty() ? "nothing" : "'" + word + "'")));
-      return std::nullopt;
-    }
   } // namespace
 
 
@@ -583,8 +552,10 @@ namespace NMM
   void
   InitialVelocityParameters::parse(ParameterHandler &prm)
   {
-    block            = get_optional_point(prm, "Block", "all", name);
-    center           = get_optional_point(prm, "Center", "", name);
+    block =
+      get_optional_point(prm, "Block", "all", "Initial velocities/" + name);
+    center =
+      get_optional_point(prm, "Center", "", "Initial velocities/" + name);
     translation      = get_point(prm, "Translation");
     angular_velocity = prm.get_double("Angular velocity");
   }

@@ -24,7 +24,8 @@ namespace NMM
     const std::vector<std::pair<std::string, Use>> region_uses = {
       {"place", Use::place},
       {"excavation", Use::excavation},
-      {"restraint", Use::restraint}};
+      {"restraint", Use::restraint},
+      {"limit", Use::limit}};
 
 
     void
@@ -250,7 +251,9 @@ namespace NMM
                       "place: for 'Material' here and 'Within' of joint sets; "
                       "excavation: what is inside is no part of the solid; "
                       "restraint: the same, and in its place is a rigid body "
-                      "that holds the solid until it is released.");
+                      "that holds the solid until it is released; limit, "
+                      "dynamic analysis: blocks that are wholly outside of all "
+                      "limits are dropped.");
     prm.declare_entry("Material",
                       "",
                       Patterns::Anything(),
@@ -287,8 +290,10 @@ namespace NMM
                            "set either 'Shape' or 'File'"));
     AssertThrow(use == Use::place || material.empty(),
                 InputError("the material '" + material +
-                             "' is of a region from which the solid is taken "
-                             "out",
+                             (use == Use::limit
+                                ? "' is of a limit, which is no place"
+                                : "' is of a region from which the solid is "
+                                  "taken out"),
                            "parameter " + section + "/Material'",
                            "remove it, or set 'Use = place'"));
     if (use != Use::restraint)

@@ -358,6 +358,7 @@ namespace NMM
                            "parameter 'Output/Checkpoint every'",
                            "remove it, or set 'Model/Analysis = dynamic' with "
                            "small or finite kinematics"));
+    check_output_quantities();
     if (model.analysis == Analysis::statics)
       return;
     AssertThrow(model.analysis == Analysis::dynamics ||
@@ -372,6 +373,25 @@ namespace NMM
                              "parameter 'Materials/" + material.name +
                                "/Density'",
                              "a " + analysis + " needs it above 0"));
+  }
+
+
+  void
+  SceneParameters::check_output_quantities() const
+  {
+    const bool moves = model.analysis == Analysis::dynamics ||
+                       model.analysis == Analysis::relaxation;
+    const auto check = [&](const Quantity quantity, const char *key) {
+      AssertThrow(moves || !is_velocity(quantity),
+                  InputError("a " + to_string(model.analysis) +
+                               " analysis has no " + to_string(quantity),
+                             std::string("parameter 'Output/") + key + "'",
+                             "choose another quantity, or set "
+                             "'Model/Analysis = dynamic'"));
+    };
+    check(output.quantity, "Picture quantity");
+    for (const Quantity quantity : output.animation_quantities)
+      check(quantity, "Animation quantities");
   }
 
 

@@ -26,6 +26,9 @@ namespace NMM
       {"displacement", Quantity::displacement},
       {"displacement x", Quantity::displacement_x},
       {"displacement y", Quantity::displacement_y},
+      {"velocity", Quantity::velocity},
+      {"velocity x", Quantity::velocity_x},
+      {"velocity y", Quantity::velocity_y},
       {"block", Quantity::block},
       {"material", Quantity::material}};
 
@@ -51,6 +54,14 @@ namespace NMM
                           return entry.second == quantity;
                         })
       ->first;
+  }
+
+
+  bool
+  is_velocity(const Quantity quantity)
+  {
+    return quantity == Quantity::velocity || quantity == Quantity::velocity_x ||
+           quantity == Quantity::velocity_y;
   }
 
 
@@ -80,6 +91,12 @@ namespace NMM
       "With a series of pictures: write animation.html as well, "
       "a page that plays them in any browser, all in one "
       "view and one range of colours.");
+    prm.declare_entry("Animation quantities",
+                      "",
+                      Patterns::List(selection(quantities), 0),
+                      "What the page can be coloured by beside the picture's "
+                      "quantity; the reader chooses. Each makes the page "
+                      "larger by as much again.");
     prm.declare_entry("Contacts",
                       "true",
                       Patterns::Bool(),
@@ -99,7 +116,8 @@ namespace NMM
                       "von Mises stress",
                       selection(quantities),
                       "What the picture is coloured by; displacement is the "
-                      "length of the displacement vector.");
+                      "length of the displacement vector, velocity that of "
+                      "the velocity of a dynamic analysis.");
     prm.declare_entry("Picture stress",
                       "recovered",
                       selection(stress_choices),
@@ -153,8 +171,21 @@ namespace NMM
     animation        = prm.get_bool("Animation");
     picture          = prm.get_bool("Picture");
     quantity         = get_selection(prm, "Picture quantity", quantities);
-    recovered        = get_selection(prm, "Picture stress", stress_choices);
-    center           = get_point(prm, "Picture center");
+    animation_quantities.clear();
+    for (const std::string &name : get_names(prm, "Animation quantities"))
+    {
+      const auto entry =
+        std::find_if(quantities.begin(), quantities.end(), [&](const auto &q) {
+          return q.first == name;
+        });
+      if (entry->second != quantity &&
+          std::find(animation_quantities.begin(),
+                    animation_quantities.end(),
+                    entry->second) == animation_quantities.end())
+        animation_quantities.push_back(entry->second);
+    }
+    recovered = get_selection(prm, "Picture stress", stress_choices);
+    center    = get_point(prm, "Picture center");
     const dealii::Point<2> range = get_point(prm, "Picture range");
     range_min                    = range[0];
     range_max                    = range[1];
@@ -386,7 +417,9 @@ namespace NMM
     prm.enter_subsection("Mathematical mesh");
     MathematicalMeshParameters::declare(prm, names.local_sizes);
     prm.leave_subsection();
-    declare_section(prm, "Covers", &CoverParameters::declare);
+    prm.enter_subsection("Covers");
+    CoverParameters::declare(prm, names.block_meshes);
+    prm.leave_subsection();
     declare_list(prm,
                  "Materials",
                  names.materials,

@@ -19,38 +19,47 @@ namespace NMM
       std::string,
       dealii::DataComponentInterpretation::DataComponentInterpretation>>;
 
-    const std::vector<std::string> &
-    field_names()
+    /// Velocities come last, if there are any.
+    std::vector<std::string>
+    field_names(const bool has_velocity)
     {
-      static const std::vector<std::string> names = {"displacement",
-                                                     "displacement",
-                                                     "direct_stress_xx",
-                                                     "direct_stress_yy",
-                                                     "direct_stress_xy",
-                                                     "direct_stress_zz",
-                                                     "recovered_stress_xx",
-                                                     "recovered_stress_yy",
-                                                     "recovered_stress_xy",
-                                                     "recovered_stress_zz",
-                                                     "von_mises_stress",
-                                                     "first_principal_stress",
-                                                     "second_principal_stress",
-                                                     "block",
-                                                     "region",
-                                                     "material",
-                                                     "rank"};
+      std::vector<std::string> names = {"displacement",
+                                        "displacement",
+                                        "direct_stress_xx",
+                                        "direct_stress_yy",
+                                        "direct_stress_xy",
+                                        "direct_stress_zz",
+                                        "recovered_stress_xx",
+                                        "recovered_stress_yy",
+                                        "recovered_stress_xy",
+                                        "recovered_stress_zz",
+                                        "von_mises_stress",
+                                        "first_principal_stress",
+                                        "second_principal_stress",
+                                        "block",
+                                        "region",
+                                        "material",
+                                        "rank"};
+      if (has_velocity)
+        names.insert(names.end(), 2, "velocity");
       return names;
     }
 
 
-    const VectorRanges &
-    vector_ranges()
+    VectorRanges
+    vector_ranges(const bool has_velocity)
     {
-      static const VectorRanges ranges = {std::make_tuple(
-        0,
-        1,
-        std::string("displacement"),
-        dealii::DataComponentInterpretation::component_is_part_of_vector)};
+      const auto vector = [](const unsigned int first, const char *name) {
+        return std::make_tuple(
+          first,
+          first + 1,
+          std::string(name),
+          dealii::DataComponentInterpretation::component_is_part_of_vector);
+      };
+      VectorRanges ranges = {vector(0, "displacement")};
+      if (has_velocity)
+        ranges.push_back(
+          vector(field_names(has_velocity).size() - 2, "velocity"));
       return ranges;
     }
 
@@ -59,7 +68,7 @@ namespace NMM
     make_patches(const CoverSystem &covers, const FieldTriangles &triangles)
     {
       const ManifoldMesh &mesh   = covers.manifold_mesh();
-      const unsigned int  n_rows = field_names().size();
+      const unsigned int  n_rows = field_names(triangles.has_velocity).size();
       const unsigned int  rank =
         dealii::Utilities::MPI::this_mpi_process(covers.communicator());
 
@@ -78,6 +87,9 @@ namespace NMM
           const FieldSample &sample    = triangles.samples[t][i];
           const auto         principal = principal_stresses(sample.recovered);
           unsigned int       row       = 0;
+          const auto         add       = [&](const double value) {
+            patch.data(row++, i) = value;
+          };
           for (const double value : {sample.displacement[0],
                                      sample.displacement[1],
                                      sample.direct.in_plane[0][0],
@@ -94,10 +106,12 @@ namespace NMM
                                      static_cast<double>(ids.block),
                                      static_cast<double>(ids.region),
                                      static_cast<double>(ids.material),
-                                     static_cast<double>(rank),
-                                     triangles.nodes[t][i][0],
-                                     triangles.nodes[t][i][1]})
-            patch.data(row++, i) = value;
+                                     static_cast<double>(rank)})
+            add(value);
+          for (unsigned int d = 0; d < 2 && triangles.has_velocity; ++d)
+            add(sample.velocity[d]);
+          for (unsigned int d = 0; d < 2; ++d)
+            add(triangles.nodes[t][i][d]);
           AssertDimension(row, n_rows + 2);
         }
         for (unsigned int i = 0; i < 3; ++i)
@@ -130,8 +144,8 @@ namespace NMM
     };
     directory.write_text(piece_name(rank), [&](std::ostream &out) {
       dealii::DataOutBase::write_vtu(make_patches(covers, triangles),
-                                     field_names(),
-                                     vector_ranges(),
+                                     field_names(triangles.has_velocity),
+                                     vector_ranges(triangles.has_velocity),
                                      flags,
                                      out);
     });
@@ -144,7 +158,11 @@ namespace NMM
         for (unsigned int r = 0; r < n_ranks; ++r)
           pieces.push_back(piece_name(r));
         dealii::DataOutBase::write_pvtu_record(
-          out, pieces, field_names(), vector_ranges(), flags);
+          out,
+          pieces,
+          field_names(triangles.has_velocity),
+          vector_ranges(triangles.has_velocity),
+          flags);
       });
     return base + ".pvtu";
   }

@@ -3,6 +3,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <mechanics/block_system.h>
@@ -107,6 +108,13 @@ namespace NMM
     void
     add_dead_loads(const Task &task);
 
+    bool
+    is_absent(const unsigned int element) const
+    {
+      return !absent_blocks.empty() &&
+             absent_blocks[covers->manifold_mesh().block(element)];
+    }
+
     /// Add the squares of what has come to the forces since the last call.
     void
     gauge(const LocalSystem &local, double *known)
@@ -154,6 +162,9 @@ namespace NMM
     DeadLoads                                dead_loads;
     BlockSystem                              block_system;
     LoadAmplitudes                           amplitudes;
+    /// Empty, or by block; and which covers belong to them.
+    std::vector<bool> absent_blocks, absent_covers;
+    unsigned int      n_assembled = 0;
 
     /// Per weak point, what its penalty is multiplied by.
     std::vector<double> penalty_growth;
@@ -408,8 +419,18 @@ namespace NMM
     auto              condition = edges->conditions.begin();
     auto              follower  = edges->followers.begin();
     const auto [first, last]    = covers->locally_owned_elements();
+    n_assembled                 = 0;
     for (unsigned int e = first; e < last; ++e)
     {
+      if (is_absent(e))
+      {
+        if (condition != edges->conditions.end() && condition->element == e)
+          ++condition;
+        if (follower != edges->followers.end() && follower->element == e)
+          ++follower;
+        continue;
+      }
+      ++n_assembled;
       const auto element_covers = covers->covers(e);
       u.gather(element_covers, nodal);
       local.reset(n_per_cell);
@@ -441,6 +462,8 @@ namespace NMM
     unsigned int      both[LocalSystem::max_covers];
     for (const EdgeTables::Site &tie : edges->ties)
     {
+      if (is_absent(tie.element) || is_absent(tie.neighbor))
+        continue;
       for (unsigned int side = 0; side < 2; ++side)
       {
         const auto side_covers =
@@ -466,9 +489,11 @@ namespace NMM
     const auto add = [&](const DeadLoads::Load &load, const double factor) {
       for (unsigned int i = 0; i < load.covers.size(); ++i)
       {
-        const unsigned int k    = load.covers[i];
-        const double       f[2] = {-factor * load.forces[2 * i],
-                                   -factor * load.forces[2 * i + 1]};
+        const unsigned int k = load.covers[i];
+        if (!absent_covers.empty() && absent_covers[k])
+          continue;
+        const double f[2] = {-factor * load.forces[2 * i],
+                             -factor * load.forces[2 * i + 1]};
         block_system.add_rhs({&k, 1}, f);
         square += f[0] * f[0] + f[1] * f[1];
         work += f[0] * nodal[2 * k] + f[1] * nodal[2 * k + 1];
@@ -647,6 +672,49 @@ namespace NMM
           problem.fixed_points.size(),
           "the released fixed points");
     data->amplitudes = amplitudes;
+  }
+
+
+  void
+  FiniteElasticity::set_absent_blocks(const std::vector<bool> &is_absent)
+  {
+    Data               &d        = *data;
+    const ManifoldMesh &mesh     = d.covers->manifold_mesh();
+    const unsigned int  n_blocks = mesh.physical_mesh().n_blocks();
+    AssertThrow(is_absent.empty() || is_absent.size() == n_blocks,
+                InputError(std::to_string(is_absent.size()) + " entries",
+                           "the absent blocks",
+                           "give none or " + std::to_string(n_blocks)));
+    d.absent_blocks = is_absent;
+    d.absent_covers.clear();
+    if (is_absent.empty())
+      return;
+    d.absent_covers.resize(d.covers->n_covers(), false);
+    for (unsigned int e = 0; e < mesh.n_elements(); ++e)
+      if (is_absent[mesh.block(e)])
+        for (const unsigned int k : d.covers->covers(e))
+          d.absent_covers[k] = true;
+  }
+
+
+  std::vector<std::pair<unsigned int, unsigned int>>
+  FiniteElasticity::tied_blocks() const
+  {
+    const ManifoldMesh &mesh = data->covers->manifold_mesh();
+    std::vector<std::pair<unsigned int, unsigned int>> pairs;
+    for (const EdgeTables::Site &tie : data->edges->ties)
+      if (mesh.block(tie.element) != mesh.block(tie.neighbor))
+        pairs.emplace_back(mesh.block(tie.element), mesh.block(tie.neighbor));
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    return pairs;
+  }
+
+
+  unsigned int
+  FiniteElasticity::n_assembled_elements() const
+  {
+    return data->n_assembled;
   }
 
 

@@ -9,6 +9,7 @@
 #include "matching.h"
 #include "support/random_scenes.h"
 #include <gtest/gtest.h>
+#include <set>
 
 using namespace dealii;
 using namespace NMM;
@@ -274,6 +275,105 @@ TEST(OwnMeshes, BentLayerIsHalvedUntilItIsFilled)
   // cells inside and outside of the shell are left out
   const auto [first, end] = model.own.mathematical_mesh->part_cells(1);
   EXPECT_LT(end - first, 2 * model.n_cells(shell));
+}
+
+
+// A large block, one that the main mesh resolves as well as asked for, a long one
+// and one that is all by itself: each gets what its choice says.
+TEST(OwnMeshes, ChosenRegionByRegion)
+{
+  using Kind = RegionMesh::Kind;
+  Geometry                                   geometry;
+  const std::array<std::array<double, 4>, 4> boxes = {{{{0., 0., 4., 4.}},
+                                                       {{5., 0., 1., 1.}},
+                                                       {{7., 0., 2., 0.4}},
+                                                       {{10., 0., 1., 1.}}}};
+  const std::vector<std::string> names = {"large", "small", "long", "last"};
+  for (unsigned int i = 0; i < boxes.size(); ++i)
+  {
+    const auto &[x, y, w, h] = boxes[i];
+    geometry.add_polygon({Point<2>(x, y),
+                          Point<2>(x + w, y),
+                          Point<2>(x + w, y + h),
+                          Point<2>(x, y + h)},
+                         names[i]);
+  }
+  const PhysicalMesh          physical(geometry);
+  std::array<unsigned int, 4> regions;
+  for (unsigned int i = 0; i < boxes.size(); ++i)
+  {
+    const auto &[x, y, w, h] = boxes[i];
+    regions[i] = find_region(physical, {x + 0.9 * w, y + 0.1 * h});
+    ASSERT_LT(regions[i], 4u);
+  }
+  EXPECT_EQ(std::set<unsigned int>(regions.begin(), regions.end()).size(), 4u);
+  EXPECT_EQ(find_region(physical, {4.5, 0.5}), invalid_index);
+  EXPECT_NEAR(largest_extent(physical), 4., 1e-12);
+
+  // cells of the blocks that have a mesh of their own
+  const auto check = [&](const std::array<RegionMesh, 4>   &choices,
+                         const std::array<bool, 4>         &has_own,
+                         const std::array<unsigned int, 4> &n_cells) {
+    OwnMeshParameters parameters;
+    parameters.regions.resize(4);
+    for (unsigned int i = 0; i < 4; ++i)
+      parameters.regions[regions[i]] = choices[i];
+    const Model model(geometry, skew(0.5), parameters);
+    for (unsigned int i = 0; i < 4; ++i)
+    {
+      const auto &map = model.own.region_to_part;
+      EXPECT_EQ(!map.empty() && map[regions[i]] != 0, has_own[i]) << names[i];
+      if (has_own[i])
+      {
+        EXPECT_EQ(model.n_cells(regions[i]), n_cells[i]) << names[i];
+      }
+    }
+  };
+  const RegionMesh one{Kind::automatic, 1}, two{Kind::automatic, 2},
+    four{Kind::automatic, 4}, eight{Kind::automatic, 8},
+    main{Kind::main_mesh, 0}, needed, own{Kind::own, 0}, own_one{Kind::own, 1};
+  // cells of 0.5 are small enough for one and two across a block of 1
+  check({one, one, one, one}, {false, false, false, false}, {});
+  check({two, two, two, two}, {false, false, false, false}, {});
+  // 4 x 4 and, across a block of 2 by 0.4, 8 x 2 halved rectangles
+  check({four, four, four, four}, {false, true, false, true}, {0, 32, 0, 32});
+  check({eight, eight, eight, main},
+        {false, true, true, false},
+        {0, 128, 32, 0});
+  // whatever the main mesh is like
+  check({own_one, main, own_one, needed},
+        {true, false, true, false},
+        {1, 0, 1, 0});
+  check({main, own, main, main}, {false, true, false, false}, {0, 8, 0, 0});
+
+  OwnMeshParameters wrong;
+  wrong.regions = {one, one};
+  EXPECT_THROW(Model(geometry, skew(0.5), wrong), InputError);
+  wrong.regions = {one, one, {Kind::automatic, 0}, one};
+  EXPECT_THROW(Model(geometry, skew(0.5), wrong), InputError);
+}
+
+
+// A crack that ends inside is no border, and arcs are.
+TEST(OwnMeshes, RegionsAreFound)
+{
+  Geometry geometry = make_box(1., 1.);
+  geometry.add_polyline({Point<2>(0., 0.5), Point<2>(0.7, 0.5)},
+                        "crack",
+                        CurveRole::joint);
+  Curve lens;
+  lens.name   = "lens";
+  lens.role   = CurveRole::interface;
+  lens.pieces = {CurvePiece::circle({0.75, 0.75}, 0.125)};
+  geometry.add(lens);
+  const PhysicalMesh physical(std::move(geometry));
+  const unsigned int outside = find_region(physical, {0.1, 0.1});
+  const unsigned int inside  = find_region(physical, {0.75, 0.86});
+  EXPECT_NEAR(physical.regions()[inside].area, pi / 64., 1e-12);
+  EXPECT_NE(inside, outside);
+  for (const Point<2> &x :
+       {Point<2>(0.1, 0.9), Point<2>(0.65, 0.66), Point<2>(0.85, 0.45)})
+    EXPECT_EQ(find_region(physical, x), outside) << x;
 }
 
 

@@ -57,6 +57,8 @@ namespace
   {
     double      time;
     std::string label, png;
+    /// All pictures of the frame; png is the first one.
+    std::vector<std::string> pictures;
   };
 
 
@@ -93,18 +95,26 @@ namespace
   {
     std::vector<Frame> frames;
     const std::string  start = "<script>frame({\"time\":",
-                      label = ",\"label\":\"", png = "\",\"png\":\"",
-                      end = "\"})</script>\n";
+                      label = ",\"label\":\"", png = "\",\"png\":[\"",
+                      end = "\"]})</script>\n", between = "\",\"";
     for (auto i = page.find(start); i != std::string::npos;
          i      = page.find(start, i + 1))
     {
       const auto a = i + start.size(), b = page.find(label, a),
                  c = page.find(png, b), d = page.find(end, c);
       EXPECT_NE(d, std::string::npos);
-      frames.push_back(
-        {std::stod(page.substr(a, b - a)),
-         page.substr(b + label.size(), c - b - label.size()),
-         decode(page.substr(c + png.size(), d - c - png.size()))});
+      std::vector<std::string> pictures;
+      for (auto first = c + png.size(); first < d;)
+      {
+        const auto last = std::min(page.find(between, first), d);
+        pictures.push_back(decode(page.substr(first, last - first)));
+        first = last + between.size();
+      }
+      EXPECT_FALSE(pictures.empty());
+      frames.push_back({std::stod(page.substr(a, b - a)),
+                        page.substr(b + label.size(), c - b - label.size()),
+                        pictures.front(),
+                        pictures});
     }
     return frames;
   }
@@ -269,6 +279,77 @@ namespace
   }
 
 
+  // The reader chooses between quantities, each in the colours of its own range
+  // and all in one view.
+  TEST(Animation, SeveralQuantities)
+  {
+    std::filesystem::remove(spool);
+    Animation   animation(spool);
+    PictureData data[2];
+    for (unsigned int k = 0; k < 2; ++k)
+    {
+      data[k] = square(1. + k, shift(0., 0.));
+      for (const Quantity quantity :
+           {Quantity::velocity, Quantity::displacement_x})
+      {
+        data[k].layers.push_back({quantity, {}});
+        for (const PictureData::Triangle &triangle : data[k].triangles)
+        {
+          auto values = triangle.values;
+          for (double &value : values)
+            value = (quantity == Quantity::velocity ? 7. : -3.) * value * value;
+          data[k].layers.back().values.push_back(values);
+        }
+      }
+      animation.add_frame(k, data[k]);
+    }
+    OutputParameters parameters;
+    parameters.deformation_scale    = 1.;
+    parameters.quantity             = Quantity::displacement;
+    parameters.animation_quantities = {Quantity::displacement_x,
+                                       Quantity::velocity};
+    const std::string page          = write(animation, parameters);
+    const auto        frames        = frames_of(page);
+    EXPECT_NE(page.find("<script>choices([\"displacement\",\"displacement x\","
+                        "\"velocity\"])</script>"),
+              std::string::npos);
+    ASSERT_EQ(frames.size(), 2u);
+    ASSERT_EQ(frames[1].pictures.size(), 3u);
+
+    PictureFrame frame;
+    frame.view      = {{Point<2>(999.99, 999.99), Point<2>(1001.01, 1001.01)}};
+    frame.range     = {{0., 28.}};
+    frame.note      = "t = 1.0 s";
+    frame.bar_scale = 0.;
+    PictureData by_hand         = data[1];
+    by_hand.deformation_scale   = 1.;
+    by_hand.triangles[0].values = data[1].layers[0].values[0];
+    by_hand.triangles[1].values = data[1].layers[0].values[1];
+    OutputParameters of_frames  = parameters;
+    of_frames.picture_width     = 800;
+    of_frames.quantity          = Quantity::velocity;
+    const auto drawn            = [&]() {
+      return draw_picture_in_memory(
+        by_hand, of_frames, "a <title> & \"more\"", frame, 256);
+    };
+    EXPECT_EQ(frames[1].pictures[2], drawn());
+    EXPECT_NE(frames[1].pictures[1], drawn());
+    by_hand.triangles  = data[1].triangles;
+    of_frames.quantity = Quantity::displacement;
+    frame.range        = {{0., 2.}};
+    EXPECT_EQ(frames[1].pictures[0], drawn());
+
+    // a continued run in which another quantity is wanted: what all frames have
+    data[1].layers.erase(data[1].layers.begin());
+    animation.add_frame(2., data[1]);
+    const auto common = frames_of(write(animation, parameters));
+    ASSERT_EQ(common.size(), 3u);
+    EXPECT_EQ(common[0].pictures.size(), 2u);
+    EXPECT_EQ(common[1].pictures[1], frames[1].pictures[1]);
+    animation.discard();
+  }
+
+
   TEST(Animation, GoesOnWhereItWasKilled)
   {
     std::filesystem::remove(spool);
@@ -340,14 +421,17 @@ namespace
 
     std::ostringstream out;
     AnimationPage      page(out, "title");
-    EXPECT_THROW(page.add_frame(0., "", "no picture"), InputError);
+    EXPECT_THROW(page.add_frame(0., "", {"no picture"}), InputError);
     const PictureData data = square(1., shift(0., 0.));
     OutputParameters  parameters;
-    page.add_frame(0., "", draw_picture_in_memory(data, parameters, ""));
+    const std::string picture = draw_picture_in_memory(data, parameters, "");
+    EXPECT_THROW(page.add_frame(0., "", {picture, picture}), InputError);
+    EXPECT_THROW(page.add_frame(0., "", {}), InputError);
+    page.add_frame(0., "", {picture});
     parameters.picture_width = 500;
     EXPECT_THROW(page.add_frame(1.,
                                 "",
-                                draw_picture_in_memory(data, parameters, "")),
+                                {draw_picture_in_memory(data, parameters, "")}),
                  InputError);
     EXPECT_EQ(page.n_frames(), 1u);
   }

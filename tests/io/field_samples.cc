@@ -61,6 +61,7 @@ namespace
     sample.recovered    = make_stress(c * c, s * s, c * s);
     sample.direct       = make_stress(7., 0., 0.);
     sample.displacement = dealii::Tensor<1, 2>({3., -4.});
+    sample.velocity     = dealii::Tensor<1, 2>({-5., 12.});
     const ElementIds ids{2, 3, 1};
 
     OutputParameters parameters;
@@ -78,6 +79,9 @@ namespace
     EXPECT_NEAR(value_along(Quantity::hoop_stress, -s, c), 1., 1e-15);
     EXPECT_DOUBLE_EQ(value_along(Quantity::displacement, 0., 0.), 5.);
     EXPECT_DOUBLE_EQ(value_along(Quantity::displacement_y, 0., 0.), -4.);
+    EXPECT_DOUBLE_EQ(value_along(Quantity::velocity, 0., 0.), 13.);
+    EXPECT_DOUBLE_EQ(value_along(Quantity::velocity_x, 0., 0.), -5.);
+    EXPECT_DOUBLE_EQ(value_along(Quantity::velocity_y, 0., 0.), 12.);
     EXPECT_DOUBLE_EQ(value_along(Quantity::block, 0., 0.), 2.);
     EXPECT_DOUBLE_EQ(value_along(Quantity::material, 0., 0.), 1.);
     parameters.recovered = false;

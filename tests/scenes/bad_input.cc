@@ -106,6 +106,13 @@ namespace
                              {"inside", "(2, 2)", "outside"});
     expect_rejected_override("Fixed points/corner/Point=2, 2", {"(2, 2)"});
     expect_rejected_override("Output/Picture range=2, 1", {"Picture range"});
+    expect_rejected_override("Output/Picture quantity=velocity",
+                             {"velocity", "Picture quantity", "dynamic"});
+    expect_rejected_override(
+      "Output/Animation quantities=displacement, velocity",
+      {"velocity", "Animation quantities", "dynamic"});
+    expect_rejected_override("Output/Animation quantities=colour",
+                             {"colour", "Animation quantities"});
     expect_rejected_override("Exact solution/Type=thick ring", {"boundar"});
   }
 

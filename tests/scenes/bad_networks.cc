@@ -84,6 +84,22 @@ namespace
                           "Regions/pit/Material=rock"},
                          "Regions/pit/Use=excavation",
                          {"'rock'", "Regions/pit/Material", "taken out"});
+    rejects("Use=limit", {"'pit'", "Regions/pit/Use", "static analysis"});
+    const std::vector<std::string> limit = {"Regions/Names=edge",
+                                            "Regions/edge/Use=limit"};
+    expect_rejected_with(dynamic + limit +
+                           std::vector<std::string>{
+                             "Model/Kinematics=incremental"},
+                         "Regions/edge/Shape=CIRCLE (0.5 0.5, 1)",
+                         {"'edge'", "Regions/edge/Use", "incremental"});
+    expect_rejected_with(dynamic + limit,
+                         "Regions/edge/Shape=CIRCLE (5 0.5, 1)",
+                         {"Regions/edge/Shape", "outside", "(0, 0)"});
+    expect_rejected_with(dynamic + limit +
+                           std::vector<std::string>{
+                             "Regions/edge/Shape=CIRCLE (0.5 0.5, 1)"},
+                         "Regions/edge/Material=rock",
+                         {"Regions/edge/Material", "limit"});
     expect_rejected_with({"Regions/Names=square"},
                          "Regions/square/Shape=CIRCLE (0.5 1, 0.25)",
                          {"'square'", "Regions/Names", "another name"});
@@ -97,6 +113,43 @@ namespace
     expect_rejected_with(touching,
                          "Obstacles/floor/Release time=0",
                          {"Obstacles/floor", "Release time", "dynamic"});
+  }
+
+
+  TEST(BadInput, ChoicesOfMathematicalMeshes)
+  {
+    expect_rejected_override("Mathematical mesh/Cell size=0", {"Cell size"});
+    expect_rejected_override("Covers/Own meshes=automatic",
+                             {"Covers/Elements across", "at least 1"});
+    expect_rejected_override("Covers/Elements across=2",
+                             {"2 elements", "Covers/Elements across"});
+    const std::vector<std::string> named = {"Covers/Names=key"};
+    expect_rejected_with(named,
+                         "Covers/key/Own mesh=always",
+                         {"'key'", "Covers/key/Block"});
+    expect_rejected_with(named,
+                         "Covers/key/Block=here",
+                         {"'here'", "Covers/key/Block", "two numbers"});
+    expect_rejected_with(named,
+                         "Covers/key/Block=0.5, 0.5",
+                         {"Covers/key/Elements across", "at least 1"});
+    const std::vector<std::string> here = {"Covers/key/Block=0.5, 0.5"};
+    expect_rejected_with(
+      named + here + std::vector<std::string>{"Covers/key/Own mesh=never"},
+      "Covers/key/Elements across=3",
+      {"3 elements", "Covers/key/Elements across"});
+    expect_rejected_with(
+      named + std::vector<std::string>{"Covers/key/Elements across=3"},
+      "Covers/key/Block=1.5, 0.5",
+      {"(1.5, 0.5)", "no block", "Covers/key/Block"});
+    // a block on the common mesh needs its size
+    expect_rejected_with(named + here +
+                           std::vector<std::string>{"Covers/key/Own mesh=never",
+                                                    "Covers/Own "
+                                                    "meshes=automatic",
+                                                    "Covers/Elements across=2"},
+                         "Mathematical mesh/Cell size=0",
+                         {"Cell size"});
   }
 
 

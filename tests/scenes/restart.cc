@@ -124,6 +124,8 @@ namespace
                  "0.1",
                  {"--set", "Time/End time=0.2"},
                  n_ranks);
+      // The first block leaves in the first part, the second one in the second.
+      check_stop("leaving-blocks/scene.prm", "0.9", {}, n_ranks);
     }
   }
 

@@ -470,6 +470,52 @@ namespace
   }
 
 
+  // The page of a motion, with a choice of colours; velocities are in fields, too.
+  TEST(Scenes, AnimationOffersQuantities)
+  {
+    const std::string  output = fresh_output_dir("animation");
+    const DriverResult result =
+      run_driver({"-o",
+                  output,
+                  "--set",
+                  "Time/End time=0.1",
+                  "--set",
+                  "Output/Fields=true",
+                  "--set",
+                  "Output/Picture=true",
+                  "--set",
+                  "Output/Fields every=5",
+                  "--set",
+                  "Output/Animation quantities=velocity, velocity, stress yy, "
+                  "von Mises stress",
+                  (cases_dir / "contact-incline" / "scene.prm").string()});
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+    const auto read = [&](const char *name) {
+      std::ifstream     file(fs::path(output) / name);
+      std::stringstream text;
+      text << file.rdbuf();
+      return text.str();
+    };
+    // each once, the picture's own first
+    const std::string page = read("animation.html");
+    EXPECT_NE(page.find("<script>choices([\"von Mises stress\",\"velocity\","
+                        "\"stress yy\"])</script>"),
+              std::string::npos);
+    unsigned int n_frames = 0;
+    for (auto i = page.find("<script>frame("); i != std::string::npos;
+         i      = page.find("<script>frame(", i + 1))
+    {
+      ++n_frames;
+      const std::string frame = page.substr(i, page.find('\n', i) - i);
+      EXPECT_EQ(std::count(frame.begin(), frame.end(), '['), 1);
+      // time, label and png; four values in quotes
+      EXPECT_EQ(std::count(frame.begin(), frame.end(), '"'), 14);
+    }
+    EXPECT_GE(n_frames, 3u);
+    EXPECT_NE(read("fields.vtu").find("Name=\"velocity\""), std::string::npos);
+  }
+
+
   // Faces with a gap and nothing else that holds: the block is named.
   TEST(Scenes, WhatContactDoesNotHoldIsNamed)
   {

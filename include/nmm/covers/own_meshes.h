@@ -11,6 +11,29 @@
 
 namespace NMM
 {
+  /// Which mathematical mesh a region is on.
+  struct RegionMesh
+  {
+    enum class Kind
+    {
+      /// The main mesh, unless the region needs one of its own.
+      where_needed,
+      /// The main mesh, whatever comes of it.
+      main_mesh,
+      /// One of its own, with n_across cells along the longer side of its
+      /// rectangle.
+      own,
+      /// The main mesh where that holds the region and has cells as small as that,
+      /// or smaller; else one of its own.
+      automatic
+    };
+    Kind kind = Kind::where_needed;
+    /// 1: a single triangle, where that can be filled. 0, of `own` only: cells of the
+    /// main mesh's size.
+    unsigned int n_across = 0;
+  };
+
+
   /// When a region gets a mathematical mesh of its own, and how good a one.
   struct OwnMeshParameters
   {
@@ -22,6 +45,8 @@ namespace NMM
     double filling = 0.25;
     /// Give every region a mesh of its own, whether it needs it or not.
     bool every_region = false;
+    /// For each region of the physical mesh; empty: all the same, by every_region.
+    std::vector<RegionMesh> regions;
     /// How often the cells of a region's mesh are halved, at most, until one is
     /// filled well.
     unsigned int n_halvings = 4;
@@ -69,15 +94,28 @@ namespace NMM
    *   halved in both directions, a few times; the best mesh found is kept,
    *   and if it is no better than the main mesh, that.
    *
+   * RegionMesh chooses otherwise, region by region; with n cells across the cell
+   * size h is @f$L_1/n@f$.
+   *
    * The main mesh is cut first, to find out; if no region needs anything, it is
    * returned as it is with that manifold mesh, at no further cost. Otherwise all
    * parts are cut, exactly, each at a cost in proportion to its regions.
-   * @throws InputError if the main mesh does not cover the solid.
+   * @throws InputError if the main mesh does not cover the solid, or if the choices
+   * do not fit the regions.
    */
   OwnMeshes
   make_own_meshes(std::unique_ptr<MathematicalMesh> main_mesh,
                   const PhysicalMesh               &physical_mesh,
                   const OwnMeshParameters          &parameters = {});
+
+  /// Region that contains @p x [m], in floating point; invalid_index outside of
+  /// the solid.
+  unsigned int
+  find_region(const PhysicalMesh &physical_mesh, const dealii::Point<2> &x);
+
+  /// Longer side of the smallest rectangle around the largest region [m].
+  double
+  largest_extent(const PhysicalMesh &physical_mesh);
 } // namespace NMM
 
 #endif

@@ -148,6 +148,15 @@ namespace NMM
     void
     restore_internal_state(const std::vector<double> &state) override;
 
+    void
+    set_absent_blocks(const std::vector<bool> &is_absent) override;
+
+    unsigned int
+    n_blocks() const override;
+
+    dealii::IndexSet
+    absent_unknowns() const override;
+
     std::vector<double>
     events() const override;
 
@@ -161,9 +170,13 @@ namespace NMM
     struct Data;
     std::unique_ptr<Data> data;
 
-    /// Nothing that is released is remembered.
+    /// Nothing that is released or absent is remembered.
     void
-    forget_released();
+    forget_gone();
+
+    /// Displacements at which nobody meets an absent block.
+    const Vector &
+    placed(const Vector &u);
   };
 } // namespace NMM
 

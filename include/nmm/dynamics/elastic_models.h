@@ -47,6 +47,15 @@ namespace NMM
     double
     force_scale() const override;
 
+    void
+    set_absent_blocks(const std::vector<bool> &is_absent) override;
+
+    unsigned int
+    n_blocks() const override;
+
+    dealii::IndexSet
+    absent_unknowns() const override;
+
     std::vector<double>
     events() const override;
 
@@ -80,16 +89,29 @@ namespace NMM
     void
     add_base_force(double t, double scale, Vector &forces) const;
 
+    /// Another number whenever events or absent blocks have changed forces.
+    unsigned int
+    version() const
+    {
+      return n_passed + (loading.releases.size() + 1) * n_departures;
+    }
+
     FiniteElasticity *elasticity;
     Loading           loading;
-    /// Number of passed events that changed something.
-    unsigned int n_passed = 0;
-    Vector       zero;
+    Vector            zero;
+    /// Owned unknowns of absent blocks.
+    dealii::IndexSet absent;
 
   private:
     void
     check_loading() const;
 
+    void
+    set_mass_of_translation();
+
+    /// Number of passed events that changed something, and of calls of
+    /// set_absent_blocks().
+    unsigned int   n_passed = 0, n_departures = 0;
     Matrix         mass_matrix;
     Vector         positions, mass_of_translation[2];
     LoadAmplitudes current;

@@ -1,6 +1,7 @@
 #ifndef nmm_dynamics_mechanical_model_h
 #define nmm_dynamics_mechanical_model_h
 
+#include <nmm/base/exceptions.h>
 #include <nmm/mechanics/hyperelasticity.h>
 
 #include <deal.II/base/index_set.h>
@@ -213,6 +214,42 @@ namespace NMM
     virtual void
     restore_internal_state(const std::vector<double> & /*state*/)
     {
+    }
+    /// @}
+
+    /// @name Blocks that have left
+    /// @{
+
+    /**
+     * These blocks (ManifoldMesh::block(), by number) exert and feel no forces from
+     * now on and are nowhere: nothing of theirs is assembled, nobody touches
+     * them, what their contacts held is forgotten. Their unknowns
+     * stay in the layout, held where they are: of their equations the rows of
+     * mass() are left, with nothing on the other side. Empty: all
+     * blocks are there. @throws InputError if the model has no blocks to leave.
+     */
+    virtual void
+    set_absent_blocks(const std::vector<bool> &is_absent)
+    {
+      AssertThrow(is_absent.empty(),
+                  InputError("Blocks are to leave a model that does not know "
+                             "of any",
+                             "",
+                             "keep them"));
+    }
+
+    /// Blocks that there are, absent ones included; 0: there are none to leave.
+    virtual unsigned int
+    n_blocks() const
+    {
+      return 0;
+    }
+
+    /// Owned unknowns of absent blocks.
+    virtual dealii::IndexSet
+    absent_unknowns() const
+    {
+      return dealii::IndexSet(locally_owned().size());
     }
     /// @}
 

@@ -9,6 +9,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace NMM
 {
@@ -21,6 +22,8 @@ namespace NMM
     double external_work = 0.;
     /// By Rayleigh and kinetic damping.
     double dissipated = 0.;
+    /// Kinetic + strain + conditions of blocks that have left, when they did.
+    double left = 0.;
   };
 
 
@@ -39,6 +42,8 @@ namespace NMM
     double     next_step = 0.;
     double     kinetic   = 0.;
     EnergySums sums;
+    /// Blocks that have left, in the order in which they did.
+    std::vector<unsigned int> left_blocks;
   };
 
 
@@ -47,9 +52,9 @@ namespace NMM
   struct Account
   {
     double kinetic = 0., strain = 0., conditions = 0., external_work = 0.,
-           dissipated = 0.;
-    /// kinetic + strain + conditions + dissipated - external_work - initial: what
-    /// the scheme adds (> 0) or takes away.
+           dissipated = 0., left = 0.;
+    /// kinetic + strain + conditions + dissipated + left - external_work -
+    /// initial: what the scheme adds (> 0) or takes away.
     double               balance = 0.;
     dealii::Tensor<1, 2> linear_momentum;
     double               angular_momentum = 0.;
@@ -140,6 +145,15 @@ namespace NMM
     /// Zero velocities; their energy counts as dissipated.
     void
     stop_motion();
+
+    /**
+     * The blocks (ManifoldMesh::block()) leave for good, see
+     * MechanicalModel::set_absent_blocks(). Their energies, that of contact with
+     * others included, count as `left`, and what they still touched loses that
+     * force. @throws InputError for a block that has left already.
+     */
+    void
+    drop_blocks(const std::vector<unsigned int> &blocks);
 
     const DynamicState &
     state() const;

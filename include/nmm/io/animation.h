@@ -17,30 +17,38 @@ namespace NMM
    * A page that shows a series of pictures in any browser, without a network: all
    * is in one file, the pictures as base64. Buttons and keys play, stop and step,
    * a slider goes anywhere; frames follow each other in proportion to their times.
+   * Where each frame has several pictures, e.g. in the colours of several
+   * quantities, the reader chooses which ones are shown.
    *
    * Each frame is a script element of its own,
-   * `<script>frame({"time":0.1,"label":"t = 0.1 s","png":"iVBOR..."})</script>`, so
-   * that a page that ends after any frame is a whole one.
+   * `<script>frame({"time":0.1,"label":"t = 0.1 s","png":["iVBOR..."]})</script>`,
+   * so that a page that ends after any frame is a whole one.
    *
    * Lifetime: the stream must outlive this object. Memory: one frame.
    */
   class AnimationPage
   {
   public:
-    /// Writes all but the frames.
-    AnimationPage(std::ostream &out, const std::string &title);
+    /// Writes all but the frames. @p choices: what the pictures of a frame are
+    /// called; if there is only one, nothing is to be chosen.
+    AnimationPage(std::ostream                   &out,
+                  const std::string              &title,
+                  const std::vector<std::string> &choices = {""});
 
-    /// @p png are the bytes of a PNG file, of the same size in pixels as the
-    /// first one's; @p time must not be less than the last one's.
-    /// @throws InputError otherwise.
+    /// @p png are the bytes of PNG files, one for each choice, of the same size
+    /// in pixels as the first frame's; @p time must not be less than the last
+    /// one's. @throws InputError otherwise.
     void
-    add_frame(double time, const std::string &label, const std::string &png);
+    add_frame(double                          time,
+              const std::string              &label,
+              const std::vector<std::string> &png);
 
     unsigned int
     n_frames() const;
 
   private:
     std::ostream *out;
+    std::size_t   n_choices;
     unsigned int  n_written = 0;
     double        last_time = -std::numeric_limits<double>::infinity();
     std::pair<std::uint32_t, std::uint32_t> size;
@@ -99,7 +107,9 @@ namespace NMM
      * Draw all frames: displacements times `parameters.deformation_scale` or, if
      * that is negative, the factor for the largest one in any frame; colours of
      * `animation.range`, the range in @p parameters or that of all frames.
-     * `parameters.picture_width` is not used.
+     * `parameters.picture_width` is not used. To choose from: the quantity in
+     * @p parameters and its `animation_quantities`, as far as all frames have
+     * them, each of these in the range of all frames.
      * @throws InputError if there are no frames.
      */
     void
@@ -125,6 +135,11 @@ namespace NMM
 
     PictureData
     read(const Record &record) const;
+
+    /// Of @p quantities those that all of @p records have.
+    std::vector<Quantity>
+    common_quantities(const std::vector<Record>   &records,
+                      const std::vector<Quantity> &quantities) const;
 
     /// The records that write() shows.
     std::vector<Record>

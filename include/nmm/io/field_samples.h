@@ -16,6 +16,8 @@ namespace NMM
   struct FieldSample
   {
     dealii::Tensor<1, 2> displacement;
+    /// 0 where nothing moves [m/s].
+    dealii::Tensor<1, 2> velocity;
 
     /// In-plane stress and sigma_zz.
     struct Stress
@@ -50,15 +52,27 @@ namespace NMM
                                         const dealii::Point<2>     &xi,
                                         const dealii::Tensor<2, 2> &gradient)>;
 
-    /// With @p law instead of the linear one, if it is given.
+    /// With @p law instead of the linear one, if it is given, and with the
+    /// velocities of the covers [m/s] as a field @p velocity, if it is given.
     FieldEvaluator(const DisplacementField &field,
                    const StressRecovery    &recovery,
                    const ElasticityProblem &problem,
-                   StressLaw                law = {});
+                   StressLaw                law      = {},
+                   const DisplacementField *velocity = nullptr);
 
     /// At @p x [m] of @p element.
     FieldSample
     operator()(unsigned int element, const dealii::Point<2> &x) const;
+
+    bool
+    has_velocity() const;
+
+    /// Blocks that have left are in no output.
+    void
+    hide_blocks(const std::vector<unsigned int> &blocks);
+
+    bool
+    shows(unsigned int element) const;
 
     /// Displacement alone [m].
     dealii::Tensor<1, 2>
@@ -70,6 +84,9 @@ namespace NMM
     const ElasticityProblem  *problem;
     std::vector<unsigned int> region_to_material;
     StressLaw                 law;
+    const DisplacementField  *velocity;
+    /// By block; empty: none is.
+    std::vector<bool> is_hidden;
 
     double
     stress_zz(unsigned int element, const dealii::Tensor<2, 2> &gradient) const;
@@ -86,6 +103,7 @@ namespace NMM
     std::vector<QuadraticTriangle>          nodes;
     std::vector<unsigned int>               elements;
     std::vector<std::array<FieldSample, 6>> samples;
+    bool                                    has_velocity = false;
 
     /// Without a solution (@p evaluator null) all samples are zero.
     FieldTriangles(const CoverSystem &covers, const FieldEvaluator *evaluator);
@@ -106,12 +124,20 @@ namespace NMM
   ElementIds
   element_ids(const ManifoldMesh &mesh, unsigned int element);
 
-  /// The number a picture is coloured by, at @p x [m] of an element.
+  /// The number a picture is coloured by, at @p x [m] of an element:
+  /// parameters.quantity, or @p quantity.
   double
   quantity_value(const FieldSample      &sample,
                  const ElementIds       &ids,
                  const dealii::Point<2> &x,
                  const OutputParameters &parameters);
+
+  double
+  quantity_value(const FieldSample      &sample,
+                 const ElementIds       &ids,
+                 const dealii::Point<2> &x,
+                 const OutputParameters &parameters,
+                 Quantity                quantity);
 } // namespace NMM
 
 #endif

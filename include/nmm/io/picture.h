@@ -59,6 +59,16 @@ namespace NMM
     /// rigid obstacles, which are on the left.
     std::vector<Polyline> outlines, interfaces, mesh_lines, obstacles;
     std::vector<Bar>      contacts;
+
+    /// Other values of the triangles, in their order.
+    struct Layer
+    {
+      Quantity                           quantity;
+      std::vector<std::array<double, 6>> values;
+    };
+    /// Those of OutputParameters::animation_quantities.
+    std::vector<Layer> layers;
+
     /// Factor on displacements [-].
     double deformation_scale = 0.;
   };

@@ -66,9 +66,18 @@ namespace NMM
     Geometry
     make_geometry() const;
 
+    /// Of the scene: blocks that leave them are dropped; empty: none are.
+    std::vector<Curve>
+    make_limits() const;
+
     /// @throws InputError for a curve that does not exist, an unreadable file.
     MathematicalMesh
     make_mathematical_mesh(const PhysicalMesh &physical_mesh) const;
+
+    /// Which mathematical mesh each region is on. @throws InputError for a block
+    /// that does not exist.
+    std::vector<RegionMesh>
+    make_region_meshes(const PhysicalMesh &physical_mesh) const;
 
     /// @throws InputError for an expression that cannot be parsed.
     ElasticityProblem

@@ -5,6 +5,7 @@
 #include <nmm/covers/graded_mesh.h>
 #include <nmm/covers/mathematical_mesh.h>
 #include <nmm/io/scene_parameters_contact.h>
+#include <nmm/io/scene_parameters_covers.h>
 #include <nmm/io/scene_parameters_dynamics.h>
 #include <nmm/io/scene_parameters_geometry.h>
 #include <nmm/mechanics/elasticity_problem.h>
@@ -51,30 +52,9 @@ namespace NMM
             const std::vector<std::string> &local_size_names);
     void
     parse(dealii::ParameterHandler &prm);
+    /// @p may_choose_size: a regular mesh need have no cell size.
     void
-    check() const;
-  };
-
-
-  struct CoverParameters
-  {
-    Stabilization stabilization = Stabilization::aggregation;
-    /// Least element_support() that makes an element good [-].
-    double threshold = default_aggregation_threshold;
-    /// Which regions get mathematical meshes of their own, see
-    /// make_own_meshes().
-    enum class OwnMeshes
-    {
-      where_needed,
-      every_region,
-      never
-    };
-    OwnMeshes own_meshes = OwnMeshes::where_needed;
-
-    static void
-    declare(dealii::ParameterHandler &prm);
-    void
-    parse(dealii::ParameterHandler &prm);
+    check(bool may_choose_size) const;
   };
 
 
@@ -225,13 +205,20 @@ namespace NMM
     displacement,
     displacement_x,
     displacement_y,
+    velocity,
+    velocity_x,
+    velocity_y,
     block,
     material
   };
 
-  /// Its name in scene files and pictures, e.g. "von Mises stress".
+  /// Its name, e.g. "von Mises stress".
   const std::string &
   to_string(Quantity quantity);
+
+  /// Is it a component of the velocity, or its length?
+  bool
+  is_velocity(Quantity quantity);
 
   struct OutputParameters
   {
@@ -243,10 +230,12 @@ namespace NMM
     /// A checkpoint after every so many steps; 0: none.
     unsigned int checkpoint_every = 0;
     /// With a series of pictures: animation.html as well.
-    bool        animation = true;
-    bool        picture   = true;
-    std::string title;
-    Quantity    quantity = Quantity::von_mises;
+    bool animation = true;
+    /// What its page can be coloured by beside `quantity`, by choice.
+    std::vector<Quantity> animation_quantities;
+    bool                  picture = true;
+    std::string           title;
+    Quantity              quantity = Quantity::von_mises;
     /// Colour by the recovered instead of the direct stress.
     bool recovered = true;
     /// Centre of the polar coordinates of radial and hoop stress [m].
@@ -317,8 +306,8 @@ namespace NMM
   struct SceneNames
   {
     std::vector<std::string> traces, joint_sets, regions, local_sizes,
-      materials, boundary_conditions, point_forces, fixed_points, contact_laws,
-      obstacles, initial_velocities, probes;
+      block_meshes, materials, boundary_conditions, point_forces, fixed_points,
+      contact_laws, obstacles, initial_velocities, probes;
 
     /// One name each, for the parameter reference.
     static SceneNames
@@ -383,6 +372,8 @@ namespace NMM
     check_analysis() const;
     void
     check_safety_factor() const;
+    void
+    check_output_quantities() const;
     void
     check_loads_in_time() const;
     void

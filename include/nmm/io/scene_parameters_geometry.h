@@ -89,7 +89,9 @@ namespace NMM
       /// What is inside is taken out of the solid.
       excavation,
       /// The same, and a rigid body is in its place until it is released.
-      restraint
+      restraint,
+      /// Blocks that leave it are dropped.
+      limit
     };
 
     std::string name;

@@ -11,6 +11,7 @@
 #include <deal.II/lac/trilinos_vector.h>
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace NMM
@@ -135,6 +136,23 @@ namespace NMM
     /// Multiplies loads from the next assembly on.
     void
     set_amplitudes(const LoadAmplitudes &amplitudes);
+
+    /**
+     * From the next assembly on nothing is added of these blocks
+     * (ManifoldMesh::block()), nor of what ties them to others: their rows of the
+     * tangent keep a diagonal entry that means nothing. Empty: all blocks are there.
+     * @throws InputError for another number of blocks.
+     */
+    void
+    set_absent_blocks(const std::vector<bool> &is_absent);
+
+    /// Pairs of blocks that are tied to each other and that this rank knows of.
+    std::vector<std::pair<unsigned int, unsigned int>>
+    tied_blocks() const;
+
+    /// Elements that the last assembly worked on, on this rank.
+    unsigned int
+    n_assembled_elements() const;
 
     /// Owned unknowns [N/m thickness]; 0 for constrained ones.
     const Vector &

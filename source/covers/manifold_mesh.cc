@@ -183,6 +183,7 @@ namespace NMM
     const std::vector<unsigned int> &exact_to_element)
   {
     element_to_edges.assign(element_to_cell.size(), {0, 0});
+    edges.reserve(cutting.edges.size());
     for (unsigned int i = 0; i < cutting.elements.size(); ++i)
     {
       const auto &exact = cutting.elements[i];

@@ -1,6 +1,6 @@
 // Speed against error: measures cases and requirements, and writes the report.
 //
-//   nmm-bench measure smallest|quick|full <table.csv>
+//   nmm-bench measure smallest|quick|full <table.csv> [<case>]
 //   nmm-bench report <table.csv> <directory> [<earlier table.csv>]
 //
 // On several ranks, `measure` adds the rows of what is shared out among ranks to a table
@@ -31,45 +31,59 @@ namespace
   }
 
 
+  struct Case
+  {
+    const char *name;
+    void (*measure)(Recorder &);
+    /// Is it shared out among ranks?
+    bool has_ranks;
+  };
+
+  // what needs most memory first
+  const Case cases[] = {{"cutting", measure_cutting, false},
+                        {"large-rings", measure_large_rings, true},
+                        {"ring", measure_ring, true},
+                        {"cantilever", measure_cantilever, false},
+                        {"hertz", measure_hertz, false},
+                        {"cracked-plate", measure_cracked_plate, false},
+                        {"incline", measure_incline, false},
+                        {"slope", measure_slope, false},
+                        {"output", measure_output, false}};
+
+
+  /// All cases, or the one of that name.
   void
-  measure(const Size size, const std::string &file_name)
+  measure(const Size         size,
+          const std::string &file_name,
+          const std::string &name)
   {
     using namespace dealii::Utilities::MPI;
     const bool is_alone = n_mpi_processes(MPI_COMM_WORLD) == 1;
     Recorder   recorder(size,
                       is_alone ? std::vector<Row>() : read_table(file_name));
-    const auto save = [&]() {
-      if (this_mpi_process(MPI_COMM_WORLD) == 0)
-        write_table(file_name, recorder.rows());
-    };
-    using Measure = void (*)(Recorder &);
-    std::vector<Measure> cases;
-    if (is_alone)
-      // what needs most memory first
-      cases = {measure_cutting,
-               measure_large_rings,
-               measure_ring,
-               measure_cantilever,
-               measure_hertz,
-               measure_cracked_plate,
-               measure_incline,
-               measure_slope,
-               measure_output};
-    else
-      cases = {measure_large_rings, measure_ring};
-    for (const Measure measure_case : cases)
-    {
-      measure_case(recorder);
-      save();
-    }
+    for (const Case &c : cases)
+      if ((name.empty() || name == c.name) && (is_alone || c.has_ranks))
+      {
+        c.measure(recorder);
+        if (this_mpi_process(MPI_COMM_WORLD) == 0)
+          write_table(file_name, recorder.rows());
+      }
+    AssertThrow(!recorder.rows().empty(),
+                InputError("there is no case '" + name + "'",
+                           "nmm-bench measure",
+                           "say cutting, large-rings, ring, cantilever, hertz, "
+                           "cracked-plate, incline, slope or output"));
   }
 
 
   void
   run(const std::vector<std::string> &arguments)
   {
-    if (arguments.size() == 3 && arguments[0] == "measure")
-      return measure(read_size(arguments[1]), arguments[2]);
+    if ((arguments.size() == 3 || arguments.size() == 4) &&
+        arguments[0] == "measure")
+      return measure(read_size(arguments[1]),
+                     arguments[2],
+                     arguments.size() == 4 ? arguments[3] : "");
     AssertThrow((arguments.size() == 3 || arguments.size() == 4) &&
                   arguments[0] == "report",
                 InputError("these arguments say nothing",

@@ -25,7 +25,8 @@ namespace NMM
                                          "#d66ba0",
                                          "#5b6b1f",
                                          "#000000",
-                                         "#90c0f0"};
+                                         "#90c0f0",
+                                         "#d9d9d9"};
       constexpr unsigned int n_colors = sizeof(colors) / sizeof(colors[0]);
       const int              marks[]  = {7, 5, 9, 11, 13, 6, 4, 8, 10, 12};
       constexpr unsigned int n_marks  = sizeof(marks) / sizeof(marks[0]);

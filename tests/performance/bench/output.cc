@@ -82,7 +82,7 @@ namespace NMM
                         mechanics->locally_relevant(),
                         mechanics->communicator());
         model.lap();
-        row.solution = row.output = row.iterations = 0.;
+        row.factorization = row.solution = row.output = row.iterations = 0.;
         for (unsigned int file = 0; file < n_files; ++file)
         {
           for (unsigned int i = 0; i < steps_per_file; ++i)
@@ -90,6 +90,7 @@ namespace NMM
             const StepReport report = integrator.try_step(0.005);
             AssertThrow(report.converged, dealii::ExcInternalError());
             row.iterations += report.n_iterations;
+            row.factorization += report.factorization_time;
             integrator.accept();
           }
           row.solution += model.lap();
@@ -97,6 +98,7 @@ namespace NMM
           write_fields(model, relevant, directory, file);
           row.output += model.lap();
         }
+        row.solution -= row.factorization;
         row.total = model.total();
         row.steps = n_files * steps_per_file;
         std::filesystem::remove_all(folder);

@@ -40,8 +40,12 @@ namespace NMM
       std::ostringstream text;
       if (std::abs(number) < 10000.)
       {
-        text << std::setprecision(number == std::round(number) ? 5 : digits)
-             << number;
+        const bool is_whole =
+          number == std::round(number) || std::abs(number) >= 1000.;
+        text << std::setprecision(is_whole ? 0 : digits);
+        if (is_whole)
+          text << std::fixed;
+        text << number;
         return text.str();
       }
       text << std::fixed << std::setprecision(0) << number;
@@ -292,7 +296,8 @@ namespace NMM
          "cracked-plate",
          "A plate of 1 m x 4 m with a crack through half of its width, an open "
          "joint that ends "
-         "inside, against the energy on a mesh halved down to 1e-9 m at the "
+         "inside, against the energy on a mesh of 0.02 m, halved down to 4e-8 "
+         "m at the "
          "tip. Uniform "
          "meshes err in proportion to the edge length whatever the order, as "
          "sqrt(r) "
@@ -308,9 +313,9 @@ namespace NMM
          "Slope of jointed rock that slides",
          "slope",
          "`applications/nmm/scenes/slope.prm` with a friction angle of 20 "
-         "degrees, the first half second "
+         "degrees, the first quarter of a second "
          "after its wall has been taken away. Error: way of the centre of mass "
-         "against that of a step of 1.25 ms; balance: error of the energy "
+         "against that of a step of 2.5 ms; balance: error of the energy "
          "account over the "
          "largest kinetic energy. Sizes are time steps."}};
 

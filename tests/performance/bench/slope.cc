@@ -117,10 +117,10 @@ namespace NMM
     {
       if (recorder.size() != Size::full)
         return;
-      constexpr double end = 0.5;
+      constexpr double end = 0.25;
       Tensor<1, 2>     exact;
       recorder.record([&]() {
-        Row row  = run(0.00125, end, exact);
+        Row row  = run(0.0025, end, exact);
         row.name = "slope reference";
         return row;
       });

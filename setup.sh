@@ -4,6 +4,7 @@
 #
 #   ./setup.sh run    the thick ring, with the driver
 #   ./setup.sh test   all tests, Debug and Release
+#   ./setup.sh bench  speed against error: doc/performance.md anew
 #
 # Safe to repeat. Environment variables, all optional:
 #   NMM_JOBS=N                    compile and test with N jobs at a time
@@ -48,6 +49,10 @@ usage()
   cat <<'USAGE'
 Usage: ./setup.sh run    set up, build, and run the thick ring
        ./setup.sh test   set up, build Debug and Release, and run every test
+       ./setup.sh bench [quick|full]
+                         set up, build, measure speed against error, and write
+                         doc/performance.md anew: in minutes, or all of it in
+                         half an hour
 USAGE
 }
 
@@ -232,6 +237,44 @@ command_test()
 }
 
 
+command_bench()
+{
+  local size="$1"
+  local folder=tests/performance
+  local table="$folder/performance.csv"
+  local program=build/release/bin/nmm-bench
+
+  configure_and_build release program_nmm-bench
+
+  say "Measuring ($size)"
+  "$program" measure "$size" "$table" ||
+    die "the measurements ended early (the message is above); $table has the" \
+        "rows before."
+
+  local on_two_ranks=(mpirun -np 2)
+  if mpirun --version 2>&1 | grep -q 'Open MPI'; then
+    on_two_ranks=(env OMPI_ALLOW_RUN_AS_ROOT=1
+                  OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+                  OMPI_MCA_btl_vader_single_copy_mechanism=none
+                  mpirun --oversubscribe -np 2)
+  fi
+  say "Measuring on two ranks"
+  "${on_two_ranks[@]}" "$program" measure "$size" "$table" ||
+    die "the measurements on two ranks failed (the message is above)."
+
+  say "Writing the report"
+  local before=()
+  if [[ -s "$folder/performance-before.csv" ]]; then
+    before=("$folder/performance-before.csv")
+  fi
+  "$program" report "$table" doc "${before[@]}" ||
+    die "the report could not be written (the message is above)."
+
+  say "Done. Look at:"
+  printf '   report  %s\n   table   %s\n' "$PWD/doc/performance.md" "$PWD/$table"
+}
+
+
 main()
 {
   case "${1:-}" in
@@ -244,16 +287,26 @@ main()
       check_versions
       "command_$1"
       ;;
+    bench)
+      local size="${2:-quick}"
+      if [[ $# -gt 2 || ! "$size" =~ ^(quick|full)$ ]]; then
+        usage >&2
+        die "'bench' takes one argument at most, 'quick' or 'full'."
+      fi
+      install_packages
+      check_versions
+      command_bench "$size"
+      ;;
     help | -h | --help)
       usage
       ;;
     '')
       usage >&2
-      die "say what to do: 'run' or 'test'."
+      die "say what to do: 'run', 'test' or 'bench'."
       ;;
     *)
       usage >&2
-      die "there is no command '$1'; there are 'run' and 'test'."
+      die "there is no command '$1'; there are 'run', 'test' and 'bench'."
       ;;
   esac
 }

@@ -260,6 +260,7 @@ namespace StepNMM1
     matrix.reinit(all, all, sparsity, MPI_COMM_SELF);
     TrilinosWrappers::MPI::Vector rhs(all, MPI_COMM_SELF),
       solution(all, MPI_COMM_SELF);
+    clock.lap("sparsity");
     assemble(dof_handler,
              mapping,
              parameters.material(),
@@ -280,6 +281,7 @@ namespace StepNMM1
 
     result.n_elements = triangulation.n_active_cells();
     result.n_unknowns = dof_handler.n_dofs();
+    result.n_nonzeros = matrix.n_nonzero_elements();
     measure_errors(
       dof_handler, mapping, parameters, Vector<double>(solution), result);
     return result;

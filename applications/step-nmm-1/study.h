@@ -70,6 +70,8 @@ namespace StepNMM1
     /// Unknowns of the linear system; values that aggregation expresses through
     /// them come on top.
     unsigned int n_unknowns = 0, n_constrained = 0, n_elements = 0;
+    /// Of the matrix; fitted elements only.
+    std::size_t n_nonzeros = 0;
     /// Relative errors [-]: L2 of displacement and stress, largest of the hoop
     /// stress along the radius, direct and recovered.
     double error_u = 0., error_stress = 0.;

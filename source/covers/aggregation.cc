@@ -207,6 +207,8 @@ namespace NMM
       Compat::make_affine_constraints(covers.locally_owned_dofs(n_components),
                                       covers.locally_relevant_dofs(
                                         n_components));
+    std::vector<double> weights(mesh.n_covers_per_cell());
+    std::vector<std::pair<types::global_dof_index, double>> entries;
     for (const auto &[k, root] : aggregation.cover_to_root)
     {
       if (!covers.locally_relevant_covers().is_element(k))
@@ -215,19 +217,18 @@ namespace NMM
         mesh.real_to_reference(covers.manifold_mesh().cell(root),
                                covers.node(k));
       const auto root_covers = covers.covers(root);
+      for (unsigned int j = 0; j < root_covers.size(); ++j)
+        weights[j] = mesh.fe().shape_value(j, xi);
       for (unsigned int c = 0; c < n_components; ++c)
       {
+        entries.clear();
+        // nodes of regular meshes often lie on each other's lattice
+        for (unsigned int j = 0; j < root_covers.size(); ++j)
+          if (std::abs(weights[j]) > 1e-14)
+            entries.emplace_back(n_components * root_covers[j] + c, weights[j]);
         const types::global_dof_index line = n_components * k + c;
         constraints.add_line(line);
-        for (unsigned int j = 0; j < root_covers.size(); ++j)
-        {
-          // nodes of regular meshes often lie on each other's lattice
-          const double weight = mesh.fe().shape_value(j, xi);
-          if (std::abs(weight) > 1e-14)
-            constraints.add_entry(line,
-                                  n_components * root_covers[j] + c,
-                                  weight);
-        }
+        constraints.add_entries(line, entries);
       }
     }
     constraints.close();

@@ -24,6 +24,7 @@ namespace NMM
                const std::vector<unsigned int>  &region_to_part,
                const PartToCut                  &part,
                const std::vector<unsigned char> &touched,
+               const std::vector<SimpleCut>     &simple_cuts,
                Cutting                          &result)
           : mesh(mathematical_mesh)
           , physical_pieces(physical_mesh.pieces())
@@ -31,15 +32,27 @@ namespace NMM
           , region_to_part(region_to_part)
           , part(part)
           , touched(touched)
+          , simple_cuts(simple_cuts)
           , result(result)
+          , arranged(touched)
+          , cell_to_simple_cut(simple_cuts.empty() ? 0 : touched.size(),
+                               invalid_index)
         {
+          for (unsigned int i = 0; i < simple_cuts.size(); ++i)
+          {
+            cell_to_simple_cut[simple_cuts[i].cell] = i;
+            arranged[simple_cuts[i].cell]           = 0;
+          }
           arrange();
           label_regions();
           label_cells();
           spread_cells();
+          label_beside_simple_cuts();
           flood_untouched_cells();
           number_elements();
+          number_simple_elements();
           read_edges_and_links();
+          add_simple_elements();
         }
 
       private:
@@ -60,6 +73,58 @@ namespace NMM
         number_elements();
         void
         read_edges_and_links();
+        /// @name Cells that are cut simply
+        /// @{
+        void
+        label_beside_simple_cuts();
+        void
+        number_simple_elements();
+        void
+        add_simple_elements();
+
+        /// Its index, or invalid_index.
+        unsigned int
+        simple_cut(unsigned int cell) const;
+
+        /// Region at a corner of the mathematical mesh.
+        unsigned int
+        region_at(const SimpleCut &cut, unsigned int mesh_vertex) const;
+
+        /// Code of the element at a corner.
+        unsigned int
+        element_at(unsigned int cut, unsigned int mesh_vertex) const;
+
+        /// Code of the element beyond a side of a simply cut cell, next to
+        /// @p mesh_vertex.
+        unsigned int
+        element_beyond(unsigned int cell,
+                       unsigned int mesh_edge,
+                       unsigned int mesh_vertex) const;
+
+        /// What an arranged cell knows of a side that it shares with a simply cut
+        /// one: @p edge is its piece, @p element its code.
+        void
+        remember_shared_side(const ElementEdge &edge, unsigned int element);
+
+        /// Where the cut crosses a side.
+        Point<2>
+        crossing_of(const SimpleCut &cut, unsigned int mesh_edge) const;
+
+        /// Which end of a mathematical edge a piece of it is next to, 0 or 1.
+        unsigned int
+        nearer_end(unsigned int    mesh_edge,
+                   const Point<2> &start,
+                   const Point<2> &end) const;
+
+        /// A straight edge of an element; @p side: of the cell, or 3 for the cut.
+        void
+        add_simple_edge(unsigned int    cut,
+                        unsigned int    side,
+                        unsigned int    mesh_vertex,
+                        const Point<2> &start,
+                        const Point<2> &end);
+        /// @}
+
         void
         read_loop(const Arrangement::Ccb_halfedge_circulator &start);
         void
@@ -88,10 +153,11 @@ namespace NMM
 
         /// Code of the element on the left, see Cutting.
         unsigned int
-        left_element(const Halfedge &halfedge) const;
+        left_element(const Halfedge &halfedge);
 
+        template <typename Labels>
         unsigned int
-        curve_set_index(const Halfedge &halfedge);
+        curve_set_index(const Labels &labels);
 
         /// Number of a vertex. It is converted to doubles once: a second
         /// conversion of a lazy number can differ in the last place, and loops
@@ -105,8 +171,26 @@ namespace NMM
         const std::vector<unsigned int>  &region_to_part;
         const PartToCut                  &part;
         const std::vector<unsigned char> &touched;
+        const std::vector<SimpleCut>     &simple_cuts;
         Cutting                          &result;
         Arrangement                       arrangement;
+
+        /// Flags of the cells that are arranged, by cell.
+        std::vector<unsigned char> arranged;
+        /// Empty without simple cuts.
+        std::vector<unsigned int> cell_to_simple_cut;
+        /// Code of the element at the corner, and of the other one.
+        std::vector<std::array<unsigned int, 2>> simple_elements;
+        /// By mathematical edge between an arranged and a simply cut cell.
+        struct SharedSide
+        {
+          /// Codes of the arranged cell's elements at both ends.
+          std::array<unsigned int, 2> elements = {
+            {invalid_index, invalid_index}};
+          bool     is_crossed = false;
+          Point<2> crossing;
+        };
+        std::unordered_map<unsigned int, SharedSide> shared_sides;
 
         std::unordered_map<const Arrangement::Vertex *, unsigned int>
           vertex_to_index;
@@ -118,7 +202,7 @@ namespace NMM
       {
         std::vector<unsigned int> wanted;
         for (unsigned int c = part.cells.first; c < part.cells.second; ++c)
-          if (touched[c])
+          if (arranged[c])
             wanted.insert(wanted.end(),
                           mesh.cell_edges(c).begin(),
                           mesh.cell_edges(c).end());
@@ -294,7 +378,7 @@ namespace NMM
         for (auto face = arrangement.faces_begin();
              face != arrangement.faces_end();
              ++face)
-          if (face->data().cell != invalid_index && touched[face->data().cell])
+          if (face->data().cell != invalid_index && arranged[face->data().cell])
             stack.push_back(face);
 
         spread(
@@ -356,7 +440,7 @@ namespace NMM
         {
           FaceData data = face->data();
           if (data.region == invalid_index || data.cell == invalid_index ||
-              !touched[data.cell])
+              !arranged[data.cell])
             continue;
           data.element = result.elements.size();
           face->set_data(data);
@@ -366,7 +450,7 @@ namespace NMM
 
 
       unsigned int
-      Cutter::left_element(const Halfedge &halfedge) const
+      Cutter::left_element(const Halfedge &halfedge)
       {
         const FaceData data = halfedge->face()->data();
         if (data.element != invalid_index)
@@ -374,7 +458,15 @@ namespace NMM
         const unsigned int e = mesh_edge(halfedge);
         if (e == invalid_index || data.region == invalid_index)
           return invalid_index;
-        return whole_cell_flag + left_cell(halfedge, e);
+        const unsigned int c   = left_cell(halfedge, e);
+        const unsigned int cut = simple_cut(c);
+        if (cut == invalid_index)
+          return whole_cell_flag + c;
+        const unsigned int end =
+          nearer_end(e,
+                     result.vertices[vertex(halfedge->source())],
+                     result.vertices[vertex(halfedge->target())]);
+        return element_at(cut, mesh.edges()[e].vertices[end]);
       }
 
 
@@ -389,11 +481,12 @@ namespace NMM
       }
 
 
+      template <typename Labels>
       unsigned int
-      Cutter::curve_set_index(const Halfedge &halfedge)
+      Cutter::curve_set_index(const Labels &labels)
       {
         std::vector<unsigned int> set;
-        for (const Label label : halfedge->curve().data())
+        for (const Label label : labels)
           if (is_piece(label))
             set.push_back(label);
         if (set.empty())
@@ -416,7 +509,7 @@ namespace NMM
         ElementEdge               edge;
         edge.start     = result.vertices[origin.start];
         edge.end       = result.vertices[origin.end];
-        edge.curve_set = curve_set_index(halfedge);
+        edge.curve_set = curve_set_index(halfedge->curve().data());
         edge.neighbor  = left_element(halfedge->twin());
         edge.mesh_edge = mesh_edge(halfedge);
         set_circle(halfedge->curve(),
@@ -425,6 +518,10 @@ namespace NMM
                    edge);
         result.edges.push_back(edge);
         result.origins.push_back(origin);
+        if (edge.mesh_edge != invalid_index &&
+            simple_cut(left_cell(halfedge->twin(), edge.mesh_edge)) !=
+              invalid_index)
+          remember_shared_side(edge, halfedge->face()->data().element);
       }
 
 
@@ -479,6 +576,230 @@ namespace NMM
             result.links.push_back({e, {{a, b}}});
         }
       }
+
+
+      unsigned int
+      Cutter::simple_cut(const unsigned int cell) const
+      {
+        return cell_to_simple_cut.empty() || cell == invalid_index
+                 ? invalid_index
+                 : cell_to_simple_cut[cell];
+      }
+
+
+      unsigned int
+      Cutter::region_at(const SimpleCut   &cut,
+                        const unsigned int mesh_vertex) const
+      {
+        const bool is_corner =
+          mesh_vertex == mesh.cell_vertices(cut.cell)[cut.corner];
+        return physical_edges.edges()[cut.physical_edge]
+          .regions[is_corner == cut.corner_is_left ? 0 : 1];
+      }
+
+
+      unsigned int
+      Cutter::element_at(const unsigned int cut,
+                         const unsigned int mesh_vertex) const
+      {
+        const SimpleCut &c = simple_cuts[cut];
+        return simple_elements
+          [cut][mesh_vertex == mesh.cell_vertices(c.cell)[c.corner] ? 0 : 1];
+      }
+
+
+      /// The side that is not crossed may border on cells that nothing touches.
+      void
+      Cutter::label_beside_simple_cuts()
+      {
+        for (const SimpleCut &cut : simple_cuts)
+        {
+          const unsigned int side = (cut.corner + 1) % 3;
+          for (const unsigned int other :
+               mesh.edges()[mesh.cell_edges(cut.cell)[side]].cells)
+            if (other != invalid_index && !touched[other])
+              result.cell_region[other] =
+                region_at(cut, mesh.cell_vertices(cut.cell)[side]);
+        }
+      }
+
+
+      void
+      Cutter::number_simple_elements()
+      {
+        simple_elements.reserve(simple_cuts.size());
+        for (const SimpleCut &cut : simple_cuts)
+        {
+          simple_elements.push_back({{invalid_index, invalid_index}});
+          for (unsigned int i = 0; i < 2; ++i)
+          {
+            const unsigned int region =
+              region_at(cut,
+                        mesh.cell_vertices(cut.cell)[(cut.corner + i) % 3]);
+            if (region == invalid_index)
+              continue;
+            simple_elements.back()[i] = result.elements.size();
+            result.elements.push_back({cut.cell, region, false, 0, 0});
+          }
+        }
+      }
+
+
+      unsigned int
+      Cutter::nearer_end(const unsigned int e,
+                         const Point<2>    &start,
+                         const Point<2>    &end) const
+      {
+        double distance[2];
+        for (unsigned int i = 0; i < 2; ++i)
+        {
+          const Point<2> &v = mesh.vertices()[mesh.edges()[e].vertices[i]];
+          distance[i] =
+            std::min(start.distance_square(v), end.distance_square(v));
+        }
+        return distance[0] <= distance[1] ? 0 : 1;
+      }
+
+
+      void
+      Cutter::remember_shared_side(const ElementEdge &edge,
+                                   const unsigned int element)
+      {
+        SharedSide        &shared = shared_sides[edge.mesh_edge];
+        const auto        &ends   = mesh.edges()[edge.mesh_edge].vertices;
+        const unsigned int near =
+          nearer_end(edge.mesh_edge, edge.start, edge.end);
+        const Point<2> &here  = mesh.vertices()[ends[near]],
+                       &there = mesh.vertices()[ends[1 - near]];
+        const Point<2> &far =
+          edge.start.distance_square(here) > edge.end.distance_square(here)
+            ? edge.start
+            : edge.end;
+        shared.elements[near] = element;
+        if (far == there)
+          shared.elements[1 - near] = element;
+        else
+        {
+          shared.is_crossed = true;
+          shared.crossing   = far;
+        }
+      }
+
+
+      Point<2>
+      Cutter::crossing_of(const SimpleCut &cut, const unsigned int e) const
+      {
+        const auto shared = shared_sides.find(e);
+        if (shared != shared_sides.end() && shared->second.is_crossed)
+          return shared->second.crossing;
+        const auto &ends = mesh.edges()[e].vertices;
+        return crossing(
+          physical_pieces[physical_edges.edges()[cut.physical_edge].piece],
+          mesh.vertices()[ends[0]],
+          mesh.vertices()[ends[1]]);
+      }
+
+
+      unsigned int
+      Cutter::element_beyond(const unsigned int cell,
+                             const unsigned int e,
+                             const unsigned int mesh_vertex) const
+      {
+        const auto        &cells = mesh.edges()[e].cells;
+        const unsigned int other = cells[0] == cell ? cells[1] : cells[0];
+        AssertThrow(other != invalid_index,
+                    InputError("the solid sticks out of the mathematical mesh",
+                               to_string(mesh.vertices()[mesh_vertex]),
+                               "give a mesh that covers it"));
+        const unsigned int cut = simple_cut(other);
+        if (cut != invalid_index)
+          return element_at(cut, mesh_vertex);
+        if (!touched[other])
+          return result.cell_region[other] == invalid_index
+                   ? invalid_index
+                   : whole_cell_flag + other;
+        const auto shared = shared_sides.find(e);
+        return shared == shared_sides.end()
+                 ? invalid_index
+                 : shared->second
+                     .elements[mesh_vertex == mesh.edges()[e].vertices[0] ? 0
+                                                                          : 1];
+      }
+
+
+      void
+      Cutter::add_simple_edge(const unsigned int cut,
+                              const unsigned int side,
+                              const unsigned int mesh_vertex,
+                              const Point<2>    &start,
+                              const Point<2>    &end)
+      {
+        const SimpleCut   &c       = simple_cuts[cut];
+        const auto        &element = simple_elements[cut];
+        const unsigned int here    = element_at(cut, mesh_vertex);
+        ElementEdge        edge;
+        edge.start = start;
+        edge.end   = end;
+        if (side == 3)
+        {
+          edge.curve_set = curve_set_index(
+            physical_edges.exact_curves().curves[c.physical_edge].data());
+          edge.neighbor = element[here == element[0] ? 1 : 0];
+        }
+        else
+        {
+          edge.mesh_edge = mesh.cell_edges(c.cell)[side];
+          edge.neighbor  = element_beyond(c.cell, edge.mesh_edge, mesh_vertex);
+          const auto        &cells = mesh.edges()[edge.mesh_edge].cells;
+          const unsigned int other = cells[cells[0] == c.cell ? 1 : 0];
+          // the arrangement has joined those that it knows, and the first of two
+          // simply cut ones joins both
+          if (edge.neighbor != invalid_index && !arranged[other] &&
+              (simple_cut(other) == invalid_index || c.cell < other))
+            result.links.push_back({edge.mesh_edge, {{here, edge.neighbor}}});
+        }
+        result.edges.push_back(edge);
+        result.origins.push_back({invalid_index,
+                                  invalid_index,
+                                  side == 3 ? c.physical_edge : invalid_index});
+      }
+
+
+      void
+      Cutter::add_simple_elements()
+      {
+        for (unsigned int i = 0; i < simple_cuts.size(); ++i)
+        {
+          const SimpleCut   &cut = simple_cuts[i];
+          const unsigned int k = cut.corner, l = (k + 1) % 3, m = (k + 2) % 3;
+          const auto        &v     = mesh.cell_vertices(cut.cell);
+          const auto        &sides = mesh.cell_edges(cut.cell);
+          const Point<2>     x     = crossing_of(cut, sides[k]),
+                         y         = crossing_of(cut, sides[m]);
+          const auto corner        = [&](const unsigned int local) {
+            return mesh.vertices()[v[local]];
+          };
+          if (simple_elements[i][0] != invalid_index)
+          {
+            Cutting::Element &element = result.elements[simple_elements[i][0]];
+            element.first_edge        = result.edges.size();
+            add_simple_edge(i, k, v[k], corner(k), x);
+            add_simple_edge(i, 3, v[k], x, y);
+            add_simple_edge(i, m, v[k], y, corner(k));
+            element.end_edge = result.edges.size();
+          }
+          if (simple_elements[i][1] != invalid_index)
+          {
+            Cutting::Element &element = result.elements[simple_elements[i][1]];
+            element.first_edge        = result.edges.size();
+            add_simple_edge(i, k, v[l], x, corner(l));
+            add_simple_edge(i, l, v[l], corner(l), corner(m));
+            add_simple_edge(i, m, v[m], corner(m), y);
+            add_simple_edge(i, 3, v[m], y, x);
+            element.end_edge = result.edges.size();
+          }
+        }
+      }
     } // namespace
 
 
@@ -489,6 +810,7 @@ namespace NMM
         const std::vector<unsigned int>  &region_to_part,
         const PartToCut                  &part,
         const std::vector<unsigned char> &touched,
+        const std::vector<SimpleCut>     &simple_cuts,
         Cutting                          &cutting)
     {
       Cutter(mathematical_mesh,
@@ -497,6 +819,7 @@ namespace NMM
              region_to_part,
              part,
              touched,
+             simple_cuts,
              cutting);
     }
   } // namespace internal

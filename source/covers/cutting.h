@@ -26,15 +26,65 @@ namespace NMM
                                const std::vector<Triangle>         &triangles,
                                const PhysicalMesh &physical_mesh);
 
-    /**
-     * The same for some triangles and some edges: rounding is that of
-     * coordinates of up to @p scale [m].
-     */
+    /// The same for some triangles and some edges: rounding is that of
+    /// coordinates of up to @p scale [m].
     std::vector<unsigned char>
     find_triangles_near_edges(const std::vector<dealii::Point<2>> &vertices,
                               dealii::ArrayView<const Triangle>    triangles,
                               const std::vector<ElementEdge>      &edges,
                               double                               scale);
+
+    /// More than one edge.
+    constexpr unsigned int several_edges = invalid_index - 1;
+
+    /**
+     * For each triangle the number of the only edge that touches it or comes within
+     * rounding of it; several_edges, or invalid_index for none.
+     */
+    std::vector<unsigned int>
+    find_edges_near_triangles(const std::vector<dealii::Point<2>> &vertices,
+                              dealii::ArrayView<const Triangle>    triangles,
+                              const std::vector<ElementEdge>      &edges,
+                              double                               scale);
+
+    /**
+     * A cell that one straight physical edge runs through, in at one side and out at
+     * another, clear of the corners, and that no other one comes near: it
+     * needs no arrangement. The elements are a triangle at one corner and a
+     * quadrilateral.
+     */
+    struct SimpleCut
+    {
+      unsigned int cell;
+      unsigned int physical_edge;
+      /// The corner that is alone on its side: sides `corner` and
+      /// (corner + 2) % 3 of the cell are crossed.
+      unsigned int corner;
+      /// Is it to the left of the edge run from its left to its right end?
+      bool corner_is_left;
+    };
+
+    /**
+     * The cells of a mesh that are cut simply, in ascending order. All decisions have a
+     * margin of many roundings; what is nearer is left to the arrangement.
+     * @p only_edge: see find_edges_near_triangles().
+     */
+    std::vector<SimpleCut>
+    find_simple_cuts(const MathematicalMesh          &mesh,
+                     const PhysicalEdges             &physical_edges,
+                     const std::vector<CurvePiece>   &pieces,
+                     const std::vector<unsigned int> &only_edge,
+                     double                           scale);
+
+    /**
+     * Where the straight line that @p piece lies on crosses the segment from @p u to
+     * @p v; the same doubles whichever cell asks, if u and v come in the same order.
+     * Within few roundings of the coordinates.
+     */
+    dealii::Point<2>
+    crossing(const CurvePiece       &piece,
+             const dealii::Point<2> &u,
+             const dealii::Point<2> &v);
 
     /**
      * What the exact cutter finds. Elements are referred to by *codes*: below
@@ -94,9 +144,10 @@ namespace NMM
 
     /**
      * Arrange the edges of @p touched cells of a part with its physical edges
-     * exactly, read off elements, their edges and how they are joined, and
-     * append them to @p cutting, whose cell_region has the size of the mesh.
-     * Cost: O(n log n) in the number of physical edges and touched cells of the
+     * exactly, but for those that are cut simply, read off elements, their edges and
+     * how they are joined, and append them to @p cutting, whose cell_region has the
+     * size of the mesh. Vertices of edges of @p simple_cuts are not numbered.
+     * Cost: O(n log n) in the number of physical edges and arranged cells of the
      * part, plus O(1) for each of its cells.
      * @throws InputError where the part's regions stick out of it.
      */
@@ -107,6 +158,7 @@ namespace NMM
         const std::vector<unsigned int>  &region_to_part,
         const PartToCut                  &part,
         const std::vector<unsigned char> &touched,
+        const std::vector<SimpleCut>     &simple_cuts,
         Cutting                          &cutting);
 
     /**

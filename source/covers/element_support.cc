@@ -62,11 +62,16 @@ namespace NMM
     const MathematicalMesh &mesh = manifold_mesh.mathematical_mesh();
     const unsigned int      cell = manifold_mesh.cell(element);
     const Point<2>          centroid(1. / 3., 1. / 3.);
+    const Point<2>    &origin = mesh.vertices()[mesh.cell_vertices(cell)[0]];
+    const Tensor<2, 2> to_reference  = invert(mesh.jacobian(cell));
+    const auto         from_centroid = [&](const Point<2> &x) {
+      return Tensor<1, 2>(Point<2>(to_reference * (x - origin)) - centroid);
+    };
 
     Moments moments;
     for (const ElementEdge &edge : manifold_mesh.edges(element))
     {
-      Tensor<1, 2> a = mesh.real_to_reference(cell, edge.start) - centroid;
+      Tensor<1, 2> a = from_centroid(edge.start);
       if (edge.is_arc())
       {
         constexpr unsigned int n_chords = 8;
@@ -76,16 +81,13 @@ namespace NMM
         for (unsigned int i = 1; i < n_chords; ++i)
         {
           const double       t = from + sweep * i / n_chords;
-          const Tensor<1, 2> b =
-            mesh.real_to_reference(
-              cell,
-              edge.center + radius * Tensor<1, 2>({std::cos(t), std::sin(t)})) -
-            centroid;
+          const Tensor<1, 2> b = from_centroid(
+            edge.center + radius * Tensor<1, 2>({std::cos(t), std::sin(t)}));
           moments.add(a, b);
           a = b;
         }
       }
-      moments.add(a, mesh.real_to_reference(cell, edge.end) - centroid);
+      moments.add(a, from_centroid(edge.end));
     }
     const double smallest =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments.normalized(),

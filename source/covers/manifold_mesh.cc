@@ -183,6 +183,7 @@ namespace NMM
     const std::vector<unsigned int> &exact_to_element)
   {
     element_to_edges.assign(element_to_cell.size(), {0, 0});
+    edges.reserve(cutting.edges.size());
     for (unsigned int i = 0; i < cutting.elements.size(); ++i)
     {
       const auto &exact = cutting.elements[i];
@@ -318,8 +319,9 @@ namespace NMM
     }
 
 
-    /// Flags the cells of a part that its curves come near.
-    void
+    /// The physical edge that comes near each cell of a part, see
+    /// find_edges_near_triangles(); flags the cells.
+    std::vector<unsigned int>
     mark_touched_cells(const MathematicalMesh        &mesh,
                        const internal::PhysicalEdges &physical_edges,
                        const internal::PartToCut     &part,
@@ -330,15 +332,20 @@ namespace NMM
       shapes.reserve(part.edges.size());
       for (const unsigned int e : part.edges)
         shapes.push_back(physical_edges.edges()[e].shape);
-      const auto [first, end] = part.cells;
-      const std::vector<unsigned char> near =
-        internal::find_triangles_near_edges(
-          mesh.vertices(),
-          ArrayView<const internal::Triangle>(mesh.cells().data() + first,
-                                              end - first),
-          shapes,
-          scale);
-      std::copy(near.begin(), near.end(), touched.begin() + first);
+      const auto [first, end]        = part.cells;
+      std::vector<unsigned int> near = internal::find_edges_near_triangles(
+        mesh.vertices(),
+        ArrayView<const internal::Triangle>(mesh.cells().data() + first,
+                                            end - first),
+        shapes,
+        scale);
+      for (unsigned int i = 0; i < near.size(); ++i)
+      {
+        touched[first + i] = near[i] != invalid_index;
+        if (near[i] != invalid_index && near[i] != internal::several_edges)
+          near[i] = part.edges[near[i]];
+      }
+      return near;
     }
   } // namespace
 
@@ -374,14 +381,24 @@ namespace NMM
     for (const internal::PartToCut &part : find_parts(
            mathematical_mesh, physical_edges, region_to_part, n_regions))
     {
-      mark_touched_cells(
+      const std::vector<unsigned int> near = mark_touched_cells(
         mathematical_mesh, physical_edges, part, scale, touched);
+      // Edges on both sides of a curve between parts are matched by the vertices of
+      // the arrangements.
+      std::vector<internal::SimpleCut> simple_cuts;
+      if (mathematical_mesh.n_parts() == 1)
+        simple_cuts = internal::find_simple_cuts(mathematical_mesh,
+                                                 physical_edges,
+                                                 physical_mesh.pieces(),
+                                                 near,
+                                                 scale);
       internal::cut(mathematical_mesh,
                     physical_mesh,
                     physical_edges,
                     region_to_part,
                     part,
                     touched,
+                    simple_cuts,
                     cutting);
     }
     if (mathematical_mesh.n_parts() > 1 && !region_to_part.empty())

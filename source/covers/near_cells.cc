@@ -5,6 +5,7 @@
 #include <boost/geometry/geometries/box.hpp>
 #include <boost/geometry/geometries/point.hpp>
 #include <boost/geometry/index/rtree.hpp>
+#include <boost/iterator/function_output_iterator.hpp>
 #include <cmath>
 
 namespace NMM
@@ -25,6 +26,8 @@ namespace NMM
       {
         Point<2> a, b;
         double   width;
+        /// The curve it belongs to.
+        unsigned int owner;
       };
 
       using Tree = bg::index::rtree<std::pair<BoostBox, unsigned int>,
@@ -56,10 +59,12 @@ namespace NMM
                   const double        margin)
       {
         std::vector<Chunk> chunks;
-        for (const CurvePiece &piece : physical_mesh.pieces())
+        const auto        &pieces = physical_mesh.pieces();
+        for (unsigned int p = 0; p < pieces.size(); ++p)
         {
-          bool     first = true;
-          Point<2> previous;
+          const CurvePiece &piece = pieces[p];
+          bool              first = true;
+          Point<2>          previous;
           for_each_sample(piece, spacing, [&](const Point<2> &x) {
             if (!first)
             {
@@ -75,7 +80,8 @@ namespace NMM
                                    2. * piece.radius < spacing)
                                     ? 2. * piece.radius
                                     : 0.;
-              chunks.push_back({previous, x, std::max(sagitta, tiny) + margin});
+              chunks.push_back(
+                {previous, x, std::max(sagitta, tiny) + margin, p});
             }
             first    = false;
             previous = x;
@@ -91,9 +97,10 @@ namespace NMM
                   const double                    margin)
       {
         std::vector<Chunk> chunks;
-        for (const ElementEdge &edge : edges)
+        for (unsigned int e = 0; e < edges.size(); ++e)
         {
-          const double sweep  = swept_angle(edge);
+          const ElementEdge &edge  = edges[e];
+          const double       sweep = swept_angle(edge);
           const double length = edge.is_arc() ? std::abs(sweep * edge.radius)
                                               : edge.start.distance(edge.end);
           const auto   n      = static_cast<unsigned int>(
@@ -113,7 +120,7 @@ namespace NMM
                 : edge.center + std::abs(edge.radius) *
                                   Tensor<1, 2>({std::cos(first + t * sweep),
                                                 std::sin(first + t * sweep)});
-            chunks.push_back({previous, x, sagitta + margin});
+            chunks.push_back({previous, x, sagitta + margin, e});
             previous = x;
           }
         }
@@ -156,6 +163,8 @@ namespace NMM
 
     namespace
     {
+      constexpr unsigned int several = several_edges;
+
       /// Rounding in coordinates of this size is far below it [m].
       double
       rounding_margin(const double scale)
@@ -164,16 +173,18 @@ namespace NMM
       }
 
 
-      std::vector<unsigned char>
-      find_triangles_near(const std::vector<Point<2>>    &vertices,
-                          const ArrayView<const Triangle> triangles,
-                          const std::vector<Chunk>       &chunks)
+      /// The owner of the chunks near each triangle; invalid_index: none, `several`:
+      /// more than one.
+      std::vector<unsigned int>
+      find_owners_near(const std::vector<Point<2>>    &vertices,
+                       const ArrayView<const Triangle> triangles,
+                       const std::vector<Chunk>       &chunks)
       {
         std::vector<std::pair<BoostBox, unsigned int>> boxes;
         boxes.reserve(chunks.size());
         for (unsigned int i = 0; i < chunks.size(); ++i)
         {
-          const auto &[a, b, w] = chunks[i];
+          const auto &[a, b, w, owner] = chunks[i];
           boxes.emplace_back(
             BoostBox({std::min(a[0], b[0]) - w, std::min(a[1], b[1]) - w},
                      {std::max(a[0], b[0]) + w, std::max(a[1], b[1]) + w}),
@@ -181,7 +192,7 @@ namespace NMM
         }
         const Tree tree(boxes);
 
-        std::vector<unsigned char> near(triangles.size(), 0);
+        std::vector<unsigned int> near(triangles.size(), invalid_index);
         for (std::size_t c = 0; c < triangles.size(); ++c)
         {
           const auto                   &v        = triangles[c];
@@ -191,14 +202,30 @@ namespace NMM
             std::minmax({triangle[0][0], triangle[1][0], triangle[2][0]});
           const auto [y0, y1] =
             std::minmax({triangle[0][1], triangle[1][1], triangle[2][1]});
-          const auto candidates =
-            bg::index::intersects(BoostBox({x0, y0}, {x1, y1})) &&
-            bg::index::satisfies([&](const auto &value) {
-              return !are_apart(triangle, chunks[value.second]);
-            });
-          near[c] = (tree.qbegin(candidates) != tree.qend());
+          tree.query(bg::index::intersects(BoostBox({x0, y0}, {x1, y1})),
+                     boost::make_function_output_iterator(
+                       [&, c](const auto &value) {
+                         const Chunk &chunk = chunks[value.second];
+                         if (near[c] != chunk.owner && near[c] != several &&
+                             !are_apart(triangle, chunk))
+                           near[c] =
+                             near[c] == invalid_index ? chunk.owner : several;
+                       }));
         }
         return near;
+      }
+    } // namespace
+
+
+    namespace
+    {
+      std::vector<unsigned char>
+      to_flags(const std::vector<unsigned int> &owners)
+      {
+        std::vector<unsigned char> flags(owners.size());
+        for (std::size_t i = 0; i < owners.size(); ++i)
+          flags[i] = owners[i] != invalid_index;
+        return flags;
       }
     } // namespace
 
@@ -216,11 +243,29 @@ namespace NMM
         scale = std::max(
           {scale, std::abs(box.lower_bound(d)), std::abs(box.upper_bound(d))});
       const ArrayView<const Triangle> view(triangles.data(), triangles.size());
-      return find_triangles_near(vertices,
-                                 view,
-                                 make_chunks(physical_mesh,
-                                             2. * typical_size(vertices, view),
-                                             rounding_margin(scale)));
+      return to_flags(
+        find_owners_near(vertices,
+                         view,
+                         make_chunks(physical_mesh,
+                                     2. * typical_size(vertices, view),
+                                     rounding_margin(scale))));
+    }
+
+
+    std::vector<unsigned int>
+    find_edges_near_triangles(const std::vector<Point<2>>    &vertices,
+                              const ArrayView<const Triangle> triangles,
+                              const std::vector<ElementEdge> &edges,
+                              const double                    scale)
+    {
+      if (triangles.size() == 0)
+        return {};
+      return find_owners_near(vertices,
+                              triangles,
+                              make_chunks(edges,
+                                          2. *
+                                            typical_size(vertices, triangles),
+                                          rounding_margin(scale)));
     }
 
 
@@ -230,14 +275,8 @@ namespace NMM
                               const std::vector<ElementEdge> &edges,
                               const double                    scale)
     {
-      if (triangles.size() == 0)
-        return {};
-      return find_triangles_near(vertices,
-                                 triangles,
-                                 make_chunks(edges,
-                                             2. * typical_size(vertices,
-                                                               triangles),
-                                             rounding_margin(scale)));
+      return to_flags(
+        find_edges_near_triangles(vertices, triangles, edges, scale));
     }
   } // namespace internal
 } // namespace NMM

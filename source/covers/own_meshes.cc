@@ -168,6 +168,7 @@ namespace NMM
                     region_to_part,
                     part,
                     touched,
+                    /* simple_cuts = */ {},
                     cutting);
       region_to_part[region] = invalid_index;
 

@@ -72,6 +72,9 @@ namespace NMM
         edge.shape.end   = point(halfedge->target());
         set_circle(halfedge->curve(), true, physical_mesh.pieces(), edge.shape);
         Traits::X_monotone_curve_2 curve = halfedge->curve();
+        for (const Label label : curve.data())
+          if (is_piece(label))
+            edge.piece = label;
         curve.data().insert(physical_edge_flag +
                             static_cast<Label>(all_edges.size()));
         curves->curves.push_back(std::move(curve));

@@ -30,6 +30,8 @@ namespace NMM
         /// Regions to the left and right of the edge run from its left to its
         /// right end (upwards if vertical), invalid_index outside the solid.
         std::array<unsigned int, 2> regions;
+        /// A piece of the physical mesh that the edge lies on.
+        unsigned int piece = invalid_index;
         /// The edge in doubles, from its left to its right end; without
         /// neighbour, mesh edge and curve set.
         ElementEdge shape;

@@ -1,5 +1,6 @@
 #include <nmm/base/exceptions.h>
 
+#include <deal.II/base/timer.h>
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/trilinos_precondition.h>
 
@@ -65,14 +66,33 @@ namespace NMM
       }
 
 
-      unsigned int
+      void
+      solve_direct(const Matrix       &matrix,
+                   const Vector       &rhs,
+                   Vector             &solution,
+                   LinearSolverReport &report)
+      {
+        dealii::Timer timer;
+        DirectSolver  solver;
+        solver.factorize(matrix);
+        report.factorization_time = timer.wall_time();
+        report.n_factor_entries   = solver.n_factor_entries();
+        timer.restart();
+        solver.solve(rhs, solution);
+        report.solution_time = timer.wall_time();
+      }
+
+
+      void
       solve_iterative(const Matrix                            &matrix,
                       const Vector                            &rhs,
                       const CoverSystem                       &covers,
                       const dealii::AffineConstraints<double> &constraints,
                       const LinearSolverParameters            &parameters,
-                      Vector                                  &solution)
+                      Vector                                  &solution,
+                      LinearSolverReport                      &report)
       {
+        dealii::Timer       timer;
         std::vector<double> modes = rigid_body_modes(covers, constraints);
 
         Teuchos::ParameterList ml;
@@ -95,6 +115,8 @@ namespace NMM
 
         dealii::TrilinosWrappers::PreconditionAMG preconditioner;
         preconditioner.initialize(matrix, ml);
+        report.factorization_time = timer.wall_time();
+        timer.restart();
 
         const double             norm = rhs.l2_norm();
         dealii::SolverControl    control(parameters.max_iterations,
@@ -118,7 +140,8 @@ namespace NMM
                              "choose the direct solver, more iterations, or "
                              "aggregation of covers if it is off"));
         }
-        return control.last_step();
+        report.n_iterations  = control.last_step();
+        report.solution_time = timer.wall_time();
       }
     } // namespace
 
@@ -144,14 +167,10 @@ namespace NMM
         return report;
 
       if (report.direct)
-      {
-        DirectSolver solver;
-        solver.factorize(matrix);
-        solver.solve(rhs, solution);
-      }
+        solve_direct(matrix, rhs, solution, report);
       else
-        report.n_iterations = solve_iterative(
-          matrix, rhs, covers, constraints, parameters, solution);
+        solve_iterative(
+          matrix, rhs, covers, constraints, parameters, solution, report);
 
       report.relative_residual = relative_residual(matrix, rhs, solution);
       AssertThrow(

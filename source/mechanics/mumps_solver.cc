@@ -311,6 +311,22 @@ namespace NMM
     }
 
 
+    double
+    DirectSolver::n_factor_entries() const
+    {
+      double n = 0.;
+      if (data->mumps)
+      {
+        // INFOG(29), negative: in millions
+        n = data->mumps->data.infog[28];
+        n = n < 0. ? -1e6 * n : n;
+      }
+      return data->is_serial
+               ? dealii::Utilities::MPI::broadcast(data->communicator, n)
+               : n;
+    }
+
+
     void
     DirectSolver::solve(const dealii::TrilinosWrappers::MPI::Vector &rhs,
                         dealii::TrilinosWrappers::MPI::Vector       &solution)

@@ -62,6 +62,10 @@ namespace NMM
       solve(const dealii::TrilinosWrappers::MPI::Vector &rhs,
             dealii::TrilinosWrappers::MPI::Vector       &solution);
 
+      /// Entries of the factors of the last factorization, of all ranks.
+      double
+      n_factor_entries() const;
+
     private:
       void
       set_controls();

@@ -3,8 +3,8 @@
 
 #include <nmm/quadrature/element_quadrature.h>
 
-#include "double_double.h"
 #include <array>
+#include <base/double_double.h>
 #include <vector>
 
 namespace NMM

@@ -5,6 +5,7 @@
 #include "moments.h"
 #include "rule_reduction.h"
 #include "slab_candidates.h"
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -24,6 +25,9 @@ namespace NMM
     explicit Data(const unsigned int degree)
       : basis(degree)
     {
+      constexpr unsigned int largest = 14;
+      if (degree <= largest)
+        triangle_rule = make_triangle_rule(degree);
     }
 
     internal::ElementFrame   frame;
@@ -39,6 +43,15 @@ namespace NMM
 
     bool         fallback   = false;
     unsigned int n_attempts = 0;
+
+    /// On the reference triangle; empty if there is none of the degree.
+    dealii::Quadrature<2> triangle_rule;
+
+    /// The rule of a well-shaped triangle or convex quadrilateral; false for
+    /// anything else.
+    bool
+    divide(const dealii::ArrayView<const ElementEdge> &edges,
+           const CellFrame                            &cell);
 
     void
     keep_if_best(double error);
@@ -79,6 +92,85 @@ namespace NMM
   ElementRuleBuilder::n_attempts() const
   {
     return data->n_attempts;
+  }
+
+
+
+  /**
+   * Rounding of reference coordinates counts in proportion to the largest extent over
+   * the area and over the cell: shapes for which it may grow by more than a hundred are
+   * left to the frame of ElementFrame.
+   */
+  bool
+  ElementRuleBuilder::Data::divide(
+    const dealii::ArrayView<const ElementEdge> &edges,
+    const CellFrame                            &cell)
+  {
+    constexpr double   least_extent = 0.01, least_shape = 0.05;
+    const unsigned int n        = edges.size();
+    const unsigned int n_points = triangle_rule.size();
+    const std::size_t  dimension =
+      (basis.degree() + 1) * (basis.degree() + 2) / 2;
+    if (n < 3 || n > 4 || n_points == 0 || (n - 2) * n_points > dimension)
+      return false;
+    const dealii::Tensor<2, 2> to_reference = dealii::invert(cell.jacobian);
+    dealii::Point<2>           corners[4];
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      if (edges[i].is_arc() || edges[i].end != edges[(i + 1) % n].start)
+        return false;
+      corners[i] =
+        dealii::Point<2>(to_reference * (edges[i].start - cell.origin));
+    }
+
+    const auto twice_the_area =
+      [&](const unsigned int i, const unsigned int j, const unsigned int k) {
+        const dealii::Tensor<1, 2> a = corners[j] - corners[i],
+                                   b = corners[k] - corners[i];
+        return a[0] * b[1] - a[1] * b[0];
+      };
+    const auto is_good = [&](const unsigned int i,
+                             const unsigned int j,
+                             const unsigned int k) {
+      const double longest = std::max({corners[i].distance_square(corners[j]),
+                                       corners[j].distance_square(corners[k]),
+                                       corners[k].distance_square(corners[i])});
+      return longest > least_extent * least_extent &&
+             twice_the_area(i, j, k) > least_shape * longest;
+    };
+    const auto add =
+      [&](const unsigned int i, const unsigned int j, const unsigned int k) {
+        const dealii::Tensor<1, 2> a = corners[j] - corners[i],
+                                   b = corners[k] - corners[i];
+        const double area            = twice_the_area(i, j, k);
+        for (unsigned int q = 0; q < n_points; ++q)
+        {
+          const dealii::Point<2> &xi = triangle_rule.point(q);
+          best_points.push_back(corners[i] + xi[0] * a + xi[1] * b);
+          best_weights.push_back(area * triangle_rule.weight(q));
+        }
+      };
+    if (n == 3)
+    {
+      if (!is_good(0, 1, 2))
+        return false;
+      add(0, 1, 2);
+      return true;
+    }
+    // along the diagonal whose triangles are more alike
+    for (unsigned int i = 0; i < 4; ++i)
+      if (twice_the_area(i, (i + 1) % 4, (i + 2) % 4) <= 0.)
+        return false;
+    const unsigned int i =
+      std::min(twice_the_area(0, 1, 2), twice_the_area(0, 2, 3)) >=
+          std::min(twice_the_area(1, 2, 3), twice_the_area(1, 3, 0))
+        ? 0
+        : 1;
+    if (!is_good(i, i + 1, i + 2) || !is_good(i, i + 2, (i + 3) % 4))
+      return false;
+    add(i, i + 1, i + 2);
+    add(i, i + 2, (i + 3) % 4);
+    return true;
   }
 
 
@@ -130,6 +222,11 @@ namespace NMM
                                    to_string(edge.start),
                                    "check the coordinates of the curves "
                                    "there"));
+    if (d.divide(edges, cell))
+    {
+      d.n_attempts = 1;
+      return d.result();
+    }
     if (!d.frame.reinit(edges, cell))
       return d.result();
 

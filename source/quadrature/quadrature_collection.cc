@@ -48,6 +48,10 @@ namespace NMM
 
     const MathematicalMesh &cells = mesh.mathematical_mesh();
     ElementRuleBuilder      builder(degree_cut);
+    std::size_t             n_cut = 0;
+    for (unsigned int i = 0; i < n; ++i)
+      n_cut += mesh.is_whole(elements.first + i) ? 0 : 1;
+    cut_rules.reserve(n_cut);
     for (unsigned int i = 0; i < n; ++i)
     {
       const unsigned int element = elements.first + i;

@@ -45,7 +45,9 @@ namespace NMM
    * cut by the physical mesh; the units of integration. Immutable.
    *
    * Cutting is exact and touches only cells that a physical curve comes near;
-   * all others are whole elements that keep no edges. Elements are numbered so
+   * all others are whole elements that keep no edges. A cell that one straight edge runs
+   * through, clear of corners and of all else by many roundings, is cut by itself;
+   * the other cells by an arrangement with exact numbers. Elements are numbered so
    * that neighbours have near numbers (reverse Cuthill-McKee on the element
    * graph).
    *
@@ -132,7 +134,7 @@ namespace NMM
     const std::vector<unsigned int> &
     curve_set(unsigned int index) const;
 
-    /// Cells that went through the exact cutter.
+    /// Cells that physical curves come near, which are cut exactly.
     unsigned int
     n_cells_cut_exactly() const;
 

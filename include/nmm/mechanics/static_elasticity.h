@@ -44,6 +44,11 @@ namespace NMM
     bool         direct            = true;
     unsigned int n_iterations      = 0;
     double       relative_residual = 0.;
+    /// Entries of the factors, of all ranks; 0: iterative.
+    double n_factor_entries = 0.;
+    /// Wall times of ordering and factorization, or of making the
+    /// preconditioner, and of substitution or iterations [s].
+    double factorization_time = 0., solution_time = 0.;
   };
 
   /**

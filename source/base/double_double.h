@@ -1,5 +1,5 @@
-#ifndef nmm_quadrature_double_double_h
-#define nmm_quadrature_double_double_h
+#ifndef nmm_base_double_double_h
+#define nmm_base_double_double_h
 
 #include <cmath>
 

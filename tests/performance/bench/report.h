@@ -1,0 +1,64 @@
+#ifndef nmm_tests_performance_bench_report_h
+#define nmm_tests_performance_bench_report_h
+
+#include "row.h"
+#include <ostream>
+
+namespace NMM
+{
+  namespace Bench
+  {
+    /**
+     * Write @p directory/performance.md and the figures it shows, all of it from
+     * @p rows. @p before: rows that were measured before something became faster, for
+     * comparison; may be empty.
+     */
+    void
+    write_report(const std::vector<Row> &rows,
+                 const std::vector<Row> &before,
+                 const std::string      &directory);
+
+
+    /// @name Pieces of it
+    /// @{
+    using Filter = std::function<bool(const Row &)>;
+
+    std::vector<Row>
+    select(const std::vector<Row> &rows, const Filter &filter);
+
+    /// Rows of a case.
+    std::vector<Row>
+    select(const std::vector<Row> &rows, const std::string &name);
+
+    /// A number with @p digits significant digits, with separators from 10,000 on; "-" for none.
+    std::string
+    text_of(double number, unsigned int digits = 3);
+
+    /// In scientific notation, two digits.
+    std::string
+    error_text(double error);
+
+    /// Requirements, what was measured, and whether it is enough.
+    void
+    write_bars(std::ostream &out, const std::vector<Row> &rows);
+
+    /// Seconds of stages, of the largest run of each kind.
+    void
+    write_stages(std::ostream           &out,
+                 const std::vector<Row> &rows,
+                 const std::string      &image_directory);
+
+    /// Where more ranks would lead.
+    void
+    write_scaling(std::ostream &out, const std::vector<Row> &rows);
+
+    /// Stages before and now.
+    void
+    write_improvements(std::ostream           &out,
+                       const std::vector<Row> &before,
+                       const std::vector<Row> &rows);
+    /// @}
+  } // namespace Bench
+} // namespace NMM
+
+#endif

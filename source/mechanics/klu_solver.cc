@@ -143,6 +143,14 @@ namespace NMM
     }
 
 
+    double
+    KluSolver::n_factor_entries() const
+    {
+      const klu_numeric *factors = data->numeric;
+      return factors == nullptr ? 0. : double(factors->lnz) + factors->unz;
+    }
+
+
     void
     KluSolver::solve(const dealii::TrilinosWrappers::MPI::Vector &rhs,
                      dealii::TrilinosWrappers::MPI::Vector       &solution)

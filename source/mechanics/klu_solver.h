@@ -42,6 +42,10 @@ namespace NMM
       void
       factorize(const dealii::TrilinosWrappers::SparseMatrix &matrix);
 
+      /// Of both factors.
+      double
+      n_factor_entries() const;
+
       /// @p solution may be the same vector as @p rhs.
       void
       solve(const dealii::TrilinosWrappers::MPI::Vector &rhs,

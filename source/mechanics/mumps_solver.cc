@@ -314,6 +314,8 @@ namespace NMM
     double
     DirectSolver::n_factor_entries() const
     {
+      if (data->is_klus)
+        return data->klu.n_factor_entries();
       double n = 0.;
       if (data->mumps)
       {

@@ -173,9 +173,9 @@ namespace StepNMM4
   print_header(const Outcome &outcome)
   {
     std::cout
-      << "\nFriction angle " << outcome.friction_angle << " degrees, steps of "
-      << outcome.step << " s: " << outcome.n_blocks << " blocks, "
-      << outcome.n_unknowns << " unknowns\n"
+      << std::setprecision(9) << "\nFriction angle " << outcome.friction_angle
+      << " degrees, steps of " << outcome.step << " s: " << outcome.n_blocks
+      << " blocks, " << outcome.n_unknowns << " unknowns\n"
       << " time   centre of mass       kinetic   released  dissipated   "
          "balance  stick  slip  penetration\n"
       << "    s                m          kJ/m       kJ/m        kJ/m "
@@ -359,7 +359,7 @@ namespace StepNMM4
     note << title << ", t = " << std::fixed << std::setprecision(2) << time
          << " s";
     NMM::PictureFrame frame;
-    frame.view = std::make_pair(Point<2>(-24., -1.), Point<2>(21.5, 20.5));
+    frame.view = std::make_pair(Point<2>(-33., -1.), Point<2>(21.5, 20.5));
     NMM::draw_picture(data,
                       parameters,
                       note.str(),

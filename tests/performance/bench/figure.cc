@@ -83,11 +83,15 @@ namespace NMM
                 const std::string        &y_label,
                 const std::vector<Panel> &panels)
     {
+      // the key takes the place of one more panel
+      const bool         is_row = panels.size() <= 2;
       std::ostringstream script, key;
-      script << "set terminal pngcairo size 1250,950 font 'DejaVu Sans,12' "
+      script << "set terminal pngcairo size 1250," << (is_row ? 450 : 950)
+             << " font 'DejaVu Sans,12' "
                 "noenhanced\n"
              << "set output " << quoted(file_name) << '\n'
-             << "set multiplot layout 2,2 title " << quoted(title) << '\n'
+             << "set multiplot layout " << (is_row ? "1,3" : "2,2") << " title "
+             << quoted(title) << '\n'
              << "set logscale xy\nset format x '%.0e'\nset format y '%.0e'\n"
              << "set grid\nset ylabel " << quoted(y_label) << '\n';
       for (unsigned int p = 0; p < panels.size(); ++p)

@@ -276,7 +276,10 @@ namespace NMM
          "method in five "
          "steps, `incremental` the paper's many small ones on one mesh, "
          "`small` one linear "
-         "solution, which knows nothing of large displacements."},
+         "solution, which knows nothing of large displacements. A dip of a "
+         "curve is no accuracy: what mesh, steps and reference lack cancels "
+         "there; "
+         "the level at its end counts."},
         {"cantilever follower",
          "Cantilever under a load that turns with it",
          "cantilever-follower",

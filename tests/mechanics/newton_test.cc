@@ -72,6 +72,97 @@ namespace
   };
 
 
+  /**
+   * A u = b with pairs of unknowns that hang together, unsymmetric, and places of zero value
+   * between all pairs, as for contact that may come. In one group if @p is_chain.
+   */
+  class Pairs : public NonlinearSystem
+  {
+  public:
+    Pairs(const unsigned int n_pairs, const bool is_chain)
+    {
+      const unsigned int             n = 2 * n_pairs;
+      dealii::DynamicSparsityPattern pattern(n);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          pattern.add(i, j);
+      const dealii::IndexSet all = dealii::complete_index_set(n);
+      matrix.reinit(all, pattern, MPI_COMM_SELF);
+      forces.reinit(all, MPI_COMM_SELF);
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        matrix.set(i, i, 4. + i);
+        matrix.set(i, i % 2 == 0 ? i + 1 : i - 1, i % 2 == 0 ? 2. : -3.);
+        if (is_chain && i + 2 < n)
+          matrix.set(i, i + 2, 1.);
+      }
+      matrix.compress(dealii::VectorOperation::insert);
+    }
+
+    /// The solution is (1, 2, 3, ...).
+    Deformation
+    assemble(const Vector &u, const Tangent, const Vector *) override
+    {
+      Vector difference(u);
+      for (unsigned int i = 0; i < u.size(); ++i)
+        difference(i) -= 1. + i;
+      difference.compress(dealii::VectorOperation::add);
+      matrix.vmult(forces, difference);
+      return Deformation::admissible;
+    }
+
+    const Vector &
+    residual() const override
+    {
+      return forces;
+    }
+
+    const dealii::TrilinosWrappers::SparseMatrix &
+    tangent() const override
+    {
+      return matrix;
+    }
+
+    bool
+    tangent_is_symmetric() const override
+    {
+      return false;
+    }
+
+    double
+    force_scale() const override
+    {
+      return 1e3;
+    }
+
+  private:
+    dealii::TrilinosWrappers::SparseMatrix matrix;
+    Vector                                 forces;
+  };
+
+
+  // Small groups are KLU's, the chain, of more unknowns than these may have, is
+  // MUMPS'. A linear system takes one iteration, and one to see that.
+  TEST(Newton, FactorizesPairsAndTheirChain)
+  {
+    for (const bool is_chain : {false, true})
+    {
+      const unsigned int                n_pairs = 200;
+      Pairs                             system(n_pairs, is_chain);
+      dealii::AffineConstraints<double> constraints;
+      constraints.close();
+      NonlinearSystem::Vector u(dealii::complete_index_set(2 * n_pairs),
+                                MPI_COMM_SELF);
+      const NewtonReport report = NewtonSolver().solve(system, constraints, u);
+      EXPECT_TRUE(report.converged) << report.reason;
+      EXPECT_LE(report.iterations.size(), 2u);
+      for (unsigned int i = 0; i < u.size(); ++i)
+        // rounding of 400 unknowns of up to 400
+        EXPECT_NEAR(u(i), 1. + i, 1e-10) << (is_chain ? "chain" : "pairs");
+    }
+  }
+
+
   // Six iterations go round, the seventh is found out and takes half of the way, to 0.
   TEST(Newton, EndsWhereItWouldGoRound)
   {

@@ -66,7 +66,7 @@ StaticAnalysis::estimate_condition()
   const bool has_place = condition.weakest_cover != invalid_index;
   if (has_place)
   {
-    const Point<2> &place = covers->node(condition.weakest_cover);
+    const Point<2> &place = condition.weakest_node;
     const auto     &unit  = scene.parameters().output.length_unit;
     summary.add("condition_place_x", place[0], unit);
     summary.add("condition_place_y", place[1], unit);
@@ -78,7 +78,7 @@ StaticAnalysis::estimate_condition()
     progress.message(
       "  warning: the condition number " + text.str() + " is above the limit" +
       (has_place ? "; the matrix is weakest near " +
-                     to_string(covers->node(condition.weakest_cover))
+                     to_string(condition.weakest_node)
                  : "; the matrix is singular to rounding") +
       ": look for slivers without stabilization, parts that hardly anything "
       "holds, long thin parts, or large contrasts of stiffness");

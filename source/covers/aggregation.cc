@@ -1,115 +1,15 @@
 #include <nmm/base/compat.h>
 #include <nmm/base/exceptions.h>
 #include <nmm/covers/aggregation.h>
-#include <nmm/covers/element_support.h>
+#include <nmm/covers/rank_cells.h>
 
+#include "element_exchange.h"
+#include "element_order.h"
 #include <algorithm>
 
 namespace NMM
 {
   using namespace dealii;
-
-  namespace
-  {
-    Point<2>
-    centroid(const MathematicalMesh &mesh, const unsigned int cell)
-    {
-      Point<2> sum;
-      for (const unsigned int v : mesh.cell_vertices(cell))
-        sum += mesh.vertices()[v];
-      return Point<2>(sum / 3.);
-    }
-
-
-    /// Polynomials are continued over so many layers of elements at most: their
-    /// values grow with the square of the distance, and energies with its
-    /// fourth power.
-    constexpr unsigned int max_layers = 3;
-
-
-    /// Gives elements that are joined to a rooted one a root, layer by layer;
-    /// among the roots of the previous layer the nearest.
-    void
-    spread_roots(const ManifoldMesh       &manifold_mesh,
-                 std::vector<unsigned int> layer,
-                 ElementRoots             &roots)
-    {
-      std::vector<unsigned int> &element_to_root = roots.element_to_root;
-      const MathematicalMesh    &mesh = manifold_mesh.mathematical_mesh();
-      for (unsigned int i = 0; i < max_layers && !layer.empty(); ++i)
-      {
-        // (element, parent)
-        std::vector<std::pair<unsigned int, unsigned int>> found;
-        for (const unsigned int e : layer)
-          for (const ManifoldMesh::Link &link : manifold_mesh.joined(e))
-            if (element_to_root[link.neighbor] == invalid_index)
-              found.emplace_back(link.neighbor, e);
-        std::sort(found.begin(), found.end());
-
-        layer.clear();
-        for (std::size_t i = 0; i < found.size();)
-        {
-          const unsigned int e    = found[i].first;
-          const Point<2>     here = centroid(mesh, manifold_mesh.cell(e));
-          double             best = 1e300;
-          for (; i < found.size() && found[i].first == e; ++i)
-          {
-            const unsigned int root = element_to_root[found[i].second];
-            const double       d =
-              here.distance(centroid(mesh, manifold_mesh.cell(root)));
-            // candidates are sorted: ties go to the lower number
-            if (d < best * (1. - 1e-10))
-            {
-              best                       = d;
-              element_to_root[e]         = root;
-              roots.element_to_parent[e] = found[i].second;
-            }
-          }
-          layer.push_back(e);
-        }
-      }
-    }
-  } // namespace
-
-
-  ElementRoots
-  find_roots(const ManifoldMesh &manifold_mesh, const double threshold)
-  {
-    const unsigned int n_elements = manifold_mesh.n_elements();
-    ElementRoots       result;
-    result.element_to_root.assign(n_elements, invalid_index);
-    std::vector<unsigned int> &element_to_root = result.element_to_root;
-
-    // only bad elements and their good neighbours take part in the search
-    std::vector<std::pair<double, unsigned int>> bad;
-    for (unsigned int e = 0; e < n_elements; ++e)
-    {
-      const double support =
-        manifold_mesh.is_whole(e) ? 1. : element_support(manifold_mesh, e);
-      if (support >= threshold)
-        element_to_root[e] = e;
-      else
-        bad.emplace_back(-support, e);
-    }
-    result.element_to_parent = element_to_root;
-    std::vector<unsigned int> first_layer;
-    for (const auto &[support, e] : bad)
-      for (const ManifoldMesh::Link &link : manifold_mesh.joined(e))
-        if (element_to_root[link.neighbor] == link.neighbor)
-          first_layer.push_back(link.neighbor);
-    spread_roots(manifold_mesh, first_layer, result);
-
-    // what is left is far from any good element: the best of it first
-    std::sort(bad.begin(), bad.end());
-    for (const auto &[support, e] : bad)
-      if (element_to_root[e] == invalid_index)
-      {
-        element_to_root[e] = result.element_to_parent[e] = e;
-        spread_roots(manifold_mesh, {e}, result);
-      }
-    return result;
-  }
-
 
   GhostPenalty
   make_ghost_penalty(const ManifoldMesh &mesh, const double threshold)
@@ -119,13 +19,34 @@ namespace NMM
     for (unsigned int e = 0; e < mesh.n_elements(); ++e)
     {
       const unsigned int parent = roots.element_to_parent[e];
-      if (parent != e)
+      if (parent != e && parent != invalid_index)
         result.pairs.emplace_back(std::min(e, parent), std::max(e, parent));
     }
     std::sort(result.pairs.begin(), result.pairs.end());
     result.element_to_root = std::move(roots.element_to_root);
     return result;
   }
+
+
+  namespace
+  {
+    /// What the owners of ghost elements know of their covers.
+    void
+    share_free_covers(const CoverSystem &covers, std::vector<bool> &is_free)
+    {
+      const ManifoldMesh &mesh = covers.manifold_mesh();
+      const unsigned int  n    = mesh.mathematical_mesh().n_covers_per_cell();
+      std::vector<unsigned char> free(n * mesh.n_elements());
+      for (unsigned int e = 0; e < mesh.n_elements(); ++e)
+        for (unsigned int i = 0; i < n; ++i)
+          free[e * n + i] = is_free[covers.covers(e)[i]];
+      mesh.exchange()->update_ghosts(free, n);
+      for (unsigned int e = 0; e < mesh.n_elements(); ++e)
+        for (unsigned int i = 0; i < n; ++i)
+          if (free[e * n + i])
+            is_free[covers.covers(e)[i]] = true;
+    }
+  } // namespace
 
 
   Aggregation
@@ -145,6 +66,16 @@ namespace NMM
       if (result.element_to_root[e] == e)
         for (const unsigned int k : covers.covers(e))
           result.is_free[k] = true;
+    if (manifold_mesh.exchange() != nullptr)
+      share_free_covers(covers, result.is_free);
+
+    // on a distributed mesh, of the covers whose elements are all known here
+    const RankCells  *rank_cells = mesh.rank_cells();
+    std::vector<bool> is_wanted(covers.n_covers(), rank_cells == nullptr);
+    for (unsigned int e = 0; e < n_elements && rank_cells != nullptr; ++e)
+      if (rank_cells->is_near[manifold_mesh.cell(e)])
+        for (const unsigned int k : covers.covers(e))
+          is_wanted[k] = true;
 
     // the root of a cover's largest element, or of the one whose root is nearer
     struct Candidate
@@ -154,28 +85,30 @@ namespace NMM
     };
     std::vector<Candidate> candidates;
     for (unsigned int e = 0; e < n_elements; ++e)
-      if (result.element_to_root[e] != e)
+      if (result.element_to_root[e] != e &&
+          result.element_to_root[e] != invalid_index)
       {
-        const unsigned int root   = result.element_to_root[e];
-        const double       area   = manifold_mesh.area(e);
-        const Point<2>     middle = centroid(mesh, manifold_mesh.cell(root));
+        const unsigned int root = result.element_to_root[e];
+        const double       area = manifold_mesh.area(e);
+        const Point<2> middle   = internal::cell_centroid(manifold_mesh, root);
         for (const unsigned int k : covers.covers(e))
-          if (!result.is_free[k])
+          if (!result.is_free[k] && is_wanted[k])
             candidates.push_back(
               {k, root, area, covers.node(k).distance(middle)});
       }
-    // elements ascend within a cover: what is equal to rounding goes to the
-    // lower number
+    // what is equal to rounding is chosen by place
     std::stable_sort(candidates.begin(),
                      candidates.end(),
                      [](const Candidate &a, const Candidate &b) {
                        return a.cover < b.cover;
                      });
-    const auto is_better = [](const Candidate &a, const Candidate &b) {
+    const auto is_better = [&](const Candidate &a, const Candidate &b) {
       constexpr double more = 1. + 1e-10;
       if (a.area > more * b.area || b.area > more * a.area)
         return a.area > b.area;
-      return more * a.distance < b.distance;
+      if (a.distance > more * b.distance || b.distance > more * a.distance)
+        return a.distance < b.distance;
+      return internal::comes_first(manifold_mesh, a.root, b.root);
     };
     for (std::size_t i = 0; i < candidates.size();)
     {
@@ -189,9 +122,9 @@ namespace NMM
     // values this rank needs
     std::vector<types::global_dof_index> relevant;
     for (const auto &[k, root] : result.cover_to_root)
-      if (covers.locally_relevant_covers().is_element(k))
+      if (covers.locally_relevant_covers().is_element(covers.global_cover(k)))
         for (const unsigned int r : covers.covers(root))
-          relevant.push_back(r);
+          relevant.push_back(covers.global_cover(r));
     covers.make_relevant(std::move(relevant));
     return result;
   }
@@ -211,7 +144,7 @@ namespace NMM
     std::vector<std::pair<types::global_dof_index, double>> entries;
     for (const auto &[k, root] : aggregation.cover_to_root)
     {
-      if (!covers.locally_relevant_covers().is_element(k))
+      if (!covers.locally_relevant_covers().is_element(covers.global_cover(k)))
         continue;
       const Point<2> xi =
         mesh.real_to_reference(covers.manifold_mesh().cell(root),
@@ -225,8 +158,12 @@ namespace NMM
         // nodes of regular meshes often lie on each other's lattice
         for (unsigned int j = 0; j < root_covers.size(); ++j)
           if (std::abs(weights[j]) > 1e-14)
-            entries.emplace_back(n_components * root_covers[j] + c, weights[j]);
-        const types::global_dof_index line = n_components * k + c;
+            entries.emplace_back(n_components *
+                                     covers.global_cover(root_covers[j]) +
+                                   c,
+                                 weights[j]);
+        const types::global_dof_index line =
+          n_components * covers.global_cover(k) + c;
         constraints.add_line(line);
         constraints.add_entries(line, entries);
       }

@@ -34,6 +34,7 @@ namespace NMM
           , touched(touched)
           , simple_cuts(simple_cuts)
           , result(result)
+          , is_part_of_mesh(mathematical_mesh.rank_cells() != nullptr)
           , arranged(touched)
           , cell_to_simple_cut(simple_cuts.empty() ? 0 : touched.size(),
                                invalid_index)
@@ -174,6 +175,8 @@ namespace NMM
         const std::vector<SimpleCut>     &simple_cuts;
         Cutting                          &result;
         Arrangement                       arrangement;
+        /// Of a distributed mesh, beyond whose rim other ranks' cells may lie.
+        bool is_part_of_mesh;
 
         /// Flags of the cells that are arranged, by cell.
         std::vector<unsigned char> arranged;
@@ -352,7 +355,7 @@ namespace NMM
           const unsigned int c    = left_cell(he, e);
           if (c == invalid_index)
           {
-            AssertThrow(data.region == invalid_index,
+            AssertThrow(data.region == invalid_index || is_part_of_mesh,
                         InputError("the solid sticks out of the "
                                    "mathematical mesh",
                                    to_string(to_double(he->source()->point())),
@@ -398,7 +401,7 @@ namespace NMM
              ++face)
           AssertThrow(
             face->data().cell != invalid_index ||
-              face->data().region == invalid_index,
+              face->data().region == invalid_index || is_part_of_mesh,
             InputError("a part of the solid lies outside the "
                        "mathematical mesh",
                        to_string(to_double(
@@ -458,7 +461,9 @@ namespace NMM
         const unsigned int e = mesh_edge(halfedge);
         if (e == invalid_index || data.region == invalid_index)
           return invalid_index;
-        const unsigned int c   = left_cell(halfedge, e);
+        const unsigned int c = left_cell(halfedge, e);
+        if (c == invalid_index)
+          return invalid_index;
         const unsigned int cut = simple_cut(c);
         if (cut == invalid_index)
           return whole_cell_flag + c;
@@ -707,6 +712,8 @@ namespace NMM
       {
         const auto        &cells = mesh.edges()[e].cells;
         const unsigned int other = cells[0] == cell ? cells[1] : cells[0];
+        if (other == invalid_index && is_part_of_mesh)
+          return invalid_index;
         AssertThrow(other != invalid_index,
                     InputError("the solid sticks out of the mathematical mesh",
                                to_string(mesh.vertices()[mesh_vertex]),

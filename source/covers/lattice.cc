@@ -89,16 +89,43 @@ namespace NMM
       };
 
 
+      /// States of the parallelograms of a box.
+      class States
+      {
+      public:
+        States(const LatticeBox &box, const CellState initial)
+          : box(box)
+          , states((box.upper[0] - box.lower[0]) *
+                     (box.upper[1] - box.lower[1]),
+                   initial)
+        {
+        }
+
+        CellState &
+        operator()(const std::int64_t i, const std::int64_t j)
+        {
+          return states[(j - box.lower[1]) * (box.upper[0] - box.lower[0]) +
+                        (i - box.lower[0])];
+        }
+
+        const LatticeBox box;
+
+      private:
+        std::vector<CellState> states;
+      };
+
+
       /**
-     * Mark the parallelograms within one lattice step of a curve. Samples are
-     * at most a quarter of a step apart (in lattice coordinates), so that every point of the
-     * curve lies in the 3 x 3 neighbourhood of some sample's parallelogram.
-     */
+       * Mark the parallelograms within one lattice step of a curve. Samples are
+       * at most a quarter of a step apart (in lattice coordinates), so that every
+       * point of the curve lies in the 3 x 3 neighbourhood of some sample's
+       * parallelogram.
+       */
       void
-      mark_near_curves(const PhysicalMesh     &physical_mesh,
-                       const Lattice          &lattice,
-                       const double            cell_size,
-                       std::vector<CellState> &state)
+      mark_near_curves(const PhysicalMesh &physical_mesh,
+                       const Lattice      &lattice,
+                       const double        cell_size,
+                       States             &state)
       {
         for (const CurvePiece &piece : physical_mesh.pieces())
           for_each_sample(piece, 0.25 * cell_size, [&](const Point<2> &x) {
@@ -107,9 +134,8 @@ namespace NMM
                        j         = static_cast<std::int64_t>(std::floor(s[1]));
             for (std::int64_t dj = -1; dj <= 1; ++dj)
               for (std::int64_t di = -1; di <= 1; ++di)
-                if (i + di >= 0 && i + di < lattice.n[0] && j + dj >= 0 &&
-                    j + dj < lattice.n[1])
-                  state[lattice.index(i + di, j + dj)] = CellState::near_curve;
+                if (state.box.contains({{i + di, j + dj}}))
+                  state(i + di, j + dj) = CellState::near_curve;
           });
       }
 
@@ -117,35 +143,36 @@ namespace NMM
       /// The unmarked parallelograms form connected sets no curve crosses: one
       /// point decides for each.
       void
-      classify_rest(const PhysicalMesh     &physical_mesh,
-                    const Lattice          &lattice,
-                    std::vector<CellState> &state)
+      classify_rest(const PhysicalMesh &physical_mesh,
+                    const Lattice      &lattice,
+                    States             &state)
       {
-        std::vector<std::array<std::int64_t, 2>> stack;
-        for (std::int64_t j = 0; j < lattice.n[1]; ++j)
-          for (std::int64_t i = 0; i < lattice.n[0]; ++i)
+        std::vector<LatticeNode> stack;
+        for (std::int64_t j = state.box.lower[1]; j < state.box.upper[1]; ++j)
+          for (std::int64_t i = state.box.lower[0]; i < state.box.upper[0]; ++i)
           {
-            if (state[lattice.index(i, j)] != CellState::unknown)
+            if (state(i, j) != CellState::unknown)
               continue;
             const Point<2> center =
               lattice.node(i, j) + 0.5 * (lattice.a + lattice.b);
-            const CellState result     = is_in_solid(physical_mesh, center)
-                                           ? CellState::inside
-                                           : CellState::outside;
-            state[lattice.index(i, j)] = result;
+            const CellState result = is_in_solid(physical_mesh, center)
+                                       ? CellState::inside
+                                       : CellState::outside;
+            state(i, j)            = result;
             stack.push_back({{i, j}});
             while (!stack.empty())
             {
               const auto [k, l] = stack.back();
               stack.pop_back();
-              const std::array<std::array<std::int64_t, 2>, 4> neighbors = {
-                {{{k - 1, l}}, {{k + 1, l}}, {{k, l - 1}}, {{k, l + 1}}}};
-              for (const auto &[p, q] : neighbors)
-                if (p >= 0 && p < lattice.n[0] && q >= 0 && q < lattice.n[1] &&
-                    state[lattice.index(p, q)] == CellState::unknown)
+              for (const LatticeNode &next : {LatticeNode{{k - 1, l}},
+                                              LatticeNode{{k + 1, l}},
+                                              LatticeNode{{k, l - 1}},
+                                              LatticeNode{{k, l + 1}}})
+                if (state.box.contains(next) &&
+                    state(next[0], next[1]) == CellState::unknown)
                 {
-                  state[lattice.index(p, q)] = result;
-                  stack.push_back({{p, q}});
+                  state(next[0], next[1]) = result;
+                  stack.push_back(next);
                 }
             }
           }
@@ -156,22 +183,35 @@ namespace NMM
     std::vector<LatticeNode>
     find_needed_parallelograms(const PhysicalMesh          &physical_mesh,
                                const Lattice               &lattice,
-                               const RegularMeshParameters &parameters)
+                               const RegularMeshParameters &parameters,
+                               const LatticeBox            &box)
     {
-      std::vector<CellState> state(lattice.n[0] * lattice.n[1],
-                                   parameters.whole_box ? CellState::inside
-                                                        : CellState::unknown);
+      States state(box,
+                   parameters.whole_box ? CellState::inside
+                                        : CellState::unknown);
       if (!parameters.whole_box)
       {
         mark_near_curves(physical_mesh, lattice, parameters.cell_size, state);
         classify_rest(physical_mesh, lattice, state);
       }
       std::vector<LatticeNode> needed;
-      for (std::int64_t j = 0; j < lattice.n[1]; ++j)
-        for (std::int64_t i = 0; i < lattice.n[0]; ++i)
-          if (state[lattice.index(i, j)] != CellState::outside)
+      for (std::int64_t j = box.lower[1]; j < box.upper[1]; ++j)
+        for (std::int64_t i = box.lower[0]; i < box.upper[0]; ++i)
+          if (state(i, j) != CellState::outside)
             needed.push_back({{i, j}});
       return needed;
+    }
+
+
+    std::vector<LatticeNode>
+    find_needed_parallelograms(const PhysicalMesh          &physical_mesh,
+                               const Lattice               &lattice,
+                               const RegularMeshParameters &parameters)
+    {
+      return find_needed_parallelograms(physical_mesh,
+                                        lattice,
+                                        parameters,
+                                        {{{0, 0}}, lattice.n});
     }
   } // namespace internal
 } // namespace NMM

@@ -1,8 +1,10 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/covers/manifold_mesh.h>
 #include <nmm/covers/point_location.h>
+#include <nmm/covers/rank_cells.h>
 
 #include "cutting.h"
+#include "element_exchange.h"
 #include <algorithm>
 #include <boost/geometry/geometries/box.hpp>
 #include <boost/geometry/geometries/point.hpp>
@@ -65,6 +67,30 @@ namespace NMM
     }
 
 
+    /// The same of a distributed mesh: ghost cells of lower ranks, own ones, ghost
+    /// cells of higher ranks.
+    std::vector<unsigned int>
+    order_cells_of_rank(const MathematicalMesh           &mesh,
+                        const RankCells                  &rank_cells,
+                        const std::vector<unsigned char> &holds_elements)
+    {
+      std::vector<unsigned int>  lower, higher;
+      std::vector<unsigned char> holds_owned(holds_elements);
+      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+        if (holds_elements[c] && rank_cells.cell_to_owner[c] != rank_cells.rank)
+        {
+          holds_owned[c] = 0;
+          (rank_cells.cell_to_owner[c] < rank_cells.rank ? lower : higher)
+            .push_back(c);
+        }
+      std::vector<unsigned int>       order = std::move(lower);
+      const std::vector<unsigned int> owned = order_cells(mesh, holds_owned);
+      order.insert(order.end(), owned.begin(), owned.end());
+      order.insert(order.end(), higher.begin(), higher.end());
+      return order;
+    }
+
+
     unsigned int
     local_edge(const MathematicalMesh &mesh,
                const unsigned int      cell,
@@ -100,6 +126,9 @@ namespace NMM
     std::vector<unsigned int> cell_first_element;
     std::vector<unsigned int> cell_n_elements;
     unsigned int              n_cells_cut_exactly = 0;
+
+    std::pair<unsigned int, unsigned int>            owned_elements;
+    std::unique_ptr<const internal::ElementExchange> exchange;
 
     mutable std::once_flag            tree_made;
     mutable std::unique_ptr<CellTree> cell_tree;
@@ -151,14 +180,34 @@ namespace NMM
     }
 
     cell_first_element.assign(n_cells, invalid_index);
-    cell_n_elements = std::move(n_in_cell);
-    for (const unsigned int c : order_cells(*mathematical_mesh, holds))
+    cell_n_elements             = std::move(n_in_cell);
+    const RankCells *rank_cells = mathematical_mesh->rank_cells();
+    for (const unsigned int c :
+         rank_cells == nullptr
+           ? order_cells(*mathematical_mesh, holds)
+           : order_cells_of_rank(*mathematical_mesh, *rank_cells, holds))
     {
       cell_first_element[c] = element_to_cell.size();
       element_to_cell.insert(element_to_cell.end(), cell_n_elements[c], c);
       element_to_region.insert(element_to_region.end(),
                                cell_n_elements[c],
                                cutting.cell_region[c]);
+    }
+    owned_elements = {0, element_to_cell.size()};
+    if (rank_cells != nullptr)
+    {
+      const auto end_of = [&](const auto &comes_before) {
+        return std::partition_point(element_to_cell.begin(),
+                                    element_to_cell.end(),
+                                    [&](const unsigned int c) {
+                                      return comes_before(
+                                        rank_cells->cell_to_owner[c],
+                                        rank_cells->rank);
+                                    }) -
+               element_to_cell.begin();
+      };
+      owned_elements = {end_of(std::less<unsigned int>()),
+                        end_of(std::less_equal<unsigned int>())};
     }
     elements_of_cells.resize(element_to_cell.size());
     std::iota(elements_of_cells.begin(), elements_of_cells.end(), 0u);
@@ -319,6 +368,96 @@ namespace NMM
     }
 
 
+    /// Lowest and highest coordinates.
+    std::pair<Point<2>, Point<2>>
+    extent(const MathematicalMesh &mesh)
+    {
+      std::pair<Point<2>, Point<2>> box(mesh.vertices()[0], mesh.vertices()[0]);
+      for (const Point<2> &x : mesh.vertices())
+        for (unsigned int d = 0; d < 2; ++d)
+        {
+          box.first[d]  = std::min(box.first[d], x[d]);
+          box.second[d] = std::max(box.second[d], x[d]);
+        }
+      return box;
+    }
+
+
+    /// May the edge have points in the box? With a margin of its size.
+    bool
+    comes_near(const ElementEdge                   &edge,
+               const std::pair<Point<2>, Point<2>> &box)
+    {
+      // an arc lies within a radius of its ends, as it is at most a half circle
+      const double reach = std::abs(edge.radius);
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        const double margin = reach + 1e-6 * (box.second[d] - box.first[d]);
+        if (std::max(edge.start[d], edge.end[d]) + margin < box.first[d] ||
+            std::min(edge.start[d], edge.end[d]) - margin > box.second[d])
+          return false;
+      }
+      return true;
+    }
+
+
+    /**
+     * Untouched cells of a distributed mesh have a region if a touched cell is
+     * among those they are connected with, or is known to be there: elsewhere no
+     * curve runs through any cell of the connected set, and one point decides.
+     */
+    void
+    label_far_cells(const MathematicalMesh           &mesh,
+                    const internal::PhysicalEdges    &physical_edges,
+                    const unsigned int                n_regions,
+                    const std::vector<unsigned char> &touched,
+                    std::vector<unsigned int>        &cell_region)
+    {
+      std::vector<unsigned char> seen(touched);
+      std::vector<unsigned int>  set;
+      for (unsigned int start = 0; start < mesh.n_cells(); ++start)
+      {
+        if (seen[start])
+          continue;
+        set.assign(1, start);
+        seen[start]     = 1;
+        bool is_decided = false;
+        for (unsigned int i = 0; i < set.size(); ++i)
+          for (const unsigned int e : mesh.cell_edges(set[i]))
+            for (const unsigned int c : mesh.edges()[e].cells)
+              if (c == invalid_index)
+                continue;
+              else if (touched[c])
+                is_decided = true;
+              else if (!seen[c])
+              {
+                seen[c] = 1;
+                set.push_back(c);
+              }
+        if (is_decided)
+          continue;
+        const Point<2> x =
+          mesh.reference_to_real(start, Point<2>(1. / 3., 1. / 3.));
+        for (unsigned int r = 0; r < n_regions; ++r)
+        {
+          std::vector<ElementEdge> boundary;
+          for (const unsigned int e : physical_edges.region_edges(r))
+            if (physical_edges.edges()[e].regions[0] !=
+                physical_edges.edges()[e].regions[1])
+              boundary.push_back(physical_edges.edges()[e].shape);
+          if (is_inside(ArrayView<const ElementEdge>(boundary.data(),
+                                                     boundary.size()),
+                        x))
+          {
+            for (const unsigned int c : set)
+              cell_region[c] = r;
+            break;
+          }
+        }
+      }
+    }
+
+
     /// The physical edge that comes near each cell of a part, see
     /// find_edges_near_triangles(); flags the cells.
     std::vector<unsigned int>
@@ -328,10 +467,21 @@ namespace NMM
                        const double                   scale,
                        std::vector<unsigned char>    &touched)
     {
-      std::vector<ElementEdge> shapes;
+      std::vector<ElementEdge>  shapes;
+      std::vector<unsigned int> shape_to_edge;
       shapes.reserve(part.edges.size());
+      const bool is_distributed = mesh.rank_cells() != nullptr;
+      const std::pair<Point<2>, Point<2>> box =
+        is_distributed ? extent(mesh) : std::pair<Point<2>, Point<2>>();
       for (const unsigned int e : part.edges)
-        shapes.push_back(physical_edges.edges()[e].shape);
+        if (!is_distributed || comes_near(physical_edges.edges()[e].shape, box))
+        {
+          shapes.push_back(physical_edges.edges()[e].shape);
+          shape_to_edge.push_back(e);
+        }
+      if (shapes.empty())
+        return std::vector<unsigned int>(part.cells.second - part.cells.first,
+                                         invalid_index);
       const auto [first, end]        = part.cells;
       std::vector<unsigned int> near = internal::find_edges_near_triangles(
         mesh.vertices(),
@@ -343,7 +493,7 @@ namespace NMM
       {
         touched[first + i] = near[i] != invalid_index;
         if (near[i] != invalid_index && near[i] != internal::several_edges)
-          near[i] = part.edges[near[i]];
+          near[i] = shape_to_edge[near[i]];
       }
       return near;
     }
@@ -401,15 +551,27 @@ namespace NMM
                     simple_cuts,
                     cutting);
     }
+    if (mathematical_mesh.rank_cells() != nullptr)
+      label_far_cells(mathematical_mesh,
+                      physical_edges,
+                      n_regions,
+                      touched,
+                      cutting.cell_region);
     if (mathematical_mesh.n_parts() > 1 && !region_to_part.empty())
       internal::match_parts(physical_edges, region_to_part, cutting);
-    data->n_cells_cut_exactly =
-      std::count(touched.begin(), touched.end(), static_cast<unsigned char>(1));
+    const RankCells *rank_cells = mathematical_mesh.rank_cells();
+    for (unsigned int c = 0; c < touched.size(); ++c)
+      data->n_cells_cut_exactly +=
+        touched[c] == 1 && (rank_cells == nullptr ||
+                            rank_cells->cell_to_owner[c] == rank_cells->rank);
 
     std::vector<unsigned int> exact_to_element;
     data->number_elements(cutting, touched, exact_to_element);
     data->copy_edges(cutting, exact_to_element);
     data->make_links(cutting, touched, exact_to_element);
+    if (mathematical_mesh.rank_cells() != nullptr)
+      data->exchange = std::make_unique<internal::ElementExchange>(
+        *this, *mathematical_mesh.rank_cells());
   }
 
 
@@ -520,6 +682,37 @@ namespace NMM
   }
 
 
+  std::pair<unsigned int, unsigned int>
+  ManifoldMesh::owned_elements() const
+  {
+    return data->owned_elements;
+  }
+
+
+  Point<2>
+  ManifoldMesh::reference_point(const unsigned int element) const
+  {
+    Tensor<1, 2> sum;
+    if (is_whole(element))
+    {
+      const MathematicalMesh &mesh = *data->mathematical_mesh;
+      for (const unsigned int v : mesh.cell_vertices(cell(element)))
+        sum += mesh.vertices()[v];
+      return Point<2>(sum / 3.);
+    }
+    for (const ElementEdge &edge : edges(element))
+      sum += edge.start;
+    return Point<2>(sum / static_cast<double>(edges(element).size()));
+  }
+
+
+  const internal::ElementExchange *
+  ManifoldMesh::exchange() const
+  {
+    return data->exchange.get();
+  }
+
+
   ArrayView<const unsigned int>
   ManifoldMesh::cell_elements(const unsigned int cell) const
   {
@@ -549,6 +742,22 @@ namespace NMM
 
   unsigned int
   ManifoldMesh::find_element(const Point<2> &x) const
+  {
+    return find_element(x, {0, n_elements()});
+  }
+
+
+  unsigned int
+  ManifoldMesh::find_owned_element(const Point<2> &x) const
+  {
+    return find_element(x, data->owned_elements);
+  }
+
+
+  unsigned int
+  ManifoldMesh::find_element(
+    const Point<2>                              &x,
+    const std::pair<unsigned int, unsigned int> &elements) const
   {
     const MathematicalMesh &mesh = *data->mathematical_mesh;
     std::call_once(data->tree_made, [&]() {
@@ -589,6 +798,8 @@ namespace NMM
         continue;
       for (const unsigned int e : cell_elements(c))
       {
+        if (e < elements.first || e >= elements.second)
+          continue;
         if (is_whole(e) || is_inside(edges(e), x))
           return e;
         for (const ElementEdge &edge : edges(e))

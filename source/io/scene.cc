@@ -1,4 +1,5 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/covers/rank_cells.h>
 #include <nmm/io/parameter_tree.h>
 #include <nmm/io/scene.h>
 
@@ -141,7 +142,8 @@ namespace NMM
 
 
   MathematicalMesh
-  Scene::make_mathematical_mesh(const PhysicalMesh &physical_mesh) const
+  Scene::make_mathematical_mesh(const PhysicalMesh &physical_mesh,
+                                const MPI_Comm      communicator) const
   {
     const MathematicalMeshParameters &parameters =
       scene_parameters.mathematical_mesh;
@@ -167,6 +169,11 @@ namespace NMM
       regular.cell_size =
         largest_extent(physical_mesh) * (is_alone ? 1. / n_across : 1.5);
     }
+    if (scene_parameters.covers.is_distributed)
+      return make_distributed_mesh(physical_mesh,
+                                   regular,
+                                   parameters.degree,
+                                   communicator);
     return make_regular_mesh(physical_mesh, regular, parameters.degree);
   }
 

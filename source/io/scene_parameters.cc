@@ -393,6 +393,42 @@ namespace NMM
     check_contact();
     check_analysis();
     check_restraints();
+    check_distribution();
+  }
+
+
+  void
+  SceneParameters::check_distribution() const
+  {
+    if (!covers.is_distributed)
+      return;
+    const std::string where = "parameter 'Covers/Distribution'";
+    const auto        check = [&](const bool is_fine, const std::string &what) {
+      AssertThrow(is_fine,
+                  InputError(what + " cannot have a mathematical mesh that is "
+                                    "distributed among ranks",
+                             where,
+                             "set it to replicated: all ranks hold all of the "
+                             "mesh"));
+    };
+    check(model.analysis == Analysis::statics,
+          "a " + to_string(model.analysis) + " analysis");
+    check(model.kinematics == Kinematics::small,
+          to_string(model.kinematics) + " kinematics");
+    check(!contact.is_present(), "a scene with contact");
+    check(mathematical_mesh.type == MathematicalMeshParameters::Type::regular,
+          "a scene whose mesh is not of type regular");
+    const auto has_own_mesh = [](const RegionMesh &mesh) {
+      return mesh.kind == RegionMesh::Kind::own ||
+             mesh.kind == RegionMesh::Kind::automatic;
+    };
+    check(!has_own_mesh(covers.mesh) &&
+            std::none_of(covers.blocks.begin(),
+                         covers.blocks.end(),
+                         [&](const BlockMeshParameters &block) {
+                           return has_own_mesh(block.mesh);
+                         }),
+          "a scene with meshes of blocks or regions");
   }
 
 

@@ -34,6 +34,11 @@ namespace NMM
       {"automatic", Kind::automatic}};
 
 
+    const std::vector<std::pair<std::string, bool>> distributions = {
+      {"replicated", false},
+      {"distributed", true}};
+
+
     bool
     uses_number(const Kind kind)
     {
@@ -117,6 +122,15 @@ namespace NMM
       "triangle. "
       "automatic needs it; 0: cells as large as those of the common mesh.");
     prm.declare_entry(
+      "Distribution",
+      "replicated",
+      selection(distributions),
+      "How several ranks share the mathematical mesh. replicated: all hold and "
+      "cut all of it, and share assembly and solution; distributed: each holds "
+      "and cuts its own cells and five layers around them. The latter is for "
+      "static analyses of small displacements without contact, on meshes of "
+      "type regular and without own meshes.");
+    prm.declare_entry(
       "Names",
       "",
       Patterns::List(Patterns::Anything(), 0),
@@ -138,6 +152,7 @@ namespace NMM
     threshold     = prm.get_double("Threshold");
     mesh.kind     = get_selection(prm, "Own meshes", own_mesh_choices);
     mesh.n_across = prm.get_integer("Elements across");
+    is_distributed = get_selection(prm, "Distribution", distributions);
     blocks.clear();
     for (const std::string &name : get_names(prm, "Names"))
     {

@@ -15,11 +15,14 @@ namespace NMM
       , first_owned(covers.locally_owned_covers().n_elements() > 0
                       ? covers.locally_owned_covers().nth_index_in_set(0)
                       : 0)
+      , first_owned_here(0)
       , n_owned(covers.locally_owned_covers().n_elements())
       , cover_to_expansion(covers.n_covers(), invalid_index)
     {
       Assert(covers.locally_owned_covers().is_contiguous(),
              dealii::ExcInternalError());
+      if (n_owned > 0)
+        first_owned_here = covers.local_cover(first_owned);
       read_constraints(constraints);
 
       const auto [first, last] = covers.locally_owned_elements();
@@ -48,7 +51,7 @@ namespace NMM
       };
       for (const auto &line : constraints.get_lines())
       {
-        const unsigned int cover     = line.index / 2;
+        const unsigned int cover     = covers->local_cover(line.index / 2);
         const unsigned int component = line.index % 2;
         open(cover);
         const unsigned int x                  = cover_to_expansion[cover];
@@ -61,8 +64,9 @@ namespace NMM
                            const unsigned int component,
                            const unsigned int unknown,
                            const double       weight) {
-        const unsigned int cover = unknown / 2;
-        auto               term =
+        const unsigned int cover = covers->local_cover(unknown / 2);
+        Assert(cover != invalid_index, dealii::ExcInternalError());
+        auto term =
           std::find_if(terms[x].begin(),
                        terms[x].end(),
                        [cover](const Term &t) { return t.cover == cover; });
@@ -72,12 +76,12 @@ namespace NMM
       };
       for (const auto &line : constraints.get_lines())
       {
-        const unsigned int cover = line.index / 2;
+        const unsigned int cover = covers->local_cover(line.index / 2);
         const unsigned int x     = cover_to_expansion[cover];
         if (cover != last_cover)
           for (unsigned int c = 0; c < 2; ++c)
             if (!expansion.constrained[x][c])
-              add(x, c, 2 * cover + c, 1.);
+              add(x, c, 2 * (line.index / 2) + c, 1.);
         last_cover = cover;
         for (const auto &[unknown, weight] : line.entries)
           add(x, line.index % 2, unknown, weight);
@@ -180,7 +184,7 @@ namespace NMM
     {
       cover_to_local.assign(covers->n_covers(), invalid_index);
       for (unsigned int i = 0; i < n_owned; ++i)
-        cover_to_local[first_owned + i] = i;
+        cover_to_local[first_owned_here + i] = i;
 
       for (const unsigned int k : stencil_covers)
         if (cover_to_local[k] == invalid_index)
@@ -190,8 +194,23 @@ namespace NMM
         }
       std::sort(ghost_covers.begin(), ghost_covers.end());
       for (unsigned int i = 0; i < ghost_covers.size(); ++i)
+      {
         cover_to_local[ghost_covers[i]] = n_owned + i;
+        ghost_covers[i]                 = covers->global_cover(ghost_covers[i]);
+      }
       n_rows = n_owned + ghost_covers.size();
+    }
+
+
+    unsigned int
+    BlockSystem::row_of(const unsigned int global_cover) const
+    {
+      if (global_cover >= first_owned && global_cover < first_owned + n_owned)
+        return global_cover - first_owned;
+      return n_owned + (std::lower_bound(ghost_covers.begin(),
+                                         ghost_covers.end(),
+                                         global_cover) -
+                        ghost_covers.begin());
     }
 
 
@@ -228,12 +247,15 @@ namespace NMM
               last_row[stencil_covers[j]] = r;
               columns.push_back(stencil_covers[j]);
             }
-        if (r < n_owned && last_row[first_owned + r] != r)
-          columns.push_back(first_owned + r);
+        if (r < n_owned && last_row[first_owned_here + r] != r)
+          columns.push_back(first_owned_here + r);
         std::sort(columns.begin() + row_begin[r], columns.end());
         row_begin[r + 1] = columns.size();
       }
 
+      if (covers->n_covers() < covers->n_global_covers())
+        for (unsigned int &k : columns)
+          k = covers->global_cover(k);
       std::vector<unsigned int>().swap(stencil_begin);
       std::vector<unsigned int>().swap(stencil_covers);
     }
@@ -304,29 +326,26 @@ namespace NMM
     void
     BlockSystem::localize_columns()
     {
-      if (n_owned == covers->n_covers())
+      if (n_owned == covers->n_global_covers())
         return;
 
       // columns that came from other ranks have no row here yet
-      std::vector<unsigned int> more;
-      for (const unsigned int k : columns)
-        if (cover_to_local[k] == invalid_index)
-        {
-          cover_to_local[k] = 0;
-          more.push_back(k);
-        }
       const std::vector<unsigned int> row_ghosts = ghost_covers;
-      ghost_covers.insert(ghost_covers.end(), more.begin(), more.end());
+      for (const unsigned int k : columns)
+        if (k < first_owned || k >= first_owned + n_owned)
+          ghost_covers.push_back(k);
       std::sort(ghost_covers.begin(), ghost_covers.end());
-      for (unsigned int i = 0; i < ghost_covers.size(); ++i)
-        cover_to_local[ghost_covers[i]] = n_owned + i;
+      ghost_covers.erase(std::unique(ghost_covers.begin(), ghost_covers.end()),
+                         ghost_covers.end());
+      for (const unsigned int k : row_ghosts)
+        cover_to_local[covers->local_cover(k)] = row_of(k);
 
       std::vector<std::size_t>  new_begin(1, 0);
       std::vector<unsigned int> new_columns;
       new_columns.reserve(columns.size());
       const auto copy_row = [&](const unsigned int r) {
         for (std::size_t i = row_begin[r]; i < row_begin[r + 1]; ++i)
-          new_columns.push_back(cover_to_local[columns[i]]);
+          new_columns.push_back(row_of(columns[i]));
         std::sort(new_columns.begin() + new_begin.back(), new_columns.end());
         new_begin.push_back(new_columns.size());
       };
@@ -551,7 +570,7 @@ namespace NMM
       for (const auto &[rank, rows] : sent)
         for (std::size_t i = 0; i < rows.size(); i += 2 + rows[i + 1])
         {
-          const unsigned int   r   = cover_to_local[rows[i]];
+          const unsigned int   r   = row_of(rows[i]);
           std::vector<double> &out = rank_to_values[rank];
           out.push_back(right_hand_side[2 * r]);
           out.push_back(right_hand_side[2 * r + 1]);
@@ -559,7 +578,7 @@ namespace NMM
           {
             unsigned int  stride;
             const double *block =
-              find_block(r, cover_to_local[rows[i + 2 + j]], stride);
+              find_block(r, row_of(rows[i + 2 + j]), stride);
             out.insert(out.end(),
                        {block[0], block[1], block[stride], block[stride + 1]});
           }
@@ -571,14 +590,13 @@ namespace NMM
         const double *in = from_others.at(rank).data();
         for (std::size_t i = 0; i < rows.size(); i += 2 + rows[i + 1])
         {
-          const unsigned int r = cover_to_local[rows[i]];
+          const unsigned int r = row_of(rows[i]);
           right_hand_side[2 * r] += *in++;
           right_hand_side[2 * r + 1] += *in++;
           for (unsigned int j = 0; with_matrix && j < rows[i + 1]; ++j, in += 4)
           {
             unsigned int stride;
-            double      *block =
-              find_block(r, cover_to_local[rows[i + 2 + j]], stride);
+            double      *block = find_block(r, row_of(rows[i + 2 + j]), stride);
             block[0] += in[0];
             block[1] += in[1];
             block[stride] += in[2];

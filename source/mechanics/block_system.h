@@ -169,8 +169,13 @@ namespace NMM
       double *
       find_block(unsigned int row, unsigned int column, unsigned int &stride);
 
+      /// Row of a cover by its global number, owned or in ghost_covers.
+      unsigned int
+      row_of(unsigned int global_cover) const;
+
       const CoverSystem        *covers;
-      unsigned int              first_owned, n_owned;
+      /// The first owned cover's global number and its number here.
+      unsigned int              first_owned, first_owned_here, n_owned;
       std::vector<unsigned int> cover_to_expansion;
       Expansion                 expansion;
 
@@ -179,7 +184,7 @@ namespace NMM
 
       /// Local numbers: owned covers first, then others, ascending.
       std::vector<unsigned int> cover_to_local;
-      std::vector<unsigned int> ghost_covers;
+      std::vector<unsigned int> ghost_covers; // global numbers
       unsigned int              n_rows            = 0;
       bool                      leaves_empty_rows = false;
 

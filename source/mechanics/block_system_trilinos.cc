@@ -40,7 +40,7 @@ namespace NMM
       if (dealii::Utilities::MPI::n_mpi_processes(covers->communicator()) > 1)
         exchange_values(true);
       fix_empty_diagonals();
-      if (matrix.m() != 2 * covers->n_covers())
+      if (matrix.m() != 2 * covers->n_global_covers())
         make_matrix(matrix);
       copy_values(matrix.trilinos_matrix());
       copy_rhs(rhs);
@@ -128,7 +128,7 @@ namespace NMM
     void
     BlockSystem::copy_rhs(dealii::TrilinosWrappers::MPI::Vector &rhs) const
     {
-      if (rhs.size() != 2 * covers->n_covers())
+      if (rhs.size() != 2 * covers->n_global_covers())
         rhs.reinit(covers->locally_owned_dofs(2), covers->communicator());
       std::copy(right_hand_side.begin(),
                 right_hand_side.begin() + 2 * n_owned,

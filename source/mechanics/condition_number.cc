@@ -195,6 +195,14 @@ namespace NMM
       result.smallest = 1. / smallest.value;
       result.weakest_cover =
         largest_entry(smallest.vector, covers.communicator());
+      // only its owner is sure to know where it is
+      if (covers.locally_owned_covers().is_element(result.weakest_cover))
+        result.weakest_node =
+          covers.node(covers.local_cover(result.weakest_cover));
+      for (unsigned int d = 0; d < 2; ++d)
+        result.weakest_node[d] =
+          dealii::Utilities::MPI::sum(result.weakest_node[d],
+                                      covers.communicator());
     }
     return result;
   }

@@ -15,7 +15,7 @@ namespace NMM
   {
     for (const unsigned int cover : covers.locally_relevant_covers())
       for (unsigned int c = 0; c < 2; ++c)
-        nodal_values[cover][c] = solution(2 * cover + c);
+        nodal_values[covers.local_cover(cover)][c] = solution(2 * cover + c);
     set_materials(problem);
   }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <covers/element_exchange.h>
 #include <mechanics/floating_blocks.h>
 #include <mechanics/trace_constant.h>
 #include <numeric>
@@ -14,38 +15,105 @@ namespace NMM
   {
     namespace
     {
+      /// Disjoint sets with path halving; the least member stands for a set.
+      class Sets
+      {
+      public:
+        explicit Sets(const unsigned int n)
+          : parent(n)
+        {
+          std::iota(parent.begin(), parent.end(), 0u);
+        }
+
+        unsigned int
+        find(unsigned int i)
+        {
+          while (parent[i] != i)
+            i = parent[i] = parent[parent[i]];
+          return i;
+        }
+
+        void
+        join(const unsigned int i, const unsigned int j)
+        {
+          const unsigned int a = find(i), b = find(j);
+          parent[std::max(a, b)] = std::min(a, b);
+        }
+
+        /// Number the sets through; returns how many.
+        unsigned int
+        number(std::vector<unsigned int> &member_to_set)
+        {
+          unsigned int n = 0;
+          member_to_set.resize(parent.size());
+          for (unsigned int i = 0; i < parent.size(); ++i)
+            member_to_set[i] = find(i) == i ? n++ : member_to_set[find(i)];
+          return n;
+        }
+
+      private:
+        std::vector<unsigned int> parent;
+      };
+
+
       /// Number of the connected piece of each element; returns how many.
       unsigned int
       find_pieces(const ManifoldMesh        &mesh,
                   const CurveConditions     &conditions,
                   std::vector<unsigned int> &element_to_piece)
       {
-        std::vector<unsigned int> parent(mesh.n_elements());
-        std::iota(parent.begin(), parent.end(), 0u);
-        const auto root = [&parent](unsigned int i) {
-          while (parent[i] != i)
-            i = parent[i] = parent[parent[i]];
-          return i;
-        };
-        const auto join = [&](const unsigned int i, const unsigned int j) {
-          const unsigned int a = root(i), b = root(j);
-          parent[std::max(a, b)] = std::min(a, b);
-        };
+        Sets elements(mesh.n_elements());
         for (unsigned int e = 0; e < mesh.n_elements(); ++e)
         {
           for (const ManifoldMesh::Link &link : mesh.joined(e))
             if (link.neighbor < e)
-              join(e, link.neighbor);
+              elements.join(e, link.neighbor);
           for (const ElementEdge &edge : mesh.edges(e))
             if (edge.neighbor < e && conditions.is_tied(e, edge))
-              join(e, edge.neighbor);
+              elements.join(e, edge.neighbor);
         }
+        return elements.number(element_to_piece);
+      }
 
-        unsigned int n_pieces = 0;
-        element_to_piece.resize(mesh.n_elements());
-        for (unsigned int e = 0; e < mesh.n_elements(); ++e)
-          element_to_piece[e] =
-            root(e) == e ? n_pieces++ : element_to_piece[root(e)];
+
+      /**
+       * The same through all ranks of a distributed mesh: pieces of different ranks
+       * are one where they have a ghost element in common, and all ranks join all
+       * such pairs.
+       */
+      unsigned int
+      join_pieces_of_ranks(const ElementExchange     &exchange,
+                           unsigned int               n_pieces,
+                           std::vector<unsigned int> &element_to_piece)
+      {
+        unsigned int first = 0;
+        MPI_Exscan(
+          &n_pieces, &first, 1, MPI_UNSIGNED, MPI_SUM, exchange.communicator());
+        if (dealii::Utilities::MPI::this_mpi_process(exchange.communicator()) ==
+            0)
+          first = 0;
+        n_pieces =
+          dealii::Utilities::MPI::sum(n_pieces, exchange.communicator());
+        for (unsigned int &piece : element_to_piece)
+          piece += first;
+        std::vector<unsigned int> of_owner = element_to_piece;
+        exchange.update_ghosts(of_owner, 1);
+        std::vector<std::pair<unsigned int, unsigned int>> same;
+        for (unsigned int e = 0; e < of_owner.size(); ++e)
+          if (of_owner[e] != element_to_piece[e])
+            same.emplace_back(of_owner[e], element_to_piece[e]);
+        std::sort(same.begin(), same.end());
+        same.erase(std::unique(same.begin(), same.end()), same.end());
+
+        Sets pieces(n_pieces);
+        for (const auto &of_rank :
+             dealii::Utilities::MPI::all_gather(exchange.communicator(), same))
+          for (const auto &[a, b] : of_rank)
+            pieces.join(a, b);
+        std::vector<unsigned int> piece_to_joined;
+        n_pieces = pieces.number(piece_to_joined);
+        for (unsigned int &piece : element_to_piece)
+          piece = piece_to_joined[piece];
         return n_pieces;
       }
 
@@ -55,8 +123,9 @@ namespace NMM
       {
         double           area = 0.;
         dealii::Point<2> lower{1e300, 1e300}, upper{-1e300, -1e300};
-        /// Largest element, for messages.
-        unsigned int element = invalid_index;
+        /// Largest element's area and region, for messages.
+        double       largest_area = -1.;
+        unsigned int region       = invalid_index;
 
         dealii::Point<2>
         center() const
@@ -72,6 +141,43 @@ namespace NMM
       };
 
 
+      void
+      merge_pieces_of_ranks(const MPI_Comm      communicator,
+                            std::vector<Piece> &pieces)
+      {
+        using namespace dealii::Utilities::MPI;
+        std::vector<double> areas, extremes;
+        for (const Piece &piece : pieces)
+        {
+          areas.push_back(piece.area);
+          for (unsigned int d = 0; d < 2; ++d)
+          {
+            extremes.push_back(-piece.lower[d]);
+            extremes.push_back(piece.upper[d]);
+          }
+          extremes.push_back(piece.largest_area);
+        }
+        sum(areas, communicator, areas);
+        max(extremes, communicator, extremes);
+        std::vector<unsigned int> regions;
+        for (unsigned int p = 0; p < pieces.size(); ++p)
+          regions.push_back(pieces[p].largest_area == extremes[5 * p + 4]
+                              ? pieces[p].region
+                              : invalid_index);
+        min(regions, communicator, regions);
+        for (unsigned int p = 0; p < pieces.size(); ++p)
+        {
+          pieces[p].area = areas[p];
+          for (unsigned int d = 0; d < 2; ++d)
+          {
+            pieces[p].lower[d] = -extremes[5 * p + 2 * d];
+            pieces[p].upper[d] = extremes[5 * p + 2 * d + 1];
+          }
+          pieces[p].region = regions[p];
+        }
+      }
+
+
       std::vector<Piece>
       measure_pieces(const ManifoldMesh              &mesh,
                      const std::vector<unsigned int> &element_to_piece,
@@ -79,13 +185,17 @@ namespace NMM
       {
         const MathematicalMesh &mathematical_mesh = mesh.mathematical_mesh();
         std::vector<Piece>      pieces(n_pieces);
-        for (unsigned int e = 0; e < mesh.n_elements(); ++e)
+        const auto [first, end] = mesh.owned_elements();
+        for (unsigned int e = first; e < end; ++e)
         {
           Piece       &piece = pieces[element_to_piece[e]];
           const double area  = mesh.area(e);
           piece.area += area;
-          if (piece.element == invalid_index || area > mesh.area(piece.element))
-            piece.element = e;
+          if (area > piece.largest_area)
+          {
+            piece.largest_area = area;
+            piece.region       = mesh.region(e);
+          }
           for (const unsigned int v :
                mathematical_mesh.cell_vertices(mesh.cell(e)))
             for (unsigned int d = 0; d < 2; ++d)
@@ -95,6 +205,8 @@ namespace NMM
               piece.upper[d] = std::max(piece.upper[d], x);
             }
         }
+        if (mesh.exchange() != nullptr)
+          merge_pieces_of_ranks(mesh.exchange()->communicator(), pieces);
         return pieces;
       }
 
@@ -201,8 +313,10 @@ namespace NMM
     {
       const ManifoldMesh       &mesh = covers.manifold_mesh();
       std::vector<unsigned int> element_to_piece;
-      const unsigned int        n_pieces =
-        find_pieces(mesh, conditions, element_to_piece);
+      unsigned int n_pieces = find_pieces(mesh, conditions, element_to_piece);
+      if (mesh.exchange() != nullptr)
+        n_pieces =
+          join_pieces_of_ranks(*mesh.exchange(), n_pieces, element_to_piece);
       const std::vector<Piece> pieces =
         measure_pieces(mesh, element_to_piece, n_pieces);
 
@@ -232,11 +346,12 @@ namespace NMM
         const std::string motion = held.free_motion(p);
         if (motion.empty())
           continue;
-        const unsigned int region = mesh.region(pieces[p].element);
+        const unsigned int region = pieces[p].region;
         AssertThrow(
           false,
           NumericalFailure(
-            "Block " + std::to_string(mesh.block(pieces[p].element)) +
+            "Block " +
+              std::to_string(mesh.physical_mesh().regions()[region].block) +
               " of material \"" +
               problem.materials[region_to_material[region]].name +
               "\" floats freely (" + motion + ")",

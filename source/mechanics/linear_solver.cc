@@ -54,7 +54,8 @@ namespace NMM
         unsigned int        i = 0;
         for (const unsigned int k : covers.locally_owned_covers())
         {
-          const dealii::Tensor<1, 2> d = (covers.node(k) - center) / size;
+          const dealii::Tensor<1, 2> d =
+            (covers.node(covers.local_cover(k)) - center) / size;
           for (unsigned int c = 0; c < 2; ++c, ++i)
             if (!constraints.is_constrained(2 * k + c))
             {

@@ -26,7 +26,7 @@ namespace NMM
       }
       for (const auto cover : covers.locally_relevant_covers())
         for (unsigned int c = 0; c < 2; ++c)
-          nodal[2 * cover + c] = vector(2 * cover + c);
+          nodal[2 * covers.local_cover(cover) + c] = vector(2 * cover + c);
     }
   } // namespace internal
 } // namespace NMM

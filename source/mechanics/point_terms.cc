@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <covers/find_on_ranks.h>
 #include <mechanics/point_terms.h>
 
 namespace NMM
@@ -17,7 +18,7 @@ namespace NMM
                         const dealii::Point<2> &point,
                         const std::string      &what)
       {
-        unsigned int element = mesh.find_element(point);
+        unsigned int element = find_on_ranks(mesh, point);
         const auto  &box =
           mesh.physical_mesh().bounding_box().get_boundary_points();
         const double size = box.first.distance(box.second);
@@ -25,9 +26,10 @@ namespace NMM
           for (unsigned int k = 0; k < 8 && element == invalid_index; ++k)
           {
             const double angle = (k + 0.5) * dealii::numbers::PI_4;
-            element            = mesh.find_element(
-              point + distance * dealii::Tensor<1, 2>(
-                                   {std::cos(angle), std::sin(angle)}));
+            element            = find_on_ranks(mesh,
+                                    point + distance * dealii::Tensor<1, 2>(
+                                                         {std::cos(angle),
+                                                                     std::sin(angle)}));
           }
         AssertThrow(element != invalid_index,
                     InputError(what + " lies outside the solid",

@@ -21,7 +21,7 @@ namespace NMM
     public:
       PointTerms(const CoverSystem &covers, const ElasticityProblem &problem);
 
-      /// Element of each fixed point.
+      /// Element of each fixed point; no element's number if another rank's holds it.
       const std::vector<unsigned int> &
       fixed_point_elements() const;
 

@@ -146,13 +146,15 @@ namespace NMM
 
   namespace
   {
-    /// Values of all covers on every rank: patches reach beyond what is relevant.
+    /// Values of all covers on every rank: patches reach beyond what is relevant. On
+    /// a distributed mesh those the rank holds are enough.
     std::vector<dealii::Tensor<1, 2>>
     gather_values(const DisplacementField &field)
     {
       const CoverSystem                &covers = field.cover_system();
       std::vector<dealii::Tensor<1, 2>> values(covers.n_covers());
-      if (dealii::Utilities::MPI::n_mpi_processes(covers.communicator()) == 1)
+      if (covers.manifold_mesh().exchange() != nullptr ||
+          dealii::Utilities::MPI::n_mpi_processes(covers.communicator()) == 1)
         for (unsigned int k = 0; k < covers.n_covers(); ++k)
           values[k] = field.nodal_value(k);
       else

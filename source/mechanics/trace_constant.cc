@@ -174,9 +174,11 @@ namespace NMM
       // the covers that one constrained cover hangs on all belong to the root
       std::vector<unsigned int> needed;
       for (const unsigned int k : covers->covers(element))
-        if (needed.empty() && constraints->is_constrained(2 * k))
-          for (const auto &entry : *constraints->get_constraint_entries(2 * k))
-            needed.push_back(entry.first / 2);
+        if (needed.empty() &&
+            constraints->is_constrained(2 * covers->global_cover(k)))
+          for (const auto &entry : *constraints->get_constraint_entries(
+                 2 * covers->global_cover(k)))
+            needed.push_back(covers->local_cover(entry.first / 2));
       if (needed.empty())
         return invalid_index;
 
@@ -214,10 +216,12 @@ namespace NMM
       for (const unsigned int k : covers->covers(element))
         if (!is_of_root(k))
         {
-          if (!constraints->is_constrained(2 * k))
+          const unsigned int unknown = 2 * covers->global_cover(k);
+          if (!constraints->is_constrained(unknown))
             return false;
-          for (const auto &entry : *constraints->get_constraint_entries(2 * k))
-            if (!is_of_root(entry.first / 2))
+          for (const auto &entry :
+               *constraints->get_constraint_entries(unknown))
+            if (!is_of_root(covers->local_cover(entry.first / 2)))
               return false;
         }
       return true;

@@ -36,7 +36,13 @@ namespace NMM
    * (breadth-first search over ManifoldMesh::joined(), three layers of elements
    * at most). Where there is none, as in long thin arms of a region, the
    * element with the largest support becomes a root all the same, and so on: a
-   * polynomial continued far is worse than one with little support.
+   * polynomial continued far is worse than one with little support. What is
+   * equal to rounding is chosen by place, so that neither the numbering nor
+   * the number of ranks counts.
+   *
+   * On a distributed mesh the numbers are those of this rank's elements, and
+   * invalid_index stands for an element that it does not hold; those of owned elements and
+   * three layers around them are known.
    */
   struct ElementRoots
   {
@@ -45,6 +51,7 @@ namespace NMM
     std::vector<unsigned int> element_to_parent;
   };
 
+  /// Collective on a distributed mesh.
   ElementRoots
   find_roots(const ManifoldMesh &mesh, double threshold);
 
@@ -66,7 +73,8 @@ namespace NMM
   {
     /// Root element of each element (itself if good).
     std::vector<unsigned int> element_to_root;
-    /// Constrained covers, ascending, each with its root element.
+    /// Constrained covers, ascending, each with its root element. On a distributed mesh
+    /// those of owned elements and of their neighbours.
     std::vector<std::pair<unsigned int, unsigned int>> cover_to_root;
     /// Is the cover free, i.e. not constrained?
     std::vector<bool> is_free;
@@ -74,7 +82,7 @@ namespace NMM
 
   /**
    * Find roots. Extends the relevant covers of @p covers by those of the roots
-   * this rank needs.
+   * this rank needs. Collective.
    */
   Aggregation
   aggregate(CoverSystem &covers,
@@ -108,7 +116,8 @@ namespace NMM
     std::vector<unsigned int> element_to_root;
   };
 
-  /// Pairs for all ranks.
+  /// Pairs for all ranks; on a distributed mesh those of elements that this rank holds.
+  /// Collective there.
   GhostPenalty
   make_ghost_penalty(const ManifoldMesh &mesh,
                      double threshold = default_aggregation_threshold);

@@ -29,11 +29,19 @@ namespace NMM
    * consecutive stretches of the element numbering of about equal length. A cover belongs to the lowest
    * rank among its elements.
    *
+   * On a distributed mesh a rank knows the covers of the elements it holds, and
+   * numbers them from 0 to n_covers() - 1; that is what "cover" stands for
+   * everywhere but in index sets and unknowns, which are global. global_cover() is
+   * ascending, and the owned covers are consecutive in both numberings. Otherwise
+   * both numbers of a cover are the same.
+   *
    * Lifetime: the manifold mesh must outlive this object.
    */
   class CoverSystem
   {
   public:
+    /// Collective.
+    /// @throws InputError if the mesh is distributed over another communicator.
     CoverSystem(const ManifoldMesh &manifold_mesh, MPI_Comm communicator);
 
     const ManifoldMesh &
@@ -42,14 +50,27 @@ namespace NMM
     MPI_Comm
     communicator() const;
 
+    /// Covers this rank knows.
     unsigned int
     n_covers() const;
+
+    /// Covers of all ranks.
+    unsigned int
+    n_global_covers() const;
+
+    /// Its number on all ranks.
+    unsigned int
+    global_cover(unsigned int cover) const;
+
+    /// invalid_index for one that this rank does not know.
+    unsigned int
+    local_cover(unsigned int global_cover) const;
 
     /// Physical covers of an element, in the order of the finite element's dofs.
     dealii::ArrayView<const unsigned int>
     covers(unsigned int element) const;
 
-    /// Unknowns of an element with @p n_components values per cover: entry
+    /// Unknowns (global) of an element with @p n_components values per cover: entry
     /// n_components * i + c belongs to weight function i, component c.
     void
     get_dof_indices(
@@ -69,7 +90,7 @@ namespace NMM
     std::pair<unsigned int, unsigned int>
     locally_owned_elements() const;
 
-    /// Covers owned / needed by this rank.
+    /// Global numbers of covers owned / needed by this rank.
     const dealii::IndexSet &
     locally_owned_covers() const;
 
@@ -98,14 +119,21 @@ namespace NMM
     void
     distribute();
 
+    /// On a distributed mesh: global numbers, and local ones in the same order.
+    void
+    number_globally();
+
     void
     add_relevant_elements(unsigned int n_layers);
 
-    const ManifoldMesh                   *mesh;
-    MPI_Comm                              mpi_communicator;
-    unsigned int                          n_per_element;
-    std::vector<unsigned int>             element_to_covers;
-    std::vector<unsigned int>             cover_to_mathematical;
+    const ManifoldMesh       *mesh;
+    MPI_Comm                  mpi_communicator;
+    unsigned int              n_per_element;
+    std::vector<unsigned int> element_to_covers;
+    std::vector<unsigned int> cover_to_mathematical;
+    /// Empty if both numbers are the same.
+    std::vector<unsigned int>             local_to_global;
+    unsigned int                          n_global = 0;
     std::pair<unsigned int, unsigned int> owned_elements;
     dealii::IndexSet                      owned_covers, relevant_covers;
   };

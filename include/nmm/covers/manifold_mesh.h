@@ -12,6 +12,12 @@
 
 namespace NMM
 {
+  namespace internal
+  {
+    // See source/covers/element_exchange.h.
+    class ElementExchange;
+  } // namespace internal
+
   /**
    * One oriented edge of a manifold element's boundary; the element lies to its
    * left. Straight, or an arc about a centre.
@@ -57,6 +63,11 @@ namespace NMM
    * curves between regions on different parts the elements of both sides have
    * the same edges: those are divided wherever a mesh edge of either part
    * meets the curve.
+   *
+   * If the mathematical mesh is distributed, each rank cuts the cells it holds, with
+   * all curves, and numbers its elements by itself: those of ghost cells of lower
+   * ranks, its own, those of higher ranks. Edges and links of elements at the rim of the
+   * ghost cells may lack their neighbours.
    *
    * Not for two threads at once: CGAL's exact numbers are counted without locks
    * here, and the copy of the physical mesh's arrangement shares them.
@@ -126,6 +137,23 @@ namespace NMM
     dealii::ArrayView<const Link>
     joined(unsigned int element) const;
 
+    /// Elements of cells this rank owns, first and past-the-end; all if the mesh
+    /// is not distributed.
+    std::pair<unsigned int, unsigned int>
+    owned_elements() const;
+
+    /**
+     * A point that tells the elements of a cell from each other to rounding,
+     * whichever way they were found: the mean of the corners, of the cell's for
+     * whole elements [m].
+     */
+    dealii::Point<2>
+    reference_point(unsigned int element) const;
+
+    /// For modules of this library: null if the mesh is not distributed.
+    const internal::ElementExchange *
+    exchange() const;
+
     /// Elements of a cell.
     dealii::ArrayView<const unsigned int>
     cell_elements(unsigned int cell) const;
@@ -142,7 +170,15 @@ namespace NMM
     unsigned int
     find_element(const dealii::Point<2> &x) const;
 
+    /// The same of the owned elements only.
+    unsigned int
+    find_owned_element(const dealii::Point<2> &x) const;
+
   private:
+    unsigned int
+    find_element(const dealii::Point<2>                      &x,
+                 const std::pair<unsigned int, unsigned int> &elements) const;
+
     struct Data;
     std::unique_ptr<Data> data;
 

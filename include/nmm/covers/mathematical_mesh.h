@@ -19,6 +19,8 @@
 
 namespace NMM
 {
+  struct RankCells;
+
   /// Triangles that will be a part of a mathematical mesh.
   struct MeshPart
   {
@@ -70,6 +72,11 @@ namespace NMM
     MathematicalMesh(const dealii::Triangulation<2> &triangulation,
                      unsigned int                    degree);
 
+    /// Take over a part of a mesh, see make_distributed_mesh().
+    MathematicalMesh(std::unique_ptr<dealii::Triangulation<2>> triangulation,
+                     unsigned int                              degree,
+                     std::unique_ptr<const RankCells>          rank_cells);
+
     MathematicalMesh(MathematicalMesh &&) noexcept;
     ~MathematicalMesh();
 
@@ -99,6 +106,11 @@ namespace NMM
     /// Weight functions per cell: 3 or 6.
     unsigned int
     n_covers_per_cell() const;
+
+    /// Who owns which cell if this rank holds a part of the mesh only; null if it
+    /// holds all of it.
+    const RankCells *
+    rank_cells() const;
 
     /// Parts; 1 unless made by combine_meshes().
     unsigned int

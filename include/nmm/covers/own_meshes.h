@@ -100,8 +100,10 @@ namespace NMM
    * The main mesh is cut first, to find out; if no region needs anything, it is
    * returned as it is with that manifold mesh, at no further cost. Otherwise all
    * parts are cut, exactly, each at a cost in proportion to its regions.
-   * @throws InputError if the main mesh does not cover the solid, or if the choices
-   * do not fit the regions.
+   * A distributed main mesh (make_distributed_mesh()) can have no others beside it.
+   * @throws InputError if the main mesh does not cover the solid, if the choices
+   * do not fit the regions, or if a region beside a distributed mesh wants one of its
+   * own.
    */
   OwnMeshes
   make_own_meshes(std::unique_ptr<MathematicalMesh> main_mesh,

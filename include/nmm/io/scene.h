@@ -70,9 +70,11 @@ namespace NMM
     std::vector<Curve>
     make_limits() const;
 
+    /// Of several ranks, those of @p communicator share it if the scene says so.
     /// @throws InputError for a curve that does not exist, an unreadable file.
     MathematicalMesh
-    make_mathematical_mesh(const PhysicalMesh &physical_mesh) const;
+    make_mathematical_mesh(const PhysicalMesh &physical_mesh,
+                           MPI_Comm communicator = MPI_COMM_WORLD) const;
 
     /// Which mathematical mesh each region is on. @throws InputError for a block
     /// that does not exist.

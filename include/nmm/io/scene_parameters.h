@@ -378,6 +378,10 @@ namespace NMM
     check_loads_in_time() const;
     void
     check_restraints() const;
+
+    /// Is a mesh that is distributed among ranks one that may be?
+    void
+    check_distribution() const;
   };
 } // namespace NMM
 

@@ -37,6 +37,9 @@ namespace NMM
     /// Of all regions but those of `blocks`, see make_own_meshes().
     RegionMesh                       mesh;
     std::vector<BlockMeshParameters> blocks;
+    /// Does each rank hold a part of the mathematical mesh only, see
+    /// make_distributed_mesh()?
+    bool is_distributed = false;
 
     static void
     declare(dealii::ParameterHandler       &prm,

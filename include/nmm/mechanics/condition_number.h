@@ -26,6 +26,8 @@ namespace NMM
     /// eigenvalue: where the matrix is weakest; invalid_index if it is
     /// singular.
     unsigned int weakest_cover = invalid_index;
+    /// Its node [m].
+    dealii::Point<2> weakest_node;
     /// Steps of the two Lanczos iterations.
     unsigned int n_products = 0, n_solves = 0;
 

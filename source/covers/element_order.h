@@ -1,0 +1,73 @@
+#ifndef nmm_source_covers_element_order_h
+#define nmm_source_covers_element_order_h
+
+// Private: an order of elements that does not depend on their numbers.
+
+#include <nmm/covers/manifold_mesh.h>
+
+#include <array>
+#include <cmath>
+
+namespace NMM
+{
+  namespace internal
+  {
+    inline dealii::Point<2>
+    cell_centroid(const ManifoldMesh &mesh, const unsigned int element)
+    {
+      const MathematicalMesh &mathematical_mesh = mesh.mathematical_mesh();
+      dealii::Point<2>        sum;
+      for (const unsigned int v :
+           mathematical_mesh.cell_vertices(mesh.cell(element)))
+        sum += mathematical_mesh.vertices()[v];
+      return dealii::Point<2>(sum / 3.);
+    }
+
+
+    /// What elements are put in order by: where the cell is, where in the cell the element
+    /// is, how large it is, in the length of the cell.
+    struct ElementPlace
+    {
+      std::array<double, 5> values;
+      double                cell_size;
+
+      ElementPlace() = default;
+
+      ElementPlace(const ManifoldMesh &mesh, const unsigned int element)
+        : cell_size(mesh.mathematical_mesh().cell_diameter(mesh.cell(element)))
+      {
+        const dealii::Point<2> cell = cell_centroid(mesh, element);
+        const dealii::Point<2> here = mesh.reference_point(element);
+        values                      = {{cell[0] / cell_size,
+                                        cell[1] / cell_size,
+                                        here[0] / cell_size,
+                                        here[1] / cell_size,
+                                        mesh.area(element) / (cell_size * cell_size)}};
+      }
+
+      /// By the first value that differs by more than a millionth of the cell.
+      bool
+      operator<(const ElementPlace &other) const
+      {
+        for (unsigned int i = 0; i < values.size(); ++i)
+        {
+          const double theirs = other.values[i] * other.cell_size / cell_size;
+          if (std::abs(values[i] - theirs) > 1e-6)
+            return values[i] < theirs;
+        }
+        return false;
+      }
+    };
+
+
+    inline bool
+    comes_first(const ManifoldMesh &mesh,
+                const unsigned int  a,
+                const unsigned int  b)
+    {
+      return a != b && ElementPlace(mesh, a) < ElementPlace(mesh, b);
+    }
+  } // namespace internal
+} // namespace NMM
+
+#endif

@@ -1,0 +1,396 @@
+#include <nmm/covers/aggregation.h>
+#include <nmm/covers/element_support.h>
+
+#include "element_exchange.h"
+#include "element_order.h"
+#include <algorithm>
+#include <cmath>
+
+// Which polynomial elements with little support follow.
+namespace NMM
+{
+  using namespace dealii;
+  using internal::ElementExchange;
+
+  namespace
+  {
+    /// Polynomials are continued over so many layers of elements at most: their
+    /// values grow with the square of the distance, and energies with its
+    /// fourth power.
+    constexpr unsigned int max_layers = 3;
+
+    /// While roots are looked for: one that another rank holds.
+    constexpr unsigned int remote = invalid_index - 1;
+
+
+    /// The elements of a mesh and their neighbours, as the search sees them.
+    class MeshGraph
+    {
+    public:
+      explicit MeshGraph(const ManifoldMesh &mesh)
+        : mesh(mesh)
+      {
+      }
+
+      template <typename Action>
+      void
+      for_each_neighbor(const unsigned int e, const Action &action) const
+      {
+        for (const ManifoldMesh::Link &link : mesh.joined(e))
+          action(link.neighbor);
+      }
+
+      Point<2>
+      centroid(const unsigned int e) const
+      {
+        return internal::cell_centroid(mesh, e);
+      }
+
+      bool
+      comes_first(const unsigned int a, const unsigned int b) const
+      {
+        return internal::comes_first(mesh, a, b);
+      }
+
+    private:
+      const ManifoldMesh &mesh;
+    };
+
+
+    /// Gives elements that are joined to a rooted one a root, layer by layer;
+    /// among the roots of the previous layer the nearest.
+    template <typename Graph>
+    void
+    spread_roots(const Graph              &graph,
+                 std::vector<unsigned int> layer,
+                 ElementRoots             &roots)
+    {
+      std::vector<unsigned int> &element_to_root = roots.element_to_root;
+      for (unsigned int l = 0; l < max_layers && !layer.empty(); ++l)
+      {
+        // (element, parent)
+        std::vector<std::pair<unsigned int, unsigned int>> found;
+        for (const unsigned int e : layer)
+          graph.for_each_neighbor(e, [&](const unsigned int neighbor) {
+            if (element_to_root[neighbor] == invalid_index)
+              found.emplace_back(neighbor, e);
+          });
+        std::sort(found.begin(), found.end());
+
+        layer.clear();
+        for (std::size_t i = 0; i < found.size();)
+        {
+          const unsigned int e      = found[i].first;
+          const Point<2>     here   = graph.centroid(e);
+          double             best   = 1e300;
+          unsigned int       parent = invalid_index;
+          for (; i < found.size() && found[i].first == e; ++i)
+          {
+            const unsigned int candidate = found[i].second;
+            if (candidate == parent)
+              continue;
+            const unsigned int root      = element_to_root[candidate];
+            const double       d         = here.distance(graph.centroid(root));
+            bool               is_better = d < best * (1. - 1e-10);
+            if (!is_better && d <= best * (1. + 1e-10))
+              is_better = root != element_to_root[parent]
+                            ? graph.comes_first(root, element_to_root[parent])
+                            : graph.comes_first(candidate, parent);
+            if (is_better)
+            {
+              best   = d;
+              parent = candidate;
+            }
+          }
+          element_to_root[e]         = element_to_root[parent];
+          roots.element_to_parent[e] = parent;
+          layer.push_back(e);
+        }
+      }
+    }
+
+
+    /// What is left is far from any good element: the best of it becomes a root,
+    /// and so on. @p left: (support, element).
+    template <typename Graph>
+    void
+    root_the_rest(const Graph                                 &graph,
+                  std::vector<std::pair<double, unsigned int>> left,
+                  ElementRoots                                &roots)
+    {
+      for (auto &[support, e] : left)
+        support = std::round(1e9 * support);
+      std::sort(left.begin(), left.end(), [&](const auto &a, const auto &b) {
+        if (a.first != b.first)
+          return a.first > b.first;
+        if (graph.comes_first(a.second, b.second))
+          return true;
+        return !graph.comes_first(b.second, a.second) && a.second < b.second;
+      });
+      for (const auto &[support, e] : left)
+        if (roots.element_to_root[e] == invalid_index)
+        {
+          roots.element_to_root[e] = roots.element_to_parent[e] = e;
+          spread_roots(graph, {e}, roots);
+        }
+    }
+
+
+    /// Elements without a root in connected sets that several ranks have parts of,
+    /// the same on all ranks.
+    class SharedGraph
+    {
+    public:
+      SharedGraph(const ManifoldMesh                                 &mesh,
+                  const std::vector<std::pair<double, unsigned int>> &owned,
+                  const std::vector<unsigned int> &element_to_root)
+      {
+        const ElementExchange &exchange = *mesh.exchange();
+        std::vector<double>    message;
+        for (const auto &[support, e] : owned)
+        {
+          const auto                   name = exchange.global(e);
+          const internal::ElementPlace place(mesh, e);
+          const Point<2>               x = internal::cell_centroid(mesh, e);
+          message.insert(message.end(),
+                         {static_cast<double>(name.rank),
+                          static_cast<double>(name.element),
+                          support,
+                          x[0],
+                          x[1],
+                          place.cell_size});
+          message.insert(message.end(),
+                         place.values.begin(),
+                         place.values.end());
+          std::vector<double> neighbors;
+          for (const ManifoldMesh::Link &link : mesh.joined(e))
+            if (element_to_root[link.neighbor] == invalid_index)
+            {
+              const auto other = exchange.global(link.neighbor);
+              neighbors.push_back(other.rank);
+              neighbors.push_back(other.element);
+            }
+          message.push_back(neighbors.size());
+          message.insert(message.end(), neighbors.begin(), neighbors.end());
+        }
+        std::vector<std::vector<ElementExchange::GlobalElement>> links;
+        for (const std::vector<double> &part :
+             Utilities::MPI::all_gather(exchange.communicator(), message))
+          for (auto it = part.begin(); it != part.end();)
+          {
+            const auto next = [&it]() { return *it++; };
+            const auto name = [&]() {
+              const auto rank = static_cast<unsigned int>(next());
+              return ElementExchange::GlobalElement{
+                rank, static_cast<unsigned int>(next())};
+            };
+            names.push_back(name());
+            supports.push_back(next());
+            const double x = next();
+            centroids.emplace_back(x, next());
+            places.emplace_back();
+            places.back().cell_size = next();
+            for (double &value : places.back().values)
+              value = next();
+            links.emplace_back(static_cast<std::size_t>(next()) / 2);
+            for (auto &link : links.back())
+              link = name();
+          }
+        std::map<ElementExchange::GlobalElement, unsigned int> name_to_index;
+        for (unsigned int i = 0; i < names.size(); ++i)
+          name_to_index[names[i]] = i;
+        for (const auto &of_element : links)
+        {
+          neighbors.emplace_back();
+          for (const auto &name : of_element)
+            neighbors.back().push_back(name_to_index.at(name));
+        }
+      }
+
+      template <typename Action>
+      void
+      for_each_neighbor(const unsigned int e, const Action &action) const
+      {
+        for (const unsigned int neighbor : neighbors[e])
+          action(neighbor);
+      }
+
+      Point<2>
+      centroid(const unsigned int e) const
+      {
+        return centroids[e];
+      }
+
+      bool
+      comes_first(const unsigned int a, const unsigned int b) const
+      {
+        return a != b && places[a] < places[b];
+      }
+
+      std::vector<ElementExchange::GlobalElement> names;
+      std::vector<double>                         supports;
+
+    private:
+      std::vector<Point<2>>                  centroids;
+      std::vector<internal::ElementPlace>    places;
+      std::vector<std::vector<unsigned int>> neighbors;
+    };
+
+
+    /// Take the roots and parents of ghost elements from their owners.
+    void
+    update_ghost_roots(const ManifoldMesh &mesh, ElementRoots &roots)
+    {
+      const ElementExchange    &exchange = *mesh.exchange();
+      const unsigned int        n        = mesh.n_elements();
+      std::vector<unsigned int> names(4 * n, invalid_index);
+      for (unsigned int e = 0; e < n; ++e)
+        for (unsigned int i = 0; i < 2; ++i)
+        {
+          const unsigned int other =
+            i == 0 ? roots.element_to_root[e] : roots.element_to_parent[e];
+          if (other >= remote)
+            continue;
+          const auto name          = exchange.global(other);
+          names[4 * e + 2 * i]     = name.rank;
+          names[4 * e + 2 * i + 1] = name.element;
+        }
+      exchange.update_ghosts(names, 4);
+      const auto [first, end] = mesh.owned_elements();
+      for (unsigned int e = 0; e < n; ++e)
+        if (e < first || e >= end)
+          for (unsigned int i = 0; i < 2; ++i)
+          {
+            unsigned int &other =
+              i == 0 ? roots.element_to_root[e] : roots.element_to_parent[e];
+            other = invalid_index;
+            if (names[4 * e + 2 * i] == invalid_index)
+              continue;
+            other =
+              exchange.local({names[4 * e + 2 * i], names[4 * e + 2 * i + 1]});
+            if (other == invalid_index)
+              other = remote;
+          }
+    }
+
+
+    /// Is an element without a root connected, by others without, with one that two
+    /// ranks hold?
+    std::vector<unsigned char>
+    find_shared_sets(const ManifoldMesh              &mesh,
+                     const std::vector<unsigned int> &element_to_root)
+    {
+      std::vector<unsigned char> is_shared(mesh.n_elements(), 0);
+      std::vector<unsigned int>  stack;
+      for (unsigned int e = 0; e < mesh.n_elements(); ++e)
+        if (element_to_root[e] == invalid_index &&
+            mesh.exchange()->is_shared(e) && !is_shared[e])
+        {
+          is_shared[e] = 1;
+          stack.assign(1, e);
+          while (!stack.empty())
+          {
+            const unsigned int here = stack.back();
+            stack.pop_back();
+            for (const ManifoldMesh::Link &link : mesh.joined(here))
+              if (element_to_root[link.neighbor] == invalid_index &&
+                  !is_shared[link.neighbor])
+              {
+                is_shared[link.neighbor] = 1;
+                stack.push_back(link.neighbor);
+              }
+          }
+        }
+      return is_shared;
+    }
+
+
+    /**
+     * The rest of a distributed mesh: connected sets of a single rank as on one rank;
+     * all ranks do the others, of which there are few.
+     */
+    void
+    root_the_rest_on_ranks(
+      const ManifoldMesh                                 &mesh,
+      const std::vector<std::pair<double, unsigned int>> &bad,
+      ElementRoots                                       &roots)
+    {
+      const ElementExchange &exchange = *mesh.exchange();
+      update_ghost_roots(mesh, roots);
+      const std::vector<unsigned char> is_shared =
+        find_shared_sets(mesh, roots.element_to_root);
+      std::vector<std::pair<double, unsigned int>> own, common;
+      const auto [first, end] = mesh.owned_elements();
+      for (const auto &[support, e] : bad)
+        if (roots.element_to_root[e] == invalid_index && e >= first && e < end)
+          (is_shared[e] ? common : own).emplace_back(support, e);
+      const SharedGraph graph(mesh, common, roots.element_to_root);
+      root_the_rest(MeshGraph(mesh), own, roots);
+
+      ElementRoots shared_roots;
+      shared_roots.element_to_root.assign(graph.names.size(), invalid_index);
+      shared_roots.element_to_parent = shared_roots.element_to_root;
+      std::vector<std::pair<double, unsigned int>> left;
+      for (unsigned int i = 0; i < graph.names.size(); ++i)
+        left.emplace_back(graph.supports[i], i);
+      root_the_rest(graph, left, shared_roots);
+      const auto local = [&](const unsigned int i) {
+        const unsigned int e = exchange.local(graph.names[i]);
+        return e == invalid_index ? remote : e;
+      };
+      for (unsigned int i = 0; i < graph.names.size(); ++i)
+        if (local(i) != remote)
+        {
+          roots.element_to_root[local(i)] =
+            local(shared_roots.element_to_root[i]);
+          roots.element_to_parent[local(i)] =
+            local(shared_roots.element_to_parent[i]);
+        }
+      for (std::vector<unsigned int> *list :
+           {&roots.element_to_root, &roots.element_to_parent})
+        std::replace(list->begin(), list->end(), remote, invalid_index);
+    }
+  } // namespace
+
+
+  ElementRoots
+  find_roots(const ManifoldMesh &manifold_mesh, const double threshold)
+  {
+    const unsigned int n_elements = manifold_mesh.n_elements();
+    ElementRoots       result;
+    result.element_to_root.assign(n_elements, invalid_index);
+    std::vector<unsigned int> &element_to_root = result.element_to_root;
+
+    // only bad elements and their good neighbours take part in the search
+    std::vector<std::pair<double, unsigned int>> bad;
+    for (unsigned int e = 0; e < n_elements; ++e)
+    {
+      const double support =
+        manifold_mesh.is_whole(e) ? 1. : element_support(manifold_mesh, e);
+      if (support >= threshold)
+        element_to_root[e] = e;
+      else
+        bad.emplace_back(support, e);
+    }
+    result.element_to_parent = element_to_root;
+    std::vector<unsigned int> first_layer;
+    for (const auto &[support, e] : bad)
+      for (const ManifoldMesh::Link &link : manifold_mesh.joined(e))
+        if (element_to_root[link.neighbor] == link.neighbor)
+          first_layer.push_back(link.neighbor);
+    const MeshGraph graph(manifold_mesh);
+    spread_roots(graph, first_layer, result);
+
+    if (manifold_mesh.exchange() != nullptr)
+    {
+      root_the_rest_on_ranks(manifold_mesh, bad, result);
+      return result;
+    }
+    std::vector<std::pair<double, unsigned int>> left;
+    for (const auto &element : bad)
+      if (element_to_root[element.second] == invalid_index)
+        left.push_back(element);
+    root_the_rest(graph, std::move(left), result);
+    return result;
+  }
+} // namespace NMM

@@ -123,18 +123,17 @@ SceneAnalysis::add_counts()
   summary.add("own_meshes", mathematical_mesh->n_parts() - 1);
   // of all ranks, whatever each of them holds
   const RankCells *rank_cells = mathematical_mesh->rank_cells();
-  unsigned int     n_cut = manifold_mesh->n_cells_cut_exactly(), n_aggregated = 0;
+  unsigned int n_cut = manifold_mesh->n_cells_cut_exactly(), n_aggregated = 0;
   for (const auto &[cover, root] : aggregation.cover_to_root)
     n_aggregated +=
       covers->locally_owned_covers().is_element(covers->global_cover(cover));
   if (rank_cells != nullptr)
     n_cut = MPI::sum(n_cut, communicator);
   summary.add("cells",
-              rank_cells == nullptr ? mathematical_mesh->n_cells() :
-                                      rank_cells->n_global_cells);
+              rank_cells == nullptr ? mathematical_mesh->n_cells()
+                                    : rank_cells->n_global_cells);
   summary.add("cells_cut_exactly", n_cut);
-  summary.add("mathematical_covers",
-              mathematical_mesh->dof_handler().n_dofs());
+  summary.add("mathematical_covers", mathematical_mesh->dof_handler().n_dofs());
   summary.add("manifold_elements", MPI::sum(last - first, communicator));
   summary.add("elements_held",
               MPI::max(manifold_mesh->n_elements(), communicator));
@@ -142,8 +141,7 @@ SceneAnalysis::add_counts()
   summary.add("covers_held", MPI::max(covers->n_covers(), communicator));
   n_aggregated = MPI::sum(n_aggregated, communicator);
   summary.add("aggregated_covers", n_aggregated);
-  summary.add("unknowns",
-              2. * (covers->n_global_covers() - n_aggregated));
+  summary.add("unknowns", 2. * (covers->n_global_covers() - n_aggregated));
   summary.add("area",
               MPI::sum(area, communicator),
               scene.parameters().output.length_unit + "^2");

@@ -406,10 +406,10 @@ namespace NMM
     const auto        check = [&](const bool is_fine, const std::string &what) {
       AssertThrow(is_fine,
                   InputError(what + " cannot have a mathematical mesh that is "
-                                    "distributed among ranks",
+                                           "distributed among ranks",
                              where,
                              "set it to replicated: all ranks hold all of the "
-                             "mesh"));
+                                    "mesh"));
     };
     check(model.analysis == Analysis::statics,
           "a " + to_string(model.analysis) + " analysis");

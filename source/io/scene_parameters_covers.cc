@@ -34,9 +34,8 @@ namespace NMM
       {"automatic", Kind::automatic}};
 
 
-    const std::vector<std::pair<std::string, bool>> distributions = {
-      {"replicated", false},
-      {"distributed", true}};
+    const std::vector<std::pair<std::string, bool>> distributions =
+      {{"replicated", false}, {"distributed", true}};
 
 
     bool
@@ -148,10 +147,10 @@ namespace NMM
   void
   CoverParameters::parse(ParameterHandler &prm)
   {
-    stabilization = get_selection(prm, "Stabilization", stabilizations);
-    threshold     = prm.get_double("Threshold");
-    mesh.kind     = get_selection(prm, "Own meshes", own_mesh_choices);
-    mesh.n_across = prm.get_integer("Elements across");
+    stabilization  = get_selection(prm, "Stabilization", stabilizations);
+    threshold      = prm.get_double("Threshold");
+    mesh.kind      = get_selection(prm, "Own meshes", own_mesh_choices);
+    mesh.n_across  = prm.get_integer("Elements across");
     is_distributed = get_selection(prm, "Distribution", distributions);
     blocks.clear();
     for (const std::string &name : get_names(prm, "Names"))

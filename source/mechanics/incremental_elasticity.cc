@@ -518,6 +518,11 @@ namespace NMM
                                   problem,
                                   may_float))
   {
+    AssertThrow(covers.manifold_mesh().exchange() == nullptr,
+                InputError("a distributed mathematical mesh is for linear "
+                           "static problems only",
+                           "IncrementalElasticity",
+                           "use make_regular_mesh()"));
   }
 
 

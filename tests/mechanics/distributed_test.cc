@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 #include <mechanics/model.h>
+#include <support/same_elements.h>
 
 using namespace NMM;
 using namespace NMM::Test;
@@ -51,39 +52,6 @@ namespace
   }
 
 
-  Point<2>
-  middle(const Model &model, const unsigned int element)
-  {
-    return model.manifold_mesh.reference_point(element);
-  }
-
-
-  /// Element of the whole mesh that is @p element of a distributed one.
-  unsigned int
-  find_same(const Model &whole, const Model &part, const unsigned int element)
-  {
-    const Point<2> x = middle(part, element);
-    const Point<2> in_cell =
-      part.mathematical_mesh.reference_to_real(part.manifold_mesh.cell(element),
-                                               Point<2>(1. / 3., 1. / 3.));
-    unsigned int best     = invalid_index;
-    double       distance = 1e-8;
-    // by the cell, which is the same lattice's
-    for (unsigned int e = 0; e < whole.manifold_mesh.n_elements(); ++e)
-      if (whole.manifold_mesh.region(e) == part.manifold_mesh.region(element) &&
-          whole.mathematical_mesh
-              .reference_to_real(whole.manifold_mesh.cell(e),
-                                 Point<2>(1. / 3., 1. / 3.))
-              .distance(in_cell) < 1e-10 &&
-          middle(whole, e).distance(x) < distance)
-      {
-        distance = middle(whole, e).distance(x);
-        best     = e;
-      }
-    return best;
-  }
-
-
   void
   expect_same(const Case         &c,
               const unsigned int  degree,
@@ -121,9 +89,10 @@ namespace
     const StressRecovery of_whole(*whole->field, whole->aggregation),
       of_part(*part->field, part->aggregation);
     double largest = 0., difference = 0., stress = 0., stress_difference = 0.;
+    const Testing::SameElements same_elements(whole->manifold_mesh);
     for (unsigned int e = first; e < end; ++e)
     {
-      const unsigned int same = find_same(*whole, *part, e);
+      const unsigned int same = same_elements.find(part->manifold_mesh, e);
       ASSERT_NE(same, invalid_index);
       for (const Point<2> &xi : {Point<2>(0.2, 0.3), Point<2>(0.6, 0.3)})
       {
@@ -242,4 +211,45 @@ TEST(Distributed, JointsAndMaterialsMPI)
 TEST(Distributed, JointsAndMaterialsWithGhostPenaltyMPI)
 {
   expect_same(jointed_box(), 2, Stabilization::ghost_penalty);
+}
+
+
+// An open joint cuts the ring in two, of which one is held.
+TEST(Distributed, FloatingBlockMPI)
+{
+  Case c     = ring();
+  c.geometry = []() {
+    Geometry geometry = quarter_ring(1., 2.);
+    geometry.add_polyline({{-0.1, 1.2}, {1.9, 1.2}}, "cut", CurveRole::joint);
+    return geometry;
+  };
+  const auto model = make_model(c, 2, Stabilization::aggregation, true);
+  model->problem.boundary_conditions = {
+    condition(BoundaryCondition::Type::displacement, "bottom")};
+  try
+  {
+    model->solve();
+    ADD_FAILURE() << "a block floats";
+  }
+  catch (const NumericalFailure &failure)
+  {
+    EXPECT_NE(failure.message().find("floats freely"), std::string::npos);
+  }
+}
+
+
+// Conjugate gradients see the same matrix: as many steps, within the preconditioner's freedom.
+TEST(Distributed, IterativeSolverMPI)
+{
+  const Case             c = ring();
+  LinearSolverParameters solver;
+  solver.type      = LinearSolverParameters::Type::iterative;
+  const auto whole = make_model(c, 2, Stabilization::aggregation, false),
+             part  = make_model(c, 2, Stabilization::aggregation, true);
+  const LinearSolverReport of_whole = whole->solve(solver),
+                           of_part  = part->solve(solver);
+  EXPECT_NEAR(of_part.n_iterations,
+              of_whole.n_iterations,
+              0.2 * of_whole.n_iterations);
+  EXPECT_LT(of_part.relative_residual, 1e-10);
 }

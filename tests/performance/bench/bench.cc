@@ -42,6 +42,7 @@ namespace
   // what needs most memory first
   const Case cases[] = {{"cutting", measure_cutting, false},
                         {"large-rings", measure_large_rings, true},
+                        {"ranks", measure_ranks, true},
                         {"ring", measure_ring, true},
                         {"cantilever", measure_cantilever, false},
                         {"hertz", measure_hertz, false},
@@ -68,11 +69,12 @@ namespace
         if (this_mpi_process(MPI_COMM_WORLD) == 0)
           write_table(file_name, recorder.rows());
       }
-    AssertThrow(!recorder.rows().empty(),
-                InputError("there is no case '" + name + "'",
-                           "nmm-bench measure",
-                           "say cutting, large-rings, ring, cantilever, hertz, "
-                           "cracked-plate, incline, slope or output"));
+    AssertThrow(
+      !recorder.rows().empty(),
+      InputError("there is no case '" + name + "'",
+                 "nmm-bench measure",
+                 "say cutting, large-rings, ranks, ring, cantilever, hertz, "
+                 "cracked-plate, incline, slope or output"));
   }
 
 

@@ -114,6 +114,11 @@ namespace NMM
     void
     measure_large_rings(Recorder &recorder);
 
+    /// Rings on ranks that hold all of the mesh or a part of it: the same one on
+    /// more ranks, and one that grows with them.
+    void
+    measure_ranks(Recorder &recorder);
+
     /// A run in time that writes fields.
     void
     measure_output(Recorder &recorder);

@@ -373,6 +373,7 @@ namespace NMM
       write_stages(out, rows, images);
       write_improvements(out, before, rows);
       write_scaling(out, rows);
+      write_distribution(out, rows, images);
       std::ofstream(directory + "/performance.md") << out.str();
     }
   } // namespace Bench

@@ -52,6 +52,12 @@ namespace NMM
     void
     write_scaling(std::ostream &out, const std::vector<Row> &rows);
 
+    /// The mesh on each rank or a part of it, and a model of many ranks.
+    void
+    write_distribution(std::ostream           &out,
+                       const std::vector<Row> &rows,
+                       const std::string      &image_directory);
+
     /// Stages before and now.
     void
     write_improvements(std::ostream           &out,

@@ -1,8 +1,9 @@
 // The thick ring (the paper's first example), as in step-nmm-1.
 
+#include "ring.h"
+
 #include <nmm/mechanics/thick_ring.h>
 
-#include "staged_model.h"
 #include "step-nmm-1/fitted_ring.h"
 #include "step-nmm-1/study.h"
 
@@ -13,16 +14,6 @@ namespace NMM
     namespace
     {
       using Type = BoundaryCondition::Type;
-
-      struct Ring
-      {
-        std::string            name = "ring";
-        double                 cell_size;
-        bool                   is_graded = false;
-        StagedModel::Options   options;
-        LinearSolverParameters solver;
-      };
-
 
       GradedMeshParameters
       mesh_of(const Ring &ring, const StepNMM1::Parameters &parameters)
@@ -44,62 +35,69 @@ namespace NMM
       }
 
 
-      Row
-      run(const Ring &ring, const bool with_stress_error = true)
-      {
-        const StepNMM1::Parameters parameters =
-          StepNMM1::read_parameters("", ".");
-        const double a = parameters.inner_radius, b = parameters.outer_radius;
-        Row          row;
-        row.name   = ring.name;
-        row.method = ring.is_graded ? "manifold refined" : "manifold uniform";
-        row.kinematics = "small";
-        StagedModel model(quarter_ring(a, b),
-                          mesh_of(ring, parameters),
-                          ring.options,
-                          row);
-        model.problem.plane_state         = PlaneState::plane_stress;
-        model.problem.materials           = {parameters.material()};
-        model.problem.boundary_conditions = {
-          condition(Type::normal_displacement, "bottom"),
-          condition(Type::normal_displacement, "left"),
-          condition(Type::pressure, "inner", constant(parameters.pressure))};
-        model.solve(ring.solver, row);
+    } // namespace
 
-        const ThickRing         exact(a,
-                              b,
-                              parameters.pressure,
-                              model.problem.materials[0],
-                              PlaneState::plane_stress);
-        const DisplacementField field(*model.covers,
-                                      model.problem,
-                                      model.elasticity->solution());
-        std::vector<double>     probes;
-        for (const double angle : {15., 45., 75.})
-          for (const double r : {a, 0.5 * (a + b), b})
-          {
-            const double   t = angle * dealii::numbers::PI / 180.;
-            const Point<2> x(r * std::cos(t), r * std::sin(t));
-            const Point<2> inside(0.5 * (a + b) / r * x);
-            const auto     u = model.displacement(field, x, inside);
-            probes.insert(probes.end(), {u[0], u[1]});
-          }
-        row.probes            = to_text(probes);
-        row.error_kind        = "L2 of u";
-        row.second_error_kind = "L2 of stress";
-        if (with_stress_error)
+
+    Row
+    run(const Ring &ring, const bool with_stress_error)
+    {
+      const StepNMM1::Parameters parameters =
+        StepNMM1::read_parameters("", ".");
+      const double a = parameters.inner_radius, b = parameters.outer_radius;
+      Row          row;
+      row.name       = ring.name;
+      row.method     = ring.options.is_distributed ? "distributed"
+                       : ring.is_graded            ? "manifold refined"
+                                                   : "manifold uniform";
+      row.kinematics = "small";
+      StagedModel model(quarter_ring(a, b),
+                        mesh_of(ring, parameters),
+                        ring.options,
+                        row);
+      model.problem.plane_state         = PlaneState::plane_stress;
+      model.problem.materials           = {parameters.material()};
+      model.problem.boundary_conditions = {
+        condition(Type::normal_displacement, "bottom"),
+        condition(Type::normal_displacement, "left"),
+        condition(Type::pressure, "inner", constant(parameters.pressure))};
+      model.solve(ring.solver, row);
+
+      const ThickRing         exact(a,
+                            b,
+                            parameters.pressure,
+                            model.problem.materials[0],
+                            PlaneState::plane_stress);
+      const DisplacementField field(*model.covers,
+                                    model.problem,
+                                    model.elasticity->solution());
+      std::vector<double>     probes;
+      for (const double angle : {15., 45., 75.})
+        for (const double r : {a, 0.5 * (a + b), b})
         {
-          const ErrorNorms errors = compute_errors(
-            field,
-            [&](const Point<2> &x) { return exact.displacement(x); },
-            [&](const Point<2> &x) { return exact.stress(x); });
-          row.error        = errors.displacement;
-          row.second_error = errors.stress;
+          const double   t = angle * dealii::numbers::PI / 180.;
+          const Point<2> x(r * std::cos(t), r * std::sin(t));
+          const Point<2> inside(0.5 * (a + b) / r * x);
+          const auto     u = model.displacement(field, x, inside);
+          probes.insert(probes.end(), {u[0], u[1]});
         }
-        return row;
+      row.probes            = to_text(probes);
+      row.error_kind        = "L2 of u";
+      row.second_error_kind = "L2 of stress";
+      if (with_stress_error)
+      {
+        const ErrorNorms errors = compute_errors(
+          field,
+          [&](const Point<2> &x) { return exact.displacement(x); },
+          [&](const Point<2> &x) { return exact.stress(x); });
+        row.error        = errors.displacement;
+        row.second_error = errors.stress;
       }
+      return row;
+    }
 
 
+    namespace
+    {
       Row
       run_fitted(const std::string &name, const double cell_size)
       {

@@ -1,0 +1,344 @@
+#include "figure.h"
+#include "report.h"
+#include <algorithm>
+#include <cmath>
+
+// The mesh on each rank or a part of it, and where more ranks would lead.
+namespace NMM
+{
+  namespace Bench
+  {
+    namespace
+    {
+      /// The first row of that name, method, solver and number of ranks; null if there is none.
+      const Row *
+      find(const std::vector<Row> &rows,
+           const std::string      &name,
+           const std::string      &method,
+           const std::string      &solver,
+           const double            ranks)
+      {
+        const auto row =
+          std::find_if(rows.begin(), rows.end(), [&](const Row &r) {
+            return r.name == name && r.method == method && r.solver == solver &&
+                   r.ranks == ranks;
+          });
+        return row == rows.end() ? nullptr : &*row;
+      }
+
+
+      std::string
+      name_of(const Row &row)
+      {
+        return (row.method == "distributed" ? "distributed, "
+                                            : "replicated, ") +
+               row.solver;
+      }
+
+
+      /// Time and size of messages between ranks.
+      struct Network
+      {
+        std::string name;
+        /// [s], [bytes/s]
+        double latency, bandwidth;
+      };
+
+
+      /// Time on many ranks from rows of one and two.
+      class Model
+      {
+      public:
+        Model(const Row &one, const Row &two)
+          : one(one)
+          , two(two)
+        {
+        }
+
+        static constexpr double n_neighbors = 8., n_products = 10.;
+
+        /// One for each factor of nine unknowns, down to 500.
+        double
+        n_levels() const
+        {
+          return 1. + std::ceil(std::log(std::max(one.unknowns / 500., 1.)) /
+                                std::log(9.));
+        }
+
+        /// Elements that a rank holds.
+        double
+        held(const double n) const
+        {
+          return n == 1. ? one.elements
+                         : std::min(one.elements,
+                                    one.elements / n +
+                                      4. * two.ghost_elements / std::sqrt(n));
+        }
+
+        /// [s]
+        double
+        setup(const double n) const
+        {
+          const double shared = one.mesh + one.cutting + one.covers +
+                                one.quadrature + one.sparsity + one.assembly;
+          return one.geometry + shared * held(n) / one.elements +
+                 one.factorization / n;
+        }
+
+        /// Of one iteration [s].
+        double
+        iteration(const double n, const Network &network) const
+        {
+          const double work = one.solution / one.iterations / n;
+          if (n == 1.)
+            return work;
+          const double messages = n_products * n_levels() *
+                                  std::min(n_neighbors, n - 1.) *
+                                  network.latency;
+          // each level has a third of the boundary of the one before
+          const double bytes =
+            n_products * 1.5 * 4. * two.message_bytes / std::sqrt(n);
+          return work + messages + bytes / network.bandwidth +
+                 3. * std::log2(n) * network.latency;
+        }
+
+        double
+        total(const double n, const Network &network) const
+        {
+          return setup(n) + one.iterations * iteration(n, network);
+        }
+
+        double
+        speed(const double n, const Network &network) const
+        {
+          return total(1., network) / total(n, network);
+        }
+
+        /// The largest power of two that is used to a half at least.
+        double
+        end(const Network &network) const
+        {
+          double n = 1.;
+          while (n < 1e6 && speed(2. * n, network) >= n)
+            n *= 2.;
+          return n;
+        }
+
+      private:
+        const Row &one, &two;
+      };
+
+
+      void
+      write_table(std::ostream &out, const std::vector<Row> &rows)
+      {
+        out << "| | ranks | unknowns | total [s] | mesh, cutting, covers [s] | "
+               "assembly and sparsity [s] | solver [s] | elements held | of "
+               "them ghosts | ghost unknowns | messages | bytes | MB |\n"
+               "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+        for (const Row &row : rows)
+        {
+          out << "| " << name_of(row);
+          for (const double number : {row.ranks,
+                                      row.unknowns,
+                                      row.total,
+                                      row.mesh + row.cutting + row.covers,
+                                      row.assembly + row.sparsity,
+                                      row.factorization + row.solution,
+                                      row.held_elements,
+                                      row.ghost_elements,
+                                      row.ghost_unknowns,
+                                      row.messages,
+                                      row.message_bytes,
+                                      row.rank_memory})
+            out << " | " << text_of(number);
+          out << " |\n";
+        }
+        out << '\n';
+      }
+
+
+      std::vector<Curve>
+      make_curves(const std::vector<Row> &rows)
+      {
+        std::vector<Curve> curves;
+        for (const Row &row : rows)
+        {
+          auto curve =
+            std::find_if(curves.begin(), curves.end(), [&](const Curve &c) {
+              return c.title == name_of(row);
+            });
+          if (curve == curves.end())
+            curve = curves.insert(curve, {name_of(row), {}});
+          curve->points.emplace_back(row.ranks, row.total);
+        }
+        return curves;
+      }
+
+
+      /// What the rows of one and two ranks say of each other.
+      void
+      write_ratios(std::ostream           &out,
+                   const std::vector<Row> &strong,
+                   const std::vector<Row> &weak)
+      {
+        for (const char *solver : {"MUMPS", "CG + ML"})
+          for (const char *method : {"manifold uniform", "distributed"})
+          {
+            const Row *one = find(strong, "strong scaling", method, solver, 1.),
+                      *two = find(strong, "strong scaling", method, solver, 2.),
+                      *small = find(weak, "weak scaling", method, solver, 1.),
+                      *large = find(weak, "weak scaling", method, solver, 2.);
+            if (one == nullptr || two == nullptr || small == nullptr ||
+                large == nullptr)
+              continue;
+            out << "- " << name_of(*one) << ": two ranks are "
+                << text_of(one->total / two->total, 2)
+                << " times as fast as one, with the solver left out "
+                << text_of((one->total - one->factorization - one->solution) /
+                             (two->total - two->factorization - two->solution),
+                           2)
+                << " times, and hold "
+                << text_of(two->held_elements / one->held_elements, 2)
+                << " of its elements each in "
+                << text_of(two->rank_memory / one->rank_memory, 2)
+                << " of its memory; with as many unknowns for each they take "
+                << text_of(large->total / small->total, 2)
+                << " times as long as one.\n";
+          }
+        out << '\n';
+      }
+
+
+      void
+      write_model(std::ostream               &out,
+                  const Model                &model,
+                  const Row                  &one,
+                  const Row                  &two,
+                  const std::vector<Network> &networks)
+      {
+        out
+          << "### Many ranks\n\n"
+             "What follows is a model of the run with conjugate gradients on n "
+             "ranks, not a measurement. With the times of one rank, the ghosts "
+             "and bytes of two, and messages of latency l and bandwidth b:\n\n"
+             "    T(n) = geometry + (mesh + cutting + covers + quadrature + "
+             "sparsity + assembly) H(n)/E\n"
+             "           + (setting ML up)/n + iterations t(n)\n"
+             "    H(n) = E/n + 4 G/sqrt(n)\n"
+             "    t(n) = (an iteration on one rank)/n + 10 L 8 l + 15 * 4 "
+             "B/sqrt(n) / b + 3 log2(n) l\n\n"
+             "E = "
+          << text_of(one.elements)
+          << " elements, G = " << text_of(two.ghost_elements)
+          << " ghost elements and B = " << text_of(two.message_bytes)
+          << " bytes of a message of each of two ranks, whose common side is "
+             "taken for as long as "
+             "the square root of the area: one of n has four of 1/sqrt(n) of "
+             "that, and eight neighbours. An iteration of "
+          << text_of(1e3 * one.solution / one.iterations, 2)
+          << " ms has ten products (four sweeps of the smoother before and "
+             "after, the residual, the direction) on each of L = "
+          << text_of(model.n_levels())
+          << " levels of ML, each a ninth of the one before with a third of "
+             "its boundary, and three sums over all ranks. Iterations ("
+          << text_of(one.iterations)
+          << ") are taken to stay as they are, and parts to be of equal "
+             "size.\n\n| |";
+        for (double n = 2.; n <= 1024.; n *= 2.)
+          out << ' ' << n << " ranks |";
+        out << " half used up to |\n|---|";
+        for (double n = 2.; n <= 1024.; n *= 2.)
+          out << "---|";
+        out << "---|\n";
+        for (const Network &network : networks)
+        {
+          out << "| " << network.name
+              << ": l = " << text_of(1e6 * network.latency, 2)
+              << " us, b = " << text_of(1e-9 * network.bandwidth, 2)
+              << " GB/s |";
+          for (double n = 2.; n <= 1024.; n *= 2.)
+            out << ' ' << text_of(model.speed(n, network), 3) << " |";
+          out << ' ' << text_of(model.end(network)) << " ranks |\n";
+        }
+        const Network &here = networks.front();
+        out << "\nTimes as fast as one rank. On two ranks the model says "
+            << text_of(model.total(2., here), 3) << " s, measured are "
+            << text_of(two.total, 3)
+            << " s. What ends it: at the last number of ranks of the first "
+               "line, a rank's "
+            << text_of(one.elements / model.end(here), 2) << " elements have "
+            << text_of(model.held(model.end(here)) -
+                         one.elements / model.end(here),
+                       2)
+            << " ghosts around them, an iteration's own work takes "
+            << text_of(1e6 * one.solution / one.iterations / model.end(here), 2)
+            << " us of "
+            << text_of(1e6 * model.iteration(model.end(here), here), 2)
+            << " us, and " << text_of(1e3 * one.geometry, 2)
+            << " ms of geometry are there on every rank.\n\n";
+      }
+    } // namespace
+
+
+    void
+    write_distribution(std::ostream           &out,
+                       const std::vector<Row> &rows,
+                       const std::string      &image_directory)
+    {
+      const std::vector<Row> strong   = select(rows, "strong scaling"),
+                             weak     = select(rows, "weak scaling"),
+                             messages = select(rows, "message");
+      if (strong.empty() || weak.empty())
+        return;
+      out << "## A part of the mesh on each rank\n\n"
+             "With `Covers/Distribution = distributed` (in C++ "
+             "`make_distributed_mesh()`) a rank holds its own cells and five "
+             "layers of cells around them, cuts those, and numbers the covers "
+             "it knows; `replicated`, the default, is for everything but "
+             "linear static analyses on regular meshes. On "
+             "every rank are all curves, the boxes of all ranks and, while the "
+             "lattice is shared out, the number of cells in each of its rows "
+             "and columns. Counts are those of the rank that has most: "
+             "elements, unknowns of others in its rows of the matrix, messages "
+             "and bytes it sends for one product of matrix and vector, memory "
+             "for mesh, elements, covers, constraints and rules.\n\n"
+             "Strong scaling: the same ring on more ranks.\n\n";
+      write_table(out, strong);
+      out << "Weak scaling: as many unknowns for each rank.\n\n";
+      write_table(out, weak);
+      write_ratios(out, strong, weak);
+
+      const Row *one =
+                  find(strong, "strong scaling", "distributed", "CG + ML", 1.),
+                *two =
+                  find(strong, "strong scaling", "distributed", "CG + ML", 2.);
+      Panel strong_panel, weak_panel;
+      strong_panel.x_label = "ranks, the same ring";
+      strong_panel.curves  = make_curves(strong);
+      weak_panel.x_label   = "ranks, as many unknowns for each";
+      weak_panel.curves    = make_curves(weak);
+      if (one != nullptr && two != nullptr && messages.size() >= 2)
+      {
+        const Row                 &small = messages[0], &large = messages[1];
+        const std::vector<Network> networks = {
+          {"memory of this machine, measured",
+           small.total,
+           (large.message_bytes - small.message_bytes) /
+             std::max(large.total - small.total, 1e-9)},
+          {"a network, assumed", 2e-6, 10e9}};
+        const Model model(*one, *two);
+        write_model(out, model, *one, *two, networks);
+        strong_panel.curves.push_back({"model, CG + ML", {}});
+        for (double n = 1.; n <= 256.; n *= 2.)
+          strong_panel.curves.back().points.emplace_back(
+            n, model.total(n, networks.front()));
+      }
+      draw_curves(image_directory + "/performance-ranks.png",
+                  "Rings on ranks",
+                  "seconds",
+                  {strong_panel, weak_panel});
+      out << "![Rings on ranks](images/performance-ranks.png)\n\n";
+    }
+  } // namespace Bench
+} // namespace NMM

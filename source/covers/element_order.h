@@ -24,11 +24,15 @@ namespace NMM
     }
 
 
-    /// What elements are put in order by: where the cell is, where in the cell the element
-    /// is, how large it is, in the length of the cell.
+    /**
+     * What elements are put in order by, in the length of the cell: how far the cell and
+     * the element are from the middle of the solid, so that a symmetric solid on a
+     * symmetric mesh has a symmetric order but for elements on the axis; where the
+     * cell is, where in the cell the element is, how large it is.
+     */
     struct ElementPlace
     {
-      std::array<double, 5> values;
+      std::array<double, 7> values;
       double                cell_size;
 
       ElementPlace() = default;
@@ -38,11 +42,16 @@ namespace NMM
       {
         const dealii::Point<2> cell = cell_centroid(mesh, element);
         const dealii::Point<2> here = mesh.reference_point(element);
-        values                      = {{cell[0] / cell_size,
-                                        cell[1] / cell_size,
-                                        here[0] / cell_size,
-                                        here[1] / cell_size,
-                                        mesh.area(element) / (cell_size * cell_size)}};
+        const auto            &box =
+          mesh.physical_mesh().bounding_box().get_boundary_points();
+        const dealii::Point<2> middle(0.5 * (box.first + box.second));
+        values = {{cell.distance(middle) / cell_size,
+                   here.distance(middle) / cell_size,
+                   cell[0] / cell_size,
+                   cell[1] / cell_size,
+                   here[0] / cell_size,
+                   here[1] / cell_size,
+                   mesh.area(element) / (cell_size * cell_size)}};
       }
 
       /// By the first value that differs by more than a millionth of the cell.

@@ -235,8 +235,8 @@ namespace NMM
           << " bytes of a message of each of two ranks, whose common side is "
              "taken for as long as "
              "the square root of the area: one of n has four of 1/sqrt(n) of "
-             "that, and eight neighbours. An iteration of "
-          << text_of(1e3 * one.solution / one.iterations, 2)
+             "that, and up to eight neighbours. An iteration of "
+          << text_of(1e3 * one.solution / one.iterations, 3)
           << " ms has ten products (four sweeps of the smoother before and "
              "after, the residual, the direction) on each of L = "
           << text_of(model.n_levels())
@@ -267,14 +267,14 @@ namespace NMM
             << text_of(two.total, 3)
             << " s. What ends it: at the last number of ranks of the first "
                "line, a rank's "
-            << text_of(one.elements / model.end(here), 2) << " elements have "
+            << text_of(one.elements / model.end(here), 3) << " elements have "
             << text_of(model.held(model.end(here)) -
                          one.elements / model.end(here),
                        2)
             << " ghosts around them, an iteration's own work takes "
-            << text_of(1e6 * one.solution / one.iterations / model.end(here), 2)
+            << text_of(1e6 * one.solution / one.iterations / model.end(here), 3)
             << " us of "
-            << text_of(1e6 * model.iteration(model.end(here), here), 2)
+            << text_of(1e6 * model.iteration(model.end(here), here), 3)
             << " us, and " << text_of(1e3 * one.geometry, 2)
             << " ms of geometry are there on every rank.\n\n";
       }

@@ -115,6 +115,14 @@ namespace NMM
              absent_blocks[covers->manifold_mesh().block(element)];
     }
 
+    /// See set_active_blocks().
+    bool
+    is_active(const unsigned int element) const
+    {
+      return active_blocks.empty() ||
+             active_blocks[covers->manifold_mesh().block(element)];
+    }
+
     /// Add the squares of what has come to the forces since the last call.
     void
     gauge(const LocalSystem &local, double *known)
@@ -163,7 +171,7 @@ namespace NMM
     BlockSystem                              block_system;
     LoadAmplitudes                           amplitudes;
     /// Empty, or by block; and which covers belong to them.
-    std::vector<bool> absent_blocks, absent_covers;
+    std::vector<bool> absent_blocks, absent_covers, active_blocks;
     unsigned int      n_assembled = 0;
 
     /// Per weak point, what its penalty is multiplied by.
@@ -422,7 +430,7 @@ namespace NMM
     n_assembled                 = 0;
     for (unsigned int e = first; e < last; ++e)
     {
-      if (is_absent(e))
+      if (is_absent(e) || !is_active(e))
       {
         if (condition != edges->conditions.end() && condition->element == e)
           ++condition;
@@ -462,7 +470,8 @@ namespace NMM
     unsigned int      both[LocalSystem::max_covers];
     for (const EdgeTables::Site &tie : edges->ties)
     {
-      if (is_absent(tie.element) || is_absent(tie.neighbor))
+      if (is_absent(tie.element) || is_absent(tie.neighbor) ||
+          !(is_active(tie.element) || is_active(tie.neighbor)))
         continue;
       for (unsigned int side = 0; side < 2; ++side)
       {
@@ -677,6 +686,14 @@ namespace NMM
           problem.fixed_points.size(),
           "the released fixed points");
     data->amplitudes = amplitudes;
+  }
+
+
+  void
+  FiniteElasticity::set_active_blocks(const std::vector<bool> &is_active)
+  {
+    data->active_blocks = is_active;
+    data->block_system.set_active_rows(is_active);
   }
 
 

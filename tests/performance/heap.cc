@@ -2,8 +2,9 @@
 // and memory. Argument 1: number of blocks, argument 2: cells across a block, 0 for a
 // triangle of its own for each, argument 3: duration [s], argument 4: the file that two
 // lines are added to, one for the first half of the time, while blocks fall, and one for
-// the second, when they lie on each other. One run per process, since the largest
-// memory is that of the process.
+// the second, when they lie on each other; argument 5: speed below which blocks may
+// sleep [m/s], 0: none does; argument 6: damping in proportion to the stiffness [s]. One run per process, since the largest memory is that
+// of the process.
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
@@ -192,15 +193,19 @@ namespace
   struct Phase
   {
     std::string name;
-    double end = 0., seconds = 0., n_steps = 0., n_iterations = 0., n_cuts = 0.,
-           n_points = 0., n_pairs = 0., n_patterns = 0., overlap = 0.;
+    double      end = 0., seconds = 0., n_steps = 0., n_iterations = 0.,
+           n_full_iterations = 0., n_cuts = 0., n_points = 0., n_pairs = 0.,
+           n_patterns = 0., n_asleep = 0., overlap = 0.;
     Stages stages;
   };
 
 
   struct Heap
   {
-    Heap(unsigned int n_blocks, double n_cells);
+    Heap(unsigned int n_blocks,
+         double       n_cells,
+         double       sleep_speed,
+         double       stiffness_damping);
 
     /// Steps until @p end.
     Phase
@@ -210,7 +215,7 @@ namespace
     write(const Phase &phase, std::ostream &csv) const;
 
     unsigned int                  n_blocks;
-    double                        n_cells;
+    double                        n_cells, sleep_speed, stiffness_damping;
     Stages                        stages;
     std::unique_ptr<MovingBodies> bodies;
     double                        memory_before;
@@ -218,9 +223,14 @@ namespace
   };
 
 
-  Heap::Heap(const unsigned int n_blocks, const double n_cells)
+  Heap::Heap(const unsigned int n_blocks,
+             const double       n_cells,
+             const double       sleep_speed,
+             const double       stiffness_damping)
     : n_blocks(n_blocks)
     , n_cells(n_cells)
+    , sleep_speed(sleep_speed)
+    , stiffness_damping(stiffness_damping)
     , memory_before(peak_memory())
   {
     double                width, height;
@@ -247,7 +257,15 @@ namespace
     bodies->model     = std::make_unique<TimedContact>(*bodies->mechanics,
                                                    *bodies->contact,
                                                    stages);
-    bodies->integrate(TimeScheme::energy_momentum());
+    RayleighDamping damping;
+    damping.stiffness = stiffness_damping;
+    bodies->integrate(TimeScheme::energy_momentum(), damping);
+    if (sleep_speed > 0.)
+    {
+      SleepParameters sleep;
+      sleep.speed = sleep_speed;
+      bodies->integrator->let_blocks_sleep(sleep);
+    }
   }
 
 
@@ -282,6 +300,8 @@ namespace
       phase.n_cuts += record.n_cuts;
       phase.n_iterations +=
         record.report.n_iterations + record.n_lost_iterations;
+      phase.n_full_iterations += record.report.n_full_iterations;
+      phase.n_asleep += bodies->integrator->n_asleep();
       stages.factorization += share * record.report.factorization_time;
       stages.substitution += share * record.report.substitution_time;
       phase.n_patterns += bodies->contact->pattern_version() != version;
@@ -315,12 +335,14 @@ namespace
 
   constexpr const char *head =
     "blocks,elements_per_block,unknowns_per_block,phase,end_s,steps,cuts,"
-    "iterations_per_step,new_patterns_per_step,block_steps_per_s,"
+    "iterations_per_step,iterations_per_block_and_step,new_patterns_per_step,"
+    "block_steps_per_s,"
     "us_per_block_and_step,search_us,contact_us,elements_us,factorization_us,"
     "substitution_us,rest_us,touching_points_per_block,touching_pairs_per_"
     "block,"
     "us_per_touching_point_and_step,memory_kB_per_block,largest_overlap_m,"
-    "energy_gained,kinetic_energy\n";
+    "energy_gained,kinetic_energy,sleep_speed_m_per_s,"
+    "stiffness_damping_s,share_asleep\n";
 
 
   void
@@ -336,6 +358,7 @@ namespace
         << 2 * bodies->covers.n_covers() / n << ',' << phase.name << ','
         << phase.end << ',' << phase.n_steps << ',' << phase.n_cuts << ','
         << phase.n_iterations / phase.n_steps << ','
+        << phase.n_full_iterations / phase.n_steps << ','
         << phase.n_patterns / phase.n_steps << ','
         << n * phase.n_steps / phase.seconds;
     for (const double seconds : {phase.seconds,
@@ -351,7 +374,9 @@ namespace
         << 1e6 * phase.seconds / phase.n_points << ','
         << (peak_memory() - memory_before) / n << ',' << phase.overlap << ','
         << gain / largest_kinetic << ','
-        << bodies->integrator->account().kinetic / largest_kinetic << '\n';
+        << bodies->integrator->account().kinetic / largest_kinetic << ','
+        << sleep_speed << ',' << stiffness_damping << ','
+        << phase.n_asleep / (n * phase.n_steps) << '\n';
   }
 } // namespace
 
@@ -364,7 +389,11 @@ main(int argc, char **argv)
   const double       n_cells  = argc > 2 ? std::stod(argv[2]) : 0.;
   const double       duration = argc > 3 ? std::stod(argv[3]) : 2.;
 
-  Heap               heap(n_blocks, n_cells);
+  const double sleep_speed = argc > 5 ? std::stod(argv[5]) : 0.;
+
+  const double damping = argc > 6 ? std::stod(argv[6]) : 0.;
+
+  Heap               heap(n_blocks, n_cells, sleep_speed, damping);
   std::ostringstream lines;
   for (const auto &[name, end] : {std::make_pair("falls", 0.5 * duration),
                                   std::make_pair("lies", duration)})

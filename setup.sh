@@ -19,7 +19,7 @@ readonly packages=(
   g++ cmake ninja-build pkg-config git clang-format
   libdeal.ii-dev mpi-default-bin libmumps-dev libsuitesparse-dev libopenblas0-pthread
   libcgal-dev libeigen3-dev libboost-program-options-dev
-  libcairo2-dev fonts-dejavu-core libdxflib-dev
+  libcairo2-dev fonts-dejavu-core libdxflib-dev zlib1g-dev
   libgtest-dev gnuplot-nox)
 
 export OPENBLAS_NUM_THREADS="${OPENBLAS_NUM_THREADS:-1}"

@@ -433,7 +433,7 @@ namespace NMM
     const auto [first, last] = covers->locally_owned_elements();
     // what other threads work at then is in vain
     std::atomic<bool> is_inverted(false);
-    n_assembled              = 0;
+    n_assembled = 0;
     for_each_in_order<Volume>(
       first,
       last,

@@ -18,13 +18,13 @@
 #include <vector>
 
 #if __has_include(<valgrind/callgrind.h>)
-#  include <valgrind/callgrind.h>
+#include <valgrind/callgrind.h>
 #else
 // a program that counts nothing
-#  define CALLGRIND_START_INSTRUMENTATION
-#  define CALLGRIND_STOP_INSTRUMENTATION
-#  define CALLGRIND_ZERO_STATS
-#  define CALLGRIND_DUMP_STATS_AT(name) static_cast<void>(name)
+#define CALLGRIND_START_INSTRUMENTATION
+#define CALLGRIND_STOP_INSTRUMENTATION
+#define CALLGRIND_ZERO_STATS
+#define CALLGRIND_DUMP_STATS_AT(name) static_cast<void>(name)
 #endif
 
 using namespace NMM;

@@ -70,6 +70,8 @@ DynamicAnalysis::make_integrator()
     parameters.time.damping,
     motion_newton_parameters(scene));
   make_leaving();
+  if (parameters.time.sleep.speed > 0.)
+    integrator->let_blocks_sleep(parameters.time.sleep);
 
   if (!restart.empty())
   {

@@ -183,6 +183,8 @@ DynamicAnalysis::show_progress()
     if (leaving && !integrator->state().left_blocks.empty())
       line << "; " << integrator->state().left_blocks.size()
            << " block(s) have left";
+    if (integrator && integrator->n_asleep() > 0)
+      line << "; " << integrator->n_asleep() << " block(s) sleep";
     return line.str();
   });
 }
@@ -244,6 +246,8 @@ DynamicAnalysis::verify()
     contact->add_to_summary(summary);
   if (leaving)
     summary.add("blocks_left", integrator->state().left_blocks.size());
+  if (scene.parameters().time.sleep.speed > 0.)
+    summary.add("blocks_asleep", integrator->n_asleep());
   if (!incremental)
     summary.add("direct_stress_covers",
                 dealii::Utilities::MPI::sum(recovery->n_direct(),

@@ -97,6 +97,8 @@ DynamicAnalysis::further_columns() const
     columns = contact->columns();
   if (leaving)
     columns.insert(columns.end(), {"blocks_left", "left_energy"});
+  if (scene.parameters().time.sleep.speed > 0.)
+    columns.push_back("blocks_asleep");
   return columns;
 }
 
@@ -111,5 +113,7 @@ DynamicAnalysis::further_values() const
     values.insert(values.end(),
                   {static_cast<double>(integrator->state().left_blocks.size()),
                    integrator->account().left});
+  if (scene.parameters().time.sleep.speed > 0.)
+    values.push_back(integrator->n_asleep());
   return values;
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <contact/contact_data.h>
 #include <mechanics/nodal_values.h>
+#include <utility>
 
 namespace NMM
 {
@@ -103,6 +104,78 @@ namespace NMM
     d.set_admitted_depth();
     d.make_points();
     d.make_pattern();
+    d.points_begin.clear();
+    d.note_activity();
+  }
+
+
+  void
+  Contact::set_active_bodies(const std::vector<bool> &is_active,
+                             const std::vector<bool> &is_held)
+  {
+    data->is_active = is_active;
+    data->is_held   = is_held;
+    data->is_held.resize(is_active.size(), false);
+    data->note_activity();
+    if (data->block_system)
+      data->block_system->set_active_rows(is_active);
+  }
+
+
+  void
+  Contact::Data::list_points_of_bodies()
+  {
+    const unsigned int n = surface->n_bodies() - static_cast<unsigned int>(
+                                                   surface->obstacles().size());
+    const auto &edges    = surface->edges();
+    const auto  for_each = [&](const auto &action) {
+      for (unsigned int q = 0; q < points.size(); ++q)
+      {
+        const unsigned int position = point_data[q].slave;
+        const unsigned int slave    = edges[search.slaves()[position]].body;
+        if (slave < n)
+          action(slave, q);
+        unsigned int last = slave;
+        for (const unsigned int master : search.masters(position))
+          if (edges[master].body < n && edges[master].body != last)
+            action(last = edges[master].body, q);
+      }
+    };
+    points_begin.assign(n + 2, 0);
+    for_each(
+      [&](const unsigned int body, unsigned int) { ++points_begin[body + 2]; });
+    for (unsigned int b = 0; b < n; ++b)
+      points_begin[b + 2] += points_begin[b + 1];
+    body_to_points.resize(points_begin.back());
+    for_each([&](const unsigned int body, const unsigned int q) {
+      body_to_points[points_begin[body + 1]++] = q;
+    });
+  }
+
+
+  void
+  Contact::Data::note_activity()
+  {
+    if (is_active.empty())
+      return;
+    if (points_begin.empty())
+      list_points_of_bodies();
+    active_points.clear();
+    for (unsigned int b = 0; b < is_active.size(); ++b)
+      if (is_active[b])
+        active_points.insert(active_points.end(),
+                             body_to_points.begin() + points_begin[b],
+                             body_to_points.begin() + points_begin[b + 1]);
+    std::sort(active_points.begin(), active_points.end());
+    active_points.erase(std::unique(active_points.begin(), active_points.end()),
+                        active_points.end());
+  }
+
+
+  std::vector<unsigned int>
+  Contact::take_touched()
+  {
+    return std::exchange(data->touched_bodies, {});
   }
 
 
@@ -491,6 +564,7 @@ namespace NMM
   {
     const ContactPoint &point = points[q];
     const PointData    &fixed = point_data[q];
+    note_touched(q);
     ++(point.state == ContactState::stick ? report.n_stick : report.n_slip);
     report.n_bonded += point.is_bonded;
     // What presses tells how deep it is: not what was found behind a face without
@@ -574,8 +648,8 @@ namespace NMM
     d.move_to(u);
     d.set_admitted_depth();
     d.block_system->reset(with_tangent);
-    for (unsigned int q = 0; q < d.points.size(); ++q)
-      d.add_point(q, with_tangent);
+    d.for_each_active_point(
+      [&](const unsigned int q) { d.add_point(q, with_tangent); });
     if (with_tangent)
       d.block_system->transfer(d.matrix, d.residual);
     else

@@ -219,6 +219,36 @@ namespace NMM
     double
     accept_shear(unsigned int q);
 
+    /// Call action(q) for points that an active body has part in, ascending.
+    template <typename Action>
+    void
+    for_each_active_point(const Action &action)
+    {
+      const unsigned int n =
+        is_active.empty() ? points.size() : active_points.size();
+      for (unsigned int i = 0; i < n; ++i)
+        action(is_active.empty() ? i : active_points[i]);
+    }
+
+    void
+    note_activity();
+
+    void
+    list_points_of_bodies();
+
+    /// A point presses: on something that is not active?
+    void
+    note_touched(const unsigned int q)
+    {
+      if (is_active.empty())
+        return;
+      const auto &edges = surface->edges();
+      for (const unsigned int body :
+           {edges[points[q].edge].body, edges[points[q].master].body})
+        if (body < is_active.size() && !is_active[body] && !is_held[body])
+          touched_bodies.push_back(body);
+    }
+
     void
     reduce_report();
 
@@ -297,6 +327,12 @@ namespace NMM
     bool slip_is_frozen = false;
     /// Of springs, without offsets [m].
     double deepest = 0.;
+
+    /// See Contact::set_active_bodies(); by body.
+    std::vector<bool>         is_active, is_held;
+    std::vector<unsigned int> active_points, touched_bodies;
+    /// Points that a body may have part in, one body after the other; empty: not known.
+    std::vector<unsigned int> body_to_points, points_begin;
 
     internal::ContactLocalSystem local;
     Matrix                       matrix;

@@ -304,19 +304,25 @@ namespace NMM
   Contact::Data::add_point_between(const unsigned int q,
                                    const bool         with_tangent)
   {
-    ContactPoint               &point  = points[q];
-    PointData                  &fixed  = point_data[q];
-    const ContactState          before = point.state;
-    const ContactSurface::Place slave  = surface->place(point.edge, point.s);
-    const ContactProjection     projection = project(q, slave);
+    ContactPoint      &point  = points[q];
+    PointData         &fixed  = point_data[q];
+    const ContactState before = point.state;
     // without contact in the middle of the step nothing is stored at its end
     fixed.shear_work = fixed.normal_loss = 0.;
     fixed.offset_end                     = std::min(0., fixed.gap_end);
     point.pressure = point.shear = 0.;
     point.state                  = ContactState::open;
+    if (fixed.gap_begin >= fixed.offset && fixed.gap_end >= fixed.offset &&
+        !point.is_bonded)
+    {
+      report.n_changes += before != point.state;
+      return;
+    }
 
-    ContactTraction traction;
-    const double    stored = std::max(0., fixed.offset - fixed.gap_begin);
+    const ContactSurface::Place slave = surface->place(point.edge, point.s);
+    const ContactProjection     projection = project(q, slave);
+    ContactTraction             traction;
+    const double stored = std::max(0., fixed.offset - fixed.gap_begin);
     if (projection.master == invalid_index || point.weight == 0.)
     {
       if (fixed.law != nullptr)
@@ -324,8 +330,7 @@ namespace NMM
                                           fixed.law->normal_stiffness * stored,
                                           fixed.law->normal_stiffness);
     }
-    else if ((fixed.gap_begin < fixed.offset || fixed.gap_end < fixed.offset ||
-              point.is_bonded))
+    else
     {
       const Tensor<1, 2> motion = relative_motion(q, projection);
       find_pressure_between(q, motion * projection.normal, traction);
@@ -395,10 +400,9 @@ namespace NMM
     d.move_to(end);
     d.is_conserving = true;
     d.set_admitted_depth();
-    for (unsigned int q = 0; q < d.points.size(); ++q)
-    {
+    d.for_each_active_point([&](const unsigned int q) {
       if (d.point_data[q].has_angle && d.points[q].weight == 0.)
-        continue;
+        return;
       const ContactPoint         &point = d.points[q];
       Data::PointData            &fixed = d.point_data[q];
       const ContactSurface::Place slave = d.surface->place(point.edge, point.s);
@@ -414,7 +418,7 @@ namespace NMM
       fixed.gap_end = projection.master == invalid_index
                         ? d.reach
                         : projection.gap - fixed.dilation.opening;
-    }
+    });
     d.nodal_end = d.nodal;
 
     d.surface->set_time(d.time_begin);
@@ -426,8 +430,8 @@ namespace NMM
     d.surface->set_displacements(&d.nodal);
     d.is_between = true;
     d.block_system->reset(with_tangent);
-    for (unsigned int q = 0; q < d.points.size(); ++q)
-      d.add_point_between(q, with_tangent);
+    d.for_each_active_point(
+      [&](const unsigned int q) { d.add_point_between(q, with_tangent); });
     if (with_tangent)
       d.block_system->transfer(d.matrix, d.residual);
     else

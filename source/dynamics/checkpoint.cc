@@ -22,7 +22,7 @@ namespace NMM
     using Bytes  = std::vector<char>;
 
     constexpr char          magic[8] = {'N', 'M', 'M', 'S', 'T', 'A', 'T', 'E'};
-    constexpr std::uint32_t version  = 5;
+    constexpr std::uint32_t version  = 6;
 
     std::uint64_t
     sum(const char *bytes, const std::size_t n)
@@ -195,6 +195,10 @@ namespace NMM
     put(bytes, static_cast<std::uint64_t>(state.left_blocks.size()));
     for (const unsigned int block : state.left_blocks)
       put(bytes, static_cast<std::uint64_t>(block));
+    put(bytes, static_cast<std::uint64_t>(state.rest.size()));
+    for (const auto &entry : state.rest)
+      for (const double x : entry)
+        put(bytes, x);
     const std::vector<double> internal = model.internal_state();
     put(bytes, static_cast<std::uint64_t>(internal.size()));
     for (const double x : internal)
@@ -276,6 +280,17 @@ namespace NMM
     state.left_blocks.clear();
     for (std::uint64_t i = 0; i < n_left; ++i)
       state.left_blocks.push_back(get<std::uint64_t>(position));
+    const auto n_resting = get<std::uint64_t>(position);
+    if (n_resting > model.n_blocks())
+      refuse("The checkpoint has times of rest of " +
+               std::to_string(n_resting) + " blocks, of " +
+               std::to_string(model.n_blocks()),
+             filename,
+             "continue with the scene it was written with");
+    state.rest.resize(n_resting);
+    for (auto &entry : state.rest)
+      for (double &x : entry)
+        x = get<double>(position);
     std::vector<double> internal(get<std::uint64_t>(position));
     if (position + (internal.size() + 1) * sizeof(double) !=
         bytes.data() + bytes.size())

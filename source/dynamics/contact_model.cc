@@ -396,6 +396,30 @@ namespace NMM
   }
 
 
+  const std::vector<unsigned int> &
+  ContactModel::blocks_of_unknowns() const
+  {
+    return data->model->blocks_of_unknowns();
+  }
+
+
+  void
+  ContactModel::set_active_blocks(const std::vector<bool> &is_active,
+                                  const std::vector<bool> &is_held)
+  {
+    data->model->set_active_blocks(is_active, is_held);
+    data->contact->set_active_bodies(is_active, is_held);
+    data->matrix.set_active_rows(blocks_of_unknowns(), is_active);
+  }
+
+
+  std::vector<unsigned int>
+  ContactModel::take_touched_blocks()
+  {
+    return data->contact->take_touched();
+  }
+
+
   const ContactModel::Vector &
   ContactModel::placed(const Vector &u)
   {

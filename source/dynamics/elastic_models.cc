@@ -76,9 +76,40 @@ namespace NMM
         positions(2 * k + c) = covers.node(k)[c];
     positions.compress(dealii::VectorOperation::insert);
     absent.set_size(positions.size());
+    set_blocks();
     set_mass_of_translation();
     elasticity.set_amplitudes(current);
     set_amplitudes(amplitudes_at(0.));
+  }
+
+
+  void
+  ElasticModel::set_blocks()
+  {
+    const CoverSystem  &covers = elasticity->cover_system();
+    const ManifoldMesh &mesh   = covers.manifold_mesh();
+    if (n_blocks() < 2 ||
+        dealii::Utilities::MPI::n_mpi_processes(communicator()) > 1)
+      return;
+    unknown_to_block.resize(2 * covers.n_covers());
+    for (unsigned int e = 0; e < mesh.n_elements(); ++e)
+      for (const unsigned int k : covers.covers(e))
+        unknown_to_block[2 * k] = unknown_to_block[2 * k + 1] = mesh.block(e);
+  }
+
+
+  const std::vector<unsigned int> &
+  ElasticModel::blocks_of_unknowns() const
+  {
+    return unknown_to_block;
+  }
+
+
+  void
+  ElasticModel::set_active_blocks(const std::vector<bool> &is_active,
+                                  const std::vector<bool> &)
+  {
+    elasticity->set_active_blocks(is_active);
   }
 
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <dynamics/sleeping_blocks.h>
 #include <mechanics/matrix_sum.h>
 #include <mechanics/mumps_solver.h>
 
@@ -57,6 +58,31 @@ namespace NMM
     pattern_version() const override
     {
       return model->pattern_version();
+    }
+
+    const std::vector<unsigned int> &
+    blocks_of_unknowns() const override
+    {
+      return model->blocks_of_unknowns();
+    }
+
+    void
+    set_active_blocks(const std::vector<bool> &is_active) override
+    {
+      model->set_active_blocks(is_active, held_blocks());
+      matrix.set_active_rows(model->blocks_of_unknowns(), is_active);
+    }
+
+    const std::vector<bool> &
+    held_blocks() const override
+    {
+      return sleeping ? sleeping->mask() : NonlinearSystem::held_blocks();
+    }
+
+    std::vector<unsigned int>
+    take_touched_blocks() override
+    {
+      return model->take_touched_blocks();
     }
     /// @}
 
@@ -113,6 +139,14 @@ namespace NMM
     void
     add_work();
 
+    /// Newton's method, again whenever the result wakes somebody.
+    void
+    solve_nonlinear(StepReport &report);
+
+    /// After a step.
+    void
+    let_sleep();
+
     /// The model knows who has left, and what all others weigh is known.
     void
     set_absent_blocks();
@@ -128,6 +162,9 @@ namespace NMM
     std::unique_ptr<DirectSolver>          mass_solver, linear_solver;
     /// What linear_solver was factorized for.
     double factorized_step = 0., factorized_events = 0.;
+
+    /// Null: nobody may.
+    std::unique_ptr<internal::SleepingBlocks> sleeping;
 
     DynamicState state;
     Account      account;
@@ -410,6 +447,8 @@ namespace NMM
     add_damping(1., state.v, forces);
     forces *= -1.;
     model->constraints().set_zero(forces);
+    if (sleeping)
+      sleeping->set_zero(forces);
     mass_solver->solve(forces, state.a);
     model->constraints().distribute(state.a);
   }
@@ -527,9 +566,12 @@ namespace NMM
     d.state.next_step     = 0.;
     d.state.events_passed = time;
     d.state.sums          = EnergySums();
-    d.has_candidate       = false;
-    d.state.u             = u;
-    d.state.v             = v;
+    d.state.rest.clear();
+    if (d.sleeping)
+      d.sleeping->set_rest({});
+    d.has_candidate = false;
+    d.state.u       = u;
+    d.state.v       = v;
     d.model->constraints().distribute(d.state.u);
     d.model->constraints().distribute(d.state.v);
     if (!d.state.left_blocks.empty())
@@ -559,6 +601,8 @@ namespace NMM
     const bool is_another = d.state.left_blocks != state.left_blocks;
     d.state               = state;
     d.has_candidate       = false;
+    if (d.sleeping)
+      d.sleeping->set_rest(d.state.rest);
     if (is_another)
       d.set_absent_blocks();
     d.model->pass_events(state.events_passed);
@@ -570,6 +614,75 @@ namespace NMM
                                  "the state to continue from",
                                  "take another checkpoint"));
     d.take_account();
+  }
+
+
+  void
+  TimeIntegrator::Data::solve_nonlinear(StepReport &report)
+  {
+    do
+    {
+      if (report.converged)
+        predict();
+      const NewtonReport result =
+        newton.solve(*this, model->constraints(), u_end);
+      report.converged = result.converged;
+      report.reason    = result.reason;
+      report.n_iterations += result.iterations.size();
+      for (const NewtonReport::Iteration &iteration : result.iterations)
+        report.n_full_iterations += iteration.active_share;
+      report.factorization_time += result.factorization_time;
+      report.substitution_time += result.substitution_time;
+    } while (report.converged && sleeping &&
+             sleeping->wake(forces, u_1, state.rest));
+  }
+
+
+  /// Forces are those of the current state, and so is its account.
+  void
+  TimeIntegrator::Data::let_sleep()
+  {
+    model->mass().vmult(scratch, state.v);
+    model->constraints().set_zero(scratch);
+    forces = model->residual();
+    // what a step woke, another one may have lost by being cut
+    const bool is_any_awake = sleeping->wake(forces, state.u, state.rest);
+    if (!sleeping->let_sleep(
+          h, scratch, state.v, forces, state.u, state.rest) &&
+        !is_any_awake)
+      return;
+    const double before = account.kinetic;
+    sleeping->set_zero(state.v);
+    sleeping->set_zero(state.a);
+    take_account();
+    state.sums.dissipated += before - account.kinetic;
+    account.dissipated = state.sums.dissipated;
+    account.balance += before - account.kinetic;
+  }
+
+
+  void
+  TimeIntegrator::let_blocks_sleep(const SleepParameters &parameters)
+  {
+    Data &d = *data;
+    d.sleeping =
+      std::make_unique<internal::SleepingBlocks>(*d.model, parameters);
+    d.sleeping->set_rest(d.state.rest);
+  }
+
+
+  unsigned int
+  TimeIntegrator::n_asleep() const
+  {
+    const auto &rest = data->state.rest;
+    return data->sleeping
+             ? std::count_if(rest.begin(),
+                             rest.end(),
+                             [](const auto &entry) {
+                               return entry[0] ==
+                                      internal::SleepingBlocks::asleep;
+                             })
+             : 0;
   }
 
 
@@ -586,22 +699,14 @@ namespace NMM
     d.h             = step;
     d.has_candidate = false;
     d.predict();
-    if (d.model->is_linear())
+    if (d.model->is_linear() && !d.sleeping)
     {
       d.solve_linear();
       report.n_iterations = 1;
       report.converged    = true;
     }
     else
-    {
-      const NewtonReport newton =
-        d.newton.solve(d, d.model->constraints(), d.u_end);
-      report.n_iterations       = newton.iterations.size();
-      report.converged          = newton.converged;
-      report.reason             = newton.reason;
-      report.factorization_time = newton.factorization_time;
-      report.substitution_time  = newton.substitution_time;
-    }
+      d.solve_nonlinear(report);
     if (report.converged)
       d.measure(report);
     if (report.converged)
@@ -634,6 +739,8 @@ namespace NMM
                                  "time " + std::to_string(d.state.time) + " s",
                                  "take smaller steps"));
     d.take_account();
+    if (d.sleeping)
+      d.let_sleep();
   }
 
 

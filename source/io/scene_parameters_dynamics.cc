@@ -115,6 +115,33 @@ namespace NMM
     }
 
 
+    std::vector<NumberEntry>
+    sleep_entries(TimeParameters &time)
+    {
+      const double none = Patterns::Double::max_double_value;
+      return {
+        {"Sleep speed",
+         time.sleep.speed,
+         0.,
+         none,
+         "A block whose root mean square speed stays below this may sleep: it "
+         "is held where it is and costs nearly nothing until forces on it "
+         "change [m/s]; 0: nobody sleeps. Contact, one rank."},
+        {"Sleep time",
+         time.sleep.time,
+         0.,
+         none,
+         "How long it must stay below before it sleeps [s]."},
+        {"Wake acceleration",
+         time.sleep.acceleration,
+         0.,
+         none,
+         "A block that sleeps wakes when the force on it changes by more than "
+         "its mass times this, or the moment by as much over the radius of "
+         "inertia, > 0 [m/s^2]."}};
+    }
+
+
     void
     declare_numbers(ParameterHandler               &prm,
                     const std::vector<NumberEntry> &entries)
@@ -241,6 +268,7 @@ namespace NMM
       "contact, constant acceleration for incremental kinematics and "
       "relaxation.");
     declare_numbers(prm, scheme_entries(defaults));
+    declare_numbers(prm, sleep_entries(defaults));
   }
 
 
@@ -249,7 +277,8 @@ namespace NMM
   {
     end_time = prm.get_double("End time");
     start    = get_selection(prm, "Start", starts);
-    for (const auto &entries : {step_entries(*this), scheme_entries(*this)})
+    for (const auto &entries :
+         {step_entries(*this), scheme_entries(*this), sleep_entries(*this)})
       for (const NumberEntry &entry : entries)
         entry.value = prm.get_double(entry.key);
     scheme = get_selection(prm, "Scheme", schemes);
@@ -284,11 +313,20 @@ namespace NMM
                      by,
                      "remove it, or set 'Model/Analysis = dynamic'");
       expect_defaults(step_entries(given), step_entries(defaults));
+      expect_defaults(sleep_entries(given), sleep_entries(defaults));
       AssertThrow(start == Start::undeformed,
                   InputError("a start would not be used by " + by,
                              "parameter 'Time/Start'",
                              "remove it, or set 'Model/Analysis = dynamic'"));
     }
+    AssertThrow(sleep.speed == 0. || (has_contact && sleep.acceleration > 0. &&
+                                      kinematics != Kinematics::incremental),
+                InputError("blocks sleep only in motion with contact and small "
+                           "or finite kinematics, and wake at accelerations "
+                           "above 0",
+                           "parameter 'Time/Sleep speed'",
+                           "set it to 0, or 'Contact' and 'Wake "
+                           "acceleration'"));
     AssertThrow(start == Start::undeformed ||
                   kinematics != Kinematics::incremental,
                 InputError("a start from equilibrium is not available with "

@@ -449,10 +449,36 @@ namespace NMM
 
 
     void
+    BlockSystem::set_active_rows(const std::vector<bool> &blocks)
+    {
+      has_passive_rows = !blocks.empty();
+      active_rows.clear();
+      if (!has_passive_rows)
+        return;
+      if (row_to_block.empty())
+      {
+        const ManifoldMesh &mesh = covers->manifold_mesh();
+        row_to_block.resize(n_owned);
+        for (unsigned int e = 0; e < mesh.n_elements(); ++e)
+          for (const unsigned int k : covers->covers(e))
+            row_to_block[cover_to_local[k]] = mesh.block(e);
+      }
+      for (unsigned int r = 0; r < n_owned; ++r)
+        if (blocks[row_to_block[r]])
+          active_rows.push_back(r);
+    }
+
+
+    void
     BlockSystem::reset(const bool with_matrix)
     {
-      if (with_matrix)
+      if (with_matrix && !has_passive_rows)
         std::fill(values.begin(), values.end(), 0.);
+      else if (with_matrix)
+        for (const unsigned int r : active_rows)
+          std::fill(values.begin() + 4 * row_begin[r],
+                    values.begin() + 4 * row_begin[r + 1],
+                    0.);
       std::fill(right_hand_side.begin(), right_hand_side.end(), 0.);
     }
 
@@ -605,23 +631,30 @@ namespace NMM
         double      *block = find_block(row, row, stride);
         return block[c * stride + c];
       };
-      for (unsigned int r = 0; r < n_owned; ++r)
+      const auto for_each_row = [this](const auto &action) {
+        const unsigned int n = has_passive_rows ? active_rows.size() : n_owned;
+        for (unsigned int i = 0; i < n; ++i)
+          action(has_passive_rows ? active_rows[i] : i);
+      };
+      for_each_row([&](const unsigned int r) {
         for (unsigned int c = 0; c < 2; ++c)
           if (diagonal(r, c) != 0.)
           {
             sum_and_count[0] += std::abs(diagonal(r, c));
             sum_and_count[1] += 1.;
           }
+      });
       dealii::Utilities::MPI::sum(
         dealii::ArrayView<const double>(sum_and_count.data(), 2),
         covers->communicator(),
         dealii::ArrayView<double>(sum_and_count.data(), 2));
       const double mean =
         sum_and_count[1] > 0. ? sum_and_count[0] / sum_and_count[1] : 1.;
-      for (unsigned int r = 0; r < n_owned; ++r)
+      for_each_row([&](const unsigned int r) {
         for (unsigned int c = 0; c < 2; ++c)
           if (diagonal(r, c) == 0.)
             diagonal(r, c) = mean;
+      });
     }
   } // namespace internal
 } // namespace NMM

@@ -81,6 +81,12 @@ namespace NMM
       finish(dealii::TrilinosWrappers::SparseMatrix &matrix,
              dealii::TrilinosWrappers::MPI::Vector  &rhs);
 
+      /// From now on rows of covers in other blocks (ManifoldMesh::block()) than
+      /// these are neither reset nor handed over: what they hold means nothing. Empty: all
+      /// rows count. One rank.
+      void
+      set_active_rows(const std::vector<bool> &blocks);
+
       /// Start anew with zero values, of the matrix only if @p with_matrix.
       void
       reset(bool with_matrix = true);
@@ -189,6 +195,9 @@ namespace NMM
       std::vector<unsigned int> columns;
       std::vector<double>       values;
       std::vector<double>       right_hand_side;
+      /// Block rows that count, unless all do, and the block of each.
+      bool                      has_passive_rows = false;
+      std::vector<unsigned int> active_rows, row_to_block;
 
       /// Per rank: rows sent and received, each as cover, n, n columns (global).
       std::vector<std::pair<unsigned int, std::vector<unsigned int>>> sent,

@@ -110,8 +110,12 @@ namespace NMM
     void
     BlockSystem::copy_values(const Epetra_CrsMatrix &matrix) const
     {
-      for (unsigned int r = 0; r < 2 * n_owned; ++r)
+      const unsigned int n_copied =
+        2 * (has_passive_rows ? active_rows.size() : n_owned);
+      for (unsigned int i = 0; i < n_copied; ++i)
       {
+        const unsigned int r =
+          has_passive_rows ? 2 * active_rows[i / 2] + i % 2 : i;
         int       n;
         double   *row;
         const int length =

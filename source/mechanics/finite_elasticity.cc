@@ -118,6 +118,14 @@ namespace NMM
              absent_blocks[covers->manifold_mesh().block(element)];
     }
 
+    /// See set_active_blocks().
+    bool
+    is_active(const unsigned int element) const
+    {
+      return active_blocks.empty() ||
+             active_blocks[covers->manifold_mesh().block(element)];
+    }
+
     /// Add the squares of what has come to the forces since the last call.
     void
     gauge(const LocalSystem &local, double *known)
@@ -166,7 +174,7 @@ namespace NMM
     BlockSystem                              block_system;
     LoadAmplitudes                           amplitudes;
     /// Empty, or by block; and which covers belong to them.
-    std::vector<bool> absent_blocks, absent_covers;
+    std::vector<bool> absent_blocks, absent_covers, active_blocks;
     unsigned int      n_assembled = 0;
 
     /// Per weak point, what its penalty is multiplied by.
@@ -433,12 +441,15 @@ namespace NMM
     const auto [first, last] = covers->locally_owned_elements();
     // what other threads work at then is in vain
     std::atomic<bool> is_inverted(false);
-    n_assembled = 0;
+    n_assembled        = 0;
+    const auto is_idle = [&](const unsigned int e) {
+      return is_absent(e) || !is_active(e);
+    };
     for_each_in_order<Volume>(
       first,
       last,
       [&](const unsigned int e, Volume &volume) {
-        if (is_absent(e) || is_inverted)
+        if (is_idle(e) || is_inverted)
           return;
         volume.u.gather(covers->covers(e), nodal);
         volume.local.reset(n_per_cell);
@@ -451,7 +462,7 @@ namespace NMM
                                    condition->element == e,
                    has_follower = follower != edges->followers.end() &&
                                   follower->element == e;
-        if (!is_absent(e) && state == Deformation::admissible)
+        if (!is_idle(e) && state == Deformation::admissible)
         {
           ++n_assembled;
           energies.strain += volume.energies.strain;
@@ -485,7 +496,8 @@ namespace NMM
     unsigned int      both[LocalSystem::max_covers];
     for (const EdgeTables::Site &tie : edges->ties)
     {
-      if (is_absent(tie.element) || is_absent(tie.neighbor))
+      if (is_absent(tie.element) || is_absent(tie.neighbor) ||
+          !(is_active(tie.element) || is_active(tie.neighbor)))
         continue;
       for (unsigned int side = 0; side < 2; ++side)
       {
@@ -695,6 +707,14 @@ namespace NMM
           problem.fixed_points.size(),
           "the released fixed points");
     data->amplitudes = amplitudes;
+  }
+
+
+  void
+  FiniteElasticity::set_active_blocks(const std::vector<bool> &is_active)
+  {
+    data->active_blocks = is_active;
+    data->block_system.set_active_rows(is_active);
   }
 
 

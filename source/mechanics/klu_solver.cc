@@ -43,24 +43,44 @@ namespace NMM
         return i;
       }
 
-      /// Call action(row, column, value) where the value is not zero, until it
-      /// returns false. False if it did.
+      /// Call action(row, column, value) where the value is not zero, both being of
+      /// @p rows and counted among them, until it returns false. False if it
+      /// did.
       template <typename Action>
-      static bool
-      for_each_value(const Epetra_CrsMatrix &matrix, const Action &action)
+      bool
+      for_each_value(const Epetra_CrsMatrix &matrix, const Action &action) const
       {
-        for (int row = 0; row < matrix.NumMyRows(); ++row)
+        for (unsigned int k = 0; k < rows.size(); ++k)
         {
           int     n;
-          double *values;
-          int    *columns;
-          matrix.ExtractMyRowView(row, n, values, columns);
+          double *matrix_values;
+          int    *matrix_columns;
+          matrix.ExtractMyRowView(rows[k], n, matrix_values, matrix_columns);
           for (int i = 0; i < n; ++i)
-            if (values[i] != 0. && !action(row, columns[i], values[i]))
+          {
+            const unsigned int column = numbers[matrix_columns[i]];
+            if (matrix_values[i] != 0. && column != left_out &&
+                !action(k, column, matrix_values[i]))
               return false;
+          }
         }
         return true;
       }
+
+      void
+      number_rows(const unsigned int n, const std::vector<bool> &mask)
+      {
+        rows.clear();
+        numbers.assign(n, left_out);
+        for (unsigned int i = 0; i < n; ++i)
+          if (mask.empty() || mask[i])
+          {
+            numbers[i] = rows.size();
+            rows.push_back(i);
+          }
+      }
+
+      static constexpr unsigned int left_out = -1;
 
       klu_common    common;
       klu_symbolic *symbolic = nullptr;
@@ -69,6 +89,9 @@ namespace NMM
       std::vector<int>          begins, columns;
       std::vector<double>       values;
       std::vector<unsigned int> parents, sizes;
+      /// Rows that are solved for, and the number of each row among them.
+      std::vector<unsigned int> rows, numbers;
+      std::vector<double>       scratch;
     };
 
 
@@ -82,15 +105,17 @@ namespace NMM
 
 
     bool
-    KluSolver::is_suitable(const dealii::TrilinosWrappers::SparseMatrix &matrix)
+    KluSolver::is_suitable(const dealii::TrilinosWrappers::SparseMatrix &matrix,
+                           const std::vector<bool>                      &rows)
     {
       Data &d = *data;
-      d.parents.resize(matrix.m());
+      d.number_rows(matrix.m(), rows);
+      d.parents.resize(d.rows.size());
       std::iota(d.parents.begin(), d.parents.end(), 0);
-      d.sizes.assign(matrix.m(), 1);
-      return Data::for_each_value(
+      d.sizes.assign(d.rows.size(), 1);
+      return d.for_each_value(
         matrix.trilinos_matrix(),
-        [&](const int row, const int column, const double) {
+        [&](const unsigned int row, const unsigned int column, const double) {
           unsigned int a = d.group(row), b = d.group(column);
           if (a == b)
             return true;
@@ -103,27 +128,37 @@ namespace NMM
     }
 
 
-    void
-    KluSolver::factorize(const dealii::TrilinosWrappers::SparseMatrix &matrix)
+    double
+    KluSolver::analyze(const dealii::TrilinosWrappers::SparseMatrix &matrix,
+                       const std::vector<bool>                      &rows)
     {
       Data &d = *data;
+      d.number_rows(matrix.m(), rows);
+      const int n = d.rows.size();
       d.begins.assign(1, 0);
       d.columns.clear();
       d.values.clear();
-      Data::for_each_value(matrix.trilinos_matrix(),
-                           [&](const int    row,
-                               const int    column,
-                               const double value) {
-                             d.begins.resize(row + 1, d.columns.size());
-                             d.columns.push_back(column);
-                             d.values.push_back(value);
-                             return true;
-                           });
-      d.begins.resize(matrix.m() + 1, d.columns.size());
+      d.for_each_value(matrix.trilinos_matrix(),
+                       [&](const unsigned int row,
+                           const unsigned int column,
+                           const double       value) {
+                         d.begins.resize(row + 1, d.columns.size());
+                         d.columns.push_back(column);
+                         d.values.push_back(value);
+                         return true;
+                       });
+      d.begins.resize(n + 1, d.columns.size());
 
       d.clear();
-      d.symbolic =
-        klu_analyze(matrix.m(), d.begins.data(), d.columns.data(), &d.common);
+      d.symbolic = klu_analyze(n, d.begins.data(), d.columns.data(), &d.common);
+      return d.symbolic == nullptr || n == 0 ? 0. : d.symbolic->est_flops / n;
+    }
+
+
+    void
+    KluSolver::factorize()
+    {
+      Data &d = *data;
       if (d.symbolic != nullptr)
         d.numeric = klu_factor(d.begins.data(),
                                d.columns.data(),
@@ -156,14 +191,17 @@ namespace NMM
                      dealii::TrilinosWrappers::MPI::Vector       &solution)
     {
       Data &d = *data;
-      if (&rhs != &solution)
-        std::copy(rhs.begin(), rhs.end(), solution.begin());
-      klu_tsolve(d.symbolic,
-                 d.numeric,
-                 solution.size(),
-                 1,
-                 &*solution.begin(),
-                 &d.common);
+      d.scratch.clear();
+      const auto from = rhs.begin();
+      for (const unsigned int row : d.rows)
+        d.scratch.push_back(*(from + row));
+      klu_tsolve(
+        d.symbolic, d.numeric, d.rows.size(), 1, d.scratch.data(), &d.common);
+      const auto to = solution.begin();
+      if (d.rows.size() < solution.size())
+        std::fill(to, solution.end(), 0.);
+      for (unsigned int k = 0; k < d.rows.size(); ++k)
+        *(to + d.rows[k]) = d.scratch[k];
     }
   } // namespace internal
 } // namespace NMM

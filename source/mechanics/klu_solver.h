@@ -5,6 +5,7 @@
 #include <deal.II/lac/trilinos_vector.h>
 
 #include <memory>
+#include <vector>
 
 namespace NMM
 {
@@ -21,13 +22,15 @@ namespace NMM
      * time, for a tenth of what MUMPS takes per matrix: 2,000 blocks of 12 unknowns
      * of which every tenth touches another take 7 instead of 38 us per block and matrix.
      *
+     * Rows and columns can be left out: those of what is not being solved for.
+     *
      * One rank.
      */
     class KluSolver
     {
     public:
-      /// Of a system that hangs together: larger ones are better off
-      /// with dense kernels, which KLU lacks.
+      /// Of a system that hangs together: about larger ones one has to ask
+      /// operations_per_unknown().
       static constexpr unsigned int max_group = 360;
 
       KluSolver();
@@ -35,18 +38,27 @@ namespace NMM
 
       /// Does no group of unknowns that are coupled by values other than zero have more
       /// than max_group? Looks no further than to the first that has.
+      /// Of @p rows; empty: of all.
       bool
-      is_suitable(const dealii::TrilinosWrappers::SparseMatrix &matrix);
+      is_suitable(const dealii::TrilinosWrappers::SparseMatrix &matrix,
+                  const std::vector<bool>                      &rows);
 
-      /// @throws NumericalFailure for a singular matrix or lack of memory.
+      /// Take values of @p rows and columns (empty: all) and order them. Returns how
+      /// many operations the factorization is going to take per unknown: KLU has no dense
+      /// kernels, what takes many is done better by others.
+      double
+      analyze(const dealii::TrilinosWrappers::SparseMatrix &matrix,
+              const std::vector<bool>                      &rows);
+
+      /// After analyze(). @throws NumericalFailure for a singular matrix or lack of memory.
       void
-      factorize(const dealii::TrilinosWrappers::SparseMatrix &matrix);
+      factorize();
 
       /// Of both factors.
       double
       n_factor_entries() const;
 
-      /// @p solution may be the same vector as @p rhs.
+      /// 0 in rows that were left out. @p solution may be the same vector as @p rhs.
       void
       solve(const dealii::TrilinosWrappers::MPI::Vector &rhs,
             dealii::TrilinosWrappers::MPI::Vector       &solution);

@@ -14,12 +14,13 @@ namespace NMM
       const int              *from_columns = from.ColMap().MyGlobalElements();
       const int              *to_columns   = to.ColMap().MyGlobalElements();
       Places                  places;
-      places.reserve(from.NumMyNonzeros());
+      places.places.reserve(from.NumMyNonzeros());
       std::vector<std::pair<int, int>> row;
       for (int r = 0; r < from.NumMyRows(); ++r)
       {
         int     n_from, n_to, *from_indices, *to_indices;
         double *values;
+        places.row_begin.push_back(places.places.size());
         from.ExtractMyRowView(r, n_from, values, from_indices);
         to.ExtractMyRowView(r, n_to, values, to_indices);
         row.clear();
@@ -34,7 +35,7 @@ namespace NMM
           AssertThrow(place != row.end() && place->first == column,
                       dealii::ExcMessage(
                         "The pattern is not within that of the stiffness."));
-          places.push_back(place->second);
+          places.places.push_back(place->second);
         }
       }
       return places;
@@ -46,18 +47,29 @@ namespace NMM
                    const double  factor,
                    const Places &places)
     {
-      const Epetra_CrsMatrix &from  = matrix.trilinos_matrix();
-      const Epetra_CrsMatrix &to    = sum.trilinos_matrix();
-      auto                    place = places.begin();
-      for (int r = 0; r < from.NumMyRows(); ++r)
-      {
+      const Epetra_CrsMatrix &from = matrix.trilinos_matrix();
+      const Epetra_CrsMatrix &to   = sum.trilinos_matrix();
+      for_each_row([&](const int r) {
         int     n_from, n_to, *indices;
         double *from_values, *to_values;
         from.ExtractMyRowView(r, n_from, from_values, indices);
         to.ExtractMyRowView(r, n_to, to_values, indices);
+        const int *place = places.places.data() + places.row_begin[r];
         for (int i = 0; i < n_from; ++i)
           to_values[*place++] += factor * from_values[i];
-      }
+      });
+    }
+
+
+    void
+    MatrixSum::set_active_rows(const std::vector<unsigned int> &block_of,
+                               const std::vector<bool>         &blocks)
+    {
+      has_passive_rows = !blocks.empty();
+      active_rows.clear();
+      for (unsigned int r = 0; has_passive_rows && r < block_of.size(); ++r)
+        if (blocks[block_of[r]])
+          active_rows.push_back(r);
     }
 
 
@@ -74,23 +86,23 @@ namespace NMM
       {
         known_version = version;
         sum.reinit(stiffness);
-        mass_places = find_places(mass);
-        damping_places.clear();
+        mass_places    = find_places(mass);
+        damping_places = Places();
       }
-      if (damping != nullptr && damping_places.empty())
+      if (damping != nullptr && damping_places.places.empty())
         damping_places = find_places(*damping);
 
       const Epetra_CrsMatrix &from = stiffness.trilinos_matrix();
       const Epetra_CrsMatrix &to   = sum.trilinos_matrix();
-      for (int r = 0; r < from.NumMyRows(); ++r)
-      {
+      n_rows                       = from.NumMyRows();
+      for_each_row([&](const int r) {
         int     n, *indices;
         double *from_values, *to_values;
         from.ExtractMyRowView(r, n, from_values, indices);
         to.ExtractMyRowView(r, n, to_values, indices);
         for (int i = 0; i < n; ++i)
           to_values[i] = k * from_values[i];
-      }
+      });
       add(mass, m, mass_places);
       if (damping != nullptr && c != 0.)
         add(*damping, c, damping_places);

@@ -29,6 +29,12 @@ namespace NMM
                double        c,
                unsigned int  version = 0);
 
+      /// From now on assemble() makes rows of these blocks only, @p block_of having the
+      /// block of each row; empty: all.
+      void
+      set_active_rows(const std::vector<unsigned int> &block_of,
+                      const std::vector<bool>         &blocks);
+
       const Matrix &
       operator()() const
       {
@@ -37,7 +43,11 @@ namespace NMM
 
     private:
       /// Per entry of a matrix, row by row, its place in the sum's row.
-      using Places = std::vector<int>;
+      struct Places
+      {
+        std::vector<std::size_t> row_begin;
+        std::vector<int>         places;
+      };
 
       Places
       find_places(const Matrix &matrix) const;
@@ -45,9 +55,24 @@ namespace NMM
       void
       add(const Matrix &matrix, double factor, const Places &places);
 
-      Matrix       sum;
-      Places       mass_places, damping_places;
-      unsigned int known_version = 0;
+      template <typename Action>
+      void
+      for_each_row(const Action &action) const
+      {
+        if (has_passive_rows)
+          for (const int r : active_rows)
+            action(r);
+        else
+          for (int r = 0; r < n_rows; ++r)
+            action(r);
+      }
+
+      Matrix           sum;
+      int              n_rows           = 0;
+      bool             has_passive_rows = false;
+      std::vector<int> active_rows;
+      Places           mass_places, damping_places;
+      unsigned int     known_version = 0;
     };
   } // namespace internal
 } // namespace NMM

@@ -139,6 +139,15 @@ namespace NMM
           });
           AssertDimension(i, values.size());
         }
+
+        /// An equation x = f of its own for each row that is not of @p kept.
+        void
+        leave_out(const std::vector<bool> &kept)
+        {
+          for (std::size_t i = 0; i < values.size(); ++i)
+            if (!kept[rows[i] - 1] || !kept[columns[i] - 1])
+              values[i] = rows[i] == columns[i] ? 1. : 0.;
+        }
       };
 
 
@@ -185,8 +194,12 @@ namespace NMM
       /// Does the first rank do all?
       bool      is_serial = false;
       KluSolver klu;
+      /// What is solved for; empty: all.
+      std::vector<bool> rows;
       /// The last factorization is KLU's.
       bool is_klus = false;
+      /// See DirectSolver().
+      bool has_blocks = false;
 
       void
       run(const int job, const std::string &stage)
@@ -201,6 +214,10 @@ namespace NMM
 
       void
       set_matrix(const dealii::TrilinosWrappers::SparseMatrix &matrix);
+
+      /// Is the matrix, of which KLU then has the analysis, one for KLU?
+      bool
+      may_be_klus(const dealii::TrilinosWrappers::SparseMatrix &matrix);
     };
 
 
@@ -236,9 +253,28 @@ namespace NMM
     }
 
 
-    DirectSolver::DirectSolver(const Symmetry symmetry)
+    bool
+    DirectSolver::Data::may_be_klus(
+      const dealii::TrilinosWrappers::SparseMatrix &matrix)
+    {
+      // what MUMPS needs for its analysis and a factorization is worth these
+      constexpr double max_work_per_unknown = 5000.;
+
+      if (dealii::Utilities::MPI::n_mpi_processes(
+            matrix.get_mpi_communicator()) > 1)
+        return false;
+      const bool is_small = klu.is_suitable(matrix, rows);
+      if (!is_small && (!has_blocks || is_analyzed))
+        return false;
+      const double work = klu.analyze(matrix, rows);
+      return is_small || work <= max_work_per_unknown;
+    }
+
+
+    DirectSolver::DirectSolver(const Symmetry symmetry, const bool has_blocks)
       : data(std::make_unique<Data>())
     {
+      data->has_blocks   = has_blocks;
       data->is_symmetric = symmetry == Symmetry::symmetric;
     }
 
@@ -288,20 +324,22 @@ namespace NMM
 
     void
     DirectSolver::factorize(
-      const dealii::TrilinosWrappers::SparseMatrix &matrix)
+      const dealii::TrilinosWrappers::SparseMatrix &matrix,
+      const std::vector<bool>                      &rows)
     {
-      data->is_klus = dealii::Utilities::MPI::n_mpi_processes(
-                        matrix.get_mpi_communicator()) == 1 &&
-                      data->klu.is_suitable(matrix);
+      data->rows    = rows;
+      data->is_klus = data->may_be_klus(matrix);
       if (data->is_klus)
       {
-        data->klu.factorize(matrix);
+        data->klu.factorize();
         return;
       }
       if (!data->is_analyzed)
         analyze(matrix);
       AssertDimension(matrix.m(), data->n);
       data->triplets.set_values(matrix.trilinos_matrix(), data->is_symmetric);
+      if (!rows.empty())
+        data->triplets.leave_out(rows);
       if (data->is_serial)
         gather(data->triplets.values,
                MPI_DOUBLE,
@@ -344,6 +382,9 @@ namespace NMM
       {
         if (&rhs != &solution)
           std::copy(rhs.begin(), rhs.end(), solution.begin());
+        for (unsigned int i = 0; i < data->rows.size(); ++i)
+          if (!data->rows[i])
+            *(solution.begin() + i) = 0.;
         data->mumps->data.rhs = &*solution.begin();
         data->run(3, "solution");
         return;

@@ -5,6 +5,7 @@
 #include <deal.II/lac/trilinos_vector.h>
 
 #include <memory>
+#include <vector>
 
 namespace NMM
 {
@@ -43,7 +44,10 @@ namespace NMM
 
       static constexpr unsigned int n_distributed = 30000;
 
-      explicit DirectSolver(Symmetry symmetry = Symmetry::symmetric);
+      /// @p has_blocks: of blocks that touch here and there, and elsewhere the next
+      /// time; KLU is then tried with large groups of them, too.
+      explicit DirectSolver(Symmetry symmetry   = Symmetry::symmetric,
+                            bool     has_blocks = false);
       ~DirectSolver();
 
       /// Order the unknowns for the pattern of @p matrix, for MUMPS. @throws
@@ -54,8 +58,11 @@ namespace NMM
       /// Factorize; analyze() is called if it has not been. The pattern must be
       /// the one analyzed. @throws NumericalFailure with MUMPS' error code for a
       /// singular matrix or lack of memory.
+      /// @p rows: only these rows and columns are solved for, on one rank; solutions
+      /// are 0 in the others. Empty: all.
       void
-      factorize(const dealii::TrilinosWrappers::SparseMatrix &matrix);
+      factorize(const dealii::TrilinosWrappers::SparseMatrix &matrix,
+                const std::vector<bool>                      &rows = {});
 
       /// @p solution has the layout of @p rhs; may be the same vector.
       void

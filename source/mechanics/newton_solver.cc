@@ -5,11 +5,32 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <mechanics/mumps_solver.h>
+#include <mechanics/newton_groups.h>
 
 namespace NMM
 {
+  using internal::NewtonGroups;
+  using internal::ShareSearch;
+  using Group = NewtonGroups::Group;
+
+
+  const std::vector<unsigned int> &
+  NonlinearSystem::blocks_of_unknowns() const
+  {
+    static const std::vector<unsigned int> none;
+    return none;
+  }
+
+
+  const std::vector<bool> &
+  NonlinearSystem::held_blocks() const
+  {
+    static const std::vector<bool> none;
+    return none;
+  }
+
+
   struct NewtonSolver::Data
   {
     NewtonParameters parameters;
@@ -24,14 +45,31 @@ namespace NMM
     NonlinearSystem                         *system      = nullptr;
     const dealii::AffineConstraints<double> *constraints = nullptr;
     NewtonReport                            *report      = nullptr;
-    /// Owned unknowns.
-    Vector owned, correction;
+    /// Owned unknowns. The residual of what is not active is that of the time when
+    /// it was.
+    Vector owned, correction, residual;
     bool   use_increment = true;
-    /// From an iteration on that went round, residuals must go down.
-    bool goes_round = false;
+    /// That of the last assembly of all, or of the first one.
+    double       scale = 0.;
+    NewtonGroups groups;
+    /// What active groups pressed on in this iteration.
+    std::vector<unsigned int> touched;
+
+    static bool
+    is_active(const Group &group)
+    {
+      return group.is_active;
+    }
+
+    template <typename Predicate>
+    Deformation
+    assemble(const Vector    &u,
+             Tangent          tangent,
+             const Vector    *increment,
+             const Predicate &is_meant);
 
     Deformation
-    assemble(const Vector &u, Tangent tangent, const Vector *increment);
+    assemble_tangent(const Vector &u, const Vector *increment);
 
     void
     factorize();
@@ -39,22 +77,20 @@ namespace NMM
     void
     solve(const Vector &rhs, Vector &solution);
 
-    Deformation
-    line_search(Vector                  &u,
-                NewtonReport::Iteration &iteration,
-                bool                     is_searched);
+    void
+    begin_searches(bool use_slopes);
 
     Deformation
-    descend(Vector &u, NewtonReport::Iteration &iteration);
-
-    bool
-    is_going_round() const;
+    search_shares(Vector &u);
 
     bool
     iterate(Vector &u, const Vector *increment);
 
     bool
-    has_converged(double largest_energy);
+    has_converged(const Group &group, double largest_energy) const;
+
+    bool
+    settle(Vector &u, double largest_energy);
 
     bool
     refine(Vector &u);
@@ -71,20 +107,67 @@ namespace NMM
   NewtonSolver::~NewtonSolver() = default;
 
 
+  /// Residual, and tangent, of groups for which @p is_meant.
+  template <typename Predicate>
   Deformation
-  NewtonSolver::Data::assemble(const Vector &u,
-                               const Tangent tangent,
-                               const Vector *increment)
+  NewtonSolver::Data::assemble(const Vector    &u,
+                               const Tangent    tangent,
+                               const Vector    *increment,
+                               const Predicate &is_meant)
   {
     dealii::Timer     timer;
+    std::vector<bool> blocks;
+    if (groups.are_there_several())
+    {
+      blocks = groups.mask(is_meant);
+      system->set_active_blocks(blocks);
+    }
     const Deformation state = system->assemble(u, tangent, increment);
+    if (groups.are_there_several())
+      for (const unsigned int block : system->take_touched_blocks())
+        touched.push_back(block);
     report->assembly_time += timer.wall_time();
     if (state != Deformation::admissible)
       return state;
-    const double norm         = system->residual().l2_norm();
-    report->relative_residual = norm > 0. ? norm / system->force_scale() : 0.;
+    // the first one is of all that is not held
+    if (blocks.empty() || scale == 0.)
+      scale = system->force_scale();
+    if (blocks.empty())
+      residual = system->residual();
+    else
+    {
+      auto from = system->residual().begin();
+      auto to   = residual.begin();
+      for (unsigned int i = 0; to != residual.end(); ++from, ++to, ++i)
+        if (groups.is_in(blocks, i))
+          *to = *from;
+    }
+    const double norm         = residual.l2_norm();
+    report->relative_residual = norm > 0. ? norm / scale : 0.;
     return std::isfinite(report->relative_residual) ? state
                                                     : Deformation::inverted;
+  }
+
+
+  /// Of what is active and of what it presses on, with residual and groups.
+  Deformation
+  NewtonSolver::Data::assemble_tangent(const Vector &u, const Vector *increment)
+  {
+    const unsigned int k = report->iterations.size();
+    while (true)
+    {
+      touched.clear();
+      const Deformation state =
+        assemble(u,
+                 k > parameters.n_robust_iterations ? Tangent::consistent
+                                                    : Tangent::robust,
+                 use_increment ? increment : nullptr,
+                 is_active);
+      if (state != Deformation::admissible || touched.empty())
+        return state;
+      for (const unsigned int block : touched)
+        groups.wake(block);
+    }
   }
 
 
@@ -101,9 +184,20 @@ namespace NMM
       n             = system->tangent().m();
       direct_solver = std::make_unique<internal::DirectSolver>(
         is_symmetric ? internal::DirectSolver::Symmetry::symmetric
-                     : internal::DirectSolver::Symmetry::unsymmetric);
+                     : internal::DirectSolver::Symmetry::unsymmetric,
+        groups.are_there_several());
     }
-    direct_solver->factorize(system->tangent());
+    const std::vector<bool> blocks =
+      groups.are_there_several() ? groups.mask(is_active) : std::vector<bool>();
+    if (blocks.empty())
+      direct_solver->factorize(system->tangent());
+    else
+    {
+      std::vector<bool> rows(n);
+      for (unsigned int i = 0; i < n; ++i)
+        rows[i] = groups.is_in(blocks, i);
+      direct_solver->factorize(system->tangent(), rows);
+    }
     report->factorization_time += timer.wall_time();
   }
 
@@ -118,132 +212,92 @@ namespace NMM
   }
 
 
-  /// Choose eta, see the class; moves u and assembles its residual.
-  Deformation
-  NewtonSolver::Data::line_search(Vector                  &u,
-                                  NewtonReport::Iteration &iteration,
-                                  const bool               is_searched)
+  namespace
   {
-    // what is left of the slope along the correction: not less than this must
-    // go, and when the slope has changed its sign, not more
-    constexpr double       enough = 0.9, bracketed = 0.5;
-    constexpr unsigned int max_brackets = 8;
-    const double           first_slope  = correction * system->residual();
-    const Vector           before       = owned;
-    iteration.line_search               = 1.;
-    // eta and slope on both sides of a zero
-    double       lower = 0., upper = 1.;
-    double       lower_slope = first_slope, upper_slope = 0.;
-    bool         is_bracketed = false;
-    unsigned int n_brackets   = 0;
-    while (true)
+    /// Did none of the last iterations bring |r| far below what had been reached
+    /// before? Contact points that stick and slip by turns make Newton's method go
+    /// round three states and more, between which r . du goes up and down as it
+    /// should.
+    bool
+    is_going_round(const Group &group)
     {
-      owned = before;
-      owned.add(-iteration.line_search, correction);
+      constexpr unsigned int n_last = 3;
+      constexpr double       enough = 0.7;
+      const auto            &all    = group.squares;
+      if (all.size() < 2 * n_last)
+        return false;
+      const auto last = all.end() - n_last;
+      return *std::min_element(last, all.end()) >
+             enough * enough * *std::min_element(all.begin(), last);
+    }
+  } // namespace
+
+
+  /// From products and squares of this iteration.
+  void
+  NewtonSolver::Data::begin_searches(const bool use_slopes)
+  {
+    constexpr unsigned int n_young = 4;
+
+    for (const unsigned int root : groups.roots())
+    {
+      Group &group = groups[root];
+      if (!group.is_active)
+        continue;
+      group.squares.push_back(group.square / (scale * scale));
+      group.energies.push_back(std::abs(group.product));
+      const auto k = group.energies.size();
+      const bool is_late =
+        k > n_young && group.energies[k - 1] > group.energies[k - 2];
+      use_increment    = use_increment && !is_late;
+      group.goes_round = group.goes_round || is_going_round(group);
+      group.search.begin(group.goes_round        ? ShareSearch::Mode::descend
+                         : is_late || use_slopes ? ShareSearch::Mode::slope
+                                                 : ShareSearch::Mode::none,
+                         group.product,
+                         std::sqrt(group.square),
+                         parameters.min_line_search);
+    }
+  }
+
+
+  /// Moves u by shares of the correction and assembles its residual.
+  Deformation
+  NewtonSolver::Data::search_shares(Vector &u)
+  {
+    const Vector before  = owned;
+    const auto   is_open = [](const Group &group) {
+      return group.is_active && !group.search.is_done();
+    };
+    Deformation state   = Deformation::admissible;
+    bool        goes_on = true;
+    while (goes_on)
+    {
+      auto x = owned.begin();
+      auto a = before.begin();
+      auto c = correction.begin();
+      for (unsigned int i = 0; x != owned.end(); ++x, ++a, ++c, ++i)
+      {
+        const Group &group = groups.of_unknown(i);
+        *x = group.is_active ? *a - group.search.share() * *c : *a;
+      }
       constraints->distribute(owned);
-      u                       = owned;
-      const Deformation state = assemble(u, Tangent::none, nullptr);
-      if (state == Deformation::admissible && !is_searched)
-        return state;
+      u     = owned;
+      state = assemble(u, Tangent::none, nullptr, is_open);
       if (state == Deformation::admissible)
-      {
-        const double slope = correction * system->residual();
-        if (std::abs(slope) <=
-            (is_bracketed ? bracketed : enough) * std::abs(first_slope))
-          return state;
-        if (slope * first_slope < 0.)
+        groups.sum(residual, correction);
+      goes_on = false;
+      for (const unsigned int root : groups.roots())
+        if (is_open(groups[root]))
         {
-          // regula falsi of the Illinois kind
-          if (is_bracketed)
-            lower_slope *= 0.5;
-          upper        = iteration.line_search;
-          upper_slope  = slope;
-          is_bracketed = true;
+          Group &group = groups[root];
+          group.search.judge(state == Deformation::admissible,
+                             group.product,
+                             std::sqrt(group.square));
+          goes_on = goes_on || !group.search.is_done();
         }
-        else if (is_bracketed)
-        {
-          lower       = iteration.line_search;
-          lower_slope = slope;
-          upper_slope *= 0.5;
-        }
-        if (is_bracketed)
-        {
-          if (++n_brackets > max_brackets)
-            return state;
-          iteration.line_search =
-            lower + (upper - lower) * lower_slope / (lower_slope - upper_slope);
-          ++report->n_line_search_cuts;
-          continue;
-        }
-      }
-      if (iteration.line_search <= parameters.min_line_search)
-        return state;
-      iteration.line_search *= 0.5;
-      ++report->n_line_search_cuts;
     }
-  }
-
-
-  /// Did none of the last iterations bring |r| far below what had been reached before?
-  /// Contact points that stick and slip by turns make Newton's method go round
-  /// three states and more, between which r . du goes up and down as it should.
-  bool
-  NewtonSolver::Data::is_going_round() const
-  {
-    constexpr unsigned int n_last = 3;
-    constexpr double       enough = 0.7;
-    const auto            &all    = report->iterations;
-    if (all.size() < 2 * n_last)
-      return false;
-    const auto less = [](const auto &a, const auto &b) {
-      return a.relative_residual < b.relative_residual;
-    };
-    const auto last = all.end() - n_last;
-    return std::min_element(last, all.end(), less)->relative_residual >
-           enough *
-             std::min_element(all.begin(), last, less)->relative_residual;
-  }
-
-
-  /// Choose eta such that |r| goes down by a quarter of what it does where r is linear,
-  /// or else the best that was tried: along a path of ever smaller residuals
-  /// states change one after the other (Katzenelson's method for piecewise linear
-  /// equations). Moves u and assembles its residual.
-  Deformation
-  NewtonSolver::Data::descend(Vector &u, NewtonReport::Iteration &iteration)
-  {
-    constexpr double least_share = 1. / 16.;
-
-    const double first  = system->residual().l2_norm();
-    const Vector before = owned;
-    double       best = std::numeric_limits<double>::max(), best_share = 1.;
-    const auto   move_by = [&](const double share) {
-      iteration.line_search = share;
-      owned                 = before;
-      owned.add(-share, correction);
-      constraints->distribute(owned);
-      u = owned;
-      return assemble(u, Tangent::none, nullptr);
-    };
-    const double unknown = best;
-    for (double share = 1.;
-         share >= (best == unknown ? parameters.min_line_search : least_share);
-         share *= 0.5)
-    {
-      if (move_by(share) == Deformation::admissible)
-      {
-        const double norm = system->residual().l2_norm();
-        if (norm <= (1. - 0.25 * share) * first)
-          return Deformation::admissible;
-        if (norm < best)
-        {
-          best       = norm;
-          best_share = share;
-        }
-      }
-      ++report->n_line_search_cuts;
-    }
-    return move_by(best_share);
+    return state;
   }
 
 
@@ -251,23 +305,19 @@ namespace NMM
   bool
   NewtonSolver::Data::iterate(Vector &u, const Vector *increment)
   {
-    constexpr unsigned int n_young = 4;
-
     report->iterations.emplace_back();
-    const unsigned int       k         = report->iterations.size();
     NewtonReport::Iteration &iteration = report->iterations.back();
-    if (assemble(u,
-                 k > parameters.n_robust_iterations ? Tangent::consistent
-                                                    : Tangent::robust,
-                 use_increment ? increment : nullptr) !=
-        Deformation::admissible)
+    if (assemble_tangent(u, increment) != Deformation::admissible)
     {
       report->reason =
         "the deformation is not admissible (an element is "
         "turned inside out)";
       return false;
     }
+    if (groups.are_there_several())
+      groups.unite(system->tangent());
     iteration.relative_residual = report->relative_residual;
+    iteration.active_share      = groups.active_share();
     try
     {
       factorize();
@@ -277,58 +327,117 @@ namespace NMM
       report->reason = failure.message();
       return false;
     }
-    solve(system->residual(), correction);
-    iteration.energy = std::abs(correction * system->residual());
+    solve(residual, correction);
+    groups.sum(residual, correction);
+    for (const unsigned int root : groups.roots())
+      if (groups[root].is_active)
+        iteration.energy += std::abs(groups[root].product);
     if (!std::isfinite(iteration.energy))
     {
       report->reason = "the tangent is singular";
       return false;
     }
 
-    const bool is_late =
-      k > n_young && iteration.energy > report->iterations[k - 2].energy;
-    use_increment = use_increment && !is_late;
-    goes_round    = goes_round || is_going_round();
-    if ((goes_round
-           ? descend(u, iteration)
-           : line_search(u, iteration, is_late || parameters.always_search)) !=
-        Deformation::admissible)
-    {
+    begin_searches(parameters.always_search);
+    const Deformation state = search_shares(u);
+    for (const unsigned int root : groups.roots())
+      if (groups[root].is_active)
+      {
+        const ShareSearch &search = groups[root].search;
+        iteration.line_search = std::min(iteration.line_search, search.share());
+        report->n_line_search_cuts += search.n_cuts();
+      }
+    if (state != Deformation::admissible)
       report->reason =
         "every share of the correction gives a deformation that "
         "is not admissible";
-      return false;
-    }
-    return true;
+    return state == Deformation::admissible;
   }
 
 
+  /// A group's part of both tolerances is that of its unknowns.
   bool
-  NewtonSolver::Data::has_converged(const double largest_energy)
+  NewtonSolver::Data::has_converged(const Group &group,
+                                    const double largest_energy) const
   {
-    return report->relative_residual <= parameters.residual_tolerance &&
-           std::abs(correction * system->residual()) <=
-             parameters.energy_tolerance * largest_energy;
+    const double part =
+      static_cast<double>(group.n_unknowns) / groups.n_unknowns();
+    const double allowed = parameters.residual_tolerance * scale;
+    return group.square <= allowed * allowed * part &&
+           std::abs(group.product) <=
+             parameters.energy_tolerance * largest_energy * part;
   }
 
 
-  /// See NewtonParameters::n_refinements. False if u becomes inadmissible.
+  /// See NewtonParameters::n_refinements; of groups that have converged now. False if
+  /// u becomes inadmissible.
   bool
   NewtonSolver::Data::refine(Vector &u)
   {
+    const auto is_new = [](const Group &group) {
+      return group.is_active && group.has_converged;
+    };
     for (unsigned int i = 0; i < parameters.n_refinements; ++i)
     {
-      solve(system->residual(), correction);
-      owned -= correction;
+      solve(residual, correction);
+      auto x = owned.begin();
+      auto c = correction.begin();
+      for (unsigned int j = 0; x != owned.end(); ++x, ++c, ++j)
+        if (is_new(groups.of_unknown(j)))
+          *x -= *c;
       constraints->distribute(owned);
       u = owned;
-      if (assemble(u, Tangent::none, nullptr) != Deformation::admissible)
+      if (assemble(u, Tangent::none, nullptr, is_new) !=
+          Deformation::admissible)
       {
         report->reason = "the deformation is not admissible";
         return false;
       }
     }
     return true;
+  }
+
+
+  /// Leaves what has converged alone; have all? Not if there is a reason why it failed.
+  bool
+  NewtonSolver::Data::settle(Vector &u, const double largest_energy)
+  {
+    bool is_any_new = false;
+    for (const unsigned int root : groups.roots())
+    {
+      Group &group        = groups[root];
+      group.has_converged = has_converged(group, largest_energy);
+      is_any_new = is_any_new || (group.is_active && group.has_converged);
+    }
+    if (is_any_new && !refine(u))
+      return false;
+    for (const unsigned int root : groups.roots())
+      groups[root].is_active =
+        groups[root].is_active && !groups[root].has_converged;
+    for (const unsigned int block : touched)
+      groups.wake(block);
+    if (groups.is_any_active())
+      return false;
+    if (!groups.are_there_several())
+      return true;
+
+    // what was settled early may have been pressed on, below what was noticed; and
+    // the caller may want to know forces on what is held
+    if (assemble(u, Tangent::none, nullptr, [](const Group &) {
+          return true;
+        }) != Deformation::admissible)
+    {
+      report->reason = "the deformation is not admissible";
+      return false;
+    }
+    groups.sum(residual, correction);
+    const double allowed = parameters.residual_tolerance * scale;
+    for (const unsigned int root : groups.roots())
+      if (!groups[root].is_held &&
+          groups[root].square * groups.n_unknowns() >
+            allowed * allowed * groups[root].n_unknowns)
+        groups.wake(root);
+    return !groups.is_any_active();
   }
 
 
@@ -339,34 +448,42 @@ namespace NMM
                       const Vector                            *increment)
   {
     NewtonReport report;
-    data->system        = &system;
-    data->constraints   = &constraints;
-    data->report        = &report;
-    data->use_increment = data->parameters.use_increment;
-    data->goes_round    = false;
-    data->owned.reinit(u.locally_owned_elements(), u.get_mpi_communicator());
-    data->owned = u;
+    Data        &d  = *data;
+    d.system        = &system;
+    d.constraints   = &constraints;
+    d.report        = &report;
+    d.use_increment = d.parameters.use_increment;
+    d.owned.reinit(u.locally_owned_elements(), u.get_mpi_communicator());
+    d.owned = u;
+    d.residual.reinit(d.owned);
+    d.scale = 0.;
+    d.groups.reinit(system.blocks_of_unknowns(), system.held_blocks(), d.owned);
 
     Vector last_increment(u), before(u);
     double largest_energy = 0.;
-    while (report.iterations.size() < data->parameters.max_iterations)
+    // everything is held: only forces are wanted
+    if (!d.groups.is_any_active())
+      report.converged = d.settle(u, largest_energy);
+    while (!report.converged &&
+           report.iterations.size() < d.parameters.max_iterations)
     {
       before = u;
-      if (!data->iterate(u, increment))
-        return report;
+      if (!d.iterate(u, increment))
+        break;
       largest_energy =
         std::max(largest_energy, report.iterations.back().energy);
-      if (data->has_converged(largest_energy))
-      {
-        report.converged = data->refine(u);
-        return report;
-      }
+      report.converged = d.settle(u, largest_energy);
+      if (report.converged || !report.reason.empty())
+        break;
       last_increment = u;
       last_increment -= before;
       increment = &last_increment;
     }
-    report.reason = "no convergence in " +
-                    std::to_string(report.iterations.size()) + " iterations";
+    if (!report.converged && report.reason.empty())
+      report.reason = "no convergence in " +
+                      std::to_string(report.iterations.size()) + " iterations";
+    if (d.groups.are_there_several())
+      system.set_active_blocks({});
     return report;
   }
 } // namespace NMM

@@ -5,7 +5,10 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
+#include <algorithm>
 #include <gtest/gtest.h>
+#include <utility>
+#include <vector>
 
 using namespace NMM;
 
@@ -178,5 +181,195 @@ namespace
     EXPECT_TRUE(report.converged) << report.reason;
     EXPECT_LE(report.iterations.size(), 9u);
     EXPECT_NEAR(u(0), 0., 1e-12);
+  }
+
+
+  /**
+   * Blocks of one unknown each: cubic springs r_i = u_i + u_i^3 - f_i, between which
+   * nothing acts but that the first two must not come nearer than @p gap, by a spring
+   * c <u_0 - u_1 - gap>. Only rows of active blocks are made; how many is counted.
+   */
+  class CubicSprings : public NonlinearSystem
+  {
+  public:
+    CubicSprings(const std::vector<double> &f, const double gap)
+      : f(f)
+      , gap(gap)
+    {
+      const unsigned int             n = f.size();
+      dealii::DynamicSparsityPattern pattern(n);
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        pattern.add(i, i);
+        blocks.push_back(i);
+      }
+      pattern.add(0, 1);
+      pattern.add(1, 0);
+      const dealii::IndexSet all = dealii::complete_index_set(n);
+      matrix.reinit(all, pattern, MPI_COMM_SELF);
+      forces.reinit(all, MPI_COMM_SELF);
+    }
+
+    Deformation
+    assemble(const Vector &u, const Tangent tangent, const Vector *) override
+    {
+      const auto is_active = [&](const unsigned int i) {
+        return active.empty() || active[i];
+      };
+      const double overlap = std::max(0., u(0) - u(1) - gap);
+      if (overlap > 0. && is_active(0) != is_active(1))
+      {
+        const unsigned int other = is_active(0) ? 1 : 0;
+        if (held.empty() || !held[other])
+          touched.push_back(other);
+      }
+      for (unsigned int i = 0; i < f.size(); ++i)
+      {
+        // what is not asked for is not right
+        forces(i) = 1e10;
+        if (!is_active(i))
+          continue;
+        ++n_rows;
+        const double sign = i == 0 ? 1. : -1.;
+        forces(i) =
+          u(i) + u(i) * u(i) * u(i) - f[i] + (i < 2 ? sign * c * overlap : 0.);
+        if (tangent == Tangent::none)
+          continue;
+        const double k = i < 2 && overlap > 0. ? c : 0.;
+        matrix.set(i, i, 1. + 3. * u(i) * u(i) + k);
+        if (i < 2)
+          matrix.set(i, 1 - i, -k);
+      }
+      forces.compress(dealii::VectorOperation::insert);
+      matrix.compress(dealii::VectorOperation::insert);
+      return Deformation::admissible;
+    }
+
+    const Vector &
+    residual() const override
+    {
+      return forces;
+    }
+
+    const dealii::TrilinosWrappers::SparseMatrix &
+    tangent() const override
+    {
+      return matrix;
+    }
+
+    bool
+    tangent_is_symmetric() const override
+    {
+      return false;
+    }
+
+    double
+    force_scale() const override
+    {
+      return 1.;
+    }
+
+    const std::vector<unsigned int> &
+    blocks_of_unknowns() const override
+    {
+      return blocks;
+    }
+
+    const std::vector<bool> &
+    held_blocks() const override
+    {
+      return held;
+    }
+
+    void
+    set_active_blocks(const std::vector<bool> &is_active) override
+    {
+      active = is_active;
+    }
+
+    std::vector<unsigned int>
+    take_touched_blocks() override
+    {
+      return std::exchange(touched, {});
+    }
+
+    std::vector<bool> held;
+    unsigned int      n_rows = 0;
+
+  private:
+    static constexpr double c = 100.;
+
+    std::vector<double>                    f;
+    double                                 gap;
+    std::vector<unsigned int>              blocks, touched;
+    std::vector<bool>                      active;
+    dealii::TrilinosWrappers::SparseMatrix matrix;
+    Vector                                 forces;
+  };
+
+
+  NewtonReport
+  solve(CubicSprings &system, NonlinearSystem::Vector &u)
+  {
+    dealii::AffineConstraints<double> constraints;
+    constraints.close();
+    NewtonParameters parameters;
+    parameters.n_robust_iterations = 0;
+    parameters.max_iterations      = 30;
+    return NewtonSolver(parameters).solve(system, constraints, u);
+  }
+
+
+  // One of 100 springs is far from its end, the others are there: after the first
+  // iteration its row alone is made.
+  TEST(Newton, GroupsEndOnTheirOwn)
+  {
+    const unsigned int  n = 100;
+    std::vector<double> f(n, 0.);
+    f[7] = 1000. + 10.; // of u = 10
+    CubicSprings            system(f, 1e6);
+    NonlinearSystem::Vector u(dealii::complete_index_set(n), MPI_COMM_SELF);
+    const NewtonReport      report = solve(system, u);
+    ASSERT_TRUE(report.converged) << report.reason;
+    // Newton's method is at 10 to rounding of 1000
+    EXPECT_NEAR(u(7), 10., 1e-12);
+    EXPECT_NEAR(u(8), 0., 1e-12);
+    ASSERT_GT(report.iterations.size(), 5u);
+    EXPECT_EQ(report.iterations[0].active_share, 1.);
+    for (unsigned int i = 1; i < report.iterations.size(); ++i)
+      EXPECT_EQ(report.iterations[i].active_share, 1. / n);
+    // all rows for the first tangent, its residual and the last look, one row each
+    // time in between: two per iteration, and what line searches take
+    EXPECT_LE(system.n_rows,
+              3 * n + 2 * report.iterations.size() + report.n_line_search_cuts);
+  }
+
+
+  // The second spring has converged when the first one comes to press on it.
+  TEST(Newton, WhatIsTouchedWakes)
+  {
+    CubicSprings            system({1010., 0., 0.}, 5.);
+    NonlinearSystem::Vector u(dealii::complete_index_set(3), MPI_COMM_SELF);
+    const NewtonReport      report = solve(system, u);
+    ASSERT_TRUE(report.converged) << report.reason;
+    const double press = 100. * (u(0) - u(1) - 5.);
+    EXPECT_GT(press, 10.);
+    // tolerance 1e-9 of forces of 1, and rounding of 1000
+    EXPECT_NEAR(u(0) + u(0) * u(0) * u(0) + press, 1010., 1e-8);
+    EXPECT_NEAR(u(1) + u(1) * u(1) * u(1), press, 1e-8);
+    EXPECT_NEAR(u(2), 0., 1e-12);
+  }
+
+
+  // It does not move, and is felt: u^3 + u + 100 (u - 5) = 1010.
+  TEST(Newton, WhatIsHeldStays)
+  {
+    CubicSprings            system({1010., 3., 0.}, 5.);
+    NonlinearSystem::Vector u(dealii::complete_index_set(3), MPI_COMM_SELF);
+    system.held               = {false, true, false};
+    const NewtonReport report = solve(system, u);
+    ASSERT_TRUE(report.converged) << report.reason;
+    EXPECT_EQ(u(1), 0.);
+    EXPECT_NEAR(u(0) * u(0) * u(0) + u(0) + 100. * (u(0) - 5.), 1010., 1e-8);
   }
 } // namespace

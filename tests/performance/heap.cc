@@ -192,8 +192,9 @@ namespace
   struct Phase
   {
     std::string name;
-    double end = 0., seconds = 0., n_steps = 0., n_iterations = 0., n_cuts = 0.,
-           n_points = 0., n_pairs = 0., n_patterns = 0., overlap = 0.;
+    double      end = 0., seconds = 0., n_steps = 0., n_iterations = 0.,
+           n_full_iterations = 0., n_cuts = 0., n_points = 0., n_pairs = 0.,
+           n_patterns = 0., overlap = 0.;
     Stages stages;
   };
 
@@ -282,6 +283,7 @@ namespace
       phase.n_cuts += record.n_cuts;
       phase.n_iterations +=
         record.report.n_iterations + record.n_lost_iterations;
+      phase.n_full_iterations += record.report.n_full_iterations;
       stages.factorization += share * record.report.factorization_time;
       stages.substitution += share * record.report.substitution_time;
       phase.n_patterns += bodies->contact->pattern_version() != version;
@@ -315,7 +317,8 @@ namespace
 
   constexpr const char *head =
     "blocks,elements_per_block,unknowns_per_block,phase,end_s,steps,cuts,"
-    "iterations_per_step,new_patterns_per_step,block_steps_per_s,"
+    "iterations_per_step,iterations_per_block_and_step,new_patterns_per_step,"
+    "block_steps_per_s,"
     "us_per_block_and_step,search_us,contact_us,elements_us,factorization_us,"
     "substitution_us,rest_us,touching_points_per_block,touching_pairs_per_"
     "block,"
@@ -336,6 +339,7 @@ namespace
         << 2 * bodies->covers.n_covers() / n << ',' << phase.name << ','
         << phase.end << ',' << phase.n_steps << ',' << phase.n_cuts << ','
         << phase.n_iterations / phase.n_steps << ','
+        << phase.n_full_iterations / phase.n_steps << ','
         << phase.n_patterns / phase.n_steps << ','
         << n * phase.n_steps / phase.seconds;
     for (const double seconds : {phase.seconds,

@@ -327,6 +327,23 @@ namespace NMM
     void
     assemble_between(const Vector &end, double time, bool with_tangent);
 
+    /// @name Blocks that are not moved for a while
+    /// @{
+
+    /// From now on assemblies leave points between bodies none of which
+    /// is active as the last one found them, and are wrong in the rows of others.
+    /// Those that are held do not count as touched(). By block; empty: all are
+    /// active, none is held.
+    void
+    set_active_bodies(const std::vector<bool> &is_active,
+                      const std::vector<bool> &is_held);
+
+    /// Blocks that are neither active nor held and that touched an active one in an
+    /// assembly since the last call.
+    std::vector<unsigned int>
+    take_touched();
+    /// @}
+
     /// Work that moving obstacles do [J/m] with the forces of the last assembly
     /// from @p time_begin to @p time_end.
     double

@@ -157,6 +157,16 @@ namespace NMM
     dealii::IndexSet
     absent_unknowns() const override;
 
+    const std::vector<unsigned int> &
+    blocks_of_unknowns() const override;
+
+    void
+    set_active_blocks(const std::vector<bool> &is_active,
+                      const std::vector<bool> &is_held) override;
+
+    std::vector<unsigned int>
+    take_touched_blocks() override;
+
     std::vector<double>
     events() const override;
 

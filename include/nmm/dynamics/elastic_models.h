@@ -56,6 +56,13 @@ namespace NMM
     dealii::IndexSet
     absent_unknowns() const override;
 
+    const std::vector<unsigned int> &
+    blocks_of_unknowns() const override;
+
+    void
+    set_active_blocks(const std::vector<bool> &is_active,
+                      const std::vector<bool> &is_held) override;
+
     std::vector<double>
     events() const override;
 
@@ -107,15 +114,20 @@ namespace NMM
     check_loading() const;
 
     void
+    set_blocks();
+
+    void
     set_mass_of_translation();
 
     /// Number of passed events that changed something, and of calls of
     /// set_absent_blocks().
-    unsigned int   n_passed = 0, n_departures = 0;
-    Matrix         mass_matrix;
-    Vector         positions, mass_of_translation[2];
-    LoadAmplitudes current;
-    double         passed_until;
+    unsigned int n_passed = 0, n_departures = 0;
+    /// Empty on several ranks, or of a single block.
+    std::vector<unsigned int> unknown_to_block;
+    Matrix                    mass_matrix;
+    Vector                    positions, mass_of_translation[2];
+    LoadAmplitudes            current;
+    double                    passed_until;
   };
 
 

@@ -245,6 +245,31 @@ namespace NMM
       return 0;
     }
 
+    /// Block of each owned unknown; empty: they are not told apart, see
+    /// NonlinearSystem.
+    virtual const std::vector<unsigned int> &
+    blocks_of_unknowns() const
+    {
+      static const std::vector<unsigned int> none;
+      return none;
+    }
+
+    /// From now on forces are needed in the rows of these blocks, and those of
+    /// others may be wrong, as energies and force_scale() are. Empty: all.
+    /// @p is_held: not active, and nobody wants to know who touches them.
+    virtual void
+    set_active_blocks(const std::vector<bool> & /*is_active*/,
+                      const std::vector<bool> & /*is_held*/)
+    {
+    }
+
+    /// Blocks that are neither active nor held and touched one that is since the last call.
+    virtual std::vector<unsigned int>
+    take_touched_blocks()
+    {
+      return {};
+    }
+
     /// Owned unknowns of absent blocks.
     virtual dealii::IndexSet
     absent_unknowns() const

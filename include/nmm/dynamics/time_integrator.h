@@ -7,6 +7,7 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -44,6 +45,30 @@ namespace NMM
     EnergySums sums;
     /// Blocks that have left, in the order in which they did.
     std::vector<unsigned int> left_blocks;
+    /// Of each block: how long it has been at rest [s], infinity if it sleeps, and if
+    /// so forces [N/m] and moment [N] on it when it fell asleep. Empty if none
+    /// may. See SleepParameters.
+    std::vector<std::array<double, 4>> rest;
+  };
+
+
+  /**
+   * Which blocks may sleep: they are held where they are, neither assembled nor
+   * solved for, while what touches them feels them as before. A block falls asleep once
+   * it has been slow for some time, and wakes, in the same step, when forces on it
+   * differ from those when it fell asleep. What it errs by: motion that is slower
+   * than this ends, its energy counts as dissipated, and force that changes by less
+   * than mass times the acceleration given here moves nothing.
+   */
+  struct SleepParameters
+  {
+    /// Root mean square of a block's speed below which it is at rest [m/s].
+    double speed = 0.01;
+    /// For so long before it sleeps [s].
+    double time = 0.25;
+    /// Change of the force on it over its mass, and of the moment over sqrt(mass *
+    /// moment of inertia), that wake it [m/s^2].
+    double acceleration = 1.;
   };
 
 
@@ -71,6 +96,8 @@ namespace NMM
     std::string  reason;
     double       step         = 0.;
     unsigned int n_iterations = 0;
+    /// The same, each times the share of the unknowns it was for.
+    double n_full_iterations = 0.;
     /// Wall times of the equations' factorization and of substitutions [s]; 0 if
     /// the step is linear.
     double factorization_time = 0., substitution_time = 0.;
@@ -154,6 +181,16 @@ namespace NMM
      */
     void
     drop_blocks(const std::vector<unsigned int> &blocks);
+
+    /// From now on blocks may sleep. They are awake unless the state says otherwise.
+    /// @throws InputError for a model that does not tell blocks apart, as on several
+    /// ranks, or parameters that are not positive.
+    void
+    let_blocks_sleep(const SleepParameters &parameters);
+
+    /// How many sleep now.
+    unsigned int
+    n_asleep() const;
 
     const DynamicState &
     state() const;

@@ -89,6 +89,8 @@ namespace NMM
     Scheme          scheme = Scheme::automatic;
     double          beta = 0.25, gamma = 0.5, spectral_radius = 0.8;
     RayleighDamping damping;
+    /// Speed 0: nobody sleeps.
+    SleepParameters sleep = {0., 0.25, 1.};
 
     static void
     declare(dealii::ParameterHandler &prm);

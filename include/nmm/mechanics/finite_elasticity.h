@@ -146,6 +146,12 @@ namespace NMM
     void
     set_absent_blocks(const std::vector<bool> &is_absent);
 
+    /// From now on nothing of other blocks is assembled: residual and tangent are
+    /// wrong in their rows, and energies and force_scale() are those of the rest. Empty:
+    /// all blocks are active.
+    void
+    set_active_blocks(const std::vector<bool> &is_active);
+
     /// Pairs of blocks that are tied to each other and that this rank knows of.
     std::vector<std::pair<unsigned int, unsigned int>>
     tied_blocks() const;

@@ -51,6 +51,34 @@ namespace NMM
     {
       return 0;
     }
+
+    /// @name Blocks: what no force couples unless it touches
+    /// @{
+
+    /// Block of each owned unknown, from 0 on; of a constrained one any of those
+    /// that it follows. Empty, as on more than one rank: they are not told apart.
+    virtual const std::vector<unsigned int> &
+    blocks_of_unknowns() const;
+
+    /// Blocks that do not move, whatever acts on them; empty: none.
+    virtual const std::vector<bool> &
+    held_blocks() const;
+
+    /// From now on assemble() has to be right in the rows of these blocks and
+    /// nowhere else, also not in force_scale(); tangent() stays regular. Empty: all.
+    virtual void
+    set_active_blocks(const std::vector<bool> & /*is_active*/)
+    {
+    }
+
+    /// Blocks that are neither active nor held and on which an active one has
+    /// pressed since the last call.
+    virtual std::vector<unsigned int>
+    take_touched_blocks()
+    {
+      return {};
+    }
+    /// @}
   };
 
 
@@ -86,8 +114,10 @@ namespace NMM
       double relative_residual = 0.;
       /// |r . du| before the correction du [J/m].
       double energy = 0.;
-      /// Share of the correction that was taken.
+      /// Share of the correction that was taken, the least of all groups.
       double line_search = 1.;
+      /// Share of the unknowns that were still being solved for [-].
+      double active_share = 1.;
     };
 
     bool converged = false;
@@ -123,6 +153,14 @@ namespace NMM
    * where r is linear piece by piece, that follows the path on which |r| falls
    * from piece to piece (Katzenelson, Bell Syst. Tech. J. 44 (1965) 1605). The first
    * 0.3 s of the slide of step-nmm-4 take 36 steps and one cut, and took 92 and 23.
+   *
+   * Blocks that do not touch are systems of their own: groups, told from values of K
+   * other than zero. Each group has its own eta and its own end, its part of
+   * both tolerances being that of its unknowns, so that all of them together
+   * are below; what has converged is neither assembled nor factorized any more until
+   * something presses on it. In the end all is assembled once more to see that
+   * it is so. So what many blocks cost does not depend on the one that needs
+   * most iterations.
    *
    * Expected failures (no convergence, inadmissible, singular) are results, with
    * a reason; who calls cuts the step. The direct solver analyses the

@@ -19,8 +19,8 @@ readonly packages=(
   g++ cmake ninja-build pkg-config git clang-format
   libdeal.ii-dev mpi-default-bin libmumps-dev libsuitesparse-dev libopenblas0-pthread
   libcgal-dev libeigen3-dev libboost-program-options-dev
-  libcairo2-dev fonts-dejavu-core libdxflib-dev
-  libgtest-dev gnuplot-nox)
+  libcairo2-dev fonts-dejavu-core libdxflib-dev zlib1g-dev
+  libgtest-dev gnuplot-nox valgrind)
 
 export OPENBLAS_NUM_THREADS="${OPENBLAS_NUM_THREADS:-1}"
 
@@ -244,7 +244,7 @@ command_bench()
   local table="$folder/performance.csv"
   local program=build/release/bin/nmm-bench
 
-  configure_and_build release program_nmm-bench
+  configure_and_build release program_nmm-bench program_nmm-kernels
 
   say "Measuring ($size)"
   "$program" measure "$size" "$table" ||
@@ -261,6 +261,19 @@ command_bench()
   say "Measuring on two ranks"
   "${on_two_ranks[@]}" "$program" measure "$size" "$table" ||
     die "the measurements on two ranks failed (the message is above)."
+
+  say "Counting"
+  local dumps
+  dumps="$(mktemp -d)"
+  if [[ "$size" == full && -x build/release/bin/nmm-kernels ]] &&
+     command -v valgrind >/dev/null; then
+    valgrind --tool=callgrind --instr-atstart=no \
+             --callgrind-out-file="$dumps/callgrind" build/release/bin/nmm-kernels ||
+      die "callgrind could not run nmm-kernels (the message is above)."
+  fi
+  "$program" counts "$folder/counts.csv" "$dumps" ||
+    die "the counts failed (the message is above)."
+  rm -r "$dumps"
 
   say "Writing the report"
   local before=()

@@ -7,6 +7,7 @@
 #include <nmm/io/scene.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/multithread_info.h>
 
 #include "dynamic_analysis.h"
 #include "nonlinear_analysis.h"
@@ -41,6 +42,7 @@ namespace
     std::string              restart;
     std::vector<std::string> overrides;
     bool                     check_only       = false;
+    unsigned int             n_threads        = 1;
     bool                     print_parameters = false;
     NMM::Scene::Format       format           = NMM::Scene::Format::prm;
     /// Text to print instead of running.
@@ -65,6 +67,12 @@ namespace
       po::value<std::string>(),
       "continue a dynamic analysis from this checkpoint; histories and series "
       "in the folder for the results are continued");
+    add(
+      "threads,t",
+      po::value<unsigned int>()->default_value(1),
+      "threads of each process, at least 1; the results have the same bits for "
+      "any number. The rules of cut elements and the assembly of small static "
+      "and of finite kinematics use them");
     add("check,c",
         po::bool_switch(),
         "read, cut and report, but do not solve and write nothing");
@@ -158,7 +166,14 @@ namespace
     }
     if (variables.count("set") > 0)
       options.overrides = variables["set"].as<std::vector<std::string>>();
-    options.check_only       = variables["check"].as<bool>();
+    options.check_only = variables["check"].as<bool>();
+    options.n_threads  = variables["threads"].as<unsigned int>();
+    AssertThrow(options.n_threads >= 1 && options.n_threads <= 1024,
+                NMM::InputError("there cannot be " +
+                                  std::to_string(options.n_threads) +
+                                  " threads",
+                                "--threads",
+                                "give a number from 1 to 1024"));
     options.print_parameters = variables.count("print-parameters") > 0;
     if (options.print_parameters)
     {
@@ -283,6 +298,7 @@ namespace
           std::cout << text.str();
         return success;
       }
+      dealii::MultithreadInfo::set_thread_limit(options.n_threads);
       return run_scene(options, communicator);
     }
     catch (const NMM::InputError &error)

@@ -38,6 +38,8 @@ namespace NMM
           , arranged(touched)
           , cell_to_simple_cut(simple_cuts.empty() ? 0 : touched.size(),
                                invalid_index)
+          , physical_edge_to_curve_set(physical_edges.edges().size(),
+                                       invalid_index)
         {
           for (unsigned int i = 0; i < simple_cuts.size(); ++i)
           {
@@ -156,9 +158,9 @@ namespace NMM
         unsigned int
         left_element(const Halfedge &halfedge);
 
-        template <typename Labels>
+        /// Of all that lies on a physical edge; invalid_index for none.
         unsigned int
-        curve_set_index(const Labels &labels);
+        curve_set_index(unsigned int physical_edge);
 
         /// Number of a vertex. It is converted to doubles once: a second
         /// conversion of a lazy number can differ in the last place, and loops
@@ -197,6 +199,8 @@ namespace NMM
 
         std::unordered_map<const Arrangement::Vertex *, unsigned int>
           vertex_to_index;
+        /// invalid_index: not asked for yet.
+        std::vector<unsigned int> physical_edge_to_curve_set;
       };
 
 
@@ -486,22 +490,25 @@ namespace NMM
       }
 
 
-      template <typename Labels>
       unsigned int
-      Cutter::curve_set_index(const Labels &labels)
+      Cutter::curve_set_index(const unsigned int e)
       {
+        if (e == invalid_index)
+          return invalid_index;
+        unsigned int &index = physical_edge_to_curve_set[e];
+        if (index != invalid_index)
+          return index;
+        // parts of an edge carry all its labels
         std::vector<unsigned int> set;
-        for (const Label label : labels)
+        for (const Label label : physical_edges.exact_curves().curves[e].data())
           if (is_piece(label))
             set.push_back(label);
-        if (set.empty())
-          return invalid_index;
         std::sort(set.begin(), set.end());
         const auto [position, is_new] =
           result.curve_set_to_index.emplace(set, result.curve_sets.size());
         if (is_new)
           result.curve_sets.push_back(set);
-        return position->second;
+        return index = position->second;
       }
 
 
@@ -514,7 +521,7 @@ namespace NMM
         ElementEdge               edge;
         edge.start     = result.vertices[origin.start];
         edge.end       = result.vertices[origin.end];
-        edge.curve_set = curve_set_index(halfedge->curve().data());
+        edge.curve_set = curve_set_index(origin.physical_edge);
         edge.neighbor  = left_element(halfedge->twin());
         edge.mesh_edge = mesh_edge(halfedge);
         set_circle(halfedge->curve(),
@@ -694,9 +701,14 @@ namespace NMM
       Point<2>
       Cutter::crossing_of(const SimpleCut &cut, const unsigned int e) const
       {
-        const auto shared = shared_sides.find(e);
-        if (shared != shared_sides.end() && shared->second.is_crossed)
-          return shared->second.crossing;
+        const auto        &cells = mesh.edges()[e].cells;
+        const unsigned int other = cells[cells[0] == cut.cell ? 1 : 0];
+        if (other != invalid_index && arranged[other])
+        {
+          const auto shared = shared_sides.find(e);
+          if (shared != shared_sides.end() && shared->second.is_crossed)
+            return shared->second.crossing;
+        }
         const auto &ends = mesh.edges()[e].vertices;
         return crossing(
           physical_pieces[physical_edges.edges()[cut.physical_edge].piece],
@@ -749,9 +761,8 @@ namespace NMM
         edge.end   = end;
         if (side == 3)
         {
-          edge.curve_set = curve_set_index(
-            physical_edges.exact_curves().curves[c.physical_edge].data());
-          edge.neighbor = element[here == element[0] ? 1 : 0];
+          edge.curve_set = curve_set_index(c.physical_edge);
+          edge.neighbor  = element[here == element[0] ? 1 : 0];
         }
         else
         {

@@ -366,7 +366,9 @@ namespace NMM
     for (unsigned int e = 0; e < n_elements; ++e)
     {
       const double support =
-        manifold_mesh.is_whole(e) ? 1. : element_support(manifold_mesh, e);
+        manifold_mesh.is_whole(e)
+          ? 1.
+          : element_support_below(manifold_mesh, e, threshold);
       if (support >= threshold)
         element_to_root[e] = e;
       else

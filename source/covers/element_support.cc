@@ -54,45 +54,94 @@ namespace NMM
   } // namespace
 
 
+  namespace
+  {
+    /// The matrix whose smallest eigenvalue is the support of a cut element.
+    Eigen::Matrix3d
+    normalized_moments(const ManifoldMesh &manifold_mesh,
+                       const unsigned int  element)
+    {
+      const MathematicalMesh &mesh = manifold_mesh.mathematical_mesh();
+      const unsigned int      cell = manifold_mesh.cell(element);
+      const Point<2>          centroid(1. / 3., 1. / 3.);
+      const Point<2>    &origin = mesh.vertices()[mesh.cell_vertices(cell)[0]];
+      const Tensor<2, 2> to_reference  = invert(mesh.jacobian(cell));
+      const auto         from_centroid = [&](const Point<2> &x) {
+        return Tensor<1, 2>(Point<2>(to_reference * (x - origin)) - centroid);
+      };
+
+      Moments moments;
+      for (const ElementEdge &edge : manifold_mesh.edges(element))
+      {
+        Tensor<1, 2> a = from_centroid(edge.start);
+        if (edge.is_arc())
+        {
+          constexpr unsigned int n_chords = 8;
+          const double           radius   = std::abs(edge.radius);
+          const double           from  = angle_about(edge.center, edge.start);
+          const double           sweep = swept_angle(edge);
+          for (unsigned int i = 1; i < n_chords; ++i)
+          {
+            const double       t = from + sweep * i / n_chords;
+            const Tensor<1, 2> b = from_centroid(
+              edge.center + radius * Tensor<1, 2>({std::cos(t), std::sin(t)}));
+            moments.add(a, b);
+            a = b;
+          }
+        }
+        moments.add(a, from_centroid(edge.end));
+      }
+      return moments.normalized();
+    }
+
+
+    double
+    smallest_eigenvalue(const Eigen::Matrix3d &matrix)
+    {
+      const double smallest =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(matrix,
+                                                       Eigen::EigenvaluesOnly)
+          .eigenvalues()(0);
+      return std::max(smallest, 0.);
+    }
+
+
+    /// Are all eigenvalues above @p bound, by more than rounding? By Sylvester's
+    /// criterion; false if it is close.
+    bool
+    surely_exceeds(const Eigen::Matrix3d &matrix, const double bound)
+    {
+      constexpr double margin = 1e-12;
+      const double a = matrix(0, 0) - bound, b = matrix(0, 1), c = matrix(0, 2),
+                   d = matrix(1, 1) - bound, e = matrix(1, 2),
+                   f = matrix(2, 2) - bound;
+      if (a < margin)
+        return false;
+      const double minor = a * d - b * b;
+      return minor > margin &&
+             a * (d * f - e * e) - b * (b * f - c * e) + c * (b * e - c * d) >
+               margin;
+    }
+  } // namespace
+
+
   double
   element_support(const ManifoldMesh &manifold_mesh, const unsigned int element)
   {
+    return manifold_mesh.is_whole(element)
+             ? 1.
+             : smallest_eigenvalue(normalized_moments(manifold_mesh, element));
+  }
+
+
+  double
+  element_support_below(const ManifoldMesh &manifold_mesh,
+                        const unsigned int  element,
+                        const double        threshold)
+  {
     if (manifold_mesh.is_whole(element))
       return 1.;
-    const MathematicalMesh &mesh = manifold_mesh.mathematical_mesh();
-    const unsigned int      cell = manifold_mesh.cell(element);
-    const Point<2>          centroid(1. / 3., 1. / 3.);
-    const Point<2>    &origin = mesh.vertices()[mesh.cell_vertices(cell)[0]];
-    const Tensor<2, 2> to_reference  = invert(mesh.jacobian(cell));
-    const auto         from_centroid = [&](const Point<2> &x) {
-      return Tensor<1, 2>(Point<2>(to_reference * (x - origin)) - centroid);
-    };
-
-    Moments moments;
-    for (const ElementEdge &edge : manifold_mesh.edges(element))
-    {
-      Tensor<1, 2> a = from_centroid(edge.start);
-      if (edge.is_arc())
-      {
-        constexpr unsigned int n_chords = 8;
-        const double           radius   = std::abs(edge.radius);
-        const double           from     = angle_about(edge.center, edge.start);
-        const double           sweep    = swept_angle(edge);
-        for (unsigned int i = 1; i < n_chords; ++i)
-        {
-          const double       t = from + sweep * i / n_chords;
-          const Tensor<1, 2> b = from_centroid(
-            edge.center + radius * Tensor<1, 2>({std::cos(t), std::sin(t)}));
-          moments.add(a, b);
-          a = b;
-        }
-      }
-      moments.add(a, from_centroid(edge.end));
-    }
-    const double smallest =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments.normalized(),
-                                                     Eigen::EigenvaluesOnly)
-        .eigenvalues()(0);
-    return std::max(smallest, 0.);
+    const Eigen::Matrix3d matrix = normalized_moments(manifold_mesh, element);
+    return surely_exceeds(matrix, threshold) ? 1. : smallest_eigenvalue(matrix);
   }
 } // namespace NMM

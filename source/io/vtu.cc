@@ -1,18 +1,17 @@
-#include <nmm/base/compat.h>
 #include <nmm/io/vtu.h>
 
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>
-#include <deal.II/grid/reference_cell.h>
 
+#include <cstdint>
+#include <io/vtu_array.h>
+#include <numeric>
 #include <tuple>
 
 namespace NMM
 {
   namespace
   {
-    using Patch = dealii::DataOutBase::Patch<2, 2>;
-
     using VectorRanges = std::vector<std::tuple<
       unsigned int,
       unsigned int,
@@ -64,60 +63,123 @@ namespace NMM
     }
 
 
-    std::vector<Patch>
-    make_patches(const CoverSystem &covers, const FieldTriangles &triangles)
+    /// Fields at the nodes of all triangles, one after the other, in the order of
+    /// field_names().
+    std::vector<std::vector<float>>
+    tabulate(const CoverSystem &covers, const FieldTriangles &triangles)
     {
-      const ManifoldMesh &mesh   = covers.manifold_mesh();
-      const unsigned int  n_rows = field_names(triangles.has_velocity).size();
-      const unsigned int  rank =
-        dealii::Utilities::MPI::this_mpi_process(covers.communicator());
-
-      std::vector<Patch> patches(triangles.nodes.size());
-      for (unsigned int t = 0; t < patches.size(); ++t)
+      const ManifoldMesh &mesh = covers.manifold_mesh();
+      const std::size_t   n    = 6 * triangles.nodes.size();
+      const auto          rank = static_cast<float>(
+        dealii::Utilities::MPI::this_mpi_process(covers.communicator()));
+      std::vector<std::vector<float>> fields(
+        field_names(triangles.has_velocity).size(), std::vector<float>(n));
+      for (std::size_t k = 0; k < n; ++k)
       {
-        Patch &patch               = patches[t];
-        patch.reference_cell       = dealii::ReferenceCells::Triangle;
-        patch.patch_index          = t;
-        patch.n_subdivisions       = 2;
-        patch.points_are_available = true;
-        patch.data.reinit(n_rows + 2, 6);
-        const ElementIds ids = element_ids(mesh, triangles.elements[t]);
-        for (unsigned int i = 0; i < 6; ++i)
+        const FieldSample &sample = triangles.samples[k / 6][k % 6];
+        const ElementIds   ids = element_ids(mesh, triangles.elements[k / 6]);
+        const auto         principal = principal_stresses(sample.recovered);
+        unsigned int       field     = 0;
+        const auto         add       = [&](const double value) {
+          fields[field++][k] = static_cast<float>(value);
+        };
+        add(sample.displacement[0]);
+        add(sample.displacement[1]);
+        for (const FieldSample::Stress *stress :
+             {&sample.direct, &sample.recovered})
         {
-          const FieldSample &sample    = triangles.samples[t][i];
-          const auto         principal = principal_stresses(sample.recovered);
-          unsigned int       row       = 0;
-          const auto         add       = [&](const double value) {
-            patch.data(row++, i) = value;
-          };
-          for (const double value : {sample.displacement[0],
-                                     sample.displacement[1],
-                                     sample.direct.in_plane[0][0],
-                                     sample.direct.in_plane[1][1],
-                                     sample.direct.in_plane[0][1],
-                                     sample.direct.zz,
-                                     sample.recovered.in_plane[0][0],
-                                     sample.recovered.in_plane[1][1],
-                                     sample.recovered.in_plane[0][1],
-                                     sample.recovered.zz,
-                                     von_mises_stress(sample.recovered),
-                                     principal[0],
-                                     principal[1],
-                                     static_cast<double>(ids.block),
-                                     static_cast<double>(ids.region),
-                                     static_cast<double>(ids.material),
-                                     static_cast<double>(rank)})
-            add(value);
-          for (unsigned int d = 0; d < 2 && triangles.has_velocity; ++d)
-            add(sample.velocity[d]);
-          for (unsigned int d = 0; d < 2; ++d)
-            add(triangles.nodes[t][i][d]);
-          AssertDimension(row, n_rows + 2);
+          add(stress->in_plane[0][0]);
+          add(stress->in_plane[1][1]);
+          add(stress->in_plane[0][1]);
+          add(stress->zz);
         }
-        for (unsigned int i = 0; i < 3; ++i)
-          patch.vertices[i] = triangles.nodes[t][i];
+        add(von_mises_stress(sample.recovered));
+        add(principal[0]);
+        add(principal[1]);
+        add(ids.block);
+        add(ids.region);
+        add(ids.material);
+        add(rank);
+        for (unsigned int d = 0; d < 2 && triangles.has_velocity; ++d)
+          add(sample.velocity[d]);
+        AssertDimension(field, fields.size());
       }
-      return patches;
+      return fields;
+    }
+
+
+    /// VTK's vectors have three components.
+    std::vector<float>
+    make_vectors(const std::vector<float> &x, const std::vector<float> &y)
+    {
+      std::vector<float> vectors(3 * x.size(), 0.f);
+      for (std::size_t k = 0; k < x.size(); ++k)
+      {
+        vectors[3 * k]     = x[k];
+        vectors[3 * k + 1] = y[k];
+      }
+      return vectors;
+    }
+
+
+    void
+    write_mesh(const std::vector<QuadraticTriangle> &triangles,
+               internal::VtuArrayWriter             &arrays,
+               std::ostream                         &out)
+    {
+      constexpr std::uint8_t lagrange_triangle = 69;
+      const std::size_t      n                 = triangles.size();
+      std::vector<float>     points(18 * n, 0.f);
+      for (std::size_t t = 0; t < n; ++t)
+        for (unsigned int i = 0; i < 6; ++i)
+          for (unsigned int d = 0; d < 2; ++d)
+            points[18 * t + 3 * i + d] = static_cast<float>(triangles[t][i][d]);
+      std::vector<std::int32_t> connectivity(6 * n), offsets(n);
+      std::iota(connectivity.begin(), connectivity.end(), 0);
+      for (std::size_t t = 0; t < n; ++t)
+        offsets[t] = static_cast<std::int32_t>(6 * (t + 1));
+      out << "  <Points>\n";
+      arrays.write("Float32", "", 3, points);
+      out << "  </Points>\n  <Cells>\n";
+      arrays.write("Int32", "connectivity", 1, connectivity);
+      arrays.write("Int32", "offsets", 1, offsets);
+      arrays.write("UInt8",
+                   "types",
+                   1,
+                   std::vector<std::uint8_t>(n, lagrange_triangle));
+      out << "  </Cells>\n";
+    }
+
+
+    void
+    write_piece(const CoverSystem    &covers,
+                const FieldTriangles &triangles,
+                std::ostream         &out)
+    {
+      internal::VtuArrayWriter arrays(out);
+      const std::size_t        n = triangles.nodes.size();
+      out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" "
+             "version=\"0.1\" compressor=\"vtkZLibDataCompressor\" "
+             "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n"
+             "<Piece NumberOfPoints=\""
+          << 6 * n << "\" NumberOfCells=\"" << n << "\">\n";
+      write_mesh(triangles.nodes, arrays, out);
+
+      const auto names  = field_names(triangles.has_velocity);
+      const auto fields = tabulate(covers, triangles);
+      out << "  <PointData>\n";
+      for (unsigned int f = 0; f < names.size(); ++f)
+        if (f + 1 < names.size() && names[f] == names[f + 1])
+        {
+          arrays.write("Float32",
+                       names[f],
+                       3,
+                       make_vectors(fields[f], fields[f + 1]));
+          ++f;
+        }
+        else
+          arrays.write("Float32", names[f], 1, fields[f]);
+      out << "  </PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
     }
   } // namespace
 
@@ -134,20 +196,12 @@ namespace NMM
     const unsigned int n_ranks =
       dealii::Utilities::MPI::n_mpi_processes(communicator);
 
-    dealii::DataOutBase::VtkFlags flags;
-    Compat::set_fast_compression(flags);
-    flags.write_higher_order_cells = true;
-
     const auto piece_name = [&](const unsigned int r) {
       return n_ranks == 1 ? base + ".vtu"
                           : base + "." + std::to_string(r) + ".vtu";
     };
     directory.write_text(piece_name(rank), [&](std::ostream &out) {
-      dealii::DataOutBase::write_vtu(make_patches(covers, triangles),
-                                     field_names(triangles.has_velocity),
-                                     vector_ranges(triangles.has_velocity),
-                                     flags,
-                                     out);
+      write_piece(covers, triangles, out);
     });
     if (n_ranks == 1)
       return piece_name(0);
@@ -162,7 +216,7 @@ namespace NMM
           pieces,
           field_names(triangles.has_velocity),
           vector_ranges(triangles.has_velocity),
-          flags);
+          dealii::DataOutBase::VtkFlags());
       });
     return base + ".pvtu";
   }

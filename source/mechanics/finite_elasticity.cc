@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <base/in_order.h>
 #include <cmath>
 #include <mechanics/block_system.h>
 #include <mechanics/conserving_terms.h>
@@ -78,7 +80,8 @@ namespace NMM
     add_volume(unsigned int             element,
                const Task              &task,
                const LocalDisplacement &u,
-               LocalSystem             &local);
+               LocalSystem             &local,
+               Energies                &sums) const;
 
     /// Everything at the displacements in `nodal`.
     Deformation
@@ -386,7 +389,8 @@ namespace NMM
   FiniteElasticity::Data::add_volume(const unsigned int       element,
                                      const Task              &task,
                                      const LocalDisplacement &u,
-                                     LocalSystem             &local)
+                                     LocalSystem             &local,
+                                     Energies                &sums) const
   {
     const auto         element_covers = covers->covers(element);
     const unsigned int region         = covers->manifold_mesh().region(element);
@@ -403,7 +407,7 @@ namespace NMM
                                   task.with_tangent,
                                   task.damping,
                                   local,
-                                  energies.dissipated);
+                                  sums.dissipated);
     }
     if (task.has_increment)
       first.gather(element_covers, nodal_increment);
@@ -414,51 +418,73 @@ namespace NMM
                             task.has_increment ? &first : nullptr,
                             task.with_tangent,
                             local,
-                            energies.strain);
+                            sums.strain);
   }
 
 
   Deformation
   FiniteElasticity::Data::add_elements(const Task &task)
   {
-    LocalSystem       local;
-    LocalDisplacement u;
-    double            known[2 * LocalSystem::max_covers];
-    auto              condition = edges->conditions.begin();
-    auto              follower  = edges->followers.begin();
-    const auto [first, last]    = covers->locally_owned_elements();
-    n_assembled                 = 0;
-    for (unsigned int e = first; e < last; ++e)
+    /// The volume's part of an element.
+    struct Volume
     {
-      if (is_absent(e) || !is_active(e))
-      {
-        if (condition != edges->conditions.end() && condition->element == e)
-          ++condition;
-        if (follower != edges->followers.end() && follower->element == e)
-          ++follower;
-        continue;
-      }
-      ++n_assembled;
-      const auto element_covers = covers->covers(e);
-      u.gather(element_covers, nodal);
-      local.reset(n_per_cell);
-      if (add_volume(e, task, u, local) != Deformation::admissible)
-        return Deformation::inverted;
-      std::fill_n(known, 2 * n_per_cell, 0.);
-      gauge(local, known);
-      if (condition != edges->conditions.end() && condition->element == e)
-        if (add_weak_points(*condition++, task, u, local) !=
-            Deformation::admissible)
-          return Deformation::inverted;
-      gauge(local, known);
-      if (follower != edges->followers.end() && follower->element == e)
-        add_follower_points(*follower++, task, u, local);
-      if (!problem->fixed_points.empty())
-        add_fixed_points(e, task, u, local);
-      gauge(local, known);
-      hand_over(element_covers, task, local);
-    }
-    return Deformation::admissible;
+      LocalSystem       local;
+      LocalDisplacement u;
+      Energies          energies;
+      Deformation       state;
+    };
+
+    double      known[2 * LocalSystem::max_covers];
+    auto        condition    = edges->conditions.begin();
+    auto        follower     = edges->followers.begin();
+    Deformation state        = Deformation::admissible;
+    const auto [first, last] = covers->locally_owned_elements();
+    // what other threads work at then is in vain
+    std::atomic<bool> is_inverted(false);
+    n_assembled        = 0;
+    const auto is_idle = [&](const unsigned int e) {
+      return is_absent(e) || !is_active(e);
+    };
+    for_each_in_order<Volume>(
+      first,
+      last,
+      [&](const unsigned int e, Volume &volume) {
+        if (is_idle(e) || is_inverted)
+          return;
+        volume.u.gather(covers->covers(e), nodal);
+        volume.local.reset(n_per_cell);
+        volume.energies = Energies();
+        volume.state =
+          add_volume(e, task, volume.u, volume.local, volume.energies);
+      },
+      [&](const unsigned int e, Volume &volume) {
+        const bool has_condition = condition != edges->conditions.end() &&
+                                   condition->element == e,
+                   has_follower = follower != edges->followers.end() &&
+                                  follower->element == e;
+        if (!is_idle(e) && state == Deformation::admissible)
+        {
+          ++n_assembled;
+          energies.strain += volume.energies.strain;
+          energies.dissipated += volume.energies.dissipated;
+          state = volume.state;
+          std::fill_n(known, 2 * n_per_cell, 0.);
+          gauge(volume.local, known);
+          if (state == Deformation::admissible && has_condition)
+            state = add_weak_points(*condition, task, volume.u, volume.local);
+          is_inverted = state == Deformation::inverted;
+          gauge(volume.local, known);
+          if (has_follower)
+            add_follower_points(*follower, task, volume.u, volume.local);
+          if (!problem->fixed_points.empty())
+            add_fixed_points(e, task, volume.u, volume.local);
+          gauge(volume.local, known);
+          hand_over(covers->covers(e), task, volume.local);
+        }
+        condition += has_condition ? 1 : 0;
+        follower += has_follower ? 1 : 0;
+      });
+    return state;
   }
 
 

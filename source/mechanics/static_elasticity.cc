@@ -1,5 +1,6 @@
 #include <nmm/mechanics/static_elasticity.h>
 
+#include <base/in_order.h>
 #include <mechanics/block_system.h>
 #include <mechanics/boundary_terms.h>
 #include <mechanics/curve_conditions.h>
@@ -118,18 +119,22 @@ namespace NMM
     auto point_element       = std::lower_bound(points.elements().begin(),
                                           points.elements().end(),
                                           first);
-    for (unsigned int e = first; e < last; ++e)
-    {
-      local.reset(n_per_cell);
-      volume_terms.add(e, local);
-      edge_terms.add_conditions(e, local);
-      if (point_element != points.elements().end() && *point_element == e)
-      {
-        points.add(e, local);
-        ++point_element;
-      }
-      block_system.add(covers->covers(e), local.matrix, local.rhs);
-    }
+    for_each_in_order<LocalSystem>(
+      first,
+      last,
+      [&](const unsigned int e, LocalSystem &system) {
+        system.reset(n_per_cell);
+        volume_terms.add(e, system);
+      },
+      [&](const unsigned int e, LocalSystem &system) {
+        edge_terms.add_conditions(e, system);
+        if (point_element != points.elements().end() && *point_element == e)
+        {
+          points.add(e, system);
+          ++point_element;
+        }
+        block_system.add(covers->covers(e), system.matrix, system.rhs);
+      });
     for_each_tie(*covers,
                  conditions,
                  [&](const unsigned int e, const ElementEdge &edge) {

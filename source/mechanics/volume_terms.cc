@@ -1,46 +1,15 @@
 #include <mechanics/volume_terms.h>
+#include <optional>
 
 namespace NMM
 {
   namespace internal
   {
-    VolumeTerms::VolumeTerms(const CoverSystem          &covers,
-                             const QuadratureCollection &quadrature,
-                             const ElasticityProblem    &problem)
-      : covers(&covers)
-      , quadrature(&quadrature)
-      , problem(&problem)
-      , degree(covers.manifold_mesh().mathematical_mesh().degree())
-      , n_per_cell(WeightFunctions::n_per_cell(degree))
-      , has_whole_integrals(false)
+    ReferenceIntegrals::ReferenceIntegrals(const dealii::Quadrature<2> &rule,
+                                           const unsigned int           degree)
     {
-      const ManifoldMesh &mesh = covers.manifold_mesh();
-      for (const unsigned int m :
-           problem.region_to_material(mesh.physical_mesh()))
-      {
-        const Material &material = problem.materials[m];
-        region_to_elasticity.push_back(
-          material.plane_elasticity(problem.plane_state));
-        region_to_initial_stress.push_back(material.initial_stress);
-        region_to_weight.push_back(material.density * problem.gravity);
-      }
-
-      const auto [first, last] = covers.locally_owned_elements();
-      for (unsigned int e = first; e < last && !has_whole_integrals; ++e)
-        if (mesh.is_whole(e))
-        {
-          integrate(quadrature.rule(e), whole_integrals);
-          has_whole_integrals = true;
-        }
-    }
-
-
-    void
-    VolumeTerms::integrate(const dealii::Quadrature<2> &rule,
-                           ReferenceIntegrals          &integrals) const
-    {
-      integrals = ReferenceIntegrals();
-      double g[n_max][2], w[n_max];
+      const unsigned int n_per_cell = WeightFunctions::n_per_cell(degree);
+      double             g[n_max][2], w[n_max];
       for (unsigned int q = 0; q < rule.size(); ++q)
       {
         const double weight = rule.weight(q);
@@ -51,50 +20,40 @@ namespace NMM
           const double g0 = weight * g[i][0], g1 = weight * g[i][1];
           for (unsigned int j = i; j < n_per_cell; ++j)
           {
-            auto &product = integrals.gradient_products[i][j];
+            auto &product = gradient_products[i][j];
             product[0][0] += g0 * g[j][0];
             product[0][1] += g0 * g[j][1];
             product[1][0] += g1 * g[j][0];
             product[1][1] += g1 * g[j][1];
           }
-          integrals.gradients[i][0] += g0;
-          integrals.gradients[i][1] += g1;
-          integrals.values[i] += weight * w[i];
+          gradients[i][0] += g0;
+          gradients[i][1] += g1;
+          values[i] += weight * w[i];
         }
       }
     }
 
 
     void
-    VolumeTerms::add(const unsigned int element, LocalSystem &system) const
+    add_linear_stiffness(const ReferenceIntegrals   &integrals,
+                         const dealii::Tensor<2, 2> &jacobian,
+                         const PlaneElasticity      &elasticity,
+                         LocalSystem                &system)
     {
-      const ManifoldMesh &mesh   = covers->manifold_mesh();
-      const unsigned int  region = mesh.region(element);
-
-      ReferenceIntegrals        cut_integrals;
-      const ReferenceIntegrals *integrals = &whole_integrals;
-      if (!mesh.is_whole(element))
-      {
-        integrate(quadrature->rule(element), cut_integrals);
-        integrals = &cut_integrals;
-      }
-
-      const dealii::Tensor<2, 2> jacobian =
-        mesh.mathematical_mesh().jacobian(mesh.cell(element));
-      const double det = dealii::determinant(jacobian);
+      const unsigned int n_per_cell = system.n_covers;
+      const double       det        = dealii::determinant(jacobian);
       // T[k][a]: the physical gradient is T times the reference gradient
       const dealii::Tensor<2, 2> T =
         dealii::transpose(dealii::invert(jacobian));
       const double t00 = T[0][0], t01 = T[0][1], t10 = T[1][0], t11 = T[1][1];
 
-      const PlaneElasticity &elasticity = region_to_elasticity[region];
-      const double           lambda     = elasticity.lambda * det;
-      const double           mu         = elasticity.mu * det;
+      const double lambda = elasticity.lambda * det;
+      const double mu     = elasticity.mu * det;
 
       for (unsigned int i = 0; i < n_per_cell; ++i)
         for (unsigned int j = i; j < n_per_cell; ++j)
         {
-          const auto  &s   = integrals->gradient_products[i][j];
+          const auto  &s   = integrals.gradient_products[i][j];
           const double b00 = t00 * s[0][0] + t01 * s[1][0],
                        b01 = t00 * s[0][1] + t01 * s[1][1],
                        b10 = t10 * s[0][0] + t11 * s[1][0],
@@ -121,6 +80,63 @@ namespace NMM
             mirror1[1] += k11;
           }
         }
+    }
+
+
+    VolumeTerms::VolumeTerms(const CoverSystem          &covers,
+                             const QuadratureCollection &quadrature,
+                             const ElasticityProblem    &problem)
+      : covers(&covers)
+      , quadrature(&quadrature)
+      , problem(&problem)
+      , degree(covers.manifold_mesh().mathematical_mesh().degree())
+      , n_per_cell(WeightFunctions::n_per_cell(degree))
+      , has_whole_integrals(false)
+    {
+      const ManifoldMesh &mesh = covers.manifold_mesh();
+      for (const unsigned int m :
+           problem.region_to_material(mesh.physical_mesh()))
+      {
+        const Material &material = problem.materials[m];
+        region_to_elasticity.push_back(
+          material.plane_elasticity(problem.plane_state));
+        region_to_initial_stress.push_back(material.initial_stress);
+        region_to_weight.push_back(material.density * problem.gravity);
+      }
+
+      const auto [first, last] = covers.locally_owned_elements();
+      for (unsigned int e = first; e < last && !has_whole_integrals; ++e)
+        if (mesh.is_whole(e))
+        {
+          whole_integrals     = ReferenceIntegrals(quadrature.rule(e), degree);
+          has_whole_integrals = true;
+        }
+    }
+
+
+    void
+    VolumeTerms::add(const unsigned int element, LocalSystem &system) const
+    {
+      const ManifoldMesh &mesh   = covers->manifold_mesh();
+      const unsigned int  region = mesh.region(element);
+
+      const ReferenceIntegrals         *integrals = &whole_integrals;
+      std::optional<ReferenceIntegrals> cut_integrals;
+      if (!mesh.is_whole(element))
+        integrals = &cut_integrals.emplace(quadrature->rule(element), degree);
+
+      const dealii::Tensor<2, 2> jacobian =
+        mesh.mathematical_mesh().jacobian(mesh.cell(element));
+      const double det = dealii::determinant(jacobian);
+      // T[k][a]: the physical gradient is T times the reference gradient
+      const dealii::Tensor<2, 2> T =
+        dealii::transpose(dealii::invert(jacobian));
+      const double t00 = T[0][0], t01 = T[0][1], t10 = T[1][0], t11 = T[1][1];
+
+      add_linear_stiffness(*integrals,
+                           jacobian,
+                           region_to_elasticity[region],
+                           system);
 
       const dealii::Tensor<1, 2>          &weight = region_to_weight[region];
       const dealii::SymmetricTensor<2, 2> &stress =
@@ -149,7 +165,7 @@ namespace NMM
       const double det = dealii::determinant(mathematical_mesh.jacobian(cell));
 
       const dealii::Quadrature<2> &rule = quadrature->rule(element);
-      double                       w[n_max];
+      double                       w[WeightFunctions::max_per_cell];
       for (unsigned int q = 0; q < rule.size(); ++q)
       {
         const dealii::Point<2> x =

@@ -12,6 +12,36 @@ namespace NMM
 {
   namespace internal
   {
+    /// Integrals of weight functions over the reference cell or the part of it that an
+    /// element is.
+    struct ReferenceIntegrals
+    {
+      static constexpr unsigned int n_max = WeightFunctions::max_per_cell;
+
+      ReferenceIntegrals() = default;
+
+      /// By a rule; @p degree of the weight functions.
+      ReferenceIntegrals(const dealii::Quadrature<2> &rule,
+                         unsigned int                 degree);
+
+      /// of dw_i/dxi_a dw_j/dxi_b, j >= i
+      double gradient_products[n_max][n_max][2][2] = {};
+      /// of dw_i/dxi_a
+      double gradients[n_max][2] = {};
+      /// of w_i
+      double values[n_max] = {};
+    };
+
+
+    /// Add the stiffness (7) of an element in a cell of this Jacobian [m] to an empty
+    /// @p system.
+    void
+    add_linear_stiffness(const ReferenceIntegrals   &integrals,
+                         const dealii::Tensor<2, 2> &jacobian,
+                         const PlaneElasticity      &elasticity,
+                         LocalSystem                &system);
+
+
     /**
      * Stiffness (7), initial stress (9) and body force (10) of an element.
      *
@@ -33,24 +63,6 @@ namespace NMM
       add(unsigned int element, LocalSystem &system) const;
 
     private:
-      static constexpr unsigned int n_max = WeightFunctions::max_per_cell;
-
-      /// Integrals over the reference cell or the part of it that an element
-      /// is.
-      struct ReferenceIntegrals
-      {
-        /// of dw_i/dxi_a dw_j/dxi_b, j >= i
-        double gradient_products[n_max][n_max][2][2];
-        /// of dw_i/dxi_a
-        double gradients[n_max][2];
-        /// of w_i
-        double values[n_max];
-      };
-
-      void
-      integrate(const dealii::Quadrature<2> &rule,
-                ReferenceIntegrals          &integrals) const;
-
       void
       add_body_force_function(unsigned int element, LocalSystem &system) const;
 

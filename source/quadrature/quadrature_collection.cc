@@ -2,9 +2,12 @@
 #include <nmm/quadrature/element_quadrature.h>
 #include <nmm/quadrature/element_rule_builder.h>
 
+#include <deal.II/base/multithread_info.h>
+#include <deal.II/base/parallel.h>
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
+#include <atomic>
 #include <string>
 
 namespace NMM
@@ -46,31 +49,56 @@ namespace NMM
     element_to_rule.assign(n, invalid_index);
     area_fractions.assign(n, 1.);
 
+    unsigned int n_cut = 0;
+    for (unsigned int i = 0; i < n; ++i)
+      if (!mesh.is_whole(elements.first + i))
+        element_to_rule[i] = n_cut++;
+    cut_rules.resize(n_cut);
+
+    // each rule by itself, so that the same comes out on any number of threads
+    std::atomic<unsigned int> n_bad(0);
+    const auto                make_rules = [&](const unsigned int begin,
+                                const unsigned int end) {
+      n_bad += make_cut_rules(mesh, degree_cut, begin, end);
+    };
+    constexpr unsigned int grain = 4096;
+    if (dealii::MultithreadInfo::n_threads() == 1)
+      make_rules(0, n);
+    else
+      dealii::parallel::apply_to_subranges(0U, n, make_rules, grain);
+    fallbacks = n_bad;
+  }
+
+
+
+  unsigned int
+  QuadratureCollection::make_cut_rules(const ManifoldMesh &mesh,
+                                       const unsigned int  degree,
+                                       const unsigned int  begin,
+                                       const unsigned int  end)
+  {
     const MathematicalMesh &cells = mesh.mathematical_mesh();
-    ElementRuleBuilder      builder(degree_cut);
-    std::size_t             n_cut = 0;
-    for (unsigned int i = 0; i < n; ++i)
-      n_cut += mesh.is_whole(elements.first + i) ? 0 : 1;
-    cut_rules.reserve(n_cut);
-    for (unsigned int i = 0; i < n; ++i)
+    ElementRuleBuilder      builder(degree);
+    unsigned int            n_bad = 0;
+    for (unsigned int i = begin; i < end; ++i)
     {
-      const unsigned int element = elements.first + i;
-      if (mesh.is_whole(element))
+      if (element_to_rule[i] == invalid_index)
         continue;
-      const unsigned int cell = mesh.cell(element);
-      element_to_rule[i]      = cut_rules.size();
-      cut_rules.push_back(
-        builder.build(mesh.edges(element),
-                      {cells.vertices()[cells.cell_vertices(cell)[0]],
-                       cells.jacobian(cell)}));
+      const unsigned int     element = first_element + i;
+      const unsigned int     cell    = mesh.cell(element);
+      dealii::Quadrature<2> &rule    = cut_rules[element_to_rule[i]];
+      rule                           = builder.build(mesh.edges(element),
+                           {cells.vertices()[cells.cell_vertices(cell)[0]],
+                                                      cells.jacobian(cell)});
       if (builder.last_was_fallback())
-        ++fallbacks;
+        ++n_bad;
       // the reference triangle has area 1/2
       double area = 0.;
-      for (const double weight : cut_rules.back().get_weights())
+      for (const double weight : rule.get_weights())
         area += weight;
       area_fractions[i] = std::min(2. * area, 1.);
     }
+    return n_bad;
   }
 
 

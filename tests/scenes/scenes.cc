@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <iterator>
 #include <map>
 #include <sstream>
 #include <string>
@@ -245,6 +246,38 @@ namespace
     // What is known is there: which block is which.
     for (const char *name : {"summary.csv", "fields.vtu", "picture.png"})
       EXPECT_TRUE(fs::exists(fs::path(output) / name)) << name;
+  }
+
+
+  /// Static and with finite kinematics: all files but the summary, which holds times.
+  TEST(Scenes, FilesAreTheSameOnAnyNumberOfThreads)
+  {
+    for (const char *name : {"ring", "cantilever"})
+    {
+      const std::string scene = std::string(NMM_SOURCE_DIR) +
+                                "/applications/nmm/scenes/" + name + ".prm";
+      std::map<std::string, std::string> expected;
+      for (const char *n_threads : {"1", "2", "4"})
+      {
+        SCOPED_TRACE(scene + ", threads: " + n_threads);
+        const std::string  output = fresh_output_dir("threads");
+        const DriverResult result =
+          run_driver({"--output", output, "--threads", n_threads, scene});
+        ASSERT_EQ(result.exit_code, 0) << result.output;
+        std::map<std::string, std::string> files;
+        for (const char *file : {"probes.csv", "fields.vtu"})
+        {
+          std::ifstream in(fs::path(output) / file);
+          ASSERT_TRUE(in) << file;
+          files[file] = {std::istreambuf_iterator<char>(in), {}};
+        }
+        if (expected.empty())
+          expected = files;
+        for (const auto &[file, content] : files)
+          EXPECT_TRUE(content == expected[file]) << file;
+      }
+    }
+    EXPECT_EQ(run_driver({"--threads", "0", "scene.prm"}).exit_code, 2);
   }
 
 

@@ -2,7 +2,6 @@
 #define nmm_base_compat_h
 
 #include <deal.II/base/config.h>
-#include <deal.II/base/data_out_base.h>
 #include <deal.II/base/index_set.h>
 #include <deal.II/lac/affine_constraints.h>
 
@@ -30,18 +29,6 @@ namespace NMM
 #else
       (void)owned;
       return dealii::AffineConstraints<number>(relevant);
-#endif
-    }
-
-    /// VTK output compressed for speed; deal.II 9.5 moved the enumeration.
-    inline void
-    set_fast_compression(dealii::DataOutBase::VtkFlags &flags)
-    {
-#if DEAL_II_VERSION_GTE(9, 5, 0)
-      flags.compression_level =
-        dealii::DataOutBase::CompressionLevel::best_speed;
-#else
-      flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
 #endif
     }
 

@@ -22,6 +22,13 @@ namespace NMM
    */
   double
   element_support(const ManifoldMesh &mesh, unsigned int element);
+
+  /// The same where it is below @p threshold; elsewhere a number that is not below it,
+  /// for a fraction of the time.
+  double
+  element_support_below(const ManifoldMesh &mesh,
+                        unsigned int        element,
+                        double              threshold);
 } // namespace NMM
 
 #endif

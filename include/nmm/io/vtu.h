@@ -19,6 +19,10 @@ namespace NMM
    * by vector" of the displacement shows the deformed shape. Returns the name of
    * the file, for write_series(); collective, but does not wait for other ranks'
    * files.
+   *
+   * Cost: some half a microsecond and 85 bytes per node; arrays that hardly shrink are
+   * stored, which takes a third of the time and 1.6 times the space of zlib's
+   * fastest level.
    */
   std::string
   write_fields_of_state(const CoverSystem     &covers,

@@ -71,7 +71,8 @@ namespace NMM
 
   /**
    * The rules of a manifold mesh: one shared ordinary rule for whole elements,
-   * one each for cut elements, built once.
+   * one each for cut elements, built once, on as many threads as deal.II may use
+   * (dealii::MultithreadInfo).
    */
   class QuadratureCollection
   {
@@ -99,6 +100,14 @@ namespace NMM
     n_fallbacks() const;
 
   private:
+    /// Those of elements [first_element + begin, first_element + end); returns the
+    /// number of fallbacks.
+    unsigned int
+    make_cut_rules(const ManifoldMesh &mesh,
+                   unsigned int        degree,
+                   unsigned int        begin,
+                   unsigned int        end);
+
     dealii::Quadrature<2>              whole_rule;
     std::vector<unsigned int>          element_to_rule;
     std::vector<dealii::Quadrature<2>> cut_rules;

@@ -1,15 +1,19 @@
 // Speed against error: measures cases and requirements, and writes the report.
 //
 //   nmm-bench measure smallest|quick|full <table.csv> [<case>]
+//   nmm-bench counts <counts.csv> [<directory of callgrind's files of nmm-kernels>]
 //   nmm-bench report <table.csv> <directory> [<earlier table.csv>]
 //
+// The report shows counts.csv if it lies beside the table.
 // On several ranks, `measure` adds the rows of what is shared out among ranks to a table
 // that is there.
 
 #include <nmm/base/exceptions.h>
 
+#include "counts.h"
 #include "measure.h"
 #include "report.h"
+#include <filesystem>
 #include <iostream>
 #include <sstream>
 
@@ -49,7 +53,8 @@ namespace
                         {"cracked-plate", measure_cracked_plate, false},
                         {"incline", measure_incline, false},
                         {"slope", measure_slope, false},
-                        {"output", measure_output, false}};
+                        {"output", measure_output, false},
+                        {"threads", measure_threads, false}};
 
 
   /// All cases, or the one of that name.
@@ -74,7 +79,7 @@ namespace
       InputError("there is no case '" + name + "'",
                  "nmm-bench measure",
                  "say cutting, large-rings, ranks, ring, cantilever, hertz, "
-                 "cracked-plate, incline, slope or output"));
+                 "cracked-plate, incline, slope, output or threads"));
   }
 
 
@@ -86,16 +91,29 @@ namespace
       return measure(read_size(arguments[1]),
                      arguments[2],
                      arguments.size() == 4 ? arguments[3] : "");
+    if ((arguments.size() == 2 || arguments.size() == 3) &&
+        arguments[0] == "counts")
+    {
+      std::vector<Count> counts = count_allocations();
+      if (arguments.size() == 3)
+        for (const Count &count : read_instructions(arguments[2]))
+          counts.push_back(count);
+      return write_counts(arguments[1], counts);
+    }
     AssertThrow((arguments.size() == 3 || arguments.size() == 4) &&
                   arguments[0] == "report",
                 InputError("these arguments say nothing",
                            "nmm-bench",
-                           "say measure smallest|quick|full <table.csv>, or "
+                           "say measure smallest|quick|full <table.csv>, "
+                           "counts <counts.csv>, or "
                            "report <table.csv> <directory>"));
-    write_report(read_table(arguments[1]),
-                 arguments.size() == 4 ? read_table(arguments[3])
-                                       : std::vector<Row>(),
-                 arguments[2]);
+    write_report(
+      read_table(arguments[1]),
+      arguments.size() == 4 ? read_table(arguments[3]) : std::vector<Row>(),
+      read_counts(
+        (std::filesystem::path(arguments[1]).parent_path() / "counts.csv")
+          .string()),
+      arguments[2]);
   }
 } // namespace
 

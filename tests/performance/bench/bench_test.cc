@@ -125,6 +125,7 @@ namespace
                              "cracked plate",
                              "incline",
                              "output",
+                             "threads",
                              "assembly",
                              "ring that grows",
                              "strong scaling",
@@ -173,6 +174,37 @@ namespace
       EXPECT_GT(std::filesystem::file_size(folder + "/images/performance-" +
                                            image + ".png"),
                 10000U);
+  }
+
+
+  /// What runs in every iteration allocates nothing; and what callgrind leaves is read.
+  TEST_F(Bench, CountsSayThatIterationsDoNotAllocate)
+  {
+    const std::string dumps = folder + "/dumps", file = folder + "/counts.csv";
+    std::filesystem::create_directories(dumps);
+    std::ofstream(dumps + "/callgrind.1")
+      << "desc: Trigger: Client Request: stiffness|element|200\n"
+         "events: Ir\ntotals: 5000\n";
+    const DriverResult counts = run_driver({"counts", file, dumps});
+    ASSERT_EQ(counts.exit_code, 0) << counts.output;
+    std::ifstream            in(file);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(in, line);)
+      lines.push_back(line);
+    unsigned int n_loops = 0;
+    for (const std::string &line : lines)
+      for (const char *loop : {"residual of an iteration",
+                               "tangent of an iteration",
+                               "contact terms with tangent"})
+        if (line.find(loop) != std::string::npos)
+        {
+          ++n_loops;
+          // a few for the whole call, none for an element or a point
+          EXPECT_LT(std::stod(line.substr(line.rfind(';') + 1)), 0.01) << line;
+        }
+    EXPECT_EQ(n_loops, 3U);
+    ASSERT_FALSE(lines.empty());
+    EXPECT_EQ(lines.back(), "instructions;stiffness;element;200;25");
   }
 
 

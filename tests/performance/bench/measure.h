@@ -122,6 +122,10 @@ namespace NMM
     /// A run in time that writes fields.
     void
     measure_output(Recorder &recorder);
+
+    /// Rules of cut elements and assembly on one thread and two.
+    void
+    measure_threads(Recorder &recorder);
     /// @}
   } // namespace Bench
 } // namespace NMM

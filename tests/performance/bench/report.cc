@@ -348,9 +348,10 @@ namespace NMM
 
 
     void
-    write_report(const std::vector<Row> &rows,
-                 const std::vector<Row> &before,
-                 const std::string      &directory)
+    write_report(const std::vector<Row>   &rows,
+                 const std::vector<Row>   &before,
+                 const std::vector<Count> &counts,
+                 const std::string        &directory)
     {
       const std::string images = directory + "/images";
       std::filesystem::create_directories(images);
@@ -372,6 +373,8 @@ namespace NMM
       }
       write_stages(out, rows, images);
       write_improvements(out, before, rows);
+      report_counts(out, counts);
+      write_threads(out, rows);
       write_scaling(out, rows);
       write_distribution(out, rows, images);
       std::ofstream(directory + "/performance.md") << out.str();

@@ -1,6 +1,7 @@
 #ifndef nmm_tests_performance_bench_report_h
 #define nmm_tests_performance_bench_report_h
 
+#include "counts.h"
 #include "row.h"
 #include <ostream>
 
@@ -11,12 +12,13 @@ namespace NMM
     /**
      * Write @p directory/performance.md and the figures it shows, all of it from
      * @p rows. @p before: rows that were measured before something became faster, for
-     * comparison; may be empty.
+     * comparison; may be empty. @p counts may be, too.
      */
     void
-    write_report(const std::vector<Row> &rows,
-                 const std::vector<Row> &before,
-                 const std::string      &directory);
+    write_report(const std::vector<Row>   &rows,
+                 const std::vector<Row>   &before,
+                 const std::vector<Count> &counts,
+                 const std::string        &directory);
 
 
     /// @name Pieces of it
@@ -57,6 +59,10 @@ namespace NMM
     write_distribution(std::ostream           &out,
                        const std::vector<Row> &rows,
                        const std::string      &image_directory);
+
+    /// Stages on one thread and on more.
+    void
+    write_threads(std::ostream &out, const std::vector<Row> &rows);
 
     /// Stages before and now.
     void

@@ -180,18 +180,24 @@ namespace NMM
                            const std::string &what,
                            const double       was,
                            const double       is) {
-        table << "| " << row.name << ", " << text_of(row.elements)
-              << " elements | " << what << " | " << text_of(was) << " | "
-              << text_of(is) << " | " << text_of(was / is, 2) << " |\n";
+        if (std::isnan(was) || std::isnan(is))
+          return;
+        table << "| " << row.name
+              << (row.kinematics.empty() ? "" : ", " + row.kinematics) << ", "
+              << text_of(row.elements) << " elements | " << what << " | "
+              << text_of(was) << " | " << text_of(is) << " | "
+              << text_of(was / is, 2) << " |\n";
       };
       for (const Row &old : before)
         for (const Row &row : rows)
           if (row.name == old.name && row.method == old.method &&
-              row.ranks == old.ranks && row.elements == old.elements)
+              row.kinematics == old.kinematics && row.ranks == old.ranks &&
+              row.elements == old.elements)
           {
             add(row, "cutting [s]", old.cutting, row.cutting);
             add(row, "covers [s]", old.covers, row.covers);
             add(row, "quadrature [s]", old.quadrature, row.quadrature);
+            add(row, "output [s]", old.output, row.output);
             add(row, "together [s]", old.total, row.total);
             add(row, "kept [MB]", old.live_memory, row.live_memory);
             add(row,
@@ -214,7 +220,11 @@ namespace NMM
            "triangles and a well-shaped quadrilateral two of them, with fewer "
            "points "
            "than before. Constraints of aggregated covers evaluate the "
-           "weight functions once instead of once per component. Before: "
+           "weight functions once instead of once per component. Field "
+           "files: half of one was zlib's search for what repeats; now "
+           "the "
+           "library writes them itself and stores numbers that hardly shrink. "
+           "Before: "
            "`tests/performance/performance-before.csv` ("
         << before.front().date << ", " << before.front().cpu << ").\n\n"
         << "| | | before | now | ratio |\n|---|---|---|---|---|\n"
@@ -222,7 +232,15 @@ namespace NMM
         << "\nCallgrind cannot count the instructions of this: it does not "
            "know the "
            "rounding modes that CGAL's interval arithmetic needs, and "
-           "topology comes out wrong under it.\n\n";
+           "topology comes out wrong under it. By timers, of the 2.2 s that "
+           "cutting "
+           "with 1000 joints takes, 1.5 s are spent on the 13,078 cells that "
+           "are "
+           "arranged, 115 us each: 0.8 s on the arrangement, 0.4 s on freeing "
+           "its "
+           "exact numbers, 0.35 s on labels and reading it; the 126,888 cells "
+           "cut by "
+           "themselves take 0.14 s.\n\n";
     }
 
 

@@ -1,0 +1,298 @@
+#include "counts.h"
+
+#include <nmm/base/exceptions.h>
+#include <nmm/contact/contact_statics.h>
+
+#include "report.h"
+#include "staged_model.h"
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace NMM
+{
+  namespace Bench
+  {
+    namespace
+    {
+      using Type = BoundaryCondition::Type;
+
+
+      /// Collects counts of allocations.
+      class Counter
+      {
+      public:
+        /// @p n: how many of @p per the action is for.
+        template <typename Action>
+        void
+        count(const std::string &what,
+              const std::string &per,
+              const double       n,
+              const Action      &action)
+        {
+          const unsigned long before = n_allocations();
+          action();
+          const double calls = n_allocations() - before;
+          counts.push_back({"allocations", what, per, n, calls / n});
+        }
+
+        std::vector<Count> counts;
+      };
+
+
+      Row unused_row;
+
+
+      /// A square with a few joints, of one material.
+      std::unique_ptr<StagedModel>
+      make_square()
+      {
+        Geometry geometry;
+        add_box(geometry, {0., 0.}, {1., 1.});
+        for (unsigned int i = 1; i < 5; ++i)
+          geometry.add_polyline({{0.1, 0.2 * i}, {0.9, 0.2 * i + 0.05}},
+                                "joint " + std::to_string(i),
+                                CurveRole::joint);
+        GradedMeshParameters mesh;
+        mesh.cell_size = 0.02;
+        mesh.rotation  = 7.;
+        auto model     = std::make_unique<StagedModel>(std::move(geometry),
+                                                   mesh,
+                                                   StagedModel::Options(),
+                                                   unused_row);
+        model->problem.plane_state = PlaneState::plane_strain;
+        model->problem.materials   = {material("rock", 1e7, 0.2, 2500.)};
+        model->problem.gravity     = Tensor<1, 2>({0., -9.81});
+        model->problem.boundary_conditions = {
+          condition(Type::displacement, "bottom")};
+        return model;
+      }
+
+
+      void
+      count_volume(Counter &counter)
+      {
+        const auto          model_made = make_square();
+        StagedModel        &model      = *model_made;
+        const ManifoldMesh &mesh       = *model.manifold_mesh;
+        const double        n          = mesh.n_elements();
+        double              n_cut      = 0.;
+        for (unsigned int e = 0; e < mesh.n_elements(); ++e)
+          n_cut += mesh.is_whole(e) ? 0. : 1.;
+        counter.count("quadrature", "cut element", n_cut, [&]() {
+          const QuadratureCollection quadrature(
+            mesh, 2, 4, model.covers->locally_owned_elements());
+        });
+        StaticElasticity system(*model.covers,
+                                *model.quadrature,
+                                model.constraints,
+                                model.problem);
+        counter.count("assembly with sparsity pattern, small",
+                      "element",
+                      n,
+                      [&]() { system.assemble(); });
+
+        FiniteElasticity elasticity(*model.covers,
+                                    *model.quadrature,
+                                    model.constraints,
+                                    model.problem,
+                                    /* may_float = */ true);
+        const Vector     u        = elasticity.initial_solution();
+        const auto       assemble = [&](const Tangent tangent) {
+          AssertThrow(elasticity.assemble(u, 1., tangent) ==
+                        Deformation::admissible,
+                      dealii::ExcInternalError());
+        };
+        // the first one makes the pattern
+        assemble(Tangent::consistent);
+        counter.count("residual of an iteration, finite", "element", n, [&]() {
+          assemble(Tangent::none);
+        });
+        counter.count("tangent of an iteration, finite", "element", n, [&]() {
+          assemble(Tangent::consistent);
+        });
+        const DisplacementField field(*model.covers, model.problem, u);
+        counter.count("stress recovery", "element", n, [&]() {
+          const StressRecovery recovery(field, model.aggregation);
+        });
+      }
+
+
+      /// A block pressed on a plate.
+      void
+      count_contact(Counter &counter)
+      {
+        Geometry geometry;
+        add_box(geometry, {0., 0.}, {1., 1.});
+        GradedMeshParameters mesh;
+        mesh.cell_size = 0.03;
+        mesh.rotation  = 7.;
+        RigidObstacle plate;
+        plate.name   = "plate";
+        plate.pieces = {CurvePiece::segment({2., 0.}, {-1., 0.})};
+        StagedModel::Options options;
+        options.has_contact = true;
+        options.obstacles   = {plate};
+        StagedModel model(std::move(geometry), mesh, options, unused_row);
+        model.problem.plane_state         = PlaneState::plane_strain;
+        model.problem.materials           = {material("rock", 1e7, 0.2)};
+        model.problem.boundary_conditions = {condition(
+          Type::displacement, "top", vector_function([](const Point<2> &) {
+            return Tensor<1, 2>({0., -1e-3});
+          }))};
+        FiniteElasticity  elasticity(*model.covers,
+                                    *model.quadrature,
+                                    model.constraints,
+                                    model.problem);
+        ElasticSystem     system(elasticity, /* is_linearized = */ true);
+        ContactParameters parameters;
+        parameters.normal_stiffness = 1e9;
+        Contact        contact(*model.surface, model.constraints, parameters);
+        ContactStatics statics(system, contact);
+        double         n_iterations = 0.;
+        const unsigned long before  = n_allocations();
+        for (const ContactStep &step : statics.run(LoadSteps::equal(1)))
+          n_iterations += step.n_iterations + step.n_lost_iterations;
+        counter.counts.push_back({"allocations",
+                                  "iterations of a step with contact, small, " +
+                                    text_of(model.covers->n_covers() * 2.) +
+                                    " unknowns",
+                                  "iteration",
+                                  n_iterations,
+                                  (n_allocations() - before) / n_iterations});
+        const double n = contact.points().size();
+        const Vector u = statics.solution();
+        contact.assemble(u, true);
+        counter.count("contact search", "contact point", n, [&]() {
+          contact.detect(u);
+        });
+        counter.count("contact terms with tangent", "contact point", n, [&]() {
+          contact.assemble(u, true);
+        });
+      }
+
+
+      /// "x: y" -> y
+      bool
+      read_field(const std::string &line,
+                 const std::string &name,
+                 std::string       &value)
+      {
+        if (line.compare(0, name.size(), name) != 0)
+          return false;
+        value = line.substr(name.size());
+        return true;
+      }
+    } // namespace
+
+
+    std::vector<Count>
+    count_allocations()
+    {
+      Counter counter;
+      count_volume(counter);
+      count_contact(counter);
+      return counter.counts;
+    }
+
+
+    std::vector<Count>
+    read_instructions(const std::string &directory)
+    {
+      std::vector<std::filesystem::path> files;
+      if (std::filesystem::is_directory(directory))
+        for (const auto &entry : std::filesystem::directory_iterator(directory))
+          files.push_back(entry.path());
+      // numbered in the order of the kernels, without leading zeros
+      std::sort(files.begin(), files.end(), [](const auto &a, const auto &b) {
+        const std::string x = a.string(), y = b.string();
+        return std::make_pair(x.size(), x) < std::make_pair(y.size(), y);
+      });
+      std::vector<Count> counts;
+      for (const auto &file : files)
+      {
+        // see nmm-kernels: what|for each of what|how many
+        std::ifstream in(file);
+        std::string   label, total;
+        for (std::string line; std::getline(in, line);)
+          if (!read_field(line, "desc: Trigger: Client Request: ", label))
+            read_field(line, "totals: ", total);
+        const std::size_t first = label.find('|'), second = label.rfind('|');
+        if (first == std::string::npos || second == first || total.empty())
+          continue;
+        const double n = std::stod(label.substr(second + 1));
+        counts.push_back({"instructions",
+                          label.substr(0, first),
+                          label.substr(first + 1, second - first - 1),
+                          n,
+                          std::stod(total) / n});
+      }
+      return counts;
+    }
+
+
+    void
+    write_counts(const std::string &file_name, const std::vector<Count> &counts)
+    {
+      std::ofstream out(file_name);
+      AssertThrow(out,
+                  InputError("the counts cannot be written",
+                             file_name,
+                             "name a file in a folder that exists"));
+      out << "kind;what;per;n;count\n";
+      for (const Count &c : counts)
+        out << c.kind << ';' << c.what << ';' << c.per << ';' << c.n << ';'
+            << c.count << '\n';
+    }
+
+
+    std::vector<Count>
+    read_counts(const std::string &file_name)
+    {
+      std::ifstream      in(file_name);
+      std::vector<Count> counts;
+      std::string        line;
+      std::getline(in, line);
+      while (std::getline(in, line))
+      {
+        std::istringstream cells(line);
+        std::string        n, count;
+        Count              c;
+        std::getline(cells, c.kind, ';');
+        std::getline(cells, c.what, ';');
+        std::getline(cells, c.per, ';');
+        std::getline(cells, n, ';');
+        std::getline(cells, count, ';');
+        AssertThrow(!n.empty() && !count.empty(),
+                    InputError("a row of the counts has too few cells",
+                               file_name + ": " + line,
+                               "let nmm-bench counts write it anew"));
+        c.n     = std::stod(n);
+        c.count = std::stod(count);
+        counts.push_back(c);
+      }
+      return counts;
+    }
+
+
+    void
+    report_counts(std::ostream &out, const std::vector<Count> &counts)
+    {
+      if (counts.empty())
+        return;
+      out
+        << "## Counts\n\nThey are the same on a busy machine. Allocations are "
+           "calls of `operator new` in `nmm-bench`, of all that the call does, "
+           "Trilinos' and solvers' own included; instructions are callgrind's, "
+           "of "
+           "`nmm-kernels`, which never calls CGAL "
+           "(`tests/performance/counts.csv`)."
+           "\n\n| | | for each | of |\n|---|---|---|---|\n";
+      for (const Count &c : counts)
+        out << "| " << c.what << " | " << text_of(c.count) << ' ' << c.kind
+            << " | " << c.per << " | " << text_of(c.n) << " |\n";
+      out << '\n';
+    }
+  } // namespace Bench
+} // namespace NMM

@@ -77,9 +77,9 @@ StaticAnalysis::estimate_condition()
   if (!(condition.value() <= scene.parameters().solver.condition_limit))
     progress.message(
       "  warning: the condition number " + text.str() + " is above the limit" +
-      (has_place ? "; the matrix is weakest near " +
-                     to_string(condition.weakest_node)
-                 : "; the matrix is singular to rounding") +
+      (has_place
+         ? "; the matrix is weakest near " + to_string(condition.weakest_node)
+         : "; the matrix is singular to rounding") +
       ": look for slivers without stabilization, parts that hardly anything "
       "holds, long thin parts, or large contrasts of stiffness");
 }

@@ -179,7 +179,7 @@ namespace NMM
       unsigned int
       row_of(unsigned int global_cover) const;
 
-      const CoverSystem        *covers;
+      const CoverSystem *covers;
       /// The first owned cover's global number and its number here.
       unsigned int              first_owned, first_owned_here, n_owned;
       std::vector<unsigned int> cover_to_expansion;

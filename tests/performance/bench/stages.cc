@@ -232,15 +232,7 @@ namespace NMM
         << "\nCallgrind cannot count the instructions of this: it does not "
            "know the "
            "rounding modes that CGAL's interval arithmetic needs, and "
-           "topology comes out wrong under it. By timers, of the 2.2 s that "
-           "cutting "
-           "with 1000 joints takes, 1.5 s are spent on the 13,078 cells that "
-           "are "
-           "arranged, 115 us each: 0.8 s on the arrangement, 0.4 s on freeing "
-           "its "
-           "exact numbers, 0.35 s on labels and reading it; the 126,888 cells "
-           "cut by "
-           "themselves take 0.14 s.\n\n";
+           "topology comes out wrong under it.\n\n";
     }
 
 

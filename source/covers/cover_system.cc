@@ -3,6 +3,7 @@
 
 #include "element_exchange.h"
 #include <algorithm>
+#include <base/disjoint_sets.h>
 #include <numeric>
 
 namespace NMM
@@ -11,36 +12,6 @@ namespace NMM
 
   namespace
   {
-    /// Disjoint sets with path halving.
-    class UnionFind
-    {
-    public:
-      explicit UnionFind(const unsigned int n)
-        : parent(n)
-      {
-        std::iota(parent.begin(), parent.end(), 0u);
-      }
-
-      unsigned int
-      find(unsigned int i)
-      {
-        while (parent[i] != i)
-          i = parent[i] = parent[parent[i]];
-        return i;
-      }
-
-      void
-      join(const unsigned int i, const unsigned int j)
-      {
-        const unsigned int a = find(i), b = find(j);
-        parent[std::max(a, b)] = std::min(a, b);
-      }
-
-    private:
-      std::vector<unsigned int> parent;
-    };
-
-
     /**
      * Mathematical covers in whose support a physical curve runs. All others are
      * one physical cover each, provided their elements are whole cells that are
@@ -117,9 +88,9 @@ namespace NMM
     }
 
     // join slots of one mathematical cover across unblocked edges
-    UnionFind          slots(n_slots);
-    const auto        &on_edge   = mathematical_mesh.edge_to_local_covers();
-    const unsigned int n_on_edge = mathematical_mesh.degree() + 1;
+    internal::DisjointSets slots(n_slots);
+    const auto            &on_edge   = mathematical_mesh.edge_to_local_covers();
+    const unsigned int     n_on_edge = mathematical_mesh.degree() + 1;
     for (unsigned int e = 0; e < n_elements; ++e)
       for (const ManifoldMesh::Link &link : mesh->joined(e))
         if (e < link.neighbor)

@@ -2,11 +2,11 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <base/disjoint_sets.h>
 #include <cmath>
 #include <covers/element_exchange.h>
 #include <mechanics/floating_blocks.h>
 #include <mechanics/trace_constant.h>
-#include <numeric>
 #include <vector>
 
 namespace NMM
@@ -15,54 +15,13 @@ namespace NMM
   {
     namespace
     {
-      /// Disjoint sets with path halving; the least member stands for a set.
-      class Sets
-      {
-      public:
-        explicit Sets(const unsigned int n)
-          : parent(n)
-        {
-          std::iota(parent.begin(), parent.end(), 0u);
-        }
-
-        unsigned int
-        find(unsigned int i)
-        {
-          while (parent[i] != i)
-            i = parent[i] = parent[parent[i]];
-          return i;
-        }
-
-        void
-        join(const unsigned int i, const unsigned int j)
-        {
-          const unsigned int a = find(i), b = find(j);
-          parent[std::max(a, b)] = std::min(a, b);
-        }
-
-        /// Number the sets through; returns how many.
-        unsigned int
-        number(std::vector<unsigned int> &member_to_set)
-        {
-          unsigned int n = 0;
-          member_to_set.resize(parent.size());
-          for (unsigned int i = 0; i < parent.size(); ++i)
-            member_to_set[i] = find(i) == i ? n++ : member_to_set[find(i)];
-          return n;
-        }
-
-      private:
-        std::vector<unsigned int> parent;
-      };
-
-
       /// Number of the connected piece of each element; returns how many.
       unsigned int
       find_pieces(const ManifoldMesh        &mesh,
                   const CurveConditions     &conditions,
                   std::vector<unsigned int> &element_to_piece)
       {
-        Sets elements(mesh.n_elements());
+        DisjointSets elements(mesh.n_elements());
         for (unsigned int e = 0; e < mesh.n_elements(); ++e)
         {
           for (const ManifoldMesh::Link &link : mesh.joined(e))
@@ -105,7 +64,7 @@ namespace NMM
         std::sort(same.begin(), same.end());
         same.erase(std::unique(same.begin(), same.end()), same.end());
 
-        Sets pieces(n_pieces);
+        DisjointSets pieces(n_pieces);
         for (const auto &of_rank :
              dealii::Utilities::MPI::all_gather(exchange.communicator(), same))
           for (const auto &[a, b] : of_rank)

@@ -3,7 +3,6 @@
 #include <Epetra_CrsMatrix.h>
 #include <algorithm>
 #include <mechanics/newton_groups.h>
-#include <numeric>
 
 namespace NMM
 {
@@ -20,8 +19,7 @@ namespace NMM
         blocks.empty() ? 1
                        : *std::max_element(blocks.begin(), blocks.end()) + 1;
       groups.assign(n, Group());
-      root_of.resize(n);
-      std::iota(root_of.begin(), root_of.end(), 0);
+      joined.reinit(n);
       if (blocks.empty())
         groups[0].n_unknowns = n_all;
       for (const unsigned int block : blocks)
@@ -40,10 +38,10 @@ namespace NMM
     NewtonGroups::number_roots()
     {
       all_roots.clear();
+      root_of.resize(groups.size());
       for (unsigned int b = 0; b < groups.size(); ++b)
       {
-        while (root_of[b] != root_of[root_of[b]])
-          root_of[b] = root_of[root_of[b]];
+        root_of[b] = joined.find(b);
         if (root_of[b] == b)
           all_roots.push_back(b);
       }
@@ -55,16 +53,11 @@ namespace NMM
     {
       if (block_of.empty())
         return;
-      const auto root = [&](unsigned int b) {
-        while (root_of[b] != b)
-          b = root_of[b] = root_of[root_of[b]];
-        return b;
-      };
       const Epetra_CrsMatrix &entries    = matrix.trilinos_matrix();
       bool                    has_joined = false;
       for (int row = 0; row < entries.NumMyRows(); ++row)
       {
-        if (!groups[root(block_of[row])].is_active)
+        if (!groups[joined.find(block_of[row])].is_active)
           continue;
         int     n;
         double *values;
@@ -75,17 +68,16 @@ namespace NMM
           const unsigned int other = block_of[columns[i]];
           if (other == block_of[row] || values[i] == 0.)
             continue;
-          unsigned int a = root(block_of[row]), b = root(other);
+          const unsigned int a = joined.find(block_of[row]),
+                             b = joined.find(other);
           // what is not active does not feel this row: see NonlinearSystem
           if (a == b || !groups[a].is_active || !groups[b].is_active)
             continue;
-          if (a > b)
-            std::swap(a, b);
-          Group joined;
-          joined.n_unknowns = groups[a].n_unknowns + groups[b].n_unknowns;
-          groups[a]         = joined;
-          root_of[b]        = a;
-          has_joined        = true;
+          Group both;
+          both.n_unknowns = groups[a].n_unknowns + groups[b].n_unknowns;
+          joined.join(a, b);
+          groups[joined.find(a)] = both;
+          has_joined             = true;
         }
       }
       if (has_joined)

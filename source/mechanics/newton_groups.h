@@ -4,6 +4,7 @@
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
+#include <base/disjoint_sets.h>
 #include <mechanics/share_search.h>
 #include <vector>
 
@@ -132,6 +133,7 @@ namespace NMM
       void
       number_roots();
 
+      DisjointSets              joined;
       std::vector<unsigned int> block_of, root_of, all_roots;
       std::vector<Group>        groups;
       unsigned int              n_all = 0;

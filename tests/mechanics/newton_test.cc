@@ -14,12 +14,34 @@ using namespace NMM;
 
 namespace
 {
+  /// What all systems here have.
+  class MatrixAndForces : public NonlinearSystem
+  {
+  public:
+    const Vector &
+    residual() const override
+    {
+      return forces;
+    }
+
+    const dealii::TrilinosWrappers::SparseMatrix &
+    tangent() const override
+    {
+      return matrix;
+    }
+
+  protected:
+    dealii::TrilinosWrappers::SparseMatrix matrix;
+    Vector                                 forces;
+  };
+
+
   /**
    * A spring that is soft once it has slipped, on both sides, as a point of contact
    * with friction is: r(u) = 3 u where |u| < 1, u + 2 sign(u) elsewhere. From 2 Newton's
    * method goes to -2, and from there to 2, with the same |r . du| each time.
    */
-  class SlippingSpring : public NonlinearSystem
+  class SlippingSpring : public MatrixAndForces
   {
   public:
     SlippingSpring()
@@ -45,18 +67,6 @@ namespace
       return Deformation::admissible;
     }
 
-    const Vector &
-    residual() const override
-    {
-      return forces;
-    }
-
-    const dealii::TrilinosWrappers::SparseMatrix &
-    tangent() const override
-    {
-      return matrix;
-    }
-
     bool
     tangent_is_symmetric() const override
     {
@@ -68,10 +78,6 @@ namespace
     {
       return 1.;
     }
-
-  private:
-    dealii::TrilinosWrappers::SparseMatrix matrix;
-    Vector                                 forces;
   };
 
 
@@ -79,7 +85,7 @@ namespace
    * A u = b with pairs of unknowns that hang together, unsymmetric, and places of zero value
    * between all pairs, as for contact that may come. In one group if @p is_chain.
    */
-  class Pairs : public NonlinearSystem
+  class Pairs : public MatrixAndForces
   {
   public:
     Pairs(const unsigned int n_pairs, const bool is_chain)
@@ -114,18 +120,6 @@ namespace
       return Deformation::admissible;
     }
 
-    const Vector &
-    residual() const override
-    {
-      return forces;
-    }
-
-    const dealii::TrilinosWrappers::SparseMatrix &
-    tangent() const override
-    {
-      return matrix;
-    }
-
     bool
     tangent_is_symmetric() const override
     {
@@ -137,10 +131,6 @@ namespace
     {
       return 1e3;
     }
-
-  private:
-    dealii::TrilinosWrappers::SparseMatrix matrix;
-    Vector                                 forces;
   };
 
 
@@ -189,7 +179,7 @@ namespace
    * nothing acts but that the first two must not come nearer than @p gap, by a spring
    * c <u_0 - u_1 - gap>. Only rows of active blocks are made; how many is counted.
    */
-  class CubicSprings : public NonlinearSystem
+  class CubicSprings : public MatrixAndForces
   {
   public:
     CubicSprings(const std::vector<double> &f, const double gap)
@@ -245,18 +235,6 @@ namespace
       return Deformation::admissible;
     }
 
-    const Vector &
-    residual() const override
-    {
-      return forces;
-    }
-
-    const dealii::TrilinosWrappers::SparseMatrix &
-    tangent() const override
-    {
-      return matrix;
-    }
-
     bool
     tangent_is_symmetric() const override
     {
@@ -299,12 +277,10 @@ namespace
   private:
     static constexpr double c = 100.;
 
-    std::vector<double>                    f;
-    double                                 gap;
-    std::vector<unsigned int>              blocks, touched;
-    std::vector<bool>                      active;
-    dealii::TrilinosWrappers::SparseMatrix matrix;
-    Vector                                 forces;
+    std::vector<double>       f;
+    double                    gap;
+    std::vector<unsigned int> blocks, touched;
+    std::vector<bool>         active;
   };
 
 

@@ -256,14 +256,9 @@ void
 DynamicAnalysis::run_dynamics()
 {
   const TimeParameters &parameters = scene.parameters().time;
-  StepControlParameters steps      = parameters.step_control();
-  // contact takes some eight iterations however short the step: steps that were cut
-  // would never grow again
-  if (contact)
-    steps.few_iterations = 12;
-  const StepControl control(steps);
-  StepRecord        record;
-  const auto        count_lost = [&]() {
+  const StepControl     control(parameters.step_control());
+  StepRecord            record;
+  const auto            count_lost = [&]() {
     n_cuts += record.n_cuts;
     n_lost_iterations += record.n_lost_iterations;
   };

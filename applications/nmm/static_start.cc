@@ -153,16 +153,11 @@ namespace
 NewtonParameters
 motion_newton_parameters(const Scene &scene)
 {
-  // Which of many points stick takes its iterations, and with shorter steps they
-  // are as many: a step that is cut is lost.
-  constexpr unsigned int enough     = 40;
-  const auto            &parameters = scene.parameters();
-  NewtonParameters       newton = TimeIntegrator::default_newton_parameters();
-  newton.residual_tolerance     = parameters.newton.newton.residual_tolerance;
-  newton.max_iterations         = parameters.newton.newton.max_iterations;
-  if (parameters.contact.is_present() &&
-      newton.max_iterations == NewtonParameters().max_iterations)
-    newton.max_iterations = enough;
+  const NewtonParameters &given  = scene.parameters().newton.newton;
+  NewtonParameters        newton = TimeIntegrator::default_newton_parameters();
+  newton.residual_tolerance      = given.residual_tolerance;
+  if (given.max_iterations != NewtonParameters().max_iterations)
+    newton.max_iterations = given.max_iterations;
   return newton;
 }
 

@@ -286,14 +286,9 @@ namespace StepNMM4
   Slope::Vector
   Slope::find_equilibrium()
   {
-    NMM::ContactModel     with_contact(*model, *contact);
-    NMM::NewtonParameters newton =
-      NMM::TimeIntegrator::default_newton_parameters();
-    newton.max_iterations = 40;
+    NMM::ContactModel         with_contact(*model, *contact);
     NMM::TimeIntegrator       integrator(with_contact,
-                                   NMM::TimeScheme::constant_acceleration(),
-                                   {},
-                                   newton);
+                                   NMM::TimeScheme::constant_acceleration());
     NMM::RelaxationParameters relaxation;
     relaxation.step = 1e-3;
     NMM::relax(integrator, relaxation);
@@ -322,14 +317,10 @@ namespace StepNMM4
     const Vector u     = find_equilibrium();
     outcome.start_time = timer.cpu_time();
 
-    NMM::ContactModel released(*model, *contact, {{1, 0., wall_is_released}});
-    NMM::NewtonParameters newton =
-      NMM::TimeIntegrator::default_newton_parameters();
-    newton.max_iterations = 40;
+    NMM::ContactModel   released(*model, *contact, {{1, 0., wall_is_released}});
     NMM::TimeIntegrator integrator(released,
                                    NMM::TimeScheme::energy_momentum(),
-                                   {/* mass = */ 0., parameters.damping},
-                                   newton);
+                                   {/* mass = */ 0., parameters.damping});
     integrator.initialize(u, Vector(model->locally_owned(), MPI_COMM_WORLD));
     set_in_motion(integrator, step, outcome);
     outcome.motion_time = timer.cpu_time() - outcome.start_time;
@@ -338,17 +329,14 @@ namespace StepNMM4
   }
 
 
-  // Until nothing moves any more, or the end. Contact needs some eight iterations
-  // whatever the step: unless that counts as few, steps that were cut never grow
-  // again.
+  // Until nothing moves any more, or the end.
   void
   Slope::set_in_motion(NMM::TimeIntegrator &integrator,
                        const double         step,
                        Outcome             &outcome)
   {
     NMM::StepControlParameters steps;
-    steps.initial_step   = step;
-    steps.few_iterations = 12;
+    steps.initial_step = step;
     const NMM::StepControl control(steps);
 
     Film       film(parameters, outcome);

@@ -238,7 +238,16 @@ namespace NMM
     point.state             = ContactState::slip;
     if (law.has_friction())
     {
-      find_shear(q, slave, projection, was_slipping, 0., traction);
+      const Tensor<1, 2> distance =
+        slave.x - surface->place(point.stick_edge, point.stick_t).x;
+      const Tensor<1, 2> tangent =
+        projection.place.a / projection.place.a.norm();
+      traction.normal_distance = distance * projection.normal;
+      find_shear(q,
+                 law.shear_stiffness * (distance * tangent),
+                 law.shear_stiffness,
+                 was_slipping,
+                 traction);
       report.energy +=
         point.weight * point.shear * point.shear / (2. * law.shear_stiffness);
     }
@@ -323,27 +332,16 @@ namespace NMM
 
 
   void
-  Contact::Data::find_shear(const unsigned int           q,
-                            const ContactSurface::Place &slave,
-                            const ContactProjection     &projection,
-                            const bool                   was_slipping,
-                            const double                 slip_rate,
-                            ContactTraction             &traction)
+  Contact::Data::find_shear(const unsigned int q,
+                            const double       trial,
+                            const double       stiffness,
+                            const bool         was_slipping,
+                            ContactTraction   &traction)
   {
-    ContactPoint      &point   = points[q];
-    const ContactLaw  &law     = *point_data[q].law;
-    const Tensor<1, 2> tangent = projection.place.a / projection.place.a.norm();
-    const Tensor<1, 2> distance =
-      slave.x - surface->place(point.stick_edge, point.stick_t).x;
-    const double trial = law.shear_stiffness * (distance * tangent) +
-                         law.shear_damping * slip_rate;
-    const double limit =
+    ContactPoint     &point = points[q];
+    const ContactLaw &law   = *point_data[q].law;
+    const double      limit =
       law.friction * point.pressure + (law.is_bond ? 0. : law.cohesion);
-    // displacements are those in the middle of the step
-    const double stiffness =
-      point.weight *
-      (law.shear_stiffness + (is_between ? 2. * law.shear_damping / step : 0.));
-    traction.normal_distance = distance * projection.normal;
     // a residual and its tangent are two assemblies at the same displacements
     if (trial != point.spring_shear)
       point.has_turned = std::abs(trial) > limit && was_slipping &&
@@ -353,7 +351,7 @@ namespace NMM
     {
       point.state              = ContactState::stick;
       point.shear              = trial;
-      traction.shear_stiffness = stiffness;
+      traction.shear_stiffness = point.weight * stiffness;
     }
     else
     {
@@ -364,7 +362,8 @@ namespace NMM
       // of sliding does not hold it: the secant does
       if (point.has_turned)
       {
-        traction.shear_stiffness  = stiffness * limit / std::abs(trial);
+        traction.shear_stiffness =
+          point.weight * stiffness * limit / std::abs(trial);
         traction.pressure_by_slip = 0.;
       }
     }
@@ -581,9 +580,12 @@ namespace NMM
     ContactSurface::Weights master, stick;
     surface->weights(projection.master, projection.t, master);
     const bool              with_friction = fixed.law->has_friction();
-    const ContactKinematics kinematics(
-      fixed.weights, master, projection.place, projection.gap, with_friction);
-    const double sign =
+    const ContactKinematics kinematics(fixed.weights,
+                                       master,
+                                       projection.place,
+                                       projection.gap,
+                                       with_friction || is_between);
+    const double            sign =
       search.comes_first(point.edge, projection.master) ? 1. : -1.;
     report.force += sign * (traction.pressure * kinematics.normal -
                             traction.shear * kinematics.tangent);
@@ -597,8 +599,18 @@ namespace NMM
       local.append(surface->covers(point.stick_edge));
     }
     local.clear();
+    ContactTraction with_change = traction;
+    double          pressure_change[ContactKinematics::max],
+      half_slip_change[ContactKinematics::max];
+    if (is_between && with_tangent)
+    {
+      differentiate_step(
+        q, projection, kinematics, pressure_change, half_slip_change);
+      with_change.pressure_change  = pressure_change;
+      with_change.half_slip_change = half_slip_change;
+    }
     add_contact_point(kinematics,
-                      traction,
+                      with_change,
                       &fixed.weights,
                       with_friction ? &stick : nullptr,
                       with_tangent,

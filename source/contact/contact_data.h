@@ -69,6 +69,12 @@ namespace NMM
       double offset = 0., offset_end = 0.;
       /// Masters at both ends of the step; invalid_index: none.
       unsigned int master_begin = invalid_index, master_end = invalid_index;
+      /// Where on the master at the end, and its normal there.
+      double               t_end = 0.;
+      dealii::Tensor<1, 2> normal_end;
+      /// Derivatives of the pressure in a step, times the weight, by the gap at the
+      /// end and by how far both faces open [N/m^2].
+      double pressure_by_gap = 0., pressure_by_opening = 0.;
       /// Slip that has dilated at the last accepted state and since then [m].
       double slip = 0., new_slip = 0.;
       /// At the end of a time step.
@@ -160,6 +166,15 @@ namespace NMM
                           double                     opening,
                           internal::ContactTraction &traction);
 
+    /// Derivatives by the displacements of slave and master in the middle of the step:
+    /// of that pressure, times the weight, and of half of the slip.
+    void
+    differentiate_step(unsigned int                       q,
+                       const internal::ContactProjection &projection,
+                       const internal::ContactKinematics &kinematics,
+                       double                            *pressure_change,
+                       double *half_slip_change) const;
+
     /// Unit normal of the edge that meets the one of a corner there; zero if none
     /// does.
     dealii::Tensor<1, 2>
@@ -192,16 +207,22 @@ namespace NMM
     double
     largest_opening() const;
 
-    /// Shear from the place where it sticks, not more than the pressure allows;
-    /// decides between stick and slip.
-    /// @p slip_rate: of the slave along the master [m/s].
+    /// Shear: @p trial, not more than the pressure allows; decides between stick and slip.
+    /// @p stiffness: derivative of the trial [Pa/m].
     void
-    find_shear(unsigned int                       q,
-               const ContactSurface::Place       &slave,
-               const internal::ContactProjection &projection,
-               bool                               was_slipping,
-               double                             slip_rate,
-               internal::ContactTraction         &traction);
+    find_shear(unsigned int               q,
+               double                     trial,
+               double                     stiffness,
+               bool                       was_slipping,
+               internal::ContactTraction &traction);
+
+    /// Shear in a step, and its work.
+    void
+    find_shear_between(unsigned int                       q,
+                       const internal::ContactProjection &projection,
+                       const dealii::Tensor<1, 2>        &motion,
+                       bool                               was_slipping,
+                       internal::ContactTraction         &traction);
 
     void
     add_point(unsigned int q, bool with_tangent);

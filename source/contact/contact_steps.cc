@@ -242,11 +242,14 @@ namespace NMM
     const bool   is_new = fixed.master_begin == invalid_index;
     if (is_new)
       g_0 = std::max(0., fixed.gap_end - motion);
-    fixed.offset_end = is_new ? 0. : fixed.offset;
-    bool is_lost     = fixed.master_end == invalid_index;
+    const bool begin_moves = is_new && g_0 > 0.;
+    bool       is_followed = false;
+    fixed.offset_end       = is_new ? 0. : fixed.offset;
+    bool is_lost           = fixed.master_end == invalid_index;
     if (!is_lost &&
         std::abs(g_1 - g_0 - motion) > 0.5 * std::abs(opening) + least)
     {
+      is_followed      = true;
       g_1              = g_0 + motion;
       fixed.offset_end = std::min(0., fixed.gap_end - g_1);
       is_lost          = fixed.gap_end > g_1;
@@ -256,20 +259,26 @@ namespace NMM
     if (is_lost)
       g_1 = 0.;
 
-    double derivative = 0.;
+    double derivative = 0., by_begin = 0.;
     mean_pressure(law.normal_stiffness,
                   point.is_bonded,
                   g_0,
                   g_1,
                   point.pressure,
                   derivative);
+    if (begin_moves)
+    {
+      double same;
+      mean_pressure(
+        law.normal_stiffness, point.is_bonded, g_1, g_0, same, by_begin);
+    }
     if (is_lost)
     {
       fixed.normal_loss =
         spring_energy(q,
                       law.normal_stiffness * std::min(0., g_0),
                       law.normal_stiffness);
-      point.pressure = derivative = 0.;
+      point.pressure = derivative = by_begin = 0.;
     }
     const double spring = point.pressure;
     if (spring > 0. && law.normal_damping > 0.)
@@ -279,23 +288,138 @@ namespace NMM
       derivative -= g_1 < 0. ? c : 0.;
     }
     if (!point.is_bonded && point.pressure <= 0.)
-      point.pressure = derivative = 0.;
+      point.pressure = derivative = by_begin = 0.;
 
     // the gap of curved or turning faces changes not quite by this; where
     // nothing moves the ratio of both is rounding
-    const double more =
-      (g_1 - g_0 - motion) * opening / (opening * opening + least * least);
+    const double square = opening * opening + least * least;
+    const double more   = (g_1 - g_0 - motion) * opening / square;
     const double factor = 1. + std::min(1., std::max(-0.5, more));
+
+    // by the gap at the end, the opening, and by what both change g_0 and g_1
+    const double gap_by_opening = is_followed && !begin_moves ? 1. : 0.;
+    const double gap_by_gap =
+      is_followed && !begin_moves ? 0. : fixed.dilation.by_gap;
+    fixed.pressure_by_gap =
+      factor * (derivative + (begin_moves ? by_begin : 0.)) * gap_by_gap;
+    fixed.pressure_by_opening =
+      factor * (derivative * gap_by_opening - (begin_moves ? by_begin : 0.));
+    if (factor == 1. + more && !begin_moves)
+    {
+      fixed.pressure_by_gap += point.pressure * gap_by_gap * opening / square;
+      fixed.pressure_by_opening +=
+        point.pressure *
+        ((gap_by_opening - 1.) * opening / square +
+         (g_1 - g_0 - motion) * (least * least - opening * opening) /
+           (square * square));
+    }
+    fixed.pressure_by_gap *= point.weight;
+    fixed.pressure_by_opening *= point.weight;
     // what rises against the pressure takes from the loss by friction
     fixed.normal_loss +=
       point.weight *
       (factor * (spring - point.pressure) * opening - spring * rise);
     point.pressure *= factor;
     traction.pressure = point.weight * point.pressure;
-    traction.normal_stiffness =
-      -2. * point.weight * derivative * fixed.dilation.by_gap;
     traction.pressure_by_slip =
       2. * point.weight * derivative * fixed.dilation.by_slip;
+  }
+
+
+  void
+  Contact::Data::differentiate_step(const unsigned int       q,
+                                    const ContactProjection &projection,
+                                    const ContactKinematics &f,
+                                    double                  *pressure_change,
+                                    double *half_slip_change) const
+  {
+    const PointData &fixed  = point_data[q];
+    const auto       covers = surface->covers(projection.master);
+
+    // by the displacements at the end, where the faces have turned since the middle
+    unsigned int master = projection.master;
+    double       t      = projection.t;
+    Tensor<1, 2> normal = f.normal;
+    if (fixed.master_end != invalid_index)
+    {
+      const auto others = surface->covers(fixed.master_end);
+      if (std::equal(
+            covers.begin(), covers.end(), others.begin(), others.end()))
+      {
+        master = fixed.master_end;
+        t      = fixed.t_end;
+        normal = fixed.normal_end;
+      }
+    }
+    ContactSurface::Weights weights;
+    surface->weights(master, t, weights);
+    for (unsigned int k = 0; k < f.n; ++k)
+      pressure_change[k] = fixed.pressure_by_gap * normal[k % 2] *
+                           (k < 2 * f.n_slave ? fixed.weights.w[k / 2]
+                                              : -weights.w[k / 2 - f.n_slave]);
+
+    // of motion . n and motion . tau in the middle, which turn, and whose foot moves,
+    // half as far as at the end
+    const Tensor<1, 2> motion = relative_motion(q, projection);
+    Tensor<1, 2>       stretch;
+    surface->weights(projection.master, projection.t, weights);
+    for (unsigned int i = 0; i < weights.n; ++i)
+      for (unsigned int c = 0; c < 2; ++c)
+        stretch[c] -= weights.dw[i] * (nodal_end[2 * covers[i] + c] -
+                                       nodal_begin[2 * covers[i] + c]);
+    const double along = motion * f.tangent, across = motion * f.normal;
+    const double by_foot_along  = stretch * f.tangent,
+                 by_foot_across = stretch * f.normal;
+    for (unsigned int k = 0; k < f.n; ++k)
+    {
+      pressure_change[k] +=
+        fixed.pressure_by_opening *
+        (f.N[k] - 0.5 * along * f.C[k] + 0.5 * by_foot_across * f.D[k]);
+      half_slip_change[k] =
+        f.T[k] + 0.5 * across * f.C[k] + 0.5 * by_foot_along * f.D[k];
+    }
+
+    for (unsigned int k = 0; k < f.n; ++k)
+      pressure_change[k] *= 2.;
+  }
+
+
+  /// The mean of the spring's shear before and after the slip @f$s@f$ of the step, and the
+  /// dashpot's: @f$q = q_0 + \epsilon_t s/2 + c_t s/h@f$, so that q s is the change of
+  /// q_0^2 / (2 eps_t) and what the dashpot takes, however faces turn in the step. The
+  /// place where the point sticks tells q_0 of the next one.
+  void
+  Contact::Data::find_shear_between(const unsigned int       q,
+                                    const ContactProjection &projection,
+                                    const Tensor<1, 2>      &motion,
+                                    const bool               was_slipping,
+                                    ContactTraction         &traction)
+  {
+    ContactPoint     &point  = points[q];
+    PointData        &fixed  = point_data[q];
+    const ContactLaw &law    = *fixed.law;
+    const double      length = projection.place.a.norm();
+    const double      slip   = (motion * projection.place.a) / length;
+    const bool        is_coming =
+      fixed.master_begin == invalid_index ||
+      !goes_on(fixed.master_begin, projection.master) ||
+      (fixed.gap_begin >= fixed.offset && !point.is_bonded);
+    if (is_coming)
+    {
+      // where it came from
+      point.stick_edge = projection.master;
+      point.stick_t    = projection.t - 0.5 * slip / length;
+    }
+    const double by_half_slip =
+      law.shear_stiffness + 2. * law.shear_damping / step;
+    find_shear(q,
+               (is_coming ? 0. : fixed.shear_begin) + 0.5 * by_half_slip * slip,
+               by_half_slip,
+               was_slipping,
+               traction);
+    traction.shear_by_half_slip = traction.shear_stiffness;
+    traction.shear_stiffness    = 0.;
+    fixed.shear_work            = traction.shear * slip;
   }
 
 
@@ -338,38 +462,8 @@ namespace NMM
       {
         point.state = ContactState::slip;
         if (fixed.law->has_friction())
-        {
-          const double length = projection.place.a.norm();
-          const double slip   = (motion * projection.place.a) / length;
-          // on a face where it has not been at the begin of the step it sticks
-          // where it came from, half of the motion back
-          if (fixed.master_begin == invalid_index ||
-              !goes_on(fixed.master_begin, projection.master))
-          {
-            point.stick_edge = projection.master;
-            point.stick_t    = projection.t - 0.5 * slip / length;
-          }
-          find_shear(q,
-                     slave,
-                     projection,
-                     before == ContactState::slip,
-                     slip / step,
-                     traction);
-          // nor does shear bring more than its spring has held
-          const double held =
-            spring_energy(q, fixed.shear_begin, fixed.law->shear_stiffness);
-          const double work = traction.shear * slip;
-          if (work < -held)
-          {
-            const double factor = -held / work;
-            point.shear *= factor;
-            traction.shear *= factor;
-            traction.shear_stiffness *= factor;
-            traction.shear_over_pressure *= factor;
-            traction.pressure_by_slip = 0.;
-          }
-          fixed.shear_work = traction.shear * slip;
-        }
+          find_shear_between(
+            q, projection, motion, before == ContactState::slip, traction);
       }
     }
     report.n_changes += before != point.state;
@@ -408,6 +502,8 @@ namespace NMM
       const ContactSurface::Place slave = d.surface->place(point.edge, point.s);
       const ContactProjection     projection = d.find_master(q, slave);
       fixed.master_end                       = projection.master;
+      fixed.t_end                            = projection.t;
+      fixed.normal_end                       = projection.normal;
       fixed.dilation                         = Data::Dilation();
       fixed.dilation.opening                 = d.opening_before(q);
       fixed.new_slip                         = 0.;

@@ -78,7 +78,12 @@ namespace NMM
                       ContactLocalSystem            &local)
     {
       const double       p = traction.pressure, q = traction.shear;
-      const unsigned int stride = 2 * local.n_covers;
+      const unsigned int stride          = 2 * local.n_covers;
+      const auto         pressure_change = [&](const unsigned int k) {
+        return traction.pressure_change != nullptr
+                         ? traction.pressure_change[k]
+                         : -traction.normal_stiffness * f.N[k];
+      };
       for (unsigned int k = 0; k < f.n; ++k)
         local.rhs[k] += q * f.T[k] - p * f.N[k];
       if (!with_tangent)
@@ -91,11 +96,10 @@ namespace NMM
       for (unsigned int k = 0; k < f.n; ++k)
       {
         double      *row = local.matrix + k * stride;
-        const double n_k = traction.normal_stiffness * f.N[k];
         const double d_k = second * f.D[k] - mixed * f.N1[k];
         const double m_k = -mixed * f.D[k] - first * f.N1[k];
         for (unsigned int l = 0; l < f.n; ++l)
-          row[l] += n_k * f.N[l] + d_k * f.D[l] + m_k * f.N1[l];
+          row[l] += d_k * f.D[l] + m_k * f.N1[l] - f.N[k] * pressure_change(l);
       }
       if (stick == nullptr)
         return;
@@ -108,10 +112,13 @@ namespace NMM
                                    : traction.shear_over_pressure * by_slip;
       if (by_distance != 0.)
         add_distance(f, traction, *slave, *stick, by_distance, change);
+      if (traction.shear_by_half_slip != 0.)
+        for (unsigned int k = 0; k < f.n; ++k)
+          change[k] +=
+            traction.shear_by_half_slip * traction.half_slip_change[k];
       if (traction.shear_stiffness == 0.)
         for (unsigned int k = 0; k < f.n; ++k)
-          change[k] -=
-            traction.shear_over_pressure * traction.normal_stiffness * f.N[k];
+          change[k] += traction.shear_over_pressure * pressure_change(k);
       if (by_slip != 0.)
       {
         double rise[ContactKinematics::max] = {};

@@ -76,10 +76,18 @@ namespace NMM
       /// Pressure >= 0 and its derivative by -gap, both times the weight [N/m]
       /// and [N/m^2].
       double pressure = 0., normal_stiffness = 0.;
+      /// Derivative of the pressure, times the weight, by the unknowns of slave and
+      /// master where it depends on more than the gap; else null.
+      const double *pressure_change = nullptr;
       /// Shear, positive along tau on the master, times the weight [N/m].
       double shear = 0.;
       /// Sticking: stiffness, else 0.
       double shear_stiffness = 0.;
+      /// In a time step: what depends on half of the slip instead of on the distance from
+      /// where it sticks, and the derivative of that half by the unknowns of slave
+      /// and master.
+      double        shear_by_half_slip = 0.;
+      const double *half_slip_change   = nullptr;
       /// Sliding: d shear / d pressure.
       double shear_over_pressure = 0.;
       /// Dilation: derivative of the pressure, times the weight, by the distance
@@ -93,10 +101,11 @@ namespace NMM
     /**
      * Add forces and, if @p with_tangent, tangent to @p local:
      * @f[ r = -p N + q T,\qquad
-     *     K = \epsilon N\otimes N - p\,\Delta\delta g
+     *     K = -N\otimes\Delta p - p\,\Delta\delta g
      *         + T\otimes\Delta q + q\,(N\otimes C + T_1\otimes D)
      *         - N\otimes\partial_s p\,\Delta s, @f]
-     * s being the distance along tau from where it sticks.
+     * s being the distance along tau from where it sticks, and
+     * @f$ \Delta p = -\epsilon N @f$ unless the traction has another change.
      * @p stick: weights at the place where it sticks, covers after those of
      * slave and master; null without friction.
      */

@@ -143,8 +143,9 @@ namespace NMM
   bool
   ContactModel::tangent_between_is_symmetric() const
   {
+    // forces are along normals in the middle, gaps along those at the end
     return data->model->tangent_between_is_symmetric() &&
-           (data->contact->is_idle() || data->contact->tangent_is_symmetric());
+           data->contact->is_idle();
   }
 
 

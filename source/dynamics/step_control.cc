@@ -107,9 +107,9 @@ namespace NMM
       {
         integrator.accept();
         double growth = std::min(1.5, safety * factor);
-        if (report.n_iterations > parameters.few_iterations)
+        if (report.n_full_iterations > parameters.few_iterations)
           growth = std::min(growth, 1.);
-        if (report.n_iterations > 2 * parameters.few_iterations)
+        if (report.n_full_iterations > 2 * parameters.few_iterations)
           growth = std::min(growth, 0.7);
         // small changes are not worth a factorization
         if (growth >= 1. && growth < 1.2)
@@ -171,19 +171,28 @@ namespace NMM
     const bool                   is_bound = parameters.max_displacement > 0.;
     const TimeIntegrator::Vector begin    = integrator.state().u;
     TimeIntegrator::Vector       motion(begin);
-    double                       previous = integrator.account().kinetic;
-    report.imbalance                      = integrator.account().imbalance;
+    const double furthest = parameters.max_step_displacement > 0.
+                              ? parameters.max_step_displacement
+                              : 0.01 * parameters.max_displacement;
+    double       previous = integrator.account().kinetic;
+    report.imbalance      = integrator.account().imbalance;
     while (report.n_steps < parameters.max_steps)
     {
       const StepReport step = integrator.try_step(h);
       report.n_iterations += step.n_iterations;
-      if (!step.converged)
+      const bool is_far = furthest > 0. && step.max_displacement > furthest;
+      if (!step.converged || is_far)
       {
         ++record.n_cuts;
         record.n_lost_iterations += step.n_iterations;
         h *= 0.5;
         AssertThrow(h >= least,
-                    NumericalFailure("Relaxation gave up: " + step.reason,
+                    NumericalFailure("Relaxation gave up: " +
+                                       (is_far ? "displacements of " +
+                                                   std::to_string(
+                                                     step.max_displacement) +
+                                                   " m in a step"
+                                               : step.reason),
                                      "step " + std::to_string(report.n_steps),
                                      "choose a smaller step"));
         continue;
@@ -205,7 +214,8 @@ namespace NMM
           return report;
         }
       }
-      h *= parameters.growth;
+      if (furthest == 0. || step.max_displacement < 0.5 * furthest)
+        h *= parameters.growth;
       const double kinetic = integrator.account().kinetic;
       if (kinetic <= previous)
       {

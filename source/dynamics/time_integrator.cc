@@ -195,6 +195,9 @@ namespace NMM
     // moments must vanish, may be a small part
     parameters.n_refinements       = 1;
     parameters.n_robust_iterations = 1;
+    // which of many points stick takes its iterations, with shorter steps as many: a
+    // step that is cut is lost, while those that go on are of few blocks
+    parameters.max_iterations = 40;
     return parameters;
   }
 
@@ -702,8 +705,9 @@ namespace NMM
     if (d.model->is_linear() && !d.sleeping)
     {
       d.solve_linear();
-      report.n_iterations = 1;
-      report.converged    = true;
+      report.n_iterations      = 1;
+      report.n_full_iterations = 1.;
+      report.converged         = true;
     }
     else
       d.solve_nonlinear(report);

@@ -214,16 +214,20 @@ namespace NMM
 
   namespace
   {
-    /// Did none of the last iterations bring |r| far below what had been reached
-    /// before? Contact points that stick and slip by turns make Newton's method go
-    /// round three states and more, between which r . du goes up and down as it
-    /// should.
+    /// Is |r| what it was two or three iterations ago, or did none of the last ones bring
+    /// it far below what had been reached before? Contact points that stick and slip by
+    /// turns make Newton's method go round three states and more, between which
+    /// r . du goes up and down as it should.
     bool
     is_going_round(const Group &group)
     {
       constexpr unsigned int n_last = 3;
-      constexpr double       enough = 0.7;
-      const auto            &all    = group.squares;
+      constexpr double       enough = 0.7, same = 0.01;
+      const auto            &all = group.squares;
+      for (const unsigned int n : {2U, 3U})
+        if (all.size() > n + 1 &&
+            std::abs(all.back() - all[all.size() - 1 - n]) < same * all.back())
+          return true;
       if (all.size() < 2 * n_last)
         return false;
       const auto last = all.end() - n_last;

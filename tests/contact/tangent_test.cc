@@ -172,6 +172,138 @@ namespace
   }
 
 
+  constexpr double distance = 0.01;
+
+
+  /// Two blocks of one triangle each at a distance above a third one: a face on a face,
+  /// and a corner on a face.
+  std::unique_ptr<Bodies>
+  three_blocks()
+  {
+    Geometry geometry;
+    geometry.add_polygon({{0., 0.}, {4., 0.}, {4., 1.}, {0., 1.}},
+                         "below",
+                         CurveRole::boundary,
+                         "rock");
+    const double y = 1. + distance;
+    geometry.add_polygon({{0.3, y}, {1.5, y}, {1.5, 2.}, {0.3, 2.}},
+                         "flat",
+                         CurveRole::boundary,
+                         "rock");
+    geometry.add_polygon(
+      {{2.8, y}, {3.5, y + 0.6}, {2.9, y + 1.3}, {2.2, y + 0.7}},
+      "tilted",
+      CurveRole::boundary,
+      "rock");
+    Bodies::Options options;
+    options.cell_size           = 10.;
+    options.mesh_of_every_block = true;
+    return std::make_unique<Bodies>(std::move(geometry), options);
+  }
+
+
+  struct StepCase
+  {
+    /// At the begin [m]; negative: it touches.
+    double gap;
+    double friction;
+    /// Dashpots [Pa s/m].
+    double damping;
+  };
+
+
+  /// In a step blocks turn by up to 0.05: a tangent with normals of the middle instead
+  /// of those of the end errs by 0.02 and more. Differences of the shear of
+  /// points that come into contact are good to 2e-4, all others to 1e-8.
+  TEST(ContactTangent, OfStepsThatConserveEnergyAgainstDifferences)
+  {
+    const unsigned int               seed = 20261122;
+    std::mt19937                     generator(seed);
+    std::normal_distribution<double> random;
+    unsigned int                     n_stick = 0, n_slip = 0;
+    for (const StepCase &c : {StepCase{-0.001, 0., 0.},
+                              StepCase{-0.001, 0., 1e5},
+                              StepCase{0.002, 0., 0.},
+                              StepCase{-0.001, 0.5, 0.},
+                              StepCase{0.002, 0.5, 1e5},
+                              StepCase{-0.001, 50., 1e5},
+                              StepCase{0.002, 50., 0.},
+                              StepCase{0.002, 50., 1e5}})
+    {
+      SCOPED_TRACE("seed " + std::to_string(seed) + ", gap " +
+                   std::to_string(c.gap) + ", friction " +
+                   std::to_string(c.friction) + ", damping " +
+                   std::to_string(c.damping));
+      auto              bodies     = three_blocks();
+      ContactParameters parameters = contact_parameters(1e8, 0.1);
+      parameters.shear_stiffness   = 3e7;
+      parameters.friction          = c.friction;
+      parameters.normal_damping = parameters.shear_damping = c.damping;
+      bodies->start(parameters);
+      Contact   &contact  = *bodies->contact;
+      const auto block_at = [&](const Point<2> &x) {
+        return bodies->mesh.block(bodies->mesh.find_element(x));
+      };
+      const unsigned int below = block_at({2., 0.5}),
+                         flat  = block_at({0.9, 1.5});
+      const auto motion        = [&](const double share) {
+        return bodies->interpolate(
+          [&, share](const Point<2> &X, const unsigned int block) {
+            const bool is_below = block == below, is_flat = block == flat;
+            const Tensor<1, 2> r = X - (is_below  ? Point<2>(2., 0.5)
+                                               : is_flat ? Point<2>(0.9, 1.5)
+                                                         : Point<2>(2.9, 1.5));
+            Tensor<1, 2>       u = share *
+                             (is_below  ? -0.01
+                                     : is_flat ? 0.03
+                                               : -0.04) *
+                             Point<2>(-r[1], r[0]);
+            if (!is_below)
+              u += Point<2>(0.02 * share, c.gap - distance - 0.006 * share);
+            return u + 1e-4 * share * Point<2>(X[1] * X[1], -X[0] * X[1]);
+          });
+      };
+      const double h     = 0.01;
+      const Vector begin = motion(0.), u = motion(1.);
+      contact.detect(begin, 0.1);
+      contact.begin_step(begin, 0.);
+      contact.set_time(h);
+      contact.assemble_between(u, h, true);
+      contact.assemble_between(u, h, true);
+      n_stick += contact.report().n_stick;
+      n_slip += c.friction > 0. ? contact.report().n_slip : 0;
+      ASSERT_GE(contact.report().n_stick + contact.report().n_slip, 3U);
+
+      Vector owned(contact.residual()), d(owned), product(owned),
+        difference(owned);
+      for (unsigned int sample = 0; sample < 4; ++sample)
+      {
+        for (const auto i : d.locally_owned_elements())
+          d(i) = random(generator);
+        d.compress(dealii::VectorOperation::insert);
+        bodies->constraints.distribute(d);
+        contact.assemble_between(u, h, true);
+        contact.tangent().vmult(product, d);
+        bodies->constraints.set_zero(product);
+        const double step = 1e-8;
+        owned             = u;
+        owned.add(step, d);
+        contact.assemble_between(bodies->relevant(owned), h, false);
+        difference = contact.residual();
+        owned.add(-2. * step, d);
+        contact.assemble_between(bodies->relevant(owned), h, false);
+        difference -= contact.residual();
+        // the tangent is that by displacements in the middle of the step
+        difference *= 2. * 0.5 / step;
+        difference -= product;
+        EXPECT_LE(difference.l2_norm(), 5e-4 * product.l2_norm());
+      }
+    }
+    EXPECT_GT(n_stick, 5U);
+    EXPECT_GT(n_slip, 4U);
+  }
+
+
   /// Work of the forces in a motion of all bodies.
   double
   work(Bodies                                              &bodies,

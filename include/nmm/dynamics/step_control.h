@@ -21,8 +21,10 @@ namespace NMM
     double max_displacement = 0.;
     /// Largest StepReport::error [m]; 0: any.
     double max_error = 0.;
-    /// Iterations of Newton's method below which steps may grow.
-    unsigned int few_iterations = 6;
+    /// Steps may grow while Newton's method takes fewer iterations, each counted by the
+    /// share of the unknowns that it was about: contact takes some eight however short
+    /// the step.
+    unsigned int few_iterations = 12;
 
     /// @throws InputError naming the parameter and its value.
     void
@@ -86,6 +88,10 @@ namespace NMM
     /// End as soon as a cover has moved further than this since the begin [m]; 0:
     /// any way is allowed.
     double max_displacement = 0.;
+    /// No step moves a cover further [m]; 0: a hundredth of max_displacement, or any way
+    /// if that is not bound. Long steps pass by what would give way on the
+    /// way, and come to rest where nothing stands.
+    double max_step_displacement = 0.;
   };
 
 

@@ -73,16 +73,10 @@ namespace NMM
         TimedModel   elastic(*bodies.mechanics);
         ContactModel with_contact(elastic, *bodies.contact, switches.releases);
         TimedModel   all(with_contact);
-        NewtonParameters newton = TimeIntegrator::default_newton_parameters();
-        newton.max_iterations   = 25;
-        TimeIntegrator integrator(all,
-                                  TimeScheme::energy_momentum(),
-                                  {},
-                                  newton);
+        TimeIntegrator integrator(all, TimeScheme::energy_momentum());
         integrator.initialize(u, bodies.zero());
         StepControlParameters steps;
-        steps.initial_step   = step;
-        steps.few_iterations = 12;
+        steps.initial_step = step;
         row.steps = row.iterations = row.factorization = 0.;
         double released = 0., balance = 0.;
         StepControl(steps).run(integrator, end, [&](const StepRecord &record) {

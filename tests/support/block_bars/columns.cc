@@ -163,7 +163,7 @@ namespace NMM
       RelaxationParameters relaxation;
       relaxation.step             = toppling.step;
       relaxation.tolerance        = 1e-6;
-      relaxation.max_displacement = 0.1 * width;
+      relaxation.max_displacement = 0.01 * width;
       SafetyFactorParameters search;
       search.ratio     = 1.2;
       search.tolerance = toppling.tolerance;
@@ -192,8 +192,9 @@ namespace NMM
         return trial;
       };
       const SafetyFactor factor = find_safety_factor(try_factor, search);
-      // a little beyond the limit, where no column hesitates
-      constexpr double beyond = 1.02;
+      // a little beyond the limit, and after a longer way, where no column hesitates
+      constexpr double beyond     = 1.02;
+      relaxation.max_displacement = 0.1 * width;
       (void)try_factor(beyond * factor.moves_at);
       run.seconds = timer.wall_time();
 

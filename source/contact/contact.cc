@@ -569,10 +569,21 @@ namespace NMM
     // What presses tells how deep it is: not what was found behind a face without
     // having come in by it, which stores nothing, nor a piece of a face too
     // short to bear anything, where the other face does that meets it in a corner.
-    if (point.pressure > 0. && (fixed.corner < Kind::along ||
-                                fixed.piece_length > too_short * size_at(q)))
-      report.largest_penetration =
-        std::max(report.largest_penetration, point.opening - projection.gap);
+    double depth = point.opening - projection.gap;
+    if (point.pressure > 0. && depth > report.largest_penetration &&
+        (fixed.corner < Kind::along ||
+         fixed.piece_length > too_short * size_at(q)))
+    {
+      // a corner is pushed out through the face by which it came, which may be
+      // further away than another one
+      if (fixed.corner < Kind::along && point.opening == 0.)
+        depth =
+          std::min(depth,
+                   search.depth_inside(fixed.slave,
+                                       surface->edges()[projection.master].body,
+                                       point.x));
+      report.largest_penetration = std::max(report.largest_penetration, depth);
+    }
     deepest = std::max(deepest,
                        (is_between ? fixed.offset_end : fixed.offset) +
                          point.opening - projection.gap);

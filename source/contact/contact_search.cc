@@ -438,6 +438,37 @@ namespace NMM
     }
 
 
+    double
+    ContactSearch::depth_inside(const unsigned int position,
+                                const unsigned int body,
+                                const Point<2>    &x) const
+    {
+      constexpr double same = 1e-9;
+
+      double nearest = reach, gap = 0.;
+      for (const unsigned int master : masters(position))
+      {
+        double t;
+        Place  place;
+        if (surface->edges()[master].body != body ||
+            surface->is_further(master, x, nearest, 0., 0.) ||
+            !find_nearest(master, x, t, place))
+          continue;
+        const Place  end      = surface->place(master, std::clamp(t, 0., 1.));
+        const double distance = x.distance(end.x);
+        const double now      = (x - end.x) * end.normal();
+        // at the corner of two edges the one that sees more of the distance knows
+        const bool is_tied = std::abs(distance - nearest) <= same * reach;
+        if (is_tied ? std::abs(now) > std::abs(gap) : distance < nearest)
+        {
+          nearest = distance;
+          gap     = now;
+        }
+      }
+      return gap < 0. ? nearest : 0.;
+    }
+
+
     /// Along a few edges, since one of them may be a sliver.
     bool
     ContactSearch::meet_in_convex_corner(const unsigned int edge,

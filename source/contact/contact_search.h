@@ -238,6 +238,13 @@ namespace NMM
       unsigned int
       find_home(unsigned int position, double s, unsigned int master) const;
 
+      /// How far @p x is inside of a body: from the nearest of the candidates at
+      /// @p position that belong to it [m]; 0 outside.
+      double
+      depth_inside(unsigned int            position,
+                   unsigned int            body,
+                   const dealii::Point<2> &x) const;
+
     private:
       bool
       may_touch(unsigned int edge, unsigned int other) const;

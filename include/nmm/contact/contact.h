@@ -173,7 +173,7 @@ namespace NMM
     unsigned int n_changes = 0;
     /// Points that stick because their bond holds.
     unsigned int n_bonded = 0;
-    /// [m]
+    /// Of what presses, from the nearest face of the other body [m].
     double largest_penetration = 0.;
     /// Stored in springs [J/m].
     double energy = 0.;

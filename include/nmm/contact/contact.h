@@ -321,8 +321,14 @@ namespace NMM
      * does the work by which the energy of the springs changes (Laursen & Chawla, Int.
      * J. Numer. Methods Eng. 40 (1997) 863; Gonzalez 2000). Dashpots add
      * @f[ c\,(\langle -g_1\rangle - \langle -g_0\rangle)/h, @f] but not so much
-     * that there would be tension: what they do is always a loss. tangent() is the
-     * derivative by the mean displacement at given begin; multipliers are not used.
+     * that there would be tension: what they do is always a loss. In the same way the
+     * shear of what sticks is the mean of the spring's at both ends of the slip
+     * @f$s=\tau\cdot(\Delta x_s - \Delta x_m)@f$ and the dashpot's,
+     * @f[ \hat q = q_0 + \tfrac{\epsilon_t}{2}s + \tfrac{c_t}{h}s, @f]
+     * beginning with 0 where faces come into contact; beyond the strength it slides.
+     * tangent() is the derivative by the mean displacement at given begin: of forces
+     * in the mean position and gaps at the end, so it is not symmetric.
+     * Multipliers are not used.
      */
     void
     assemble_between(const Vector &end, double time, bool with_tangent);

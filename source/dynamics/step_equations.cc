@@ -1,0 +1,393 @@
+// The equations of a time step, their solution, and the account of energy.
+#include <nmm/base/exceptions.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <dynamics/step_equations.h>
+
+namespace NMM
+{
+  using Vector = TimeIntegrator::Vector;
+  using internal::DirectSolver;
+
+
+  TimeIntegrator::Data::Data(MechanicalModel        &model,
+                             const TimeScheme       &scheme,
+                             const RayleighDamping  &damping,
+                             const NewtonParameters &newton_parameters)
+    : model(&model)
+    , scheme(scheme)
+    , damping(damping)
+    , newton(newton_parameters)
+  {
+    scheme.check();
+    AssertThrow(damping.mass >= 0. && damping.stiffness >= 0.,
+                InputError("A coefficient of Rayleigh damping is negative",
+                           "",
+                           "choose both at least 0"));
+    for (Vector *vector : {&u_1,
+                           &v_1,
+                           &a_1,
+                           &forces,
+                           &scratch,
+                           &other_scratch,
+                           &external,
+                           &state.u,
+                           &state.v,
+                           &state.a})
+      vector->reinit(model.locally_owned(), model.communicator());
+    for (Vector *vector : {&u_begin, &u_end, &u_middle})
+      vector->reinit(model.locally_owned(),
+                     model.locally_relevant(),
+                     model.communicator());
+
+    set_absent_blocks();
+    model_damps =
+      scheme.is_conserving && model.set_stiffness_damping(damping.stiffness);
+    if (damps_by_stiffness())
+    {
+      const auto &stiffness = model.stiffness_at_rest();
+      stiffness_at_rest.reinit(stiffness);
+      stiffness_at_rest.copy_from(stiffness);
+    }
+  }
+
+
+  void
+  TimeIntegrator::Data::set_absent_blocks()
+  {
+    std::vector<bool> is_absent;
+    if (!state.left_blocks.empty())
+    {
+      is_absent.resize(model->n_blocks(), false);
+      for (const unsigned int block : state.left_blocks)
+        is_absent[block] = true;
+    }
+    model->set_absent_blocks(is_absent);
+    linear_solver.reset();
+
+    const dealii::IndexSet absent = model->absent_unknowns();
+    scratch                       = 0.;
+    for (const auto i : model->locally_owned())
+      if (i % 2 == 0 && !model->constraints().is_constrained(i) &&
+          !absent.is_element(i))
+        scratch(i) = 1.;
+    scratch.compress(dealii::VectorOperation::insert);
+    model->mass().vmult(forces, scratch);
+    total_mass = scratch * forces;
+  }
+
+
+  void
+  TimeIntegrator::Data::set_rates()
+  {
+    // differences first: u_1 and u_0 are near each other
+    a_1 = u_1;
+    a_1 -= state.u;
+    a_1.add(-h, state.v);
+    if (scheme.beta != 0.5)
+      a_1.add(-h * h * (0.5 - scheme.beta), state.a);
+    a_1 *= 1. / (scheme.beta * h * h);
+    v_1 = state.v;
+    if (scheme.gamma != 1.)
+      v_1.add(h * (1. - scheme.gamma), state.a);
+    v_1.add(h * scheme.gamma, a_1);
+  }
+
+
+  void
+  TimeIntegrator::Data::add_damping(const double  factor,
+                                    const Vector &in,
+                                    Vector       &out)
+  {
+    if (damping.mass > 0.)
+    {
+      model->mass().vmult(other_scratch, in);
+      out.add(factor * damping.mass, other_scratch);
+    }
+    if (damps_by_stiffness())
+    {
+      stiffness_at_rest.vmult(other_scratch, in);
+      out.add(factor * damping.stiffness, other_scratch);
+    }
+  }
+
+
+  Deformation
+  TimeIntegrator::Data::assemble_forces(const Vector &u,
+                                        const Tangent tangent,
+                                        const Vector *increment)
+  {
+    const double t = state.time + (1. - scheme.alpha_f) * h;
+    if (scheme.is_conserving)
+      return model->assemble_between(
+        u_begin, u, state.time, state.time + h, tangent);
+    if (scheme.alpha_f == 0.)
+      return model->assemble(u, t, tangent, increment);
+    scratch = u_1;
+    scratch.sadd(1. - scheme.alpha_f, scheme.alpha_f, state.u);
+    u_middle = scratch;
+    return model->assemble(u_middle, t, tangent);
+  }
+
+
+  void
+  TimeIntegrator::Data::make_matrix()
+  {
+    const double k = 1. - scheme.alpha_f;
+    const double c = k * scheme.gamma / (scheme.beta * h);
+    const double m = (1. - scheme.alpha_m) / (scheme.beta * h * h);
+    matrix.assemble(model->tangent(),
+                    k,
+                    model->mass(),
+                    m + c * damping.mass,
+                    damps_by_stiffness() ? &stiffness_at_rest : nullptr,
+                    c * damping.stiffness,
+                    model->pattern_version());
+  }
+
+
+  Deformation
+  TimeIntegrator::Data::assemble(const Vector &u,
+                                 const Tangent tangent,
+                                 const Vector *increment)
+  {
+    u_1 = u;
+    set_rates();
+    if (assemble_forces(u, tangent, increment) != Deformation::admissible)
+      return Deformation::inverted;
+    if (tangent != Tangent::none)
+      make_matrix();
+
+    scratch = a_1;
+    if (scheme.alpha_m != 0.)
+      scratch.sadd(1. - scheme.alpha_m, scheme.alpha_m, state.a);
+    model->mass().vmult(forces, scratch);
+    scale = std::hypot(model->force_scale(), forces.l2_norm());
+    // accelerations are differences of displacements: their rounding must stay
+    // below tolerances, however small the step
+    constexpr double rounding = 1e-6;
+    scale                     = std::hypot(scale,
+                       rounding / (scheme.beta * h * h) * mass_of_displacement);
+    forces += model->residual();
+    scratch = v_1;
+    if (scheme.alpha_f != 0.)
+      scratch.sadd(1. - scheme.alpha_f, scheme.alpha_f, state.v);
+    add_damping(1., scratch, forces);
+    model->constraints().set_zero(forces);
+    return Deformation::admissible;
+  }
+
+
+  void
+  TimeIntegrator::Data::predict()
+  {
+    u_begin = state.u;
+    model->mass().vmult(forces, state.u);
+    mass_of_displacement = forces.l2_norm();
+    u_1                  = state.u;
+    // accelerations of the conserving scheme alternate in impacts
+    if (scheme.is_conserving)
+      u_1.add(h, state.v);
+    else
+      u_1.add(h, state.v, 0.5 * h * h, state.a);
+    model->constraints().distribute(u_1);
+    u_end = u_1;
+    model->begin_step(u_begin, u_end, state.time, h);
+  }
+
+
+  void
+  TimeIntegrator::Data::solve_linear()
+  {
+    const bool is_factorized = linear_solver != nullptr &&
+                               factorized_step == h &&
+                               factorized_events == state.events_passed;
+    (void)assemble(u_end,
+                   is_factorized ? Tangent::none : Tangent::consistent,
+                   nullptr);
+    if (!is_factorized)
+    {
+      if (linear_solver == nullptr)
+        linear_solver = std::make_unique<DirectSolver>();
+      linear_solver->factorize(matrix());
+      factorized_step   = h;
+      factorized_events = state.events_passed;
+    }
+    linear_solver->solve(forces, scratch);
+    u_1 -= scratch;
+    model->constraints().distribute(u_1);
+    set_rates();
+    u_end = u_1;
+  }
+
+
+  void
+  TimeIntegrator::Data::measure(StepReport &report) const
+  {
+    Vector change(u_1);
+    change -= state.u;
+    double square = 0.;
+    for (auto x = change.begin(); x != change.end(); x += 2)
+      square = std::max(square, *x * *x + *(x + 1) * *(x + 1));
+    report.max_displacement =
+      std::sqrt(dealii::Utilities::MPI::max(square, model->communicator()));
+
+    const double beta = scheme.is_conserving ? 0.25 : scheme.beta;
+    change            = a_1;
+    change -= state.a;
+    report.error =
+      std::abs(beta - 1. / 6.) * h * h *
+      std::sqrt(model->mass().matrix_norm_square(change) / total_mass);
+    if (!std::isfinite(report.error) || !std::isfinite(square))
+    {
+      report.converged = false;
+      report.reason    = "displacements are not finite";
+    }
+  }
+
+
+  void
+  TimeIntegrator::Data::set_accelerations()
+  {
+    if (mass_solver == nullptr)
+    {
+      mass_solver = std::make_unique<DirectSolver>();
+      mass_solver->factorize(model->mass());
+    }
+    forces = model->residual();
+    add_damping(1., state.v, forces);
+    forces *= -1.;
+    model->constraints().set_zero(forces);
+    if (sleeping)
+      sleeping->set_zero(forces);
+    mass_solver->solve(forces, state.a);
+    model->constraints().distribute(state.a);
+  }
+
+
+  void
+  TimeIntegrator::Data::take_account()
+  {
+    const MechanicalModel::Energies energies = model->energies();
+    account.strain                           = energies.strain;
+    account.conditions                       = energies.conditions;
+
+    forces = model->residual();
+    add_damping(1., state.v, forces);
+    model->constraints().set_zero(forces);
+    const double norm = forces.l2_norm();
+    account.imbalance = norm > 0. ? norm / model->force_scale() : 0.;
+
+    Vector &momentum = forces;
+    model->mass().vmult(momentum, state.v);
+    model->constraints().set_zero(momentum);
+    account.kinetic = 0.5 * (momentum * state.v);
+    double sums[3]  = {0., 0., 0.};
+    auto   p        = momentum.begin();
+    auto   u        = state.u.begin();
+    auto   x        = model->reference_positions().begin();
+    for (; p != momentum.end(); p += 2, u += 2, x += 2)
+    {
+      sums[0] += *p;
+      sums[1] += *(p + 1);
+      sums[2] += (*x + *u) * *(p + 1) - (*(x + 1) + *(u + 1)) * *p;
+    }
+    dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums, 3),
+                                model->communicator(),
+                                dealii::ArrayView<double>(sums, 3));
+    account.linear_momentum[0] = sums[0];
+    account.linear_momentum[1] = sums[1];
+    account.angular_momentum   = sums[2];
+
+    state.kinetic         = account.kinetic;
+    account.external_work = state.sums.external_work;
+    account.dissipated    = state.sums.dissipated;
+    account.left          = state.sums.left;
+    account.balance = account.kinetic + stored_energy() + account.dissipated +
+                      account.left - account.external_work - state.sums.initial;
+  }
+
+
+  /// Of loads, supports and damping in the step, to the sums.
+  void
+  TimeIntegrator::Data::add_work()
+  {
+    const double t_1 = state.time + h;
+    Vector       change(u_1), mean(u_1), loads(external);
+    change -= state.u;
+    double &work = state.sums.external_work;
+    if (scheme.is_conserving)
+    {
+      mean.sadd(0.5, 0.5, state.u);
+      u_middle = mean;
+      model->external_forces(u_middle, state.time + 0.5 * h, loads);
+      work += loads * change;
+      work += model->work_of_supports_between(
+        u_begin, u_end, u_middle, state.time, t_1);
+      model->external_forces(u_end, t_1, external);
+    }
+    else
+    {
+      model->external_forces(u_end, t_1, external);
+      loads.add(1., external);
+      work += 0.5 * (loads * change);
+      work +=
+        0.5 * (model->work_of_supports(u_begin, state.time, state.time, t_1) +
+               model->work_of_supports(u_end, t_1, state.time, t_1));
+    }
+    if (damping.mass > 0. || damps_by_stiffness())
+    {
+      loads = 0.;
+      add_damping(1. / h, change, loads);
+      model->constraints().set_zero(loads);
+      state.sums.dissipated += loads * change;
+    }
+  }
+
+
+  void
+  TimeIntegrator::Data::solve_nonlinear(StepReport &report)
+  {
+    do
+    {
+      if (report.converged)
+        predict();
+      const NewtonReport result =
+        newton.solve(*this, model->constraints(), u_end);
+      report.converged = result.converged;
+      report.reason    = result.reason;
+      report.n_iterations += result.iterations.size();
+      for (const NewtonReport::Iteration &iteration : result.iterations)
+        report.n_full_iterations += iteration.active_share;
+      report.factorization_time += result.factorization_time;
+      report.substitution_time += result.substitution_time;
+    } while (report.converged && sleeping &&
+             sleeping->wake(forces, u_1, state.rest));
+  }
+
+
+  /// Forces are those of the current state, and so is its account.
+  void
+  TimeIntegrator::Data::let_sleep()
+  {
+    model->mass().vmult(scratch, state.v);
+    model->constraints().set_zero(scratch);
+    forces = model->residual();
+    // what a step woke, another one may have lost by being cut
+    const bool is_any_awake = sleeping->wake(forces, state.u, state.rest);
+    if (!sleeping->let_sleep(
+          h, scratch, state.v, forces, state.u, state.rest) &&
+        !is_any_awake)
+      return;
+    const double before = account.kinetic;
+    sleeping->set_zero(state.v);
+    sleeping->set_zero(state.a);
+    take_account();
+    state.sums.dissipated += before - account.kinetic;
+    account.dissipated = state.sums.dissipated;
+    account.balance += before - account.kinetic;
+  }
+} // namespace NMM

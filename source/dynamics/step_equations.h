@@ -1,0 +1,182 @@
+#ifndef nmm_source_dynamics_step_equations_h
+#define nmm_source_dynamics_step_equations_h
+
+#include <nmm/dynamics/time_integrator.h>
+
+#include <dynamics/sleeping_blocks.h>
+#include <mechanics/matrix_sum.h>
+#include <mechanics/mumps_solver.h>
+
+namespace NMM
+{
+  /// The equations of a step, unknown u_1.
+  struct TimeIntegrator::Data : public NonlinearSystem
+  {
+    Data(MechanicalModel        &model,
+         const TimeScheme       &scheme,
+         const RayleighDamping  &damping,
+         const NewtonParameters &newton);
+
+    /// @name NonlinearSystem
+    /// @{
+    Deformation
+    assemble(const Vector &u,
+             Tangent       tangent,
+             const Vector *increment) override;
+
+    const Vector &
+    residual() const override
+    {
+      return forces;
+    }
+
+    const dealii::TrilinosWrappers::SparseMatrix &
+    tangent() const override
+    {
+      return matrix();
+    }
+
+    bool
+    tangent_is_symmetric() const override
+    {
+      return scheme.is_conserving ? model->tangent_between_is_symmetric()
+                                  : model->tangent_is_symmetric();
+    }
+
+    double
+    force_scale() const override
+    {
+      return scale;
+    }
+
+    unsigned int
+    pattern_version() const override
+    {
+      return model->pattern_version();
+    }
+
+    const std::vector<unsigned int> &
+    blocks_of_unknowns() const override
+    {
+      return model->blocks_of_unknowns();
+    }
+
+    void
+    set_active_blocks(const std::vector<bool> &is_active) override
+    {
+      model->set_active_blocks(is_active, held_blocks());
+      matrix.set_active_rows(model->blocks_of_unknowns(), is_active);
+    }
+
+    const std::vector<bool> &
+    held_blocks() const override
+    {
+      return sleeping ? sleeping->mask() : NonlinearSystem::held_blocks();
+    }
+
+    std::vector<unsigned int>
+    take_touched_blocks() override
+    {
+      return model->take_touched_blocks();
+    }
+    /// @}
+
+    Vector
+    owned_vector() const
+    {
+      return Vector(model->locally_owned(), model->communicator());
+    }
+
+    /// v_1 and a_1 of u_1.
+    void
+    set_rates();
+
+    Deformation
+    assemble_forces(const Vector &u, Tangent tangent, const Vector *increment);
+
+    void
+    make_matrix();
+
+    /// Is there a stiffness in C?
+    bool
+    damps_by_stiffness() const
+    {
+      return damping.stiffness > 0. && !model_damps;
+    }
+
+    /// out += factor C in
+    void
+    add_damping(double factor, const Vector &in, Vector &out);
+
+    void
+    predict();
+
+    void
+    solve_linear();
+
+    void
+    measure(StepReport &report) const;
+
+    /// M a = -C v - r for the current state.
+    void
+    set_accelerations();
+
+    /// Energies and momenta of the current state; r is that of u.
+    void
+    take_account();
+
+    double
+    stored_energy() const
+    {
+      return account.strain + account.conditions;
+    }
+
+    void
+    add_work();
+
+    /// Newton's method, again whenever the result wakes somebody.
+    void
+    solve_nonlinear(StepReport &report);
+
+    /// After a step.
+    void
+    let_sleep();
+
+    /// The model knows who has left, and what all others weigh is known.
+    void
+    set_absent_blocks();
+
+    MechanicalModel *model;
+    TimeScheme       scheme;
+    RayleighDamping  damping;
+    /// The model has the damping by the stiffness in its forces.
+    bool                                    model_damps = false;
+    NewtonSolver                            newton;
+    dealii::TrilinosWrappers::SparseMatrix  stiffness_at_rest;
+    internal::MatrixSum                     matrix;
+    std::unique_ptr<internal::DirectSolver> mass_solver, linear_solver;
+    /// What linear_solver was factorized for.
+    double factorized_step = 0., factorized_events = 0.;
+
+    /// Null: nobody may.
+    std::unique_ptr<internal::SleepingBlocks> sleeping;
+
+    DynamicState state;
+    Account      account;
+    double       total_mass = 0.;
+    /// |M u_0| [kg].
+    double mass_of_displacement = 0.;
+
+    /// The step being tried; relevant unknowns of its ends and between.
+    double h             = 0.;
+    bool   has_candidate = false;
+    Vector u_begin, u_end, u_middle;
+    Vector u_1, v_1, a_1;
+    Vector forces, scratch, other_scratch;
+    double scale = 0.;
+    /// Loads at the current state.
+    Vector external;
+  };
+} // namespace NMM
+
+#endif

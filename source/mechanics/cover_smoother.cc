@@ -11,13 +11,27 @@ namespace NMM
   {
     namespace
     {
-      /// s -= block * x
-      inline void
-      subtract(const float *block, const float *x, float &s0, float &s1)
+      /// Sum of products of blocks with pairs of a vector, all four products of a block at
+      /// once.
+      class Sum
       {
-        s0 -= block[0] * x[0] + block[1] * x[1];
-        s1 -= block[2] * x[0] + block[3] * x[1];
-      }
+      public:
+        void
+        add(const float *block, const float *x)
+        {
+          sum += Eigen::Map<const Eigen::Array4f>(block) *
+                 Eigen::Array4f(x[0], x[1], x[0], x[1]);
+        }
+
+        float
+        operator[](const unsigned int c) const
+        {
+          return sum[2 * c] + sum[2 * c + 1];
+        }
+
+      private:
+        Eigen::Array4f sum = Eigen::Array4f::Zero();
+      };
     } // namespace
 
 
@@ -250,9 +264,10 @@ namespace NMM
       // (D + L) x = b
       for (unsigned int r = 0; r < n_rows; ++r)
       {
-        float s0 = rhs[2 * r], s1 = rhs[2 * r + 1];
+        Sum sum;
         for (unsigned int i = row_begin[r]; i < diagonal[r]; ++i)
-          subtract(values.data() + 4 * i, x.data() + 2 * columns[i], s0, s1);
+          sum.add(values.data() + 4 * i, x.data() + 2 * columns[i]);
+        const float  s0 = rhs[2 * r] - sum[0], s1 = rhs[2 * r + 1] - sum[1];
         const float *d = inverse_diagonal.data() + 4 * r;
         x[2 * r]       = d[0] * s0 + d[1] * s1;
         x[2 * r + 1]   = d[2] * s0 + d[3] * s1;
@@ -260,11 +275,11 @@ namespace NMM
       // b - (L + D + U) x = -U x
       for (unsigned int r = 0; r < n_rows; ++r)
       {
-        float s0 = 0.F, s1 = 0.F;
+        Sum sum;
         for (unsigned int i = diagonal[r] + 1; i < owned_end[r]; ++i)
-          subtract(values.data() + 4 * i, x.data() + 2 * columns[i], s0, s1);
-        residual[2 * r]     = s0;
-        residual[2 * r + 1] = s1;
+          sum.add(values.data() + 4 * i, x.data() + 2 * columns[i]);
+        residual[2 * r]     = -sum[0];
+        residual[2 * r + 1] = -sum[1];
       }
       for (const Patch &patch : patches)
       {
@@ -303,12 +318,11 @@ namespace NMM
       for (unsigned int r = 0; r < n_rows; ++r)
         if (owned_end[r] < row_begin[r + 1])
         {
-          float s0 = residual[2 * r] + addition[2 * r] * x[2 * r],
-                s1 = residual[2 * r + 1] + addition[2 * r + 1] * x[2 * r + 1];
+          Sum sum;
           for (unsigned int i = owned_end[r]; i < row_begin[r + 1]; ++i)
-            subtract(values.data() + 4 * i, x.data() + 2 * columns[i], s0, s1);
-          residual[2 * r]     = s0;
-          residual[2 * r + 1] = s1;
+            sum.add(values.data() + 4 * i, x.data() + 2 * columns[i]);
+          for (unsigned int c = 0; c < 2; ++c)
+            residual[2 * r + c] += addition[2 * r + c] * x[2 * r + c] - sum[c];
         }
     }
 
@@ -319,15 +333,16 @@ namespace NMM
                                    const std::vector<float> &x,
                                    float                    *residual) const
     {
-      float s0 = rhs[2 * row], s1 = rhs[2 * row + 1];
+      Sum sum;
       for (unsigned int i = row_begin[row]; i < row_begin[row + 1]; ++i)
-        subtract(values.data() + 4 * i, x.data() + 2 * columns[i], s0, s1);
-      if (!addition.empty())
-        for (unsigned int c = 0; c < 2; ++c)
-          (c == 0 ? s0 : s1) -=
+        sum.add(values.data() + 4 * i, x.data() + 2 * columns[i]);
+      for (unsigned int c = 0; c < 2; ++c)
+      {
+        residual[c] = rhs[2 * row + c] - sum[c];
+        if (!addition.empty())
+          residual[c] -=
             addition[2 * row + c] * (x[2 * row + c] - start[2 * row + c]);
-      residual[0] = s0;
-      residual[1] = s1;
+      }
     }
 
 

@@ -173,8 +173,10 @@ TEST(Iterative, StepsDependOnNeitherMeshNorCutsMPI)
   std::mt19937                           generator(seed);
   std::uniform_real_distribution<double> uniform(0., 1.);
   LinearSolverParameters                 parameters;
-  parameters.type      = LinearSolverParameters::Type::iterative;
-  unsigned int largest = 0;
+  parameters.type            = LinearSolverParameters::Type::iterative;
+  unsigned int       largest = 0;
+  const unsigned int allowed =
+    dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1 ? 45 : 80;
   for (const double cell_size : {0.12, 0.06, 0.03})
     for (unsigned int place = 0; place < 4; ++place)
       for (const Stabilization stabilization :

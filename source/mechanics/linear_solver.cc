@@ -46,7 +46,8 @@ namespace NMM
           points.push_back(covers.node(covers.local_cover(k)));
         solver.set_points(std::move(points));
         solver.factorize(matrix);
-        report.factorization_time = timer.wall_time();
+        report.analysis_time      = solver.analysis_time();
+        report.factorization_time = timer.wall_time() - report.analysis_time;
         report.n_factor_entries   = solver.n_factor_entries();
         timer.restart();
         solver.solve(rhs, solution);

@@ -1,6 +1,7 @@
 #include <nmm/base/exceptions.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/timer.h>
 
 #include <Epetra_CrsMatrix.h>
 #include <algorithm>
@@ -191,7 +192,8 @@ namespace NMM
       unsigned int n = 0;
       MPI_Comm     communicator;
       unsigned int n_ranks;
-      bool         is_analyzed = false;
+      bool         is_analyzed   = false;
+      double       analysis_time = 0.;
       /// Does the first rank do all?
       bool      is_serial = false;
       KluSolver klu;
@@ -350,6 +352,7 @@ namespace NMM
     void
     DirectSolver::analyze(const dealii::TrilinosWrappers::SparseMatrix &matrix)
     {
+      const dealii::Timer timer;
       data->communicator = matrix.get_mpi_communicator();
       data->n_ranks =
         dealii::Utilities::MPI::n_mpi_processes(data->communicator);
@@ -367,7 +370,15 @@ namespace NMM
       if (data->mumps)
         set_controls(matrix);
       data->run(1, "analysis");
-      data->is_analyzed = true;
+      data->is_analyzed   = true;
+      data->analysis_time = timer.wall_time();
+    }
+
+
+    double
+    DirectSolver::analysis_time() const
+    {
+      return data->analysis_time;
     }
 
 

@@ -75,6 +75,10 @@ namespace NMM
       solve(const dealii::TrilinosWrappers::MPI::Vector &rhs,
             dealii::TrilinosWrappers::MPI::Vector       &solution);
 
+      /// Wall time of the last analyze() [s].
+      double
+      analysis_time() const;
+
       /// Entries of the factors of the last factorization, of all ranks.
       double
       n_factor_entries() const;

@@ -46,9 +46,9 @@ namespace NMM
     double       relative_residual = 0.;
     /// Entries of the factors, of all ranks; 0: iterative.
     double n_factor_entries = 0.;
-    /// Wall times of ordering and factorization, or of making the
+    /// Wall times of ordering and symbolic factorization, of factorization or making the
     /// preconditioner, and of substitution or iterations [s].
-    double factorization_time = 0., solution_time = 0.;
+    double analysis_time = 0., factorization_time = 0., solution_time = 0.;
   };
 
   /**

@@ -83,14 +83,15 @@ namespace NMM
                 const std::string        &y_label,
                 const std::vector<Panel> &panels)
     {
-      // the key takes the place of one more panel
+      // Up to two panels stand in a row above the key; of more, the key takes the
+      // place of one.
       const bool         is_row = panels.size() <= 2;
       std::ostringstream script, key;
-      script << "set terminal pngcairo size 1250," << (is_row ? 450 : 950)
+      script << "set terminal pngcairo size 1250," << (is_row ? 640 : 950)
              << " font 'DejaVu Sans,12' "
                 "noenhanced\n"
              << "set output " << quoted(file_name) << '\n'
-             << "set multiplot layout " << (is_row ? "1,3" : "2,2") << " title "
+             << "set multiplot " << (is_row ? "" : "layout 2,2 ") << "title "
              << quoted(title) << '\n'
              << "set logscale xy\nset format x '%.0e'\nset format y '%.0e'\n"
              << "set grid\nset ylabel " << quoted(y_label) << '\n';
@@ -114,12 +115,20 @@ namespace NMM
           plot << (plot.str().empty() ? "plot " : ", ") << "$d" << p << '_' << c
                << " using 1:2 " << style(c) << " notitle";
         }
+        if (is_row)
+          script << "set size " << 1. / panels.size() << ",0.72\nset origin "
+                 << static_cast<double>(p) / panels.size() << ",0.22\n";
+        if (panels[p].has_numbers)
+          script << "set format x '%g'\nset xtics 2\n";
         script << "set xlabel " << quoted(panels[p].x_label) << '\n'
                << plot.str() << '\n';
       }
       script << "unset logscale\nunset border\nunset tics\nunset grid\n"
                 "unset xlabel\nunset ylabel\nset xrange [0:1]\nset yrange "
-                "[0:1]\nset key center center Left reverse\n"
+                "[0:1]\n"
+             << (is_row ? "set size 1,0.2\nset origin 0,0.01\nset key center "
+                          "center Left reverse horizontal maxcols 3\n"
+                        : "set key center center Left reverse\n")
              << key.str() << "\nunset multiplot\n";
       run_gnuplot(script.str());
     }

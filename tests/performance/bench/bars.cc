@@ -221,8 +221,8 @@ namespace NMM
                   : std::string()) +
                ", factorization " + pair(&Row::factorization) + ", solution " +
                pair(&Row::solution) +
-               "; with the first and the third as they are on one rank and the "
-               "rest halved, two ranks would be " +
+               "; if all that is not of every rank or of one were halved, two "
+               "ranks would be " +
                text_of(one.total /
                          (serial(one) + 0.5 * (one.total - serial(one))),
                        2) +

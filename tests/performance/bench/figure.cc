@@ -2,6 +2,7 @@
 
 #include <nmm/base/exceptions.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -74,6 +75,52 @@ namespace NMM
         return point.first > 0. && point.second > 0. &&
                std::isfinite(point.first) && std::isfinite(point.second);
       }
+
+
+      std::string
+      powers_of_two()
+      {
+        std::ostringstream text;
+        for (unsigned int n = 1; n <= 4096; n *= 2)
+          text << (n == 1 ? "" : ", ") << n;
+        return text.str();
+      }
+
+
+      /// 1, 2 and 5 times powers of ten.
+      std::string
+      round_numbers()
+      {
+        std::ostringstream text;
+        for (int power = -4; power <= 4; ++power)
+          for (const int factor : {1, 2, 5})
+            text << (text.str().empty() ? "" : ", ")
+                 << factor * std::pow(10., power);
+        return text.str();
+      }
+
+
+      /// Hardly more than the points need, as gnuplot's command.
+      template <typename Coordinate>
+      std::string
+      range(const std::string &axis,
+            const Panel       &panel,
+            const Coordinate  &coordinate)
+      {
+        double least = 1e300, largest = 0.;
+        for (const Curve &curve : panel.curves)
+          for (const auto &point : curve.points)
+            if (can_be_drawn(point))
+            {
+              least   = std::min(least, coordinate(point));
+              largest = std::max(largest, coordinate(point));
+            }
+        std::ostringstream text;
+        if (largest > 0.)
+          text << "set " << axis << "range [" << least / 1.15 << ':'
+               << 1.15 * largest << "]\n";
+        return text.str();
+      }
     } // namespace
 
 
@@ -119,7 +166,14 @@ namespace NMM
           script << "set size " << 1. / panels.size() << ",0.72\nset origin "
                  << static_cast<double>(p) / panels.size() << ",0.22\n";
         if (panels[p].has_numbers)
-          script << "set format x '%g'\nset xtics 2\n";
+          script << "set format '%g'\nset xtics (" << powers_of_two()
+                 << ")\nset ytics (" << round_numbers() << ")\nunset mxtics\n"
+                 << range("x",
+                          panels[p],
+                          [](const auto &point) { return point.first; })
+                 << range("y", panels[p], [](const auto &point) {
+                      return point.second;
+                    });
         script << "set xlabel " << quoted(panels[p].x_label) << '\n'
                << plot.str() << '\n';
       }

@@ -389,9 +389,9 @@ namespace NMM
       Mumps &mumps = *data->mumps;
       // Approximate minimum degree orders in a fifth of the time of what MUMPS
       // chooses by itself; its larger fill tells only on large systems.
-      constexpr unsigned int large = 150000, large_with_points = 50000;
-      mumps.control(7) = data->n < large ? 0 : 7;
-      if (data->has_points && !data->is_serial && data->n >= large_with_points)
+      constexpr unsigned int large = 150000;
+      mumps.control(7)             = data->n < large ? 0 : 7;
+      if (data->has_points && !data->is_serial && data->n >= large)
       {
         data->make_order(matrix.trilinos_matrix());
         mumps.control(7)   = 1;

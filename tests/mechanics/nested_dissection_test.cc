@@ -72,8 +72,7 @@ namespace
 
 
 // 40 x 40 points with eight neighbours: row by row the factor has 40 + 2 entries in a row;
-// dissection leaves 0.53 of that here, and would leave more than all of it with
-// separators first.
+// dissection leaves 0.53 of that here.
 TEST(NestedDissection, FillsLessThanRowByRow)
 {
   constexpr unsigned int n = 40;

@@ -470,11 +470,7 @@ namespace NMM
     void
     BlockSystem::set_active_rows(const std::vector<bool> &blocks)
     {
-      has_passive_rows = !blocks.empty();
-      active_rows.clear();
-      if (!has_passive_rows)
-        return;
-      if (row_to_block.empty())
+      if (!blocks.empty() && row_to_block.empty())
       {
         const ManifoldMesh &mesh = covers->manifold_mesh();
         row_to_block.resize(n_owned);
@@ -482,22 +478,19 @@ namespace NMM
           for (const unsigned int k : covers->covers(e))
             row_to_block[cover_to_local[k]] = mesh.block(e);
       }
-      for (unsigned int r = 0; r < n_owned; ++r)
-        if (blocks[row_to_block[r]])
-          active_rows.push_back(r);
+      active_rows.select(row_to_block, blocks);
     }
 
 
     void
     BlockSystem::reset(const bool with_matrix)
     {
-      if (with_matrix && !has_passive_rows)
-        std::fill(values.begin(), values.end(), 0.);
-      else if (with_matrix)
-        for (const unsigned int r : active_rows)
+      if (with_matrix)
+        active_rows.for_each(n_rows, [this](const unsigned int r) {
           std::fill(values.begin() + 4 * row_begin[r],
                     values.begin() + 4 * row_begin[r + 1],
                     0.);
+        });
       std::fill(right_hand_side.begin(), right_hand_side.end(), 0.);
     }
 
@@ -649,12 +642,7 @@ namespace NMM
         double      *block = find_block(row, row, stride);
         return block[c * stride + c];
       };
-      const auto for_each_row = [this](const auto &action) {
-        const unsigned int n = has_passive_rows ? active_rows.size() : n_owned;
-        for (unsigned int i = 0; i < n; ++i)
-          action(has_passive_rows ? active_rows[i] : i);
-      };
-      for_each_row([&](const unsigned int r) {
+      active_rows.for_each(n_owned, [&](const unsigned int r) {
         for (unsigned int c = 0; c < 2; ++c)
           if (diagonal(r, c) != 0.)
           {
@@ -668,7 +656,7 @@ namespace NMM
         dealii::ArrayView<double>(sum_and_count.data(), 2));
       const double mean =
         sum_and_count[1] > 0. ? sum_and_count[0] / sum_and_count[1] : 1.;
-      for_each_row([&](const unsigned int r) {
+      active_rows.for_each(n_owned, [&](const unsigned int r) {
         for (unsigned int c = 0; c < 2; ++c)
           if (diagonal(r, c) == 0.)
             diagonal(r, c) = mean;

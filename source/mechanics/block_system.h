@@ -9,6 +9,7 @@
 #include <deal.II/lac/trilinos_vector.h>
 
 #include <array>
+#include <mechanics/active_rows.h>
 #include <vector>
 
 class Epetra_CrsMatrix;
@@ -201,8 +202,8 @@ namespace NMM
       std::vector<double>       values;
       std::vector<double>       right_hand_side;
       /// Block rows that count, unless all do, and the block of each.
-      bool                      has_passive_rows = false;
-      std::vector<unsigned int> active_rows, row_to_block;
+      ActiveRows                active_rows;
+      std::vector<unsigned int> row_to_block;
 
       /// Per rank: rows sent and received, each as cover, n, n columns (global).
       std::vector<std::pair<unsigned int, std::vector<unsigned int>>> sent,

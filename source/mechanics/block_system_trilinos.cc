@@ -110,22 +110,19 @@ namespace NMM
     void
     BlockSystem::copy_values(const Epetra_CrsMatrix &matrix) const
     {
-      const unsigned int n_copied =
-        2 * (has_passive_rows ? active_rows.size() : n_owned);
-      for (unsigned int i = 0; i < n_copied; ++i)
-      {
-        const unsigned int r =
-          has_passive_rows ? 2 * active_rows[i / 2] + i % 2 : i;
-        int       n;
-        double   *row;
+      active_rows.for_each(n_owned, [&](const unsigned int block_row) {
         const int length =
-          2 * static_cast<int>(row_begin[r / 2 + 1] - row_begin[r / 2]);
-        check(matrix.ExtractMyRowView(r, n, row));
-        AssertDimension(n, length);
-        const double *from =
-          values.data() + 4 * row_begin[r / 2] + (r % 2) * length;
-        std::copy(from, from + length, row);
-      }
+          2 * static_cast<int>(row_begin[block_row + 1] - row_begin[block_row]);
+        const double *from = values.data() + 4 * row_begin[block_row];
+        for (unsigned int c = 0; c < 2; ++c, from += length)
+        {
+          int     n;
+          double *row;
+          check(matrix.ExtractMyRowView(2 * block_row + c, n, row));
+          AssertDimension(n, length);
+          std::copy(from, from + length, row);
+        }
+      });
     }
 
 

@@ -2,9 +2,9 @@
 
 #include <Epetra_CrsMatrix.h>
 #include <algorithm>
+#include <base/disjoint_sets.h>
 #include <klu.h>
 #include <mechanics/klu_solver.h>
-#include <numeric>
 #include <vector>
 
 namespace NMM
@@ -32,15 +32,6 @@ namespace NMM
       {
         klu_free_numeric(&numeric, &common);
         klu_free_symbolic(&symbolic, &common);
-      }
-
-      /// Root of the tree that i is in; halves the way for the next time.
-      unsigned int
-      group(unsigned int i)
-      {
-        while (parents[i] != i)
-          i = parents[i] = parents[parents[i]];
-        return i;
       }
 
       /// Call action(row, column, value) where the value is not zero, both being of
@@ -86,9 +77,11 @@ namespace NMM
       klu_symbolic *symbolic = nullptr;
       klu_numeric  *numeric  = nullptr;
       /// Rows of A, which KLU takes for columns of its transpose.
-      std::vector<int>          begins, columns;
-      std::vector<double>       values;
-      std::vector<unsigned int> parents, sizes;
+      std::vector<int>    begins, columns;
+      std::vector<double> values;
+      /// Of unknowns that are coupled, and the size of each set at its least member.
+      DisjointSets              groups;
+      std::vector<unsigned int> sizes;
       /// Rows that are solved for, and the number of each row among them.
       std::vector<unsigned int> rows, numbers;
       std::vector<double>       scratch;
@@ -110,20 +103,17 @@ namespace NMM
     {
       Data &d = *data;
       d.number_rows(matrix.m(), rows);
-      d.parents.resize(d.rows.size());
-      std::iota(d.parents.begin(), d.parents.end(), 0);
+      d.groups.reinit(d.rows.size());
       d.sizes.assign(d.rows.size(), 1);
       return d.for_each_value(
         matrix.trilinos_matrix(),
         [&](const unsigned int row, const unsigned int column, const double) {
-          unsigned int a = d.group(row), b = d.group(column);
+          const unsigned int a = d.groups.find(row), b = d.groups.find(column);
           if (a == b)
             return true;
-          if (d.sizes[a] < d.sizes[b])
-            std::swap(a, b);
-          d.parents[b] = a;
-          d.sizes[a] += d.sizes[b];
-          return d.sizes[a] <= max_group;
+          d.groups.join(a, b);
+          d.sizes[std::min(a, b)] = d.sizes[a] + d.sizes[b];
+          return d.sizes[std::min(a, b)] <= max_group;
         });
     }
 

@@ -2,12 +2,11 @@
 
 #include <deal.II/base/timer.h>
 #include <deal.II/lac/solver_cg.h>
-#include <deal.II/lac/trilinos_precondition.h>
 
-#include <Teuchos_ParameterList.hpp>
 #include <cmath>
 #include <mechanics/linear_solver.h>
 #include <mechanics/mumps_solver.h>
+#include <mechanics/two_level_preconditioner.h>
 #include <ml_MultiLevelPreconditioner.h>
 #include <sstream>
 
@@ -33,50 +32,22 @@ namespace NMM
       }
 
 
-      /**
-       * Translations and the rotation about the solid's centre at the covers'
-       * nodes, zero in constrained rows, normalized: the near-null space that
-       * smoothed aggregation must keep.
-       */
-      std::vector<double>
-      rigid_body_modes(const CoverSystem                       &covers,
-                       const dealii::AffineConstraints<double> &constraints)
-      {
-        const auto &box = covers.manifold_mesh()
-                            .physical_mesh()
-                            .bounding_box()
-                            .get_boundary_points();
-        const dealii::Point<2> center(0.5 * (box.first + box.second));
-        const double           size = box.first.distance(box.second);
-
-        const unsigned int  n = 2 * covers.locally_owned_covers().n_elements();
-        std::vector<double> modes(3 * n, 0.);
-        unsigned int        i = 0;
-        for (const unsigned int k : covers.locally_owned_covers())
-        {
-          const dealii::Tensor<1, 2> d =
-            (covers.node(covers.local_cover(k)) - center) / size;
-          for (unsigned int c = 0; c < 2; ++c, ++i)
-            if (!constraints.is_constrained(2 * k + c))
-            {
-              modes[c * n + i] = 1.;
-              modes[2 * n + i] = c == 0 ? -d[1] : d[0];
-            }
-        }
-        return modes;
-      }
-
-
       void
       solve_direct(const Matrix       &matrix,
                    const Vector       &rhs,
+                   const CoverSystem  &covers,
                    Vector             &solution,
                    LinearSolverReport &report)
       {
-        dealii::Timer timer;
-        DirectSolver  solver;
+        dealii::Timer                 timer;
+        DirectSolver                  solver;
+        std::vector<dealii::Point<2>> points;
+        for (const unsigned int k : covers.locally_owned_covers())
+          points.push_back(covers.node(covers.local_cover(k)));
+        solver.set_points(std::move(points));
         solver.factorize(matrix);
-        report.factorization_time = timer.wall_time();
+        report.analysis_time      = solver.analysis_time();
+        report.factorization_time = timer.wall_time() - report.analysis_time;
         report.n_factor_entries   = solver.n_factor_entries();
         timer.restart();
         solver.solve(rhs, solution);
@@ -84,41 +55,15 @@ namespace NMM
       }
 
 
+      template <typename Preconditioner>
       void
-      solve_iterative(const Matrix                            &matrix,
-                      const Vector                            &rhs,
-                      const CoverSystem                       &covers,
-                      const dealii::AffineConstraints<double> &constraints,
-                      const LinearSolverParameters            &parameters,
-                      Vector                                  &solution,
-                      LinearSolverReport                      &report)
+      iterate(const Matrix                 &matrix,
+              const Vector                 &rhs,
+              const Preconditioner         &preconditioner,
+              const LinearSolverParameters &parameters,
+              Vector                       &solution,
+              LinearSolverReport           &report)
       {
-        dealii::Timer       timer;
-        std::vector<double> modes = rigid_body_modes(covers, constraints);
-
-        Teuchos::ParameterList ml;
-        ML_Epetra::SetDefaults("SA", ml);
-        ml.set("ML output", 0);
-        ml.set("PDE equations", 2);
-        ml.set("null space: type", "pre-computed");
-        ml.set("null space: dimension", 3);
-        ml.set("null space: vectors", modes.data());
-        ml.set("null space: add default vectors", false);
-        ml.set("aggregation: type", "Uncoupled");
-        ml.set("aggregation: threshold", 0.);
-        ml.set("smoother: type", "Chebyshev");
-        // Cut elements stretch the spectrum: a wide interval for the smoother
-        // takes a quarter of the iterations away.
-        ml.set("smoother: sweeps", 4);
-        ml.set("smoother: Chebyshev alpha", 100.);
-        ml.set("coarse: max size", 500);
-        ml.set("coarse: type", "Amesos-KLU");
-
-        dealii::TrilinosWrappers::PreconditionAMG preconditioner;
-        preconditioner.initialize(matrix, ml);
-        report.factorization_time = timer.wall_time();
-        timer.restart();
-
         const double             norm = rhs.l2_norm();
         dealii::SolverControl    control(parameters.max_iterations,
                                       parameters.tolerance * norm);
@@ -141,7 +86,58 @@ namespace NMM
                              "choose the direct solver, more iterations, or "
                              "aggregation of covers if it is off"));
         }
-        report.n_iterations  = control.last_step();
+        report.n_iterations = control.last_step();
+      }
+
+
+      /// Smoothed aggregation of the matrix itself.
+      class OneLevelPreconditioner
+      {
+      public:
+        OneLevelPreconditioner(
+          const Matrix                            &matrix,
+          const CoverSystem                       &covers,
+          const dealii::AffineConstraints<double> &constraints)
+        {
+          std::vector<unsigned int> owned;
+          for (const unsigned int k : covers.locally_owned_covers())
+            owned.push_back(k);
+          // Cut elements stretch the spectrum: a wide interval for the smoother
+          // takes a quarter of the iterations away.
+          ml = make_aggregation_multigrid(matrix.trilinos_matrix(),
+                                          rigid_body_modes(covers,
+                                                           constraints,
+                                                           owned),
+                                          4,
+                                          100.);
+        }
+
+        void
+        vmult(Vector &dst, const Vector &src) const
+        {
+          ml->ApplyInverse(src.trilinos_vector(), dst.trilinos_vector());
+        }
+
+      private:
+        std::unique_ptr<ML_Epetra::MultiLevelPreconditioner> ml;
+      };
+
+
+      template <typename Preconditioner>
+      void
+      solve_iterative(const Matrix                            &matrix,
+                      const Vector                            &rhs,
+                      const CoverSystem                       &covers,
+                      const dealii::AffineConstraints<double> &constraints,
+                      const LinearSolverParameters            &parameters,
+                      Vector                                  &solution,
+                      LinearSolverReport                      &report)
+      {
+        dealii::Timer        timer;
+        const Preconditioner preconditioner(matrix, covers, constraints);
+        report.factorization_time = timer.wall_time();
+        timer.restart();
+        iterate(matrix, rhs, preconditioner, parameters, solution, report);
         report.solution_time = timer.wall_time();
       }
     } // namespace
@@ -168,9 +164,12 @@ namespace NMM
         return report;
 
       if (report.direct)
-        solve_direct(matrix, rhs, solution, report);
+        solve_direct(matrix, rhs, covers, solution, report);
+      else if (covers.manifold_mesh().mathematical_mesh().degree() == 2)
+        solve_iterative<TwoLevelPreconditioner>(
+          matrix, rhs, covers, constraints, parameters, solution, report);
       else
-        solve_iterative(
+        solve_iterative<OneLevelPreconditioner>(
           matrix, rhs, covers, constraints, parameters, solution, report);
 
       report.relative_residual = relative_residual(matrix, rhs, solution);

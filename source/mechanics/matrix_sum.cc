@@ -49,7 +49,7 @@ namespace NMM
     {
       const Epetra_CrsMatrix &from = matrix.trilinos_matrix();
       const Epetra_CrsMatrix &to   = sum.trilinos_matrix();
-      for_each_row([&](const int r) {
+      active_rows.for_each(n_rows, [&](const unsigned int r) {
         int     n_from, n_to, *indices;
         double *from_values, *to_values;
         from.ExtractMyRowView(r, n_from, from_values, indices);
@@ -65,11 +65,7 @@ namespace NMM
     MatrixSum::set_active_rows(const std::vector<unsigned int> &block_of,
                                const std::vector<bool>         &blocks)
     {
-      has_passive_rows = !blocks.empty();
-      active_rows.clear();
-      for (unsigned int r = 0; has_passive_rows && r < block_of.size(); ++r)
-        if (blocks[block_of[r]])
-          active_rows.push_back(r);
+      active_rows.select(block_of, blocks);
     }
 
 
@@ -95,7 +91,7 @@ namespace NMM
       const Epetra_CrsMatrix &from = stiffness.trilinos_matrix();
       const Epetra_CrsMatrix &to   = sum.trilinos_matrix();
       n_rows                       = from.NumMyRows();
-      for_each_row([&](const int r) {
+      active_rows.for_each(n_rows, [&](const unsigned int r) {
         int     n, *indices;
         double *from_values, *to_values;
         from.ExtractMyRowView(r, n, from_values, indices);

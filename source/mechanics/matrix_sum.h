@@ -3,6 +3,7 @@
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
+#include <mechanics/active_rows.h>
 #include <vector>
 
 namespace NMM
@@ -55,24 +56,11 @@ namespace NMM
       void
       add(const Matrix &matrix, double factor, const Places &places);
 
-      template <typename Action>
-      void
-      for_each_row(const Action &action) const
-      {
-        if (has_passive_rows)
-          for (const int r : active_rows)
-            action(r);
-        else
-          for (int r = 0; r < n_rows; ++r)
-            action(r);
-      }
-
-      Matrix           sum;
-      int              n_rows           = 0;
-      bool             has_passive_rows = false;
-      std::vector<int> active_rows;
-      Places           mass_places, damping_places;
-      unsigned int     known_version = 0;
+      Matrix       sum;
+      unsigned int n_rows = 0;
+      ActiveRows   active_rows;
+      Places       mass_places, damping_places;
+      unsigned int known_version = 0;
     };
   } // namespace internal
 } // namespace NMM

@@ -1,6 +1,7 @@
 #ifndef nmm_source_mechanics_mumps_solver_h
 #define nmm_source_mechanics_mumps_solver_h
 
+#include <deal.II/base/point.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
@@ -50,6 +51,11 @@ namespace NMM
                             bool     has_blocks = false);
       ~DirectSolver();
 
+      /// Where this rank's unknowns are, one point for the two of each cover. With these,
+      /// large systems are ordered by nested_dissection(), which the first rank does.
+      void
+      set_points(std::vector<dealii::Point<2>> points);
+
       /// Order the unknowns for the pattern of @p matrix, for MUMPS. @throws
       /// NumericalFailure for lack of memory.
       void
@@ -69,13 +75,17 @@ namespace NMM
       solve(const dealii::TrilinosWrappers::MPI::Vector &rhs,
             dealii::TrilinosWrappers::MPI::Vector       &solution);
 
+      /// Wall time of the last analyze() [s].
+      double
+      analysis_time() const;
+
       /// Entries of the factors of the last factorization, of all ranks.
       double
       n_factor_entries() const;
 
     private:
       void
-      set_controls();
+      set_controls(const dealii::TrilinosWrappers::SparseMatrix &matrix);
 
       struct Data;
       std::unique_ptr<Data> data;

@@ -45,6 +45,19 @@ namespace
   }
 
 
+  // Four digits would say 27.8 five times.
+  TEST(Picture, LabelsTellNeighboursApart)
+  {
+    using Labels = std::vector<std::string>;
+    EXPECT_EQ(tick_labels(round_ticks(27.8, 27.8008, 5)),
+              (Labels{"27.8", "27.8002", "27.8004", "27.8006", "27.8008"}));
+    EXPECT_EQ(tick_labels(round_ticks(0., 10., 5)),
+              (Labels{"0", "2", "4", "6", "8", "10"}));
+    EXPECT_EQ(tick_labels({1. / 3.}), Labels{"0.3333"});
+    EXPECT_EQ(tick_labels({}), Labels{});
+  }
+
+
   TEST(Picture, IsWrittenForDegenerateData)
   {
     const std::string     name = NMM_TEST_OUTPUT_DIR "/degenerate.png";

@@ -176,6 +176,11 @@ namespace NMM
   /// power of ten apart.
   std::vector<double>
   round_ticks(double min, double max, unsigned int n);
+
+  /// Texts of ascending numbers: four digits, or as many as it takes to tell
+  /// neighbours apart, at most twelve.
+  std::vector<std::string>
+  tick_labels(const std::vector<double> &ticks);
 } // namespace NMM
 
 #endif

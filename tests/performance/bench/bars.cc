@@ -204,17 +204,29 @@ namespace NMM
         const auto every_rank = [](const Row &row) {
           return row.geometry + row.mesh + row.cutting + row.covers;
         };
+        const auto serial = [&](const Row &row) {
+          return every_rank(row) +
+                 (std::isnan(row.analysis) ? 0. : row.analysis);
+        };
         const auto pair = [&](double Row::*stage) {
           return text_of(one.*stage) + " and " + text_of(two.*stage) + " s";
         };
         return "on one rank and two, what every rank makes for itself takes " +
                text_of(every_rank(one)) + " and " + text_of(every_rank(two)) +
-               " s, assembly " + pair(&Row::assembly) + ", factorization " +
-               pair(&Row::factorization) + ", solution " +
+               " s, assembly " + pair(&Row::assembly) +
+               (one.analysis > 0.
+                  ? ", ordering and symbolic factorization, which is of one "
+                    "rank, " +
+                      pair(&Row::analysis)
+                  : std::string()) +
+               ", factorization " + pair(&Row::factorization) + ", solution " +
                pair(&Row::solution) +
-               "; stages that are slower on two ranks wait for each other, or "
-               "for "
-               "a core that something else computes on";
+               "; if all that is not of every rank or of one were halved, two "
+               "ranks would be " +
+               text_of(one.total /
+                         (serial(one) + 0.5 * (one.total - serial(one))),
+                       2) +
+               " times as fast";
       }
 
 

@@ -4,7 +4,8 @@
 //   nmm-bench counts <counts.csv> [<directory of callgrind's files of nmm-kernels>]
 //   nmm-bench report <table.csv> <directory> [<earlier table.csv>]
 //
-// The report shows counts.csv if it lies beside the table.
+// The report shows counts.csv, heap.csv and performance-before-heap.csv if they lie beside
+// the table.
 // On several ranks, `measure` adds the rows of what is shared out among ranks to a table
 // that is there.
 
@@ -107,13 +108,19 @@ namespace
                            "say measure smallest|quick|full <table.csv>, "
                            "counts <counts.csv>, or "
                            "report <table.csv> <directory>"));
-    write_report(
-      read_table(arguments[1]),
-      arguments.size() == 4 ? read_table(arguments[3]) : std::vector<Row>(),
-      read_counts(
-        (std::filesystem::path(arguments[1]).parent_path() / "counts.csv")
-          .string()),
-      arguments[2]);
+    const auto beside = [&](const std::string &name) {
+      return (std::filesystem::path(arguments[1]).parent_path() / name)
+        .string();
+    };
+    Earlier earlier;
+    if (arguments.size() == 4)
+      earlier.rows = read_table(arguments[3]);
+    earlier.heaps        = read_heaps(beside("heap.csv"));
+    earlier.heaps_before = read_heaps(beside("performance-before-heap.csv"));
+    write_report(read_table(arguments[1]),
+                 earlier,
+                 read_counts(beside("counts.csv")),
+                 arguments[2]);
   }
 } // namespace
 

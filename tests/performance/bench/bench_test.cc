@@ -62,6 +62,7 @@ namespace
                              "covers_s",
                              "quadrature_s",
                              "assembly_s",
+                             "analysis_s",
                              "factorization_s",
                              "solution_s",
                              "contact_search_s",
@@ -101,6 +102,7 @@ namespace
                                  row.quadrature,
                                  row.sparsity,
                                  row.assembly,
+                                 row.analysis,
                                  row.factorization,
                                  row.solution})
         sum += std::isnan(stage) ? 0. : stage;

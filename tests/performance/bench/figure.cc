@@ -2,6 +2,7 @@
 
 #include <nmm/base/exceptions.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -74,6 +75,52 @@ namespace NMM
         return point.first > 0. && point.second > 0. &&
                std::isfinite(point.first) && std::isfinite(point.second);
       }
+
+
+      std::string
+      powers_of_two()
+      {
+        std::ostringstream text;
+        for (unsigned int n = 1; n <= 4096; n *= 2)
+          text << (n == 1 ? "" : ", ") << n;
+        return text.str();
+      }
+
+
+      /// 1, 2 and 5 times powers of ten.
+      std::string
+      round_numbers()
+      {
+        std::ostringstream text;
+        for (int power = -4; power <= 4; ++power)
+          for (const int factor : {1, 2, 5})
+            text << (text.str().empty() ? "" : ", ")
+                 << factor * std::pow(10., power);
+        return text.str();
+      }
+
+
+      /// Hardly more than the points need, as gnuplot's command.
+      template <typename Coordinate>
+      std::string
+      range(const std::string &axis,
+            const Panel       &panel,
+            const Coordinate  &coordinate)
+      {
+        double least = 1e300, largest = 0.;
+        for (const Curve &curve : panel.curves)
+          for (const auto &point : curve.points)
+            if (can_be_drawn(point))
+            {
+              least   = std::min(least, coordinate(point));
+              largest = std::max(largest, coordinate(point));
+            }
+        std::ostringstream text;
+        if (largest > 0.)
+          text << "set " << axis << "range [" << least / 1.15 << ':'
+               << 1.15 * largest << "]\n";
+        return text.str();
+      }
     } // namespace
 
 
@@ -83,14 +130,15 @@ namespace NMM
                 const std::string        &y_label,
                 const std::vector<Panel> &panels)
     {
-      // the key takes the place of one more panel
+      // Up to two panels stand in a row above the key; of more, the key takes the
+      // place of one.
       const bool         is_row = panels.size() <= 2;
       std::ostringstream script, key;
-      script << "set terminal pngcairo size 1250," << (is_row ? 450 : 950)
+      script << "set terminal pngcairo size 1250," << (is_row ? 640 : 950)
              << " font 'DejaVu Sans,12' "
                 "noenhanced\n"
              << "set output " << quoted(file_name) << '\n'
-             << "set multiplot layout " << (is_row ? "1,3" : "2,2") << " title "
+             << "set multiplot " << (is_row ? "" : "layout 2,2 ") << "title "
              << quoted(title) << '\n'
              << "set logscale xy\nset format x '%.0e'\nset format y '%.0e'\n"
              << "set grid\nset ylabel " << quoted(y_label) << '\n';
@@ -114,12 +162,27 @@ namespace NMM
           plot << (plot.str().empty() ? "plot " : ", ") << "$d" << p << '_' << c
                << " using 1:2 " << style(c) << " notitle";
         }
+        if (is_row)
+          script << "set size " << 1. / panels.size() << ",0.72\nset origin "
+                 << static_cast<double>(p) / panels.size() << ",0.22\n";
+        if (panels[p].has_numbers)
+          script << "set format '%g'\nset xtics (" << powers_of_two()
+                 << ")\nset ytics (" << round_numbers() << ")\nunset mxtics\n"
+                 << range("x",
+                          panels[p],
+                          [](const auto &point) { return point.first; })
+                 << range("y", panels[p], [](const auto &point) {
+                      return point.second;
+                    });
         script << "set xlabel " << quoted(panels[p].x_label) << '\n'
                << plot.str() << '\n';
       }
       script << "unset logscale\nunset border\nunset tics\nunset grid\n"
                 "unset xlabel\nunset ylabel\nset xrange [0:1]\nset yrange "
-                "[0:1]\nset key center center Left reverse\n"
+                "[0:1]\n"
+             << (is_row ? "set size 1,0.2\nset origin 0,0.01\nset key center "
+                          "center Left reverse horizontal maxcols 3\n"
+                        : "set key center center Left reverse\n")
              << key.str() << "\nunset multiplot\n";
       run_gnuplot(script.str());
     }

@@ -20,6 +20,8 @@ namespace NMM
     {
       std::string        x_label;
       std::vector<Curve> curves;
+      /// Small whole numbers along x, twice the one before at each mark.
+      bool has_numbers = false;
     };
 
     /// Bars of stacked parts.

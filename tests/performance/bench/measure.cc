@@ -49,6 +49,7 @@ namespace NMM
                                     &Row::quadrature,
                                     &Row::sparsity,
                                     &Row::assembly,
+                                    &Row::analysis,
                                     &Row::factorization,
                                     &Row::solution,
                                     &Row::search,

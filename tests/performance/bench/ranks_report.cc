@@ -36,6 +36,14 @@ namespace NMM
       }
 
 
+      double
+      solver_time(const Row &row)
+      {
+        return (std::isnan(row.analysis) ? 0. : row.analysis) +
+               row.factorization + row.solution;
+      }
+
+
       /// Time and size of messages between ranks.
       struct Network
       {
@@ -55,13 +63,17 @@ namespace NMM
         {
         }
 
-        static constexpr double n_neighbors = 8., n_products = 10.;
+        /// Exchanges with neighbours in an iteration: of unknowns of second order, and
+        /// on each level of ML.
+        static constexpr double n_neighbors = 8., n_exchanges = 5.,
+                                n_ml_exchanges = 6.;
 
-        /// One for each factor of nine unknowns, down to 500.
+        /// Of ML: a quarter of the unknowns are of first order, and there is a
+        /// level for each factor of nine of these, down to 500.
         double
         n_levels() const
         {
-          return 1. + std::ceil(std::log(std::max(one.unknowns / 500., 1.)) /
+          return 1. + std::ceil(std::log(std::max(one.unknowns / 2000., 1.)) /
                                 std::log(9.));
         }
 
@@ -92,12 +104,13 @@ namespace NMM
           const double work = one.solution / one.iterations / n;
           if (n == 1.)
             return work;
-          const double messages = n_products * n_levels() *
+          const double messages = (n_exchanges + n_ml_exchanges * n_levels()) *
                                   std::min(n_neighbors, n - 1.) *
                                   network.latency;
-          // each level has a third of the boundary of the one before
-          const double bytes =
-            n_products * 1.5 * 4. * two.message_bytes / std::sqrt(n);
+          // first order has half of the boundary, each level of ML a third of that
+          // of the one before
+          const double bytes = (n_exchanges + n_ml_exchanges * 0.5 * 1.5) * 4. *
+                               two.message_bytes / std::sqrt(n);
           return work + messages + bytes / network.bandwidth +
                  3. * std::log2(n) * network.latency;
         }
@@ -144,7 +157,7 @@ namespace NMM
                                       row.total,
                                       row.mesh + row.cutting + row.covers,
                                       row.assembly + row.sparsity,
-                                      row.factorization + row.solution,
+                                      solver_time(row),
                                       row.held_elements,
                                       row.ghost_elements,
                                       row.ghost_unknowns,
@@ -195,8 +208,8 @@ namespace NMM
             out << "- " << name_of(*one) << ": two ranks are "
                 << text_of(one->total / two->total, 2)
                 << " times as fast as one, with the solver left out "
-                << text_of((one->total - one->factorization - one->solution) /
-                             (two->total - two->factorization - two->solution),
+                << text_of((one->total - solver_time(*one)) /
+                             (two->total - solver_time(*two)),
                            2)
                 << " times, and hold "
                 << text_of(two->held_elements / one->held_elements, 2)
@@ -224,9 +237,10 @@ namespace NMM
              "and bytes of two, and messages of latency l and bandwidth b:\n\n"
              "    T(n) = geometry + (mesh + cutting + covers + quadrature + "
              "sparsity + assembly) H(n)/E\n"
-             "           + (setting ML up)/n + iterations t(n)\n"
+             "           + (making the preconditioner)/n + iterations t(n)\n"
              "    H(n) = E/n + 4 G/sqrt(n)\n"
-             "    t(n) = (an iteration on one rank)/n + 10 L 8 l + 15 * 4 "
+             "    t(n) = (an iteration on one rank)/n + (5 + 6 L) 8 l + 9.5 * "
+             "4 "
              "B/sqrt(n) / b + 3 log2(n) l\n\n"
              "E = "
           << text_of(one.elements)
@@ -237,11 +251,14 @@ namespace NMM
              "the square root of the area: one of n has four of 1/sqrt(n) of "
              "that, and up to eight neighbours. An iteration of "
           << text_of(1e3 * one.solution / one.iterations, 3)
-          << " ms has ten products (four sweeps of the smoother before and "
-             "after, the residual, the direction) on each of L = "
+          << " ms exchanges values of second order with neighbours five times "
+             "(the direction, before and after smoothing, to and from first "
+             "order), and on each of L = "
           << text_of(model.n_levels())
-          << " levels of ML, each a ninth of the one before with a third of "
-             "its boundary, and three sums over all ranks. Iterations ("
+          << " levels of ML, of which the first has half the boundary and each "
+             "other a third of the one before, six times (two sweeps of the "
+             "smoother before and after, the residual, to the next level), and "
+             "has three sums over all ranks. Iterations ("
           << text_of(one.iterations)
           << ") are taken to stay as they are, and parts to be of equal "
              "size.\n\n| |";
@@ -314,6 +331,7 @@ namespace NMM
                 *two =
                   find(strong, "strong scaling", "distributed", "CG + ML", 2.);
       Panel strong_panel, weak_panel;
+      strong_panel.has_numbers = weak_panel.has_numbers = true;
       strong_panel.x_label = "ranks, the same ring";
       strong_panel.curves  = make_curves(strong);
       weak_panel.x_label   = "ranks, as many unknowns for each";

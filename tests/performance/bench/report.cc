@@ -349,7 +349,7 @@ namespace NMM
 
     void
     write_report(const std::vector<Row>   &rows,
-                 const std::vector<Row>   &before,
+                 const Earlier            &earlier,
                  const std::vector<Count> &counts,
                  const std::string        &directory)
     {
@@ -372,7 +372,7 @@ namespace NMM
         write_series(out, members);
       }
       write_stages(out, rows, images);
-      write_improvements(out, before, rows);
+      write_improvements(out, earlier, rows);
       report_counts(out, counts);
       write_threads(out, rows);
       write_scaling(out, rows);

@@ -2,6 +2,7 @@
 #define nmm_tests_performance_bench_report_h
 
 #include "counts.h"
+#include "improvements.h"
 #include "row.h"
 #include <ostream>
 
@@ -11,12 +12,11 @@ namespace NMM
   {
     /**
      * Write @p directory/performance.md and the figures it shows, all of it from
-     * @p rows. @p before: rows that were measured before something became faster, for
-     * comparison; may be empty. @p counts may be, too.
+     * @p rows. @p earlier, for comparison, and @p counts may be empty.
      */
     void
     write_report(const std::vector<Row>   &rows,
-                 const std::vector<Row>   &before,
+                 const Earlier            &earlier,
                  const std::vector<Count> &counts,
                  const std::string        &directory);
 
@@ -63,12 +63,6 @@ namespace NMM
     /// Stages on one thread and on more.
     void
     write_threads(std::ostream &out, const std::vector<Row> &rows);
-
-    /// Stages before and now.
-    void
-    write_improvements(std::ostream           &out,
-                       const std::vector<Row> &before,
-                       const std::vector<Row> &rows);
     /// @}
   } // namespace Bench
 } // namespace NMM

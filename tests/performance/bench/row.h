@@ -31,7 +31,8 @@ namespace NMM
       /// @{
       double geometry = none, mesh = none, cutting = none, covers = none,
              quadrature = none, sparsity = none, assembly = none,
-             factorization = none, solution = none, search = none,
+             /// Ordering and symbolic factorization of a direct solver.
+        analysis = none, factorization = none, solution = none, search = none,
              contact = none, output = none;
       /// From the curves to the answer; measuring the error does not count.
       double total = none;
@@ -89,6 +90,7 @@ namespace NMM
       action("quadrature_s", row.quadrature);
       action("sparsity_s", row.sparsity);
       action("assembly_s", row.assembly);
+      action("analysis_s", row.analysis);
       action("factorization_s", row.factorization);
       action("solution_s", row.solution);
       action("contact_search_s", row.search);

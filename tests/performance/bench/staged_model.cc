@@ -134,8 +134,9 @@ namespace NMM
       row.assembly                    = all - row.sparsity;
       const LinearSolverReport report = elasticity->solve(parameters);
       row.solution                    = watch.lap();
-      row.factorization               = report.factorization_time;
-      row.solution -= row.factorization;
+      row.analysis      = report.direct ? report.analysis_time : none;
+      row.factorization = report.factorization_time;
+      row.solution -= report.analysis_time + row.factorization;
       row.solver         = report.direct ? "MUMPS" : "CG + ML";
       row.factor_entries = report.direct ? report.n_factor_entries : none;
       row.iterations     = report.direct ? none : report.n_iterations;

@@ -23,6 +23,7 @@ namespace NMM
                               {"quadrature", &Row::quadrature},
                               {"sparsity", &Row::sparsity},
                               {"assembly", &Row::assembly},
+                              {"analysis", &Row::analysis},
                               {"factorization", &Row::factorization},
                               {"solution", &Row::solution},
                               {"contact search", &Row::search},
@@ -110,11 +111,18 @@ namespace NMM
       }
 
 
-      /// Stages that every rank does for the whole mesh.
+      /// Stages that every rank does for the whole mesh, and those of one rank.
       double
       replicated(const Row &row)
       {
         return row.geometry + row.mesh + row.cutting + row.covers;
+      }
+
+
+      double
+      serial(const Row &row)
+      {
+        return replicated(row) + (std::isnan(row.analysis) ? 0. : row.analysis);
       }
     } // namespace
 
@@ -171,79 +179,15 @@ namespace NMM
 
 
     void
-    write_improvements(std::ostream           &out,
-                       const std::vector<Row> &before,
-                       const std::vector<Row> &rows)
-    {
-      std::ostringstream table;
-      const auto         add = [&](const Row         &row,
-                           const std::string &what,
-                           const double       was,
-                           const double       is) {
-        if (std::isnan(was) || std::isnan(is))
-          return;
-        table << "| " << row.name
-              << (row.kinematics.empty() ? "" : ", " + row.kinematics) << ", "
-              << text_of(row.elements) << " elements | " << what << " | "
-              << text_of(was) << " | " << text_of(is) << " | "
-              << text_of(was / is, 2) << " |\n";
-      };
-      for (const Row &old : before)
-        for (const Row &row : rows)
-          if (row.name == old.name && row.method == old.method &&
-              row.kinematics == old.kinematics && row.ranks == old.ranks &&
-              row.elements == old.elements)
-          {
-            add(row, "cutting [s]", old.cutting, row.cutting);
-            add(row, "covers [s]", old.covers, row.covers);
-            add(row, "quadrature [s]", old.quadrature, row.quadrature);
-            add(row, "output [s]", old.output, row.output);
-            add(row, "together [s]", old.total, row.total);
-            add(row, "kept [MB]", old.live_memory, row.live_memory);
-            add(row,
-                "peak of the process above what it was [MB]",
-                old.own_peak_memory,
-                row.own_peak_memory);
-          }
-      if (table.str().empty())
-        return;
-      out
-        << "## What became faster\n\n"
-           "The profile of the first requirement had two costly places. Exact "
-           "arrangement: every cell near a curve went through it, 50 us each; "
-           "now a "
-           "cell that one straight edge runs through, clear of corners and of "
-           "everything else by many roundings, is cut by itself, and ends, "
-           "crossings and arcs alone are arranged. Rules of cut elements: 6 us "
-           "each for "
-           "fitting moments; now a well-shaped triangle takes the rule of "
-           "triangles and a well-shaped quadrilateral two of them, with fewer "
-           "points "
-           "than before. Constraints of aggregated covers evaluate the "
-           "weight functions once instead of once per component. Field "
-           "files: half of one was zlib's search for what repeats; now "
-           "the "
-           "library writes them itself and stores numbers that hardly shrink. "
-           "Before: "
-           "`tests/performance/performance-before.csv` ("
-        << before.front().date << ", " << before.front().cpu << ").\n\n"
-        << "| | | before | now | ratio |\n|---|---|---|---|---|\n"
-        << table.str()
-        << "\nCallgrind cannot count the instructions of this: it does not "
-           "know the "
-           "rounding modes that CGAL's interval arithmetic needs, and "
-           "topology comes out wrong under it.\n\n";
-    }
-
-
-    void
     write_scaling(std::ostream &out, const std::vector<Row> &rows)
     {
       const auto members = select(rows, "ring on ranks");
       out << "## Ranks\n\n"
              "Cells are shared out among ranks: quadrature, assembly, "
              "factorization and solution are of a rank's own "
-             "elements and unknowns. The mesh, the manifold elements and the "
+             "elements and unknowns; the analysis before a factorization, an "
+             "ordering and symbolic factorization, is the first rank's. The "
+             "mesh, the manifold elements and the "
              "numbers of their covers "
              "are the same on every rank, and are made by each: that takes as "
              "long on many ranks "
@@ -258,14 +202,15 @@ namespace NMM
             << " unknowns | " << text_of(row.ranks) << " | "
             << text_of(row.total) << " | " << text_of(replicated(row)) << " | "
             << text_of(row.quadrature) << " | " << text_of(row.sparsity)
-            << " | " << text_of(row.assembly) << " | "
-            << text_of(row.factorization) << " | " << text_of(row.solution)
-            << " | " << text_of(row.own_peak_memory) << " |\n";
+            << " | " << text_of(row.assembly) << " | " << text_of(row.analysis)
+            << " | " << text_of(row.factorization) << " | "
+            << text_of(row.solution) << " | " << text_of(row.own_peak_memory)
+            << " |\n";
       out << '\n';
       for (const Row &row : members)
         if (row.ranks == 1.)
         {
-          const double s = replicated(row);
+          const double s = serial(row);
           out << "With " << row.solver
               << ", if what is shared out were shared out perfectly, n ranks "
                  "would be "

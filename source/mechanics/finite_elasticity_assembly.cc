@@ -1,0 +1,413 @@
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <atomic>
+#include <base/in_order.h>
+#include <cmath>
+#include <mechanics/finite_elasticity_data.h>
+#include <mechanics/floating_blocks.h>
+#include <mechanics/trace_constant.h>
+
+// One assembly: volumes, conditions and ties, loads.
+namespace NMM
+{
+  using namespace internal;
+
+  FiniteElasticity::Data::Data(
+    const CoverSystem                       &covers,
+    const QuadratureCollection              &quadrature,
+    const dealii::AffineConstraints<double> &constraints,
+    const ElasticityProblem                 &problem,
+    const bool                               may_float)
+    : covers(&covers)
+    , constraints(&constraints)
+    , problem(&problem)
+    , degree(covers.manifold_mesh().mathematical_mesh().degree())
+    , n_per_cell(WeightFunctions::n_per_cell(degree))
+    , curve_conditions((problem.check(covers.manifold_mesh().physical_mesh()),
+                        covers.manifold_mesh()),
+                       problem)
+    , points(covers, problem)
+    , tables(covers, quadrature)
+    , dead_loads(covers, quadrature, problem, curve_conditions)
+    , block_system(covers, constraints)
+  {
+    if (!may_float)
+      check_no_block_floats(covers, problem, curve_conditions, points);
+    for (const unsigned int m :
+         problem.region_to_material(covers.manifold_mesh().physical_mesh()))
+    {
+      region_to_law.emplace_back(problem.materials[m], problem.plane_state);
+      region_to_conserving_law.emplace_back(problem.materials[m],
+                                            problem.plane_state);
+    }
+    TraceConstants trace_constants(covers,
+                                   quadrature,
+                                   constraints,
+                                   curve_conditions);
+    edges = std::make_unique<EdgeTables>(covers,
+                                         problem,
+                                         curve_conditions,
+                                         trace_constants);
+    penalty_growth.assign(edges->weak_points.size(), 1.);
+    make_pattern();
+    least_force_scale = forces_at_small_strain();
+  }
+
+
+  /// Forces at a strain of 1e-6: relative to them, what F = I + grad u loses to
+  /// rounding is below tolerances, however small the load.
+  double
+  FiniteElasticity::Data::forces_at_small_strain() const
+  {
+    constexpr double    strain = 1e-6;
+    const ManifoldMesh &mesh   = covers->manifold_mesh();
+    double              square = 0.;
+    const auto [first, last]   = covers->locally_owned_elements();
+    for (unsigned int e = first; e < last; ++e)
+    {
+      const double stress =
+        strain *
+        region_to_law[mesh.region(e)].small_strain().largest_eigenvalue();
+      square += stress * stress * mesh.area(e);
+    }
+    return std::sqrt(
+      dealii::Utilities::MPI::sum(square, covers->communicator()));
+  }
+
+
+  void
+  FiniteElasticity::Data::make_pattern()
+  {
+    std::vector<unsigned int> both;
+    for (const EdgeTables::Site &tie : edges->ties)
+    {
+      both.clear();
+      for (const unsigned int e : {tie.element, tie.neighbor})
+        both.insert(both.end(),
+                    covers->covers(e).begin(),
+                    covers->covers(e).end());
+      block_system.couple({both.data(), both.size()});
+    }
+    block_system.ignore_inhomogeneities();
+    block_system.build();
+  }
+
+
+  Deformation
+  FiniteElasticity::Data::add_weak_points(const EdgeTables::Site  &site,
+                                          const Task              &task,
+                                          const LocalDisplacement &u,
+                                          LocalSystem             &local)
+  {
+    LocalDisplacement begin, end;
+    if (task.is_between)
+    {
+      gather(site, nodal_begin, begin);
+      gather(site, nodal_end, end);
+    }
+    for (unsigned int q = site.first_point; q < site.last_point; ++q)
+    {
+      const EdgeTables::WeakPoint &point  = edges->weak_points[q];
+      std::array<double, 2>        factor = {};
+      if (point.condition != invalid_index)
+      {
+        if (!amplitudes.released_conditions.empty() &&
+            amplitudes.released_conditions[point.condition])
+          continue;
+        factor =
+          factors(&LoadAmplitudes::boundary_conditions, point.condition, task);
+      }
+      const Deformation state =
+        task.is_between
+          ? add_conserving_weak_point(point,
+                                      region_to_conserving_law,
+                                      n_per_cell,
+                                      {{factor[0] * point.prescribed,
+                                        factor[1] * point.prescribed}},
+                                      penalty_growth[q],
+                                      begin,
+                                      end,
+                                      task.tangent,
+                                      local,
+                                      energies.work_of_conditions,
+                                      largest_jump)
+          : add_weak_point(point,
+                           region_to_law,
+                           n_per_cell,
+                           factor[0] * point.prescribed,
+                           penalty_growth[q],
+                           u,
+                           task.tangent,
+                           local,
+                           energies.conditions,
+                           largest_jump);
+      if (state != Deformation::admissible)
+        return Deformation::inverted;
+    }
+    return Deformation::admissible;
+  }
+
+
+  void
+  FiniteElasticity::Data::add_fixed_points(const unsigned int       element,
+                                           const Task              &task,
+                                           const LocalDisplacement &u,
+                                           LocalSystem             &local)
+  {
+    for (unsigned int f = 0; f < problem->fixed_points.size(); ++f)
+      if (points.fixed_point_elements()[f] == element &&
+          (amplitudes.released_fixed_points.empty() ||
+           !amplitudes.released_fixed_points[f]))
+      {
+        const auto [first, last] =
+          factors(&LoadAmplitudes::fixed_points, f, task);
+        const auto add =
+          [&](const double factor, const bool with_tangent, LocalSystem &to) {
+            return add_fixed_point(*covers,
+                                   element,
+                                   problem->fixed_points[f],
+                                   points.stiffness(f),
+                                   factor,
+                                   u,
+                                   with_tangent,
+                                   to);
+          };
+        energies.conditions +=
+          add(0.5 * (first + last), task.with_tangent, local);
+        if (first != last)
+        {
+          // the energy is quadratic in the factor: its derivative times the
+          // change
+          LocalSystem unused;
+          unused.reset(n_per_cell);
+          energies.work_of_conditions +=
+            add(last, false, unused) - add(first, false, unused);
+        }
+      }
+  }
+
+
+  void
+  FiniteElasticity::Data::add_follower_points(const EdgeTables::Site  &site,
+                                              const Task              &task,
+                                              const LocalDisplacement &u,
+                                              LocalSystem             &local)
+  {
+    for (unsigned int q = site.first_point; q < site.last_point; ++q)
+    {
+      const EdgeTables::FollowerPoint &point = edges->follower_points[q];
+      add_follower_point(point,
+                         n_per_cell,
+                         condition_factor(point.condition, task),
+                         u,
+                         task.with_tangent,
+                         local);
+    }
+  }
+
+
+  Deformation
+  FiniteElasticity::Data::add_volume(const unsigned int       element,
+                                     const Task              &task,
+                                     const LocalDisplacement &u,
+                                     LocalSystem             &local,
+                                     Energies                &sums) const
+  {
+    const auto         element_covers = covers->covers(element);
+    const unsigned int region         = covers->manifold_mesh().region(element);
+    LocalDisplacement  first, second;
+    if (task.is_between)
+    {
+      first.gather(element_covers, nodal_begin);
+      second.gather(element_covers, nodal_end);
+      return add_conserving_terms(region_to_conserving_law[region],
+                                  n_per_cell,
+                                  tables(element),
+                                  first,
+                                  second,
+                                  task.with_tangent,
+                                  task.damping,
+                                  local,
+                                  sums.dissipated);
+    }
+    if (task.has_increment)
+      first.gather(element_covers, nodal_increment);
+    return add_volume_terms(region_to_law[region],
+                            n_per_cell,
+                            tables(element),
+                            u,
+                            task.has_increment ? &first : nullptr,
+                            task.with_tangent,
+                            local,
+                            sums.strain);
+  }
+
+
+  Deformation
+  FiniteElasticity::Data::add_elements(const Task &task)
+  {
+    /// The volume's part of an element.
+    struct Volume
+    {
+      LocalSystem       local;
+      LocalDisplacement u;
+      Energies          energies;
+      Deformation       state;
+    };
+
+    double      known[2 * LocalSystem::max_covers];
+    auto        condition    = edges->conditions.begin();
+    auto        follower     = edges->followers.begin();
+    Deformation state        = Deformation::admissible;
+    const auto [first, last] = covers->locally_owned_elements();
+    // what other threads work at then is in vain
+    std::atomic<bool> is_inverted(false);
+    n_assembled        = 0;
+    const auto is_idle = [&](const unsigned int e) {
+      return is_absent(e) || !is_active(e);
+    };
+    for_each_in_order<Volume>(
+      first,
+      last,
+      [&](const unsigned int e, Volume &volume) {
+        if (is_idle(e) || is_inverted)
+          return;
+        volume.u.gather(covers->covers(e), nodal);
+        volume.local.reset(n_per_cell);
+        volume.energies = Energies();
+        volume.state =
+          add_volume(e, task, volume.u, volume.local, volume.energies);
+      },
+      [&](const unsigned int e, Volume &volume) {
+        const bool has_condition = condition != edges->conditions.end() &&
+                                   condition->element == e,
+                   has_follower = follower != edges->followers.end() &&
+                                  follower->element == e;
+        if (!is_idle(e) && state == Deformation::admissible)
+        {
+          ++n_assembled;
+          energies.strain += volume.energies.strain;
+          energies.dissipated += volume.energies.dissipated;
+          state = volume.state;
+          std::fill_n(known, 2 * n_per_cell, 0.);
+          gauge(volume.local, known);
+          if (state == Deformation::admissible && has_condition)
+            state = add_weak_points(*condition, task, volume.u, volume.local);
+          is_inverted = state == Deformation::inverted;
+          gauge(volume.local, known);
+          if (has_follower)
+            add_follower_points(*follower, task, volume.u, volume.local);
+          if (!problem->fixed_points.empty())
+            add_fixed_points(e, task, volume.u, volume.local);
+          gauge(volume.local, known);
+          hand_over(covers->covers(e), task, volume.local);
+        }
+        condition += has_condition ? 1 : 0;
+        follower += has_follower ? 1 : 0;
+      });
+    return state;
+  }
+
+
+  Deformation
+  FiniteElasticity::Data::add_ties(const Task &task)
+  {
+    LocalSystem       local;
+    LocalDisplacement u;
+    unsigned int      both[LocalSystem::max_covers];
+    for (const EdgeTables::Site &tie : edges->ties)
+    {
+      if (is_absent(tie.element) || is_absent(tie.neighbor) ||
+          !(is_active(tie.element) || is_active(tie.neighbor)))
+        continue;
+      for (unsigned int side = 0; side < 2; ++side)
+      {
+        const auto side_covers =
+          covers->covers(side == 0 ? tie.element : tie.neighbor);
+        std::copy(side_covers.begin(),
+                  side_covers.end(),
+                  both + side * n_per_cell);
+      }
+      gather(tie, nodal, u);
+      local.reset(2 * n_per_cell);
+      if (add_weak_points(tie, task, u, local) != Deformation::admissible)
+        return Deformation::inverted;
+      hand_over({both, 2 * n_per_cell}, task, local);
+    }
+    return Deformation::admissible;
+  }
+
+
+  void
+  FiniteElasticity::Data::add_dead_loads(const Task &task)
+  {
+    double     square = 0., work = 0.;
+    const auto add = [&](const DeadLoads::Load &load, const double factor) {
+      for (unsigned int i = 0; i < load.covers.size(); ++i)
+      {
+        const unsigned int k = load.covers[i];
+        if (!absent_covers.empty() && absent_covers[k])
+          continue;
+        const double f[2] = {-factor * load.forces[2 * i],
+                             -factor * load.forces[2 * i + 1]};
+        block_system.add_rhs({&k, 1}, f);
+        square += f[0] * f[0] + f[1] * f[1];
+        work += f[0] * nodal[2 * k] + f[1] * nodal[2 * k + 1];
+      }
+    };
+    for (unsigned int c = 0; c < dead_loads.boundary_conditions.size(); ++c)
+      add(dead_loads.boundary_conditions[c], condition_factor(c, task));
+    for (unsigned int f = 0; f < dead_loads.point_forces.size(); ++f)
+      add(dead_loads.point_forces[f],
+          task.load_factor * (amplitudes.point_forces.empty()
+                                ? 1.
+                                : amplitudes.point_forces[f]));
+    add(dead_loads.gravity, task.load_factor * amplitudes.gravity);
+    add(dead_loads.body_force, task.load_factor * amplitudes.body_force);
+    energies.loads = work;
+    force_square += square;
+  }
+
+
+  Deformation
+  FiniteElasticity::Data::assemble(const Task &task)
+  {
+    block_system.reset(task.with_tangent);
+    energies          = Energies();
+    force_square      = 0.;
+    largest_jump      = 0.;
+    Deformation state = add_elements(task);
+    if (state == Deformation::admissible)
+      state = add_ties(task);
+    add_dead_loads(task);
+
+    // inverted somewhere is inverted for all
+    double sums[7] = {state == Deformation::inverted ? 1. : 0.,
+                      force_square,
+                      energies.strain,
+                      energies.conditions,
+                      energies.loads,
+                      energies.work_of_conditions,
+                      energies.dissipated};
+    dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums, 7),
+                                covers->communicator(),
+                                dealii::ArrayView<double>(sums, 7));
+    if (sums[0] > 0.)
+      return Deformation::inverted;
+    force_scale         = std::hypot(std::sqrt(sums[1]), least_force_scale);
+    energies.strain     = sums[2];
+    energies.conditions = sums[3];
+    energies.loads      = sums[4];
+    energies.work_of_conditions = sums[5];
+    energies.dissipated         = sums[6];
+    largest_jump =
+      dealii::Utilities::MPI::max(largest_jump, covers->communicator());
+
+    if (task.with_tangent)
+      block_system.transfer(matrix, residual);
+    else
+      block_system.transfer_rhs(residual);
+    return Deformation::admissible;
+  }
+} // namespace NMM

@@ -1,0 +1,199 @@
+#ifndef nmm_source_mechanics_finite_elasticity_data_h
+#define nmm_source_mechanics_finite_elasticity_data_h
+
+#include <nmm/mechanics/finite_elasticity.h>
+
+#include <array>
+#include <mechanics/block_system.h>
+#include <mechanics/conserving_terms.h>
+#include <mechanics/curve_conditions.h>
+#include <mechanics/edge_tables.h>
+#include <mechanics/element_tables.h>
+#include <mechanics/finite_terms.h>
+#include <mechanics/point_terms.h>
+#include <memory>
+#include <vector>
+
+namespace NMM
+{
+  /// Tables of elements and edges, the linear system, and one assembly of it
+  /// (finite_elasticity_assembly.cc).
+  struct FiniteElasticity::Data
+  {
+    using LocalDisplacement = internal::LocalDisplacement;
+    using LocalSystem       = internal::LocalSystem;
+    using EdgeTables        = internal::EdgeTables;
+    using CurveConditions   = internal::CurveConditions;
+    using PointTerms        = internal::PointTerms;
+    using ElementTables     = internal::ElementTables;
+    using DeadLoads         = internal::DeadLoads;
+    using BlockSystem       = internal::BlockSystem;
+    using ConservingLaw     = internal::ConservingLaw;
+
+    Data(const CoverSystem                       &covers,
+         const QuadratureCollection              &quadrature,
+         const dealii::AffineConstraints<double> &constraints,
+         const ElasticityProblem                 &problem,
+         bool                                     may_float);
+
+    /// What one assembly needs to know.
+    struct Task
+    {
+      double  load_factor;
+      Tangent tangent;
+      bool    with_tangent, has_increment;
+      /// Between two states, see assemble_between().
+      bool                  is_between = false;
+      const LoadAmplitudes *first = nullptr, *last = nullptr;
+      double                damping = 0.;
+    };
+
+    /// Amplitude of a condition times the load factor.
+    double
+    condition_factor(const unsigned int condition, const Task &task) const
+    {
+      return task.load_factor * (amplitudes.boundary_conditions.empty()
+                                   ? 1.
+                                   : amplitudes.boundary_conditions[condition]);
+    }
+
+    /// What displacements are multiplied by at the beginning and at the end of a
+    /// step; the same if there is none.
+    std::array<double, 2>
+    factors(std::vector<double> LoadAmplitudes::*list,
+            const unsigned int                   index,
+            const Task                          &task) const
+    {
+      const auto at = [&](const LoadAmplitudes *given) {
+        const std::vector<double> &values =
+          (given == nullptr ? amplitudes : *given).*list;
+        return task.load_factor * (values.empty() ? 1. : values[index]);
+      };
+      return {{at(task.first), at(task.last)}};
+    }
+
+    double
+    forces_at_small_strain() const;
+
+    void
+    make_pattern();
+
+    Deformation
+    add_elements(const Task &task);
+
+    Deformation
+    add_volume(unsigned int             element,
+               const Task              &task,
+               const LocalDisplacement &u,
+               LocalSystem             &local,
+               Energies                &sums) const;
+
+    /// Everything at the displacements in `nodal`.
+    Deformation
+    assemble(const Task &task);
+
+    Deformation
+    add_weak_points(const EdgeTables::Site  &site,
+                    const Task              &task,
+                    const LocalDisplacement &u,
+                    LocalSystem             &local);
+
+    void
+    add_follower_points(const EdgeTables::Site  &site,
+                        const Task              &task,
+                        const LocalDisplacement &u,
+                        LocalSystem             &local);
+
+    void
+    add_fixed_points(unsigned int             element,
+                     const Task              &task,
+                     const LocalDisplacement &u,
+                     LocalSystem             &local);
+
+    Deformation
+    add_ties(const Task &task);
+
+    void
+    add_dead_loads(const Task &task);
+
+    bool
+    is_absent(const unsigned int element) const
+    {
+      return !absent_blocks.empty() &&
+             absent_blocks[covers->manifold_mesh().block(element)];
+    }
+
+    /// See set_active_blocks().
+    bool
+    is_active(const unsigned int element) const
+    {
+      return active_blocks.empty() ||
+             active_blocks[covers->manifold_mesh().block(element)];
+    }
+
+    /// Add the squares of what has come to the forces since the last call.
+    void
+    gauge(const LocalSystem &local, double *known)
+    {
+      for (unsigned int i = 0; i < 2 * n_per_cell; ++i)
+      {
+        const double change = local.rhs[i] - known[i];
+        force_square += change * change;
+        known[i] = local.rhs[i];
+      }
+    }
+
+    /// Displacements of the covers of a site's element, then of its neighbor.
+    void
+    gather(const EdgeTables::Site    &site,
+           const std::vector<double> &from,
+           LocalDisplacement         &u) const
+    {
+      u.gather(covers->covers(site.element), from);
+      if (site.neighbor != invalid_index)
+        u.gather(covers->covers(site.neighbor), from, n_per_cell);
+    }
+
+    void
+    hand_over(dealii::ArrayView<const unsigned int> covers,
+              const Task                           &task,
+              const LocalSystem                    &local)
+    {
+      if (task.with_tangent)
+        block_system.add(covers, local.matrix, local.rhs);
+      else
+        block_system.add_rhs(covers, local.rhs);
+    }
+
+    const CoverSystem                       *covers;
+    const dealii::AffineConstraints<double> *constraints;
+    const ElasticityProblem                 *problem;
+    unsigned int                             degree, n_per_cell;
+    std::vector<HyperelasticLaw>             region_to_law;
+    std::vector<ConservingLaw>               region_to_conserving_law;
+    CurveConditions                          curve_conditions;
+    PointTerms                               points;
+    ElementTables                            tables;
+    std::unique_ptr<EdgeTables>              edges;
+    DeadLoads                                dead_loads;
+    BlockSystem                              block_system;
+    LoadAmplitudes                           amplitudes;
+    /// Empty, or by block; and which covers belong to them.
+    std::vector<bool> absent_blocks, absent_covers, active_blocks;
+    unsigned int      n_assembled = 0;
+
+    /// Per weak point, what its penalty is multiplied by.
+    std::vector<double> penalty_growth;
+    std::vector<double> nodal, nodal_increment, nodal_begin, nodal_end;
+
+    dealii::TrilinosWrappers::SparseMatrix matrix;
+    Vector                                 residual;
+    Energies                               energies;
+    double                                 force_square      = 0.;
+    double                                 force_scale       = 0.;
+    double                                 least_force_scale = 0.;
+    double                                 largest_jump      = 0.;
+  };
+} // namespace NMM
+
+#endif

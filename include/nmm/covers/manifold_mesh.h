@@ -7,7 +7,10 @@
 
 #include <deal.II/base/array_view.h>
 #include <deal.II/base/point.h>
+#include <deal.II/base/std_cxx20/iota_view.h>
 
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace NMM
@@ -51,9 +54,10 @@ namespace NMM
    * cut by the physical mesh; the units of integration. Immutable.
    *
    * Cutting is exact and touches only cells that a physical curve comes near;
-   * all others are whole elements that keep no edges. A cell that one straight edge runs
-   * through, clear of corners and of all else by many roundings, is cut by itself;
-   * the other cells by an arrangement with exact numbers. Elements are numbered so
+   * all others are whole elements that keep no edges. Cells that straight edges run
+   * through or end in are divided by themselves, which takes the signs of a few
+   * determinants; cells with arcs, with cracks or blocks inside, and all cells of a
+   * mesh of several parts by an arrangement with exact numbers. Elements are numbered so
    * that neighbours have near numbers (reverse Cuthill-McKee on the element
    * graph).
    *
@@ -130,11 +134,51 @@ namespace NMM
      */
     struct Link
     {
-      unsigned int neighbor;
-      unsigned int edge_here, edge_there;
+      unsigned int  neighbor;
+      unsigned char edge_here, edge_there;
     };
 
-    dealii::ArrayView<const Link>
+    /**
+     * The links of an element, in no particular order. Those of a whole element among
+     * whole ones follow from the mathematical mesh, and are made when they are asked for.
+     */
+    class Links
+    {
+    public:
+      const Link *
+      begin() const
+      {
+        return stored != nullptr ? stored : made;
+      }
+
+      const Link *
+      end() const
+      {
+        return begin() + n;
+      }
+
+      std::size_t
+      size() const
+      {
+        return n;
+      }
+
+      const Link &
+      operator[](const unsigned int i) const
+      {
+        AssertIndexRange(i, n);
+        return begin()[i];
+      }
+
+    private:
+      friend class ManifoldMesh;
+
+      const Link  *stored = nullptr;
+      unsigned int n      = 0;
+      Link         made[3];
+    };
+
+    Links
     joined(unsigned int element) const;
 
     /// Elements of cells this rank owns, first and past-the-end; all if the mesh
@@ -154,8 +198,8 @@ namespace NMM
     const internal::ElementExchange *
     exchange() const;
 
-    /// Elements of a cell.
-    dealii::ArrayView<const unsigned int>
+    /// Elements of a cell, which have consecutive numbers.
+    dealii::std_cxx20::ranges::iota_view<unsigned int, unsigned int>
     cell_elements(unsigned int cell) const;
 
     /// Pieces of the physical mesh (PhysicalMesh::pieces()) on an edge.

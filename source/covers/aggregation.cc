@@ -63,11 +63,12 @@ namespace NMM
       find_roots(manifold_mesh, threshold).element_to_root;
 
     // covers
-    result.is_free.assign(covers.n_covers(), false);
+    std::vector<unsigned char> is_used(covers.n_covers(), 0);
     for (unsigned int e = 0; e < n_elements; ++e)
       if (result.element_to_root[e] == e)
         for (const unsigned int k : covers.covers(e))
-          result.is_free[k] = true;
+          is_used[k] = 1;
+    result.is_free.assign(is_used.begin(), is_used.end());
     if (manifold_mesh.exchange() != nullptr)
       share_free_covers(covers, result.is_free);
 

@@ -23,7 +23,7 @@ namespace NMM
       const MathematicalMesh    &mesh = manifold_mesh.mathematical_mesh();
       std::vector<unsigned char> divided(mesh.n_mathematical_covers(), 0);
       for (unsigned int e = 0; e < manifold_mesh.n_elements(); ++e)
-        if (manifold_mesh.edges(e).size() > 0)
+        if (manifold_mesh.n_edges(e) > 0)
         {
           const unsigned int *covers = mesh.cell_covers(manifold_mesh.cell(e));
           for (unsigned int i = 0; i < mesh.n_covers_per_cell(); ++i)
@@ -72,11 +72,12 @@ namespace NMM
     const unsigned int n_mathematical =
       mathematical_mesh.n_mathematical_covers();
     element_to_covers.resize(n_elements * n_per_element);
-    std::vector<unsigned int> slot_to_mathematical;
+    std::vector<unsigned int> slot_to_mathematical, divided_elements;
     for (unsigned int e = 0; e < n_elements; ++e)
     {
       const unsigned int *covers = mathematical_mesh.cell_covers(mesh->cell(e));
       unsigned int       *slots  = element_to_covers.data() + e * n_per_element;
+      const std::size_t   n_before = slot_to_mathematical.size();
       for (unsigned int i = 0; i < n_per_element; ++i)
       {
         slots[i] = covers[i];
@@ -86,19 +87,17 @@ namespace NMM
           slot_to_mathematical.push_back(covers[i]);
         }
       }
+      if (slot_to_mathematical.size() > n_before)
+        divided_elements.push_back(e);
     }
 
     // join slots of one mathematical cover across unblocked edges
     internal::DisjointSets divided_slots(slot_to_mathematical.size());
     const auto            &on_edge   = mathematical_mesh.edge_to_local_covers();
     const unsigned int     n_on_edge = mathematical_mesh.degree() + 1;
-    for (unsigned int e = 0; e < n_elements; ++e)
+    for (const unsigned int e : divided_elements)
     {
       const unsigned int *slots = element_to_covers.data() + e * n_per_element;
-      if (std::all_of(slots, slots + n_per_element, [&](const unsigned int s) {
-            return s < n_mathematical;
-          }))
-        continue;
       for (const ManifoldMesh::Link &link : mesh->joined(e))
         if (e < link.neighbor)
           for (unsigned int k = 0; k < n_on_edge; ++k)

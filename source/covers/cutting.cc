@@ -17,7 +17,7 @@ namespace NMM
     {
       /// Untouched cells that share an edge lie in the same region.
       void
-      flood_untouched_cells(const MathematicalMesh                      &mesh,
+      flood_untouched_cells(const CellNeighbors &neighbors,
                             const std::pair<unsigned int, unsigned int> &cells,
                             const std::vector<unsigned char>            &state,
                             std::vector<unsigned int> &cell_region)
@@ -30,22 +30,37 @@ namespace NMM
         {
           const unsigned int c = stack.back();
           stack.pop_back();
-          for (const unsigned int e : mesh.cell_edges(c))
-            for (const unsigned int other : mesh.edges()[e].cells)
-              if (other != invalid_index &&
-                  state[other] == CellState::untouched &&
-                  cell_region[other] == invalid_index)
-              {
-                cell_region[other] = cell_region[c];
-                stack.push_back(other);
-              }
+          for (const unsigned int other : neighbors[c])
+            if (other != invalid_index &&
+                state[other] == CellState::untouched &&
+                cell_region[other] == invalid_index)
+            {
+              cell_region[other] = cell_region[c];
+              stack.push_back(other);
+            }
         }
       }
     } // namespace
 
 
+    CellNeighbors
+    find_neighbors(const MathematicalMesh &mesh)
+    {
+      CellNeighbors neighbors(mesh.n_cells());
+      const auto   &edges = mesh.edges();
+      for (unsigned int c = 0; c < neighbors.size(); ++c)
+        for (unsigned int i = 0; i < 3; ++i)
+        {
+          const auto &cells = edges[mesh.cell_edges(c)[i]].cells;
+          neighbors[c][i]   = cells[cells[0] == c ? 1 : 0];
+        }
+      return neighbors;
+    }
+
+
     void
     cut(const MathematicalMesh          &mathematical_mesh,
+        const CellNeighbors             &neighbors,
         const PhysicalMesh              &physical_mesh,
         const PhysicalEdges             &physical_edges,
         const std::vector<unsigned int> &region_to_part,
@@ -80,10 +95,7 @@ namespace NMM
                                                    divided,
                                                    cutting);
       divided.label_beside(state, cutting.cell_region);
-      flood_untouched_cells(mathematical_mesh,
-                            part.cells,
-                            state,
-                            cutting.cell_region);
+      flood_untouched_cells(neighbors, part.cells, state, cutting.cell_region);
       divided.append_edges(state, arranged.get(), cutting);
       if (arranged != nullptr)
         arranged->append_edges();
@@ -97,6 +109,27 @@ namespace NMM
                                  to_string(
                                    physical_edges.edges()[e].shape.start),
                                  "give a mesh that covers it"));
+    }
+
+
+    double
+    element_area(const Cutting &cutting, const unsigned int element)
+    {
+      const Cutting::Element &e = cutting.elements[element];
+      if (element >= cutting.n_packed)
+        return enclosed_area(
+          ArrayView<const ElementEdge>(cutting.edges.data() + e.first_edge,
+                                       e.end_edge - e.first_edge));
+      std::vector<ElementEdge> edges(e.end_edge - e.first_edge);
+      for (unsigned int i = 0; i < edges.size(); ++i)
+      {
+        edges[i].start = cutting.packed_edges.starts[e.first_edge + i];
+        edges[i].end =
+          cutting.packed_edges
+            .starts[i + 1 < edges.size() ? e.first_edge + i + 1 : e.first_edge];
+      }
+      return enclosed_area(
+        ArrayView<const ElementEdge>(edges.data(), edges.size()));
     }
   } // namespace internal
 } // namespace NMM

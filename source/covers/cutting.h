@@ -70,6 +70,21 @@ namespace NMM
      */
     constexpr unsigned int whole_cell_flag = 1u << 31;
 
+    /// Straight edges of elements with one loop: each ends where the next one of its
+    /// element starts.
+    struct PackedEdges
+    {
+      struct Beyond
+      {
+        /// See ElementEdge.
+        unsigned int curve_set, neighbor, mesh_edge;
+      };
+
+      std::vector<dealii::Point<2>> starts;
+      std::vector<Beyond>           beyond;
+    };
+
+
     struct Cutting
     {
       struct Element
@@ -97,7 +112,10 @@ namespace NMM
         std::array<unsigned int, 2> elements;
       };
 
-      std::vector<Element>     elements;
+      std::vector<Element> elements;
+      /// The first ones are of divided cells: they have packed_edges, others edges.
+      unsigned int             n_packed = 0;
+      PackedEdges              packed_edges;
       std::vector<ElementEdge> edges;
       /// Of the edges, if the mesh has several parts.
       std::vector<EdgeOrigin>       origins;
@@ -108,6 +126,12 @@ namespace NMM
       /// By physical edge: is it an edge of some element?
       std::vector<unsigned char> is_met;
     };
+
+    /// The cells beyond the sides of each cell; invalid_index beyond the mesh.
+    using CellNeighbors = std::vector<std::array<unsigned int, 3>>;
+
+    CellNeighbors
+    find_neighbors(const MathematicalMesh &mesh);
 
     /// What one part of the mathematical mesh is cut with.
     struct PartToCut
@@ -130,6 +154,7 @@ namespace NMM
      */
     void
     cut(const MathematicalMesh          &mathematical_mesh,
+        const CellNeighbors             &neighbors,
         const PhysicalMesh              &physical_mesh,
         const PhysicalEdges             &physical_edges,
         const std::vector<unsigned int> &region_to_part,
@@ -148,6 +173,10 @@ namespace NMM
     match_parts(const PhysicalEdges             &physical_edges,
                 const std::vector<unsigned int> &region_to_part,
                 Cutting                         &cutting);
+
+    /// Area of an element that was cut [m^2], never negative.
+    double
+    element_area(const Cutting &cutting, unsigned int element);
 
     /// Area that closed loops of edges enclose [m^2], never negative.
     double

@@ -21,6 +21,12 @@ namespace NMM
       , part_cells(part.cells)
       , cell_to_divided(part.cells.second - part.cells.first, invalid_index)
     {
+      // most cells have one edge near them, five pieces of sides and one chord
+      const std::size_t n_expected = near.edges.size();
+      cells.reserve(n_expected + 1);
+      half_edges.reserve(7 * n_expected);
+      loops.reserve(7 * n_expected);
+      faces.reserve(2 * n_expected + 1);
       CellCutter cutter(mesh, physical_edges, region_to_part, part.part);
       for (unsigned int i = 0; i + 1 < near.first.size(); ++i)
       {
@@ -142,6 +148,10 @@ namespace NMM
     void
     DividedCells::number_elements(Cutting &cutting)
     {
+      if (empty())
+        return;
+      Assert(cutting.elements.empty(), ExcInternalError());
+      std::size_t n_edges = 0;
       for (unsigned int i = 0; i + 1 < cells.size(); ++i)
         for (unsigned int f = cells[i].first_face; f < cells[i + 1].first_face;
              ++f)
@@ -150,7 +160,13 @@ namespace NMM
             faces[f].element = cutting.elements.size();
             cutting.elements.push_back(
               {cells[i].cell, faces[f].region, false, 0, 0});
+            n_edges += faces[f + 1].begin - faces[f].begin;
           }
+      cutting.n_packed = cutting.elements.size();
+      cutting.packed_edges.starts.reserve(n_edges);
+      cutting.packed_edges.beyond.reserve(n_edges);
+      // every other side is shared by two of them
+      cutting.links.reserve(n_edges / 2);
     }
 
 
@@ -211,16 +227,15 @@ namespace NMM
           if (here == invalid_index)
             continue;
           Cutting::Element &element = cutting.elements[here];
-          element.first_edge        = cutting.edges.size();
+          element.first_edge        = cutting.packed_edges.starts.size();
           element.is_whole          = true;
           const unsigned int end    = faces[f + 1].begin;
           for (unsigned int k = faces[f].begin; k < end; ++k)
           {
-            const HalfEdge &half_edge = half_edges[loops[k]];
-            ElementEdge     edge;
-            edge.start = half_edge.start;
-            edge.end =
-              half_edges[loops[k + 1 == end ? faces[f].begin : k + 1]].start;
+            const HalfEdge     &half_edge = half_edges[loops[k]];
+            PackedEdges::Beyond edge      = {invalid_index,
+                                             invalid_index,
+                                             invalid_index};
             if (half_edge.physical_edge != invalid_index)
             {
               edge.curve_set =
@@ -257,9 +272,10 @@ namespace NMM
                 cutting.links.push_back(
                   {edge.mesh_edge, {{here, edge.neighbor}}});
             }
-            cutting.edges.push_back(edge);
+            cutting.packed_edges.starts.push_back(half_edge.start);
+            cutting.packed_edges.beyond.push_back(edge);
           }
-          element.end_edge = cutting.edges.size();
+          element.end_edge = cutting.packed_edges.starts.size();
         }
       }
     }

@@ -45,16 +45,28 @@ namespace NMM
     const std::size_t n = cutting.elements.size();
     element_to_special.assign(element_to_cell.size(), invalid_index);
     special_is_whole.resize(n);
-    first_edge.reserve(n + 1);
-    first_edge.push_back(0);
-    unsigned int end = 0;
     for (unsigned int i = 0; i < n; ++i)
     {
-      const auto &exact                       = cutting.elements[i];
       element_to_special[exact_to_element[i]] = i;
-      special_is_whole[i]                     = exact.is_whole;
-      const auto first = cutting.edges.begin() + exact.first_edge,
-                 last  = cutting.edges.begin() + exact.end_edge;
+      special_is_whole[i]                     = cutting.elements[i].is_whole;
+    }
+
+    packed_edges = std::move(cutting.packed_edges);
+    first_packed_edge.reserve(cutting.n_packed + 1);
+    for (unsigned int i = 0; i < cutting.n_packed; ++i)
+      first_packed_edge.push_back(cutting.elements[i].first_edge);
+    first_packed_edge.push_back(packed_edges.starts.size());
+    for (auto &edge : packed_edges.beyond)
+      edge.neighbor = decode(edge.neighbor, exact_to_element);
+
+    first_edge.reserve(n - cutting.n_packed + 1);
+    first_edge.push_back(0);
+    unsigned int end = 0;
+    for (unsigned int i = cutting.n_packed; i < n; ++i)
+    {
+      const auto &exact = cutting.elements[i];
+      const auto  first = cutting.edges.begin() + exact.first_edge,
+                 last   = cutting.edges.begin() + exact.end_edge;
       // a whole element nothing touches needs no edges
       if (!exact.is_whole ||
           std::any_of(first, last, [](const ElementEdge &edge) {
@@ -107,7 +119,6 @@ namespace NMM
         make_special(element);
       }
     const unsigned int n = special_is_whole.size();
-    first_edge.resize(n + 1, first_edge.back());
 
     // whole elements beside cut ones, and what lies across their other sides
     const auto for_each_whole_link = [&](const auto &action) {

@@ -17,12 +17,11 @@ namespace NMM
      * so sorting them by degree, as the full algorithm does, changes nothing).
      */
     std::vector<unsigned int>
-    order_cells(const MathematicalMesh           &mesh,
+    order_cells(const internal::CellNeighbors    &neighbors,
                 const std::vector<unsigned char> &holds_elements)
     {
-      const std::vector<MathematicalMesh::Edge> &edges = mesh.edges();
-      std::vector<unsigned int>                  order;
-      order.reserve(mesh.n_cells());
+      std::vector<unsigned int> order;
+      order.reserve(neighbors.size());
       const auto walk = [&](const unsigned int          start,
                             std::vector<unsigned char> &is_left,
                             std::vector<unsigned int>  &result) {
@@ -30,19 +29,18 @@ namespace NMM
         is_left[start]    = 0;
         result.push_back(start);
         for (; next < result.size(); ++next)
-          for (const unsigned int e : mesh.cell_edges(result[next]))
-            for (const unsigned int c : edges[e].cells)
-              if (c != invalid_index && is_left[c])
-              {
-                is_left[c] = 0;
-                result.push_back(c);
-              }
+          for (const unsigned int c : neighbors[result[next]])
+            if (c != invalid_index && is_left[c])
+            {
+              is_left[c] = 0;
+              result.push_back(c);
+            }
       };
 
       std::vector<unsigned char> is_to_probe(holds_elements),
         is_to_number(holds_elements);
       std::vector<unsigned int> probe;
-      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      for (unsigned int c = 0; c < neighbors.size(); ++c)
         if (is_to_number[c])
         {
           // the last cell of a first walk is (nearly) peripheral
@@ -57,13 +55,13 @@ namespace NMM
     /// The same of a distributed mesh: ghost cells of lower ranks, own ones, ghost
     /// cells of higher ranks.
     std::vector<unsigned int>
-    order_cells_of_rank(const MathematicalMesh           &mesh,
+    order_cells_of_rank(const internal::CellNeighbors    &neighbors,
                         const RankCells                  &rank_cells,
                         const std::vector<unsigned char> &holds_elements)
     {
       std::vector<unsigned int>  lower, higher;
       std::vector<unsigned char> holds_owned(holds_elements);
-      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      for (unsigned int c = 0; c < neighbors.size(); ++c)
         if (holds_elements[c] && rank_cells.cell_to_owner[c] != rank_cells.rank)
         {
           holds_owned[c] = 0;
@@ -71,7 +69,8 @@ namespace NMM
             .push_back(c);
         }
       std::vector<unsigned int>       order = std::move(lower);
-      const std::vector<unsigned int> owned = order_cells(mesh, holds_owned);
+      const std::vector<unsigned int> owned =
+        order_cells(neighbors, holds_owned);
       order.insert(order.end(), owned.begin(), owned.end());
       order.insert(order.end(), higher.begin(), higher.end());
       return order;
@@ -82,6 +81,7 @@ namespace NMM
   void
   ManifoldMesh::Data::number_elements(
     const internal::Cutting          &cutting,
+    const internal::CellNeighbors    &neighbors,
     const std::vector<unsigned char> &state,
     std::vector<unsigned int>        &exact_to_element)
   {
@@ -107,14 +107,15 @@ namespace NMM
     const RankCells *rank_cells = mathematical_mesh->rank_cells();
     for (const unsigned int c :
          rank_cells == nullptr
-           ? order_cells(*mathematical_mesh, holds)
-           : order_cells_of_rank(*mathematical_mesh, *rank_cells, holds))
+           ? order_cells(neighbors, holds)
+           : order_cells_of_rank(neighbors, *rank_cells, holds))
     {
       cell_first_element[c] = element_to_cell.size();
-      element_to_cell.insert(element_to_cell.end(), n_in_cell[c], c);
-      element_to_region.insert(element_to_region.end(),
-                               n_in_cell[c],
-                               cutting.cell_region[c]);
+      for (unsigned int i = 0; i < n_in_cell[c]; ++i)
+      {
+        element_to_cell.push_back(c);
+        element_to_region.push_back(cutting.cell_region[c]);
+      }
     }
     owned_elements = {0, element_to_cell.size()};
     if (rank_cells != nullptr)

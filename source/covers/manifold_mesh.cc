@@ -49,10 +49,12 @@ namespace NMM
     const double                  scale =
       internal::largest_coordinate(physical_mesh.bounding_box());
 
-    const RankCells           *rank_cells = mathematical_mesh.rank_cells();
-    std::vector<unsigned char> state(mathematical_mesh.n_cells(),
+    const RankCells              *rank_cells = mathematical_mesh.rank_cells();
+    std::vector<unsigned char>    state(mathematical_mesh.n_cells(),
                                      internal::CellState::untouched);
-    internal::Cutting          cutting;
+    const internal::CellNeighbors neighbors =
+      internal::find_neighbors(mathematical_mesh);
+    internal::Cutting cutting;
     cutting.is_met.assign(physical_edges.edges().size(), 0);
     cutting.cell_region.assign(mathematical_mesh.n_cells(), invalid_index);
     for (const internal::PartToCut &part : internal::find_parts(
@@ -66,6 +68,7 @@ namespace NMM
           (rank_cells == nullptr ||
            rank_cells->cell_to_owner[c] == rank_cells->rank);
       internal::cut(mathematical_mesh,
+                    neighbors,
                     physical_mesh,
                     physical_edges,
                     region_to_part,
@@ -84,7 +87,7 @@ namespace NMM
       internal::match_parts(physical_edges, region_to_part, cutting);
 
     std::vector<unsigned int> exact_to_element;
-    data->number_elements(cutting, state, exact_to_element);
+    data->number_elements(cutting, neighbors, state, exact_to_element);
     data->take_edges(cutting, exact_to_element);
     data->curve_sets = physical_edges.curve_sets();
     data->make_links(cutting, state, exact_to_element);
@@ -182,16 +185,55 @@ namespace NMM
   }
 
 
-  ArrayView<const ElementEdge>
+  ElementEdges
   ManifoldMesh::edges(const unsigned int element) const
   {
     AssertIndexRange(element, n_elements());
-    const unsigned int special = data->element_to_special[element];
+    const unsigned int special  = data->element_to_special[element],
+                       n_packed = data->first_packed_edge.size() - 1;
+    ElementEdges result;
     if (special == invalid_index)
-      return ArrayView<const ElementEdge>(nullptr, 0);
-    const unsigned int first = data->first_edge[special];
-    return ArrayView<const ElementEdge>(data->edges.data() + first,
-                                        data->first_edge[special + 1] - first);
+      return result;
+    if (special >= n_packed)
+    {
+      const unsigned int i = special - n_packed;
+      if (i + 1 < data->first_edge.size())
+      {
+        result.kept = data->edges.data() + data->first_edge[i];
+        result.n    = data->first_edge[i + 1] - data->first_edge[i];
+      }
+      return result;
+    }
+    const unsigned int first = data->first_packed_edge[special],
+                       n     = data->first_packed_edge[special + 1] - first;
+    const Point<2> *start    = &data->packed_edges.starts[first];
+    const auto     *beyond   = &data->packed_edges.beyond[first];
+    ElementEdge    *edge     = result.make(n);
+    for (unsigned int i = 0; i < n; ++i)
+      new (edge + i) ElementEdge{start[i],
+                                 start[i + 1 < n ? i + 1 : 0],
+                                 Point<2>(),
+                                 0.,
+                                 beyond[i].curve_set,
+                                 beyond[i].neighbor,
+                                 beyond[i].mesh_edge};
+    return result;
+  }
+
+
+  unsigned int
+  ManifoldMesh::n_edges(const unsigned int element) const
+  {
+    AssertIndexRange(element, n_elements());
+    const unsigned int special  = data->element_to_special[element],
+                       n_packed = data->first_packed_edge.size() - 1;
+    if (special == invalid_index ||
+        special >= n_packed + data->first_edge.size() - 1)
+      return 0;
+    return special < n_packed ? data->first_packed_edge[special + 1] -
+                                  data->first_packed_edge[special]
+                              : data->first_edge[special - n_packed + 1] -
+                                  data->first_edge[special - n_packed];
   }
 
 
@@ -236,9 +278,10 @@ namespace NMM
         sum += mesh.vertices()[v];
       return Point<2>(sum / 3.);
     }
-    for (const ElementEdge &edge : edges(element))
+    const ElementEdges boundary = edges(element);
+    for (const ElementEdge &edge : boundary)
       sum += edge.start;
-    return Point<2>(sum / static_cast<double>(edges(element).size()));
+    return Point<2>(sum / static_cast<double>(boundary.size()));
   }
 
 
@@ -338,9 +381,10 @@ namespace NMM
       {
         if (e < elements.first || e >= elements.second)
           continue;
-        if (is_whole(e) || is_inside(edges(e), x))
+        const ElementEdges boundary = edges(e);
+        if (is_whole(e) || is_inside(boundary, x))
           return e;
-        for (const ElementEdge &edge : edges(e))
+        for (const ElementEdge &edge : boundary)
         {
           const double d = distance(edge, x);
           if (d < nearest_distance)

@@ -44,10 +44,12 @@ namespace NMM
      * invalid_index.
      */
     std::vector<unsigned int> element_to_special;
-    /// Its edges and links: from there on, up to those of the next one.
-    std::vector<unsigned int>  first_edge, first_link;
+    /// Its edges and links: from there on, up to those of the next one. The first ones,
+    /// with straight edges in one loop, have theirs in packed_edges, the next in edges.
+    std::vector<unsigned int>  first_packed_edge, first_edge, first_link;
     std::vector<unsigned char> special_is_whole;
 
+    internal::PackedEdges                  packed_edges;
     std::vector<ElementEdge>               edges;
     std::vector<Link>                      links;
     std::vector<std::vector<unsigned int>> curve_sets;
@@ -62,6 +64,7 @@ namespace NMM
     /// Numbers elements; @p exact_to_element: by element of the cutter.
     void
     number_elements(const internal::Cutting          &cutting,
+                    const internal::CellNeighbors    &neighbors,
                     const std::vector<unsigned char> &state,
                     std::vector<unsigned int>        &exact_to_element);
 

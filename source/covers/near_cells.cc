@@ -211,20 +211,35 @@ namespace NMM
           }
         }
 
-        /// Calls action(chunk) for all that may meet a box, some of them several times.
+        /// Column and row of a square.
+        struct Square
+        {
+          unsigned int i, j;
+        };
+
+        /// The one that a point lies in, or the nearest one.
+        Square
+        square_of(const Point<2> &x) const
+        {
+          return {index(x[0], 0), index(x[1], 1)};
+        }
+
+        /// Calls action(chunk) for all that meet the squares between two, some of them
+        /// several times.
         template <typename Action>
         void
-        for_each_near(const Point<2> &low,
-                      const Point<2> &high,
-                      const Action   &action) const
+        for_each_near(const Square &low,
+                      const Square &high,
+                      const Action &action) const
         {
-          for (unsigned int d = 0; d < 2; ++d)
-            if (high[d] < lower[d] || low[d] > upper[d])
-              return;
-          for_each_square(low, high, [&](const std::size_t i) {
-            for (unsigned int k = first[i]; k < first[i + 1]; ++k)
+          // squares of a row follow each other
+          for (unsigned int j = low.j; j <= high.j; ++j)
+          {
+            const std::size_t  row = static_cast<std::size_t>(j) * n[0];
+            const unsigned int end = first[row + high.i + 1];
+            for (unsigned int k = first[row + low.i]; k < end; ++k)
               action(members[k]);
-          });
+          }
         }
 
       private:
@@ -277,23 +292,36 @@ namespace NMM
         if (chunks.empty())
           return near;
         const ChunkGrid grid(chunks, spacing, 4 * triangles.size() + 1024);
+        // of all vertices, unless the triangles are a small part of the mesh
+        std::vector<ChunkGrid::Square> squares;
+        if (vertices.size() <= triangles.size())
+          for (const Point<2> &vertex : vertices)
+            squares.push_back(grid.square_of(vertex));
+        const auto square_of = [&](const unsigned int vertex) {
+          return squares.empty() ? grid.square_of(vertices[vertex])
+                                 : squares[vertex];
+        };
         for (std::size_t c = 0; c < triangles.size(); ++c)
         {
           const auto     &v = triangles[c];
           const Point<2> &x = vertices[v[0]], &y = vertices[v[1]],
                          &z = vertices[v[2]];
-          const Point<2> low(std::min({x[0], y[0], z[0]}),
-                             std::min({x[1], y[1], z[1]})),
-            high(std::max({x[0], y[0], z[0]}), std::max({x[1], y[1], z[1]}));
+          const auto a = square_of(v[0]), b = square_of(v[1]),
+                     d     = square_of(v[2]);
           const auto first = near.first[c];
-          grid.for_each_near(low, high, [&](const unsigned int k) {
-            const unsigned int owner = chunks[k].owner;
-            if (std::find(near.edges.begin() + first,
-                          near.edges.end(),
-                          owner) == near.edges.end() &&
-                !are_apart({{x, y, z}}, chunks[k]))
-              near.edges.push_back(owner);
-          });
+          // squares beyond the grid count as those at its rim
+          grid.for_each_near({std::min(std::min(a.i, b.i), d.i),
+                              std::min(std::min(a.j, b.j), d.j)},
+                             {std::max(std::max(a.i, b.i), d.i),
+                              std::max(std::max(a.j, b.j), d.j)},
+                             [&](const unsigned int k) {
+                               const unsigned int owner = chunks[k].owner;
+                               if (std::find(near.edges.begin() + first,
+                                             near.edges.end(),
+                                             owner) == near.edges.end() &&
+                                   !are_apart({{x, y, z}}, chunks[k]))
+                                 near.edges.push_back(owner);
+                             });
           near.first[c + 1] = near.edges.size();
         }
         return near;

@@ -177,6 +177,7 @@ namespace NMM
       cutting.is_met.assign(edges.edges().size(), 0);
       region_to_part[region] = 0;
       internal::cut(mathematical_mesh,
+                    internal::find_neighbors(mathematical_mesh),
                     physical_mesh,
                     edges,
                     region_to_part,
@@ -186,14 +187,15 @@ namespace NMM
                     cutting);
       region_to_part[region] = invalid_index;
 
-      for (const auto &element : cutting.elements)
+      for (unsigned int i = 0; i < cutting.elements.size(); ++i)
+      {
+        const unsigned int c = cutting.elements[i].cell;
         take_better(filling,
-                    internal::enclosed_area(ArrayView<const ElementEdge>(
-                      cutting.edges.data() + element.first_edge,
-                      element.end_edge - element.first_edge)) /
-                      mathematical_mesh.cell_area(element.cell),
+                    internal::element_area(cutting, i) /
+                      mathematical_mesh.cell_area(c),
                     mathematical_mesh,
-                    element.cell);
+                    c);
+      }
       for (unsigned int c = 0; c < cells.size(); ++c)
         if (cutting.cell_region[c] != invalid_index)
           take_better(filling, 1., mathematical_mesh, c);

@@ -31,14 +31,13 @@ namespace NMM
       }
 
 
+      /// Of twice the area, and the square of the longest distance.
       bool
-      is_good(const Point<2> &x, const Point<2> &y, const Point<2> &z)
+      is_good(const double twice_the_area, const double longest)
       {
         constexpr double least_extent = 0.01, least_shape = 0.05;
-        const double     longest = std::max(
-          {x.distance_square(y), y.distance_square(z), z.distance_square(x)});
         return longest > least_extent * least_extent &&
-               twice_the_area(x, y, z) > least_shape * longest;
+               twice_the_area > least_shape * longest;
       }
 
 
@@ -63,23 +62,27 @@ namespace NMM
           return Triangles::none;
       Point<2> x[4];
       set_corners(edges, cell, x);
+      double longest = 0.;
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < i; ++j)
+          longest = std::max(longest, x[i].distance_square(x[j]));
       if (n == 3)
-        return is_good(x[0], x[1], x[2]) ? Triangles::one : Triangles::none;
+        return is_good(twice_the_area(x[0], x[1], x[2]), longest)
+                 ? Triangles::one
+                 : Triangles::none;
 
-      // along the diagonal whose triangles are more alike
+      // Along the diagonal whose triangles are more alike. One of them may be thin:
+      // what rounding does to it is little of the element.
       const double at_1 = twice_the_area(x[0], x[1], x[2]),
                    at_2 = twice_the_area(x[1], x[2], x[3]),
                    at_3 = twice_the_area(x[2], x[3], x[0]),
                    at_0 = twice_the_area(x[3], x[0], x[1]);
-      if (at_0 <= 0. || at_1 <= 0. || at_2 <= 0. || at_3 <= 0.)
+      if (at_0 <= 0. || at_1 <= 0. || at_2 <= 0. || at_3 <= 0. ||
+          !is_good(at_1 + at_3, longest))
         return Triangles::none;
-      if (std::min(at_1, at_3) >= std::min(at_0, at_2))
-        return is_good(x[0], x[1], x[2]) && is_good(x[0], x[2], x[3])
-                 ? Triangles::two_from_0
-                 : Triangles::none;
-      return is_good(x[1], x[2], x[3]) && is_good(x[1], x[3], x[0])
-               ? Triangles::two_from_1
-               : Triangles::none;
+      return std::min(at_1, at_3) >= std::min(at_0, at_2)
+               ? Triangles::two_from_0
+               : Triangles::two_from_1;
     }
 
 

@@ -50,6 +50,86 @@ namespace NMM
   };
 
   /**
+   * The edges of one element, one after the other. Of most elements the mesh keeps the
+   * corners and what lies beyond; their edges are made when they are asked for, and live as
+   * long as this object, others as long as the mesh.
+   */
+  class ElementEdges
+  {
+  public:
+    ElementEdges() = default;
+
+    /// Edges that somebody keeps.
+    explicit ElementEdges(const dealii::ArrayView<const ElementEdge> &edges)
+      : kept(edges.data())
+      , n(edges.size())
+    {
+    }
+
+    const ElementEdge *
+    begin() const
+    {
+      return kept != nullptr ? kept : n <= max_inside ? inside() : many.data();
+    }
+
+    const ElementEdge *
+    end() const
+    {
+      return begin() + n;
+    }
+
+    std::size_t
+    size() const
+    {
+      return n;
+    }
+
+    const ElementEdge &
+    operator[](const unsigned int i) const
+    {
+      AssertIndexRange(i, n);
+      return begin()[i];
+    }
+
+    operator dealii::ArrayView<const ElementEdge>() const
+    {
+      return dealii::ArrayView<const ElementEdge>(begin(), n);
+    }
+
+  private:
+    friend class ManifoldMesh;
+
+    static constexpr unsigned int max_inside = 6;
+
+    /// Room for @p n_edges edges, to be filled.
+    ElementEdge *
+    make(const unsigned int n_edges)
+    {
+      n = n_edges;
+      if (n > max_inside)
+      {
+        many.resize(n);
+        return many.data();
+      }
+      return reinterpret_cast<ElementEdge *>(storage);
+    }
+
+    const ElementEdge *
+    inside() const
+    {
+      return reinterpret_cast<const ElementEdge *>(storage);
+    }
+
+    const ElementEdge       *kept = nullptr;
+    unsigned int             n    = 0;
+    std::vector<ElementEdge> many;
+    /// Not initialized: most elements are whole and have no edges.
+    alignas(
+      ElementEdge) unsigned char storage[max_inside * sizeof(ElementEdge)];
+  };
+
+
+  /**
    * The manifold elements: connected pieces of the mathematical mesh's triangles
    * cut by the physical mesh; the units of integration. Immutable.
    *
@@ -124,8 +204,12 @@ namespace NMM
      * appears twice, once in each direction. Empty for a whole element that no
      * physical curve comes near.
      */
-    dealii::ArrayView<const ElementEdge>
+    ElementEdges
     edges(unsigned int element) const;
+
+    /// How many those are.
+    unsigned int
+    n_edges(unsigned int element) const;
 
     /**
      * Elements joined to @p element across mathematical edges that no physical

@@ -70,7 +70,7 @@ namespace NMM
       {
         unsigned int cell, first_half_edge, first_face;
         /// The half-edges of side i begin at first_half_edge + first_of_side[i].
-        std::array<unsigned short, 4> first_of_side;
+        std::array<unsigned int, 4> first_of_side;
       };
 
       struct HalfEdge

@@ -130,22 +130,17 @@ namespace NMM
       are_apart(const std::array<Point<2>, 3> &triangle, const Chunk &chunk)
       {
         const auto separates = [&](const Tensor<1, 2> &direction) {
-          const double length = direction.norm();
-          if (length == 0.)
-            return false;
-          const Tensor<1, 2> axis(
-            {direction[1] / length, -direction[0] / length});
-          double low = 1e300, high = -1e300;
-          for (const Point<2> &v : triangle)
-          {
-            const double s = axis * (v - triangle[0]);
-            low            = std::min(low, s);
-            high           = std::max(high, s);
-          }
-          const double sa = axis * (chunk.a - triangle[0]),
-                       sb = axis * (chunk.b - triangle[0]);
-          return std::min(sa, sb) > high + chunk.width ||
-                 std::max(sa, sb) < low - chunk.width;
+          // distances times the length of the direction
+          const Tensor<1, 2> axis({direction[1], -direction[0]});
+          const double       s1 = axis * (triangle[1] - triangle[0]),
+                       s2       = axis * (triangle[2] - triangle[0]),
+                       sa       = axis * (chunk.a - triangle[0]),
+                       sb       = axis * (chunk.b - triangle[0]);
+          const double gap =
+            std::max(std::min(sa, sb) - std::max({0., s1, s2}),
+                     std::min({0., s1, s2}) - std::max(sa, sb));
+          return gap > 0. &&
+                 gap * gap > chunk.width * chunk.width * axis.norm_square();
         };
         for (unsigned int i = 0; i < 3; ++i)
           if (separates(triangle[(i + 1) % 3] - triangle[i]))
@@ -297,9 +292,11 @@ namespace NMM
         if (vertices.size() <= triangles.size())
           for (const Point<2> &vertex : vertices)
             squares.push_back(grid.square_of(vertex));
-        const auto square_of = [&](const unsigned int vertex) {
+        // many a chunk is in several squares
+        std::vector<std::size_t> last_triangle(chunks.size(), triangles.size());
+        const auto               square_of = [&](const unsigned int vertex) {
           return squares.empty() ? grid.square_of(vertices[vertex])
-                                 : squares[vertex];
+                                               : squares[vertex];
         };
         for (std::size_t c = 0; c < triangles.size(); ++c)
         {
@@ -315,6 +312,9 @@ namespace NMM
                              {std::max(std::max(a.i, b.i), d.i),
                               std::max(std::max(a.j, b.j), d.j)},
                              [&](const unsigned int k) {
+                               if (last_triangle[k] == c)
+                                 return;
+                               last_triangle[k]         = c;
                                const unsigned int owner = chunks[k].owner;
                                if (std::find(near.edges.begin() + first,
                                              near.edges.end(),

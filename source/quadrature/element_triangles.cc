@@ -72,12 +72,14 @@ namespace NMM
                  : Triangles::none;
 
       // Along the diagonal whose triangles are more alike. One of them may be thin:
-      // what rounding does to it is little of the element.
-      const double at_1 = twice_the_area(x[0], x[1], x[2]),
-                   at_2 = twice_the_area(x[1], x[2], x[3]),
-                   at_3 = twice_the_area(x[2], x[3], x[0]),
-                   at_0 = twice_the_area(x[3], x[0], x[1]);
-      if (at_0 <= 0. || at_1 <= 0. || at_2 <= 0. || at_3 <= 0. ||
+      // what rounding does to it is little of the element. But its points have to
+      // be inside.
+      constexpr double least_part = 1e-8;
+      const double     at_1       = twice_the_area(x[0], x[1], x[2]),
+                   at_2           = twice_the_area(x[1], x[2], x[3]),
+                   at_3           = twice_the_area(x[2], x[3], x[0]),
+                   at_0           = twice_the_area(x[3], x[0], x[1]);
+      if (std::min({at_0, at_1, at_2, at_3}) <= least_part * longest ||
           !is_good(at_1 + at_3, longest))
         return Triangles::none;
       return std::min(at_1, at_3) >= std::min(at_0, at_2)

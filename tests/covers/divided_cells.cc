@@ -135,9 +135,11 @@ namespace
     }
     EXPECT_EQ(expect_shared_ends(divided), expect_shared_ends(arranged));
     if (has_distinct_points)
+    {
       EXPECT_NEAR(expect_matching_edges(divided),
                   expect_matching_edges(arranged),
                   1e-12);
+    }
     return divided.n_cells_cut_exactly();
   }
 } // namespace

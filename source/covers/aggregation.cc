@@ -6,6 +6,8 @@
 #include "element_exchange.h"
 #include "element_order.h"
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace NMM
 {
@@ -61,11 +63,12 @@ namespace NMM
       find_roots(manifold_mesh, threshold).element_to_root;
 
     // covers
-    result.is_free.assign(covers.n_covers(), false);
+    std::vector<unsigned char> is_used(covers.n_covers(), 0);
     for (unsigned int e = 0; e < n_elements; ++e)
       if (result.element_to_root[e] == e)
         for (const unsigned int k : covers.covers(e))
-          result.is_free[k] = true;
+          is_used[k] = 1;
+    result.is_free.assign(is_used.begin(), is_used.end());
     if (manifold_mesh.exchange() != nullptr)
       share_free_covers(covers, result.is_free);
 
@@ -83,7 +86,17 @@ namespace NMM
       unsigned int cover, root;
       double       area, distance;
     };
-    std::vector<Candidate> candidates;
+    // what is equal to rounding is chosen by place
+    const auto is_better = [&](const Candidate &a, const Candidate &b) {
+      constexpr double more = 1. + 1e-10;
+      if (a.area > more * b.area || b.area > more * a.area)
+        return a.area > b.area;
+      if (a.distance > more * b.distance || b.distance > more * a.distance)
+        return a.distance < b.distance;
+      return internal::comes_first(manifold_mesh, a.root, b.root);
+    };
+    std::vector<Candidate>    best;
+    std::vector<unsigned int> cover_to_best(covers.n_covers(), invalid_index);
     for (unsigned int e = 0; e < n_elements; ++e)
       if (result.element_to_root[e] != e &&
           result.element_to_root[e] != invalid_index)
@@ -93,41 +106,56 @@ namespace NMM
         const Point<2> middle   = internal::cell_centroid(manifold_mesh, root);
         for (const unsigned int k : covers.covers(e))
           if (!result.is_free[k] && is_wanted[k])
-            candidates.push_back(
-              {k, root, area, covers.node(k).distance(middle)});
+          {
+            const Candidate candidate = {k,
+                                         root,
+                                         area,
+                                         covers.node(k).distance(middle)};
+            unsigned int   &index     = cover_to_best[k];
+            if (index == invalid_index)
+            {
+              index = best.size();
+              best.push_back(candidate);
+            }
+            else if (is_better(candidate, best[index]))
+              best[index] = candidate;
+          }
       }
-    // what is equal to rounding is chosen by place
-    std::stable_sort(candidates.begin(),
-                     candidates.end(),
-                     [](const Candidate &a, const Candidate &b) {
-                       return a.cover < b.cover;
-                     });
-    const auto is_better = [&](const Candidate &a, const Candidate &b) {
-      constexpr double more = 1. + 1e-10;
-      if (a.area > more * b.area || b.area > more * a.area)
-        return a.area > b.area;
-      if (a.distance > more * b.distance || b.distance > more * a.distance)
-        return a.distance < b.distance;
-      return internal::comes_first(manifold_mesh, a.root, b.root);
-    };
-    for (std::size_t i = 0; i < candidates.size();)
-    {
-      Candidate best = candidates[i];
-      for (; i < candidates.size() && candidates[i].cover == best.cover; ++i)
-        if (is_better(candidates[i], best))
-          best = candidates[i];
-      result.cover_to_root.emplace_back(best.cover, best.root);
-    }
+    result.cover_to_root.reserve(best.size());
+    for (unsigned int k = 0; k < cover_to_best.size(); ++k)
+      if (cover_to_best[k] != invalid_index)
+        result.cover_to_root.emplace_back(k, best[cover_to_best[k]].root);
 
     // values this rank needs
     std::vector<types::global_dof_index> relevant;
     for (const auto &[k, root] : result.cover_to_root)
       if (covers.locally_relevant_covers().is_element(covers.global_cover(k)))
         for (const unsigned int r : covers.covers(root))
-          relevant.push_back(covers.global_cover(r));
+          if (!covers.locally_relevant_covers().is_element(
+                covers.global_cover(r)))
+            relevant.push_back(covers.global_cover(r));
     covers.make_relevant(std::move(relevant));
     return result;
   }
+
+
+  namespace
+  {
+    /// Weight functions at a point of reference coordinates, which may be outside.
+    void
+    evaluate_weights(const unsigned int   degree,
+                     const Point<2>      &xi,
+                     std::vector<double> &weights)
+    {
+      const std::array<double, 3> l = {{1. - xi[0] - xi[1], xi[0], xi[1]}};
+      for (unsigned int i = 0; i < 3; ++i)
+      {
+        weights[i] = degree == 1 ? l[i] : l[i] * (2. * l[i] - 1.);
+        if (degree == 2)
+          weights[3 + i] = 4. * l[i] * l[(i + 1) % 3];
+      }
+    }
+  } // namespace
 
 
   AffineConstraints<double>
@@ -150,8 +178,7 @@ namespace NMM
         mesh.real_to_reference(covers.manifold_mesh().cell(root),
                                covers.node(k));
       const auto root_covers = covers.covers(root);
-      for (unsigned int j = 0; j < root_covers.size(); ++j)
-        weights[j] = mesh.fe().shape_value(j, xi);
+      evaluate_weights(mesh.degree(), xi, weights);
       for (unsigned int c = 0; c < n_components; ++c)
       {
         entries.clear();

@@ -23,7 +23,7 @@ namespace NMM
       const MathematicalMesh    &mesh = manifold_mesh.mathematical_mesh();
       std::vector<unsigned char> divided(mesh.n_mathematical_covers(), 0);
       for (unsigned int e = 0; e < manifold_mesh.n_elements(); ++e)
-        if (manifold_mesh.edges(e).size() > 0)
+        if (manifold_mesh.n_edges(e) > 0)
         {
           const unsigned int *covers = mesh.cell_covers(manifold_mesh.cell(e));
           for (unsigned int i = 0; i < mesh.n_covers_per_cell(); ++i)
@@ -72,26 +72,32 @@ namespace NMM
     const unsigned int n_mathematical =
       mathematical_mesh.n_mathematical_covers();
     element_to_covers.resize(n_elements * n_per_element);
-    unsigned int              n_slots = n_mathematical;
-    std::vector<unsigned int> slot_to_mathematical;
+    std::vector<unsigned int> slot_to_mathematical, divided_elements;
     for (unsigned int e = 0; e < n_elements; ++e)
     {
       const unsigned int *covers = mathematical_mesh.cell_covers(mesh->cell(e));
+      unsigned int       *slots  = element_to_covers.data() + e * n_per_element;
+      const std::size_t   n_before = slot_to_mathematical.size();
       for (unsigned int i = 0; i < n_per_element; ++i)
+      {
+        slots[i] = covers[i];
         if (divided[covers[i]])
         {
-          element_to_covers[e * n_per_element + i] = n_slots++;
+          slots[i] = n_mathematical + slot_to_mathematical.size();
           slot_to_mathematical.push_back(covers[i]);
         }
-        else
-          element_to_covers[e * n_per_element + i] = covers[i];
+      }
+      if (slot_to_mathematical.size() > n_before)
+        divided_elements.push_back(e);
     }
 
     // join slots of one mathematical cover across unblocked edges
-    internal::DisjointSets slots(n_slots);
+    internal::DisjointSets divided_slots(slot_to_mathematical.size());
     const auto            &on_edge   = mathematical_mesh.edge_to_local_covers();
     const unsigned int     n_on_edge = mathematical_mesh.degree() + 1;
-    for (unsigned int e = 0; e < n_elements; ++e)
+    for (const unsigned int e : divided_elements)
+    {
+      const unsigned int *slots = element_to_covers.data() + e * n_per_element;
       for (const ManifoldMesh::Link &link : mesh->joined(e))
         if (e < link.neighbor)
           for (unsigned int k = 0; k < n_on_edge; ++k)
@@ -100,27 +106,38 @@ namespace NMM
             const unsigned int i = on_edge[link.edge_here][k],
                                j = on_edge[link.edge_there][k < 2 ? 1 - k : k];
             const unsigned int
-              a = element_to_covers[e * n_per_element + i],
+              a = slots[i],
               b = element_to_covers[link.neighbor * n_per_element + j];
-            if (a != b)
-              slots.join(a, b);
+            Assert((a < n_mathematical) == (b < n_mathematical),
+                   ExcInternalError());
+            if (a >= n_mathematical)
+              divided_slots.join(a - n_mathematical, b - n_mathematical);
           }
+    }
 
     // number by first appearance
-    std::vector<unsigned int> slot_to_cover(n_slots, invalid_index);
-    cover_to_mathematical.reserve(n_mathematical);
+    std::vector<unsigned int> slot_to_cover(n_mathematical +
+                                              slot_to_mathematical.size(),
+                                            invalid_index);
+    std::vector<unsigned int> to_mathematical;
+    to_mathematical.reserve(slot_to_cover.size());
     for (unsigned int &slot : element_to_covers)
     {
-      const unsigned int root = slots.find(slot);
+      const unsigned int root =
+        slot < n_mathematical
+          ? slot
+          : n_mathematical + divided_slots.find(slot - n_mathematical);
       if (slot_to_cover[root] == invalid_index)
       {
-        slot_to_cover[root] = cover_to_mathematical.size();
-        cover_to_mathematical.push_back(
+        slot_to_cover[root] = to_mathematical.size();
+        to_mathematical.push_back(
           root < n_mathematical ? root
                                 : slot_to_mathematical[root - n_mathematical]);
       }
       slot = slot_to_cover[root];
     }
+    cover_to_mathematical.assign(to_mathematical.begin(),
+                                 to_mathematical.end());
   }
 
 

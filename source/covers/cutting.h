@@ -7,7 +7,6 @@
 
 #include "physical_edges.h"
 #include <array>
-#include <map>
 #include <vector>
 
 namespace NMM
@@ -34,57 +33,35 @@ namespace NMM
                               const std::vector<ElementEdge>      &edges,
                               double                               scale);
 
-    /// More than one edge.
-    constexpr unsigned int several_edges = invalid_index - 1;
+    /// For each triangle the edges that touch it or come within rounding of it.
+    struct NearEdges
+    {
+      /// Those of triangle i: edges[first[i]], ..., edges[first[i + 1] - 1].
+      std::vector<unsigned int> first, edges;
 
-    /**
-     * For each triangle the number of the only edge that touches it or comes within
-     * rounding of it; several_edges, or invalid_index for none.
-     */
-    std::vector<unsigned int>
+      dealii::ArrayView<const unsigned int>
+      operator[](const unsigned int i) const
+      {
+        return dealii::ArrayView<const unsigned int>(edges.data() + first[i],
+                                                     first[i + 1] - first[i]);
+      }
+    };
+
+    NearEdges
     find_edges_near_triangles(const std::vector<dealii::Point<2>> &vertices,
                               dealii::ArrayView<const Triangle>    triangles,
                               const std::vector<ElementEdge>      &edges,
                               double                               scale);
 
-    /**
-     * A cell that one straight physical edge runs through, in at one side and out at
-     * another, clear of the corners, and that no other one comes near: it
-     * needs no arrangement. The elements are a triangle at one corner and a
-     * quadrilateral.
-     */
-    struct SimpleCut
+    /// How a cell of the mathematical mesh is cut.
+    namespace CellState
     {
-      unsigned int cell;
-      unsigned int physical_edge;
-      /// The corner that is alone on its side: sides `corner` and
-      /// (corner + 2) % 3 of the cell are crossed.
-      unsigned int corner;
-      /// Is it to the left of the edge run from its left to its right end?
-      bool corner_is_left;
-    };
-
-    /**
-     * The cells of a mesh that are cut simply, in ascending order. All decisions have a
-     * margin of many roundings; what is nearer is left to the arrangement.
-     * @p only_edge: see find_edges_near_triangles().
-     */
-    std::vector<SimpleCut>
-    find_simple_cuts(const MathematicalMesh          &mesh,
-                     const PhysicalEdges             &physical_edges,
-                     const std::vector<CurvePiece>   &pieces,
-                     const std::vector<unsigned int> &only_edge,
-                     double                           scale);
-
-    /**
-     * Where the straight line that @p piece lies on crosses the segment from @p u to
-     * @p v; the same doubles whichever cell asks, if u and v come in the same order.
-     * Within few roundings of the coordinates.
-     */
-    dealii::Point<2>
-    crossing(const CurvePiece       &piece,
-             const dealii::Point<2> &u,
-             const dealii::Point<2> &v);
+      constexpr unsigned char untouched = 0;
+      /// By itself, see DividedCells.
+      constexpr unsigned char divided = 1;
+      /// See ArrangedCells.
+      constexpr unsigned char arranged = 2;
+    } // namespace CellState
 
     /**
      * What the exact cutter finds. Elements are referred to by *codes*: below
@@ -92,6 +69,21 @@ namespace NMM
      * code - whole_cell_flag, or invalid_index for none.
      */
     constexpr unsigned int whole_cell_flag = 1u << 31;
+
+    /// Straight edges of elements with one loop: each ends where the next one of its
+    /// element starts.
+    struct PackedEdges
+    {
+      struct Beyond
+      {
+        /// See ElementEdge.
+        unsigned int curve_set, neighbor, mesh_edge;
+      };
+
+      std::vector<dealii::Point<2>> starts;
+      std::vector<Beyond>           beyond;
+    };
+
 
     struct Cutting
     {
@@ -120,17 +112,26 @@ namespace NMM
         std::array<unsigned int, 2> elements;
       };
 
-      std::vector<Element>                   elements;
-      std::vector<ElementEdge>               edges;
-      std::vector<EdgeOrigin>                origins;
-      std::vector<dealii::Point<2>>          vertices;
-      std::vector<Link>                      links;
-      std::vector<std::vector<unsigned int>> curve_sets;
+      std::vector<Element> elements;
+      /// The first ones are of divided cells: they have packed_edges, others edges.
+      unsigned int             n_packed = 0;
+      PackedEdges              packed_edges;
+      std::vector<ElementEdge> edges;
+      /// Of the edges, if the mesh has several parts.
+      std::vector<EdgeOrigin>       origins;
+      std::vector<dealii::Point<2>> vertices;
+      std::vector<Link>             links;
       /// Region of each untouched cell; invalid_index outside the solid.
       std::vector<unsigned int> cell_region;
-
-      std::map<std::vector<unsigned int>, unsigned int> curve_set_to_index;
+      /// By physical edge: is it an edge of some element?
+      std::vector<unsigned char> is_met;
     };
+
+    /// The cells beyond the sides of each cell; invalid_index beyond the mesh.
+    using CellNeighbors = std::vector<std::array<unsigned int, 3>>;
+
+    CellNeighbors
+    find_neighbors(const MathematicalMesh &mesh);
 
     /// What one part of the mathematical mesh is cut with.
     struct PartToCut
@@ -143,23 +144,24 @@ namespace NMM
     };
 
     /**
-     * Arrange the edges of @p touched cells of a part with its physical edges
-     * exactly, but for those that are cut simply, read off elements, their edges and
-     * how they are joined, and append them to @p cutting, whose cell_region has the
-     * size of the mesh. Vertices of edges of @p simple_cuts are not numbered.
-     * Cost: O(n log n) in the number of physical edges and arranged cells of the
-     * part, plus O(1) for each of its cells.
+     * Cuts the cells of a part that edges are near to, and appends elements, their edges
+     * and how they are joined to @p cutting, whose cell_region and is_met have the
+     * sizes of the mesh and of the physical edges. Cells are divided by themselves where
+     * that is possible, see CellCutter, and if the mesh has no other parts (what lies on
+     * both sides of a curve between parts is matched by the vertices of arrangements);
+     * else arranged. @p state is set by cell.
      * @throws InputError where the part's regions stick out of it.
      */
     void
-    cut(const MathematicalMesh           &mathematical_mesh,
-        const PhysicalMesh               &physical_mesh,
-        const PhysicalEdges              &physical_edges,
-        const std::vector<unsigned int>  &region_to_part,
-        const PartToCut                  &part,
-        const std::vector<unsigned char> &touched,
-        const std::vector<SimpleCut>     &simple_cuts,
-        Cutting                          &cutting);
+    cut(const MathematicalMesh          &mathematical_mesh,
+        const CellNeighbors             &neighbors,
+        const PhysicalMesh              &physical_mesh,
+        const PhysicalEdges             &physical_edges,
+        const std::vector<unsigned int> &region_to_part,
+        const PartToCut                 &part,
+        const NearEdges                 &near,
+        std::vector<unsigned char>      &state,
+        Cutting                         &cutting);
 
     /**
      * Along physical edges between regions on different parts, divide the edges
@@ -171,6 +173,10 @@ namespace NMM
     match_parts(const PhysicalEdges             &physical_edges,
                 const std::vector<unsigned int> &region_to_part,
                 Cutting                         &cutting);
+
+    /// Area of an element that was cut [m^2], never negative.
+    double
+    element_area(const Cutting &cutting, unsigned int element);
 
     /// Area that closed loops of edges enclose [m^2], never negative.
     double

@@ -74,7 +74,20 @@ namespace NMM
                 const unsigned int  a,
                 const unsigned int  b)
     {
-      return a != b && ElementPlace(mesh, a) < ElementPlace(mesh, b);
+      if (a == b)
+        return false;
+      // the first value decides most
+      const MathematicalMesh &cells = mesh.mathematical_mesh();
+      const auto             &box =
+        mesh.physical_mesh().bounding_box().get_boundary_points();
+      const dealii::Point<2> middle(0.5 * (box.first + box.second));
+      const double           size = cells.cell_diameter(mesh.cell(a));
+      const double here  = cell_centroid(mesh, a).distance(middle) / size,
+                   there = cell_centroid(mesh, b).distance(middle) / size;
+      // by more than what rounding makes of the same numbers in ElementPlace
+      if (std::abs(here - there) > 1e-6 + 1e-12 * here)
+        return here < there;
+      return ElementPlace(mesh, a) < ElementPlace(mesh, b);
     }
   } // namespace internal
 } // namespace NMM

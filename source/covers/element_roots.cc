@@ -57,22 +57,58 @@ namespace NMM
     };
 
 
+    /// Gives an element the nearest of the roots of @p parents, which are ascending.
+    template <typename Graph>
+    void
+    choose_root(const Graph                         &graph,
+                const unsigned int                   e,
+                const ArrayView<const unsigned int> &parents,
+                ElementRoots                        &roots)
+    {
+      std::vector<unsigned int> &element_to_root = roots.element_to_root;
+      const Point<2>             here            = graph.centroid(e);
+      double                     best            = 1e300;
+      unsigned int               parent          = invalid_index;
+      for (const unsigned int candidate : parents)
+      {
+        if (candidate == parent)
+          continue;
+        const unsigned int root      = element_to_root[candidate];
+        const double       d         = here.distance(graph.centroid(root));
+        bool               is_better = d < best * (1. - 1e-10);
+        if (!is_better && d <= best * (1. + 1e-10))
+          is_better = root != element_to_root[parent]
+                        ? graph.comes_first(root, element_to_root[parent])
+                        : graph.comes_first(candidate, parent);
+        if (is_better)
+        {
+          best   = d;
+          parent = candidate;
+        }
+      }
+      element_to_root[e]         = element_to_root[parent];
+      roots.element_to_parent[e] = parent;
+    }
+
+
     /// Gives elements that are joined to a rooted one a root, layer by layer;
     /// among the roots of the previous layer the nearest.
     template <typename Graph>
     void
     spread_roots(const Graph              &graph,
                  std::vector<unsigned int> layer,
+                 const unsigned int        n_layers,
                  ElementRoots             &roots)
     {
-      std::vector<unsigned int> &element_to_root = roots.element_to_root;
-      for (unsigned int l = 0; l < max_layers && !layer.empty(); ++l)
+      // (element, parent)
+      std::vector<std::pair<unsigned int, unsigned int>> found;
+      std::vector<unsigned int>                          parents;
+      for (unsigned int l = 0; l < n_layers && !layer.empty(); ++l)
       {
-        // (element, parent)
-        std::vector<std::pair<unsigned int, unsigned int>> found;
+        found.clear();
         for (const unsigned int e : layer)
           graph.for_each_neighbor(e, [&](const unsigned int neighbor) {
-            if (element_to_root[neighbor] == invalid_index)
+            if (roots.element_to_root[neighbor] == invalid_index)
               found.emplace_back(neighbor, e);
           });
         std::sort(found.begin(), found.end());
@@ -80,30 +116,15 @@ namespace NMM
         layer.clear();
         for (std::size_t i = 0; i < found.size();)
         {
-          const unsigned int e      = found[i].first;
-          const Point<2>     here   = graph.centroid(e);
-          double             best   = 1e300;
-          unsigned int       parent = invalid_index;
+          const unsigned int e = found[i].first;
+          parents.clear();
           for (; i < found.size() && found[i].first == e; ++i)
-          {
-            const unsigned int candidate = found[i].second;
-            if (candidate == parent)
-              continue;
-            const unsigned int root      = element_to_root[candidate];
-            const double       d         = here.distance(graph.centroid(root));
-            bool               is_better = d < best * (1. - 1e-10);
-            if (!is_better && d <= best * (1. + 1e-10))
-              is_better = root != element_to_root[parent]
-                            ? graph.comes_first(root, element_to_root[parent])
-                            : graph.comes_first(candidate, parent);
-            if (is_better)
-            {
-              best   = d;
-              parent = candidate;
-            }
-          }
-          element_to_root[e]         = element_to_root[parent];
-          roots.element_to_parent[e] = parent;
+            parents.push_back(found[i].second);
+          choose_root(graph,
+                      e,
+                      ArrayView<const unsigned int>(parents.data(),
+                                                    parents.size()),
+                      roots);
           layer.push_back(e);
         }
       }
@@ -131,7 +152,7 @@ namespace NMM
         if (roots.element_to_root[e] == invalid_index)
         {
           roots.element_to_root[e] = roots.element_to_parent[e] = e;
-          spread_roots(graph, {e}, roots);
+          spread_roots(graph, {e}, max_layers, roots);
         }
     }
 
@@ -310,10 +331,9 @@ namespace NMM
      * all ranks do the others, of which there are few.
      */
     void
-    root_the_rest_on_ranks(
-      const ManifoldMesh                                 &mesh,
-      const std::vector<std::pair<double, unsigned int>> &bad,
-      ElementRoots                                       &roots)
+    root_the_rest_on_ranks(const ManifoldMesh              &mesh,
+                           const std::vector<unsigned int> &bad,
+                           ElementRoots                    &roots)
     {
       const ElementExchange &exchange = *mesh.exchange();
       update_ghost_roots(mesh, roots);
@@ -321,9 +341,10 @@ namespace NMM
         find_shared_sets(mesh, roots.element_to_root);
       std::vector<std::pair<double, unsigned int>> own, common;
       const auto [first, end] = mesh.owned_elements();
-      for (const auto &[support, e] : bad)
+      for (const unsigned int e : bad)
         if (roots.element_to_root[e] == invalid_index && e >= first && e < end)
-          (is_shared[e] ? common : own).emplace_back(support, e);
+          (is_shared[e] ? common : own)
+            .emplace_back(element_support(mesh, e), e);
       const SharedGraph graph(mesh, common, roots.element_to_root);
       root_the_rest(MeshGraph(mesh), own, roots);
 
@@ -362,26 +383,34 @@ namespace NMM
     std::vector<unsigned int> &element_to_root = result.element_to_root;
 
     // only bad elements and their good neighbours take part in the search
-    std::vector<std::pair<double, unsigned int>> bad;
+    std::vector<unsigned int> bad;
     for (unsigned int e = 0; e < n_elements; ++e)
-    {
-      const double support =
-        manifold_mesh.is_whole(e)
-          ? 1.
-          : element_support_below(manifold_mesh, e, threshold);
-      if (support >= threshold)
+      if (manifold_mesh.is_whole(e) || has_support(manifold_mesh, e, threshold))
         element_to_root[e] = e;
       else
-        bad.emplace_back(support, e);
-    }
+        bad.push_back(e);
     result.element_to_parent = element_to_root;
-    std::vector<unsigned int> first_layer;
-    for (const auto &[support, e] : bad)
-      for (const ManifoldMesh::Link &link : manifold_mesh.joined(e))
-        if (element_to_root[link.neighbor] == link.neighbor)
-          first_layer.push_back(link.neighbor);
-    const MeshGraph graph(manifold_mesh);
-    spread_roots(graph, first_layer, result);
+
+    // the first layer: whoever has good neighbours
+    const MeshGraph           graph(manifold_mesh);
+    std::vector<unsigned int> layer, parents;
+    for (const unsigned int e : bad)
+    {
+      parents.clear();
+      graph.for_each_neighbor(e, [&](const unsigned int neighbor) {
+        if (element_to_root[neighbor] == neighbor)
+          parents.push_back(neighbor);
+      });
+      if (parents.empty())
+        continue;
+      std::sort(parents.begin(), parents.end());
+      choose_root(graph,
+                  e,
+                  ArrayView<const unsigned int>(parents.data(), parents.size()),
+                  result);
+      layer.push_back(e);
+    }
+    spread_roots(graph, std::move(layer), max_layers - 1, result);
 
     if (manifold_mesh.exchange() != nullptr)
     {
@@ -389,9 +418,9 @@ namespace NMM
       return result;
     }
     std::vector<std::pair<double, unsigned int>> left;
-    for (const auto &element : bad)
-      if (element_to_root[element.second] == invalid_index)
-        left.push_back(element);
+    for (const unsigned int e : bad)
+      if (element_to_root[e] == invalid_index)
+        left.emplace_back(element_support(manifold_mesh, e), e);
     root_the_rest(graph, std::move(left), result);
     return result;
   }

@@ -106,21 +106,22 @@ namespace NMM
     }
 
 
-    /// Are all eigenvalues above @p bound, by more than rounding? By Sylvester's
-    /// criterion; false if it is close.
-    bool
-    surely_exceeds(const Eigen::Matrix3d &matrix, const double bound)
+    /// Are all eigenvalues above @p bound? By Sylvester's criterion: 1: yes, -1: no,
+    /// 0: rounding may decide.
+    int
+    compare_eigenvalues(const Eigen::Matrix3d &matrix, const double bound)
     {
       constexpr double margin = 1e-12;
       const double a = matrix(0, 0) - bound, b = matrix(0, 1), c = matrix(0, 2),
                    d = matrix(1, 1) - bound, e = matrix(1, 2),
                    f = matrix(2, 2) - bound;
-      if (a < margin)
-        return false;
-      const double minor = a * d - b * b;
-      return minor > margin &&
-             a * (d * f - e * e) - b * (b * f - c * e) + c * (b * e - c * d) >
-               margin;
+      for (const double minor :
+           {a,
+            a * d - b * b,
+            a * (d * f - e * e) - b * (b * f - c * e) + c * (b * e - c * d)})
+        if (minor < margin)
+          return minor > -margin ? 0 : -1;
+      return 1;
     }
   } // namespace
 
@@ -134,14 +135,15 @@ namespace NMM
   }
 
 
-  double
-  element_support_below(const ManifoldMesh &manifold_mesh,
-                        const unsigned int  element,
-                        const double        threshold)
+  bool
+  has_support(const ManifoldMesh &manifold_mesh,
+              const unsigned int  element,
+              const double        threshold)
   {
     if (manifold_mesh.is_whole(element))
-      return 1.;
+      return 1. >= threshold;
     const Eigen::Matrix3d matrix = normalized_moments(manifold_mesh, element);
-    return surely_exceeds(matrix, threshold) ? 1. : smallest_eigenvalue(matrix);
+    const int             sign   = compare_eigenvalues(matrix, threshold);
+    return sign == 0 ? smallest_eigenvalue(matrix) >= threshold : sign > 0;
   }
 } // namespace NMM

@@ -33,6 +33,8 @@ namespace NMM
     {
       /// Curve of each physical edge, with all its labels.
       std::vector<Traits::X_monotone_curve_2> curves;
+      /// By PhysicalEdges::vertices().
+      std::vector<Traits::Point_2> points;
     };
 
     /**

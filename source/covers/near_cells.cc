@@ -2,11 +2,9 @@
 
 #include "cutting.h"
 #include <algorithm>
-#include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/geometries/point.hpp>
-#include <boost/geometry/index/rtree.hpp>
-#include <boost/iterator/function_output_iterator.hpp>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 namespace NMM
 {
@@ -16,10 +14,6 @@ namespace NMM
 
     namespace
     {
-      namespace bg     = boost::geometry;
-      using BoostPoint = bg::model::point<double, 2, bg::cs::cartesian>;
-      using BoostBox   = bg::model::box<BoostPoint>;
-
       /// A short stretch of a curve: all its points lie within `width` of the
       /// chord a b [m].
       struct Chunk
@@ -30,26 +24,26 @@ namespace NMM
         unsigned int owner;
       };
 
-      using Tree = bg::index::rtree<std::pair<BoostBox, unsigned int>,
-                                    bg::index::rstar<16>>;
-
-
       /// Edge length that most triangles have [m].
       double
       typical_size(const std::vector<Point<2>>    &vertices,
                    const ArrayView<const Triangle> triangles)
       {
-        double area = 0., length = 0.;
-        for (const auto &v : triangles)
+        // a sample will do
+        const std::size_t step =
+          std::max<std::size_t>(1, triangles.size() / 8192);
+        std::size_t n    = 0;
+        double      area = 0., length = 0.;
+        for (std::size_t i = 0; i < triangles.size(); i += step, ++n)
         {
+          const Triangle    &v = triangles[i];
           const Tensor<1, 2> a = vertices[v[1]] - vertices[v[0]],
                              b = vertices[v[2]] - vertices[v[0]];
           area += 0.5 * (a[0] * b[1] - a[1] * b[0]);
           length += std::max(a.norm(), b.norm());
         }
         // thin triangles are as long as the length says
-        return std::max(std::sqrt(2. * area / triangles.size()),
-                        length / triangles.size());
+        return std::max(std::sqrt(2. * area / n), length / n);
       }
 
 
@@ -136,22 +130,17 @@ namespace NMM
       are_apart(const std::array<Point<2>, 3> &triangle, const Chunk &chunk)
       {
         const auto separates = [&](const Tensor<1, 2> &direction) {
-          const double length = direction.norm();
-          if (length == 0.)
-            return false;
-          const Tensor<1, 2> axis(
-            {direction[1] / length, -direction[0] / length});
-          double low = 1e300, high = -1e300;
-          for (const Point<2> &v : triangle)
-          {
-            const double s = axis * (v - triangle[0]);
-            low            = std::min(low, s);
-            high           = std::max(high, s);
-          }
-          const double sa = axis * (chunk.a - triangle[0]),
-                       sb = axis * (chunk.b - triangle[0]);
-          return std::min(sa, sb) > high + chunk.width ||
-                 std::max(sa, sb) < low - chunk.width;
+          // distances times the length of the direction
+          const Tensor<1, 2> axis({direction[1], -direction[0]});
+          const double       s1 = axis * (triangle[1] - triangle[0]),
+                       s2       = axis * (triangle[2] - triangle[0]),
+                       sa       = axis * (chunk.a - triangle[0]),
+                       sb       = axis * (chunk.b - triangle[0]);
+          const double gap =
+            std::max(std::min(sa, sb) - std::max({0., s1, s2}),
+                     std::min({0., s1, s2}) - std::max(sa, sb));
+          return gap > 0. &&
+                 gap * gap > chunk.width * chunk.width * axis.norm_square();
         };
         for (unsigned int i = 0; i < 3; ++i)
           if (separates(triangle[(i + 1) % 3] - triangle[i]))
@@ -163,8 +152,6 @@ namespace NMM
 
     namespace
     {
-      constexpr unsigned int several = several_edges;
-
       /// Rounding in coordinates of this size is far below it [m].
       double
       rounding_margin(const double scale)
@@ -173,58 +160,180 @@ namespace NMM
       }
 
 
-      /// The owner of the chunks near each triangle; invalid_index: none, `several`:
-      /// more than one.
-      std::vector<unsigned int>
+      /// Squares over the boxes of the chunks, each with the chunks whose box meets it.
+      class ChunkGrid
+      {
+      public:
+        /// At most some @p max_squares.
+        ChunkGrid(const std::vector<Chunk> &chunks,
+                  const double              spacing,
+                  const std::size_t         max_squares)
+        {
+          for (const Chunk &chunk : chunks)
+          {
+            const auto [low, high] = box_of(chunk);
+            for (unsigned int d = 0; d < 2; ++d)
+            {
+              lower[d] = std::min(lower[d], low[d]);
+              upper[d] = std::max(upper[d], high[d]);
+            }
+          }
+          const double width  = upper[0] - lower[0],
+                       height = upper[1] - lower[1];
+          const double size   = std::max({spacing,
+                                          std::sqrt(width * height / max_squares),
+                                          (width + height) / max_squares});
+          per_length          = 1. / size;
+          n = {{static_cast<unsigned int>(width * per_length) + 1,
+                static_cast<unsigned int>(height * per_length) + 1}};
+          first.assign(static_cast<std::size_t>(n[0]) * n[1] + 1, 0);
+          for (const Chunk &chunk : chunks)
+          {
+            const auto [low, high] = box_of(chunk);
+            for_each_square(low, high, [&](const std::size_t i) {
+              ++first[i + 1];
+            });
+          }
+          std::partial_sum(first.begin(), first.end(), first.begin());
+          members.resize(first.back());
+          std::vector<unsigned int> next(first.begin(), first.end() - 1);
+          for (unsigned int k = 0; k < chunks.size(); ++k)
+          {
+            const auto [low, high] = box_of(chunks[k]);
+            for_each_square(low, high, [&](const std::size_t i) {
+              members[next[i]++] = k;
+            });
+          }
+        }
+
+        /// Column and row of a square.
+        struct Square
+        {
+          unsigned int i, j;
+        };
+
+        /// The one that a point lies in, or the nearest one.
+        Square
+        square_of(const Point<2> &x) const
+        {
+          return {index(x[0], 0), index(x[1], 1)};
+        }
+
+        /// Calls action(chunk) for all that meet the squares between two, some of them
+        /// several times.
+        template <typename Action>
+        void
+        for_each_near(const Square &low,
+                      const Square &high,
+                      const Action &action) const
+        {
+          // squares of a row follow each other
+          for (unsigned int j = low.j; j <= high.j; ++j)
+          {
+            const std::size_t  row = static_cast<std::size_t>(j) * n[0];
+            const unsigned int end = first[row + high.i + 1];
+            for (unsigned int k = first[row + low.i]; k < end; ++k)
+              action(members[k]);
+          }
+        }
+
+      private:
+        static std::pair<Point<2>, Point<2>>
+        box_of(const Chunk &chunk)
+        {
+          const auto &[a, b, w, owner] = chunk;
+          (void)owner;
+          return {Point<2>(std::min(a[0], b[0]) - w, std::min(a[1], b[1]) - w),
+                  Point<2>(std::max(a[0], b[0]) + w, std::max(a[1], b[1]) + w)};
+        }
+
+        unsigned int
+        index(const double x, const unsigned int d) const
+        {
+          const double i = (x - lower[d]) * per_length;
+          return i <= 0. ? 0
+                         : static_cast<unsigned int>(std::min(i, n[d] - 1.));
+        }
+
+        template <typename Action>
+        void
+        for_each_square(const Point<2> &low,
+                        const Point<2> &high,
+                        const Action   &action) const
+        {
+          const unsigned int i_end = index(high[0], 0),
+                             j_end = index(high[1], 1);
+          for (unsigned int j = index(low[1], 1); j <= j_end; ++j)
+            for (unsigned int i = index(low[0], 0); i <= i_end; ++i)
+              action(static_cast<std::size_t>(j) * n[0] + i);
+        }
+
+        Point<2> lower                         = Point<2>(1e300, 1e300),
+                 upper                         = Point<2>(-1e300, -1e300);
+        double                      per_length = 0.;
+        std::array<unsigned int, 2> n;
+        std::vector<unsigned int>   first, members;
+      };
+
+
+      NearEdges
       find_owners_near(const std::vector<Point<2>>    &vertices,
                        const ArrayView<const Triangle> triangles,
-                       const std::vector<Chunk>       &chunks)
+                       const std::vector<Chunk>       &chunks,
+                       const double                    spacing)
       {
-        std::vector<std::pair<BoostBox, unsigned int>> boxes;
-        boxes.reserve(chunks.size());
-        for (unsigned int i = 0; i < chunks.size(); ++i)
-        {
-          const auto &[a, b, w, owner] = chunks[i];
-          boxes.emplace_back(
-            BoostBox({std::min(a[0], b[0]) - w, std::min(a[1], b[1]) - w},
-                     {std::max(a[0], b[0]) + w, std::max(a[1], b[1]) + w}),
-            i);
-        }
-        const Tree tree(boxes);
-
-        std::vector<unsigned int> near(triangles.size(), invalid_index);
+        NearEdges near;
+        near.first.assign(triangles.size() + 1, 0);
+        if (chunks.empty())
+          return near;
+        const ChunkGrid grid(chunks, spacing, 4 * triangles.size() + 1024);
+        // of all vertices, unless the triangles are a small part of the mesh
+        std::vector<ChunkGrid::Square> squares;
+        if (vertices.size() <= triangles.size())
+          for (const Point<2> &vertex : vertices)
+            squares.push_back(grid.square_of(vertex));
+        // many a chunk is in several squares
+        std::vector<std::size_t> last_triangle(chunks.size(), triangles.size());
+        const auto               square_of = [&](const unsigned int vertex) {
+          return squares.empty() ? grid.square_of(vertices[vertex])
+                                               : squares[vertex];
+        };
         for (std::size_t c = 0; c < triangles.size(); ++c)
         {
-          const auto                   &v        = triangles[c];
-          const std::array<Point<2>, 3> triangle = {
-            {vertices[v[0]], vertices[v[1]], vertices[v[2]]}};
-          const auto [x0, x1] =
-            std::minmax({triangle[0][0], triangle[1][0], triangle[2][0]});
-          const auto [y0, y1] =
-            std::minmax({triangle[0][1], triangle[1][1], triangle[2][1]});
-          tree.query(bg::index::intersects(BoostBox({x0, y0}, {x1, y1})),
-                     boost::make_function_output_iterator(
-                       [&, c](const auto &value) {
-                         const Chunk &chunk = chunks[value.second];
-                         if (near[c] != chunk.owner && near[c] != several &&
-                             !are_apart(triangle, chunk))
-                           near[c] =
-                             near[c] == invalid_index ? chunk.owner : several;
-                       }));
+          const auto     &v = triangles[c];
+          const Point<2> &x = vertices[v[0]], &y = vertices[v[1]],
+                         &z = vertices[v[2]];
+          const auto a = square_of(v[0]), b = square_of(v[1]),
+                     d     = square_of(v[2]);
+          const auto first = near.first[c];
+          // squares beyond the grid count as those at its rim
+          grid.for_each_near({std::min(std::min(a.i, b.i), d.i),
+                              std::min(std::min(a.j, b.j), d.j)},
+                             {std::max(std::max(a.i, b.i), d.i),
+                              std::max(std::max(a.j, b.j), d.j)},
+                             [&](const unsigned int k) {
+                               if (last_triangle[k] == c)
+                                 return;
+                               last_triangle[k]         = c;
+                               const unsigned int owner = chunks[k].owner;
+                               if (std::find(near.edges.begin() + first,
+                                             near.edges.end(),
+                                             owner) == near.edges.end() &&
+                                   !are_apart({{x, y, z}}, chunks[k]))
+                                 near.edges.push_back(owner);
+                             });
+          near.first[c + 1] = near.edges.size();
         }
         return near;
       }
-    } // namespace
 
 
-    namespace
-    {
       std::vector<unsigned char>
-      to_flags(const std::vector<unsigned int> &owners)
+      to_flags(const NearEdges &near)
       {
-        std::vector<unsigned char> flags(owners.size());
-        for (std::size_t i = 0; i < owners.size(); ++i)
-          flags[i] = owners[i] != invalid_index;
+        std::vector<unsigned char> flags(near.first.size() - 1);
+        for (std::size_t i = 0; i < flags.size(); ++i)
+          flags[i] = near[i].size() > 0;
         return flags;
       }
     } // namespace
@@ -243,29 +352,30 @@ namespace NMM
         scale = std::max(
           {scale, std::abs(box.lower_bound(d)), std::abs(box.upper_bound(d))});
       const ArrayView<const Triangle> view(triangles.data(), triangles.size());
-      return to_flags(
-        find_owners_near(vertices,
-                         view,
-                         make_chunks(physical_mesh,
-                                     2. * typical_size(vertices, view),
-                                     rounding_margin(scale))));
+      const double                    size = typical_size(vertices, view);
+      return to_flags(find_owners_near(
+        vertices,
+        view,
+        make_chunks(physical_mesh, 2. * size, rounding_margin(scale)),
+        size));
     }
 
 
-    std::vector<unsigned int>
+    NearEdges
     find_edges_near_triangles(const std::vector<Point<2>>    &vertices,
                               const ArrayView<const Triangle> triangles,
                               const std::vector<ElementEdge> &edges,
                               const double                    scale)
     {
       if (triangles.size() == 0)
-        return {};
+        return {{0}, {}};
+      const double size = typical_size(vertices, triangles);
       return find_owners_near(vertices,
                               triangles,
                               make_chunks(edges,
-                                          2. *
-                                            typical_size(vertices, triangles),
-                                          rounding_margin(scale)));
+                                          2. * size,
+                                          rounding_margin(scale)),
+                              size);
     }
 
 

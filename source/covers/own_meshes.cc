@@ -162,34 +162,40 @@ namespace NMM
       std::vector<ElementEdge> shapes;
       for (const unsigned int e : part.edges)
         shapes.push_back(edges.edges()[e].shape);
-      const auto                      &cells = mathematical_mesh.cells();
-      const std::vector<unsigned char> touched =
-        internal::find_triangles_near_edges(
-          mathematical_mesh.vertices(),
-          ArrayView<const internal::Triangle>(cells.data(), cells.size()),
-          shapes,
-          shape.scale);
-      internal::Cutting cutting;
+      const auto         &cells = mathematical_mesh.cells();
+      internal::NearEdges near  = internal::find_edges_near_triangles(
+        mathematical_mesh.vertices(),
+        ArrayView<const internal::Triangle>(cells.data(), cells.size()),
+        shapes,
+        shape.scale);
+      for (unsigned int &edge : near.edges)
+        edge = part.edges[edge];
+      std::vector<unsigned char> state(cells.size(),
+                                       internal::CellState::untouched);
+      internal::Cutting          cutting;
       cutting.cell_region.assign(cells.size(), invalid_index);
+      cutting.is_met.assign(edges.edges().size(), 0);
       region_to_part[region] = 0;
       internal::cut(mathematical_mesh,
+                    internal::find_neighbors(mathematical_mesh),
                     physical_mesh,
                     edges,
                     region_to_part,
                     part,
-                    touched,
-                    /* simple_cuts = */ {},
+                    near,
+                    state,
                     cutting);
       region_to_part[region] = invalid_index;
 
-      for (const auto &element : cutting.elements)
+      for (unsigned int i = 0; i < cutting.elements.size(); ++i)
+      {
+        const unsigned int c = cutting.elements[i].cell;
         take_better(filling,
-                    internal::enclosed_area(ArrayView<const ElementEdge>(
-                      cutting.edges.data() + element.first_edge,
-                      element.end_edge - element.first_edge)) /
-                      mathematical_mesh.cell_area(element.cell),
+                    internal::element_area(cutting, i) /
+                      mathematical_mesh.cell_area(c),
                     mathematical_mesh,
-                    element.cell);
+                    c);
+      }
       for (unsigned int c = 0; c < cells.size(); ++c)
         if (cutting.cell_region[c] != invalid_index)
           take_better(filling, 1., mathematical_mesh, c);

@@ -3,7 +3,10 @@
 #include <nmm/covers/manifold_mesh.h>
 
 #include "exact_curves.h"
+#include <algorithm>
+#include <map>
 #include <numeric>
+#include <tuple>
 #include <unordered_map>
 
 namespace NMM
@@ -47,14 +50,19 @@ namespace NMM
 
       // an end shared by several edges is converted once, so that it is the
       // same double everywhere
-      std::unordered_map<const void *, Point<2>> vertex_to_point;
-      const auto point = [&](const Arrangement::Vertex_const_handle &vertex) {
+      std::unordered_map<const void *, unsigned int> vertex_to_index;
+      const auto number = [&](const Arrangement::Vertex_const_handle &vertex) {
         const auto [position, is_new] =
-          vertex_to_point.emplace(&*vertex, Point<2>());
+          vertex_to_index.emplace(&*vertex, all_vertices.size());
         if (is_new)
-          position->second = to_double(vertex->point());
+        {
+          all_vertices.push_back(to_double(vertex->point()));
+          curves->points.push_back(vertex->point());
+        }
         return position->second;
       };
+      std::map<std::vector<unsigned int>, unsigned int> curve_set_to_index;
+      std::vector<unsigned int>                         curve_set;
 
       for (auto e = arrangement.edges_begin(); e != arrangement.edges_end();
            ++e)
@@ -68,13 +76,30 @@ namespace NMM
         if (edge.regions[0] == invalid_index &&
             edge.regions[1] == invalid_index)
           continue;
-        edge.shape.start = point(halfedge->source());
-        edge.shape.end   = point(halfedge->target());
+        edge.vertices = {
+          {number(halfedge->source()), number(halfedge->target())}};
+        edge.shape.start = all_vertices[edge.vertices[0]];
+        edge.shape.end   = all_vertices[edge.vertices[1]];
         set_circle(halfedge->curve(), true, physical_mesh.pieces(), edge.shape);
         Traits::X_monotone_curve_2 curve = halfedge->curve();
+        curve_set.clear();
         for (const Label label : curve.data())
           if (is_piece(label))
+          {
             edge.piece = label;
+            curve_set.push_back(label);
+          }
+        const CurvePiece &piece = physical_mesh.pieces()[edge.piece];
+        edge.line               = {{piece.start, piece.end}};
+        if (std::tie(piece.end[0], piece.end[1]) <
+            std::tie(piece.start[0], piece.start[1]))
+          std::swap(edge.line[0], edge.line[1]);
+        std::sort(curve_set.begin(), curve_set.end());
+        const auto [position, is_new] =
+          curve_set_to_index.emplace(curve_set, all_curve_sets.size());
+        if (is_new)
+          all_curve_sets.push_back(curve_set);
+        edge.curve_set = position->second;
         curve.data().insert(physical_edge_flag +
                             static_cast<Label>(all_edges.size()));
         curves->curves.push_back(std::move(curve));
@@ -114,6 +139,20 @@ namespace NMM
     PhysicalEdges::edges() const
     {
       return all_edges;
+    }
+
+
+    const std::vector<Point<2>> &
+    PhysicalEdges::vertices() const
+    {
+      return all_vertices;
+    }
+
+
+    const std::vector<std::vector<unsigned int>> &
+    PhysicalEdges::curve_sets() const
+    {
+      return all_curve_sets;
     }
 
 

@@ -32,6 +32,13 @@ namespace NMM
         std::array<unsigned int, 2> regions;
         /// A piece of the physical mesh that the edge lies on.
         unsigned int piece = invalid_index;
+        /// Of a straight edge: that piece's ends, the left one first. They are what
+        /// is given, so that the edge lies exactly on the line through them.
+        std::array<dealii::Point<2>, 2> line;
+        /// Its left and its right end, indices into vertices().
+        std::array<unsigned int, 2> vertices;
+        /// All pieces that it lies on, an index into curve_sets().
+        unsigned int curve_set = invalid_index;
         /// The edge in doubles, from its left to its right end; without
         /// neighbour, mesh edge and curve set.
         ElementEdge shape;
@@ -43,6 +50,14 @@ namespace NMM
       const std::vector<Edge> &
       edges() const;
 
+      /// Ends of edges in doubles: nowhere does an edge end otherwise [m].
+      const std::vector<dealii::Point<2>> &
+      vertices() const;
+
+      /// Sets of pieces, each sorted.
+      const std::vector<std::vector<unsigned int>> &
+      curve_sets() const;
+
       /// Edges that bound the region or lie in it, each once.
       dealii::ArrayView<const unsigned int>
       region_edges(unsigned int region) const;
@@ -51,9 +66,11 @@ namespace NMM
       exact_curves() const;
 
     private:
-      std::vector<Edge>            all_edges;
-      std::vector<unsigned int>    edges_of_regions, first_of_region;
-      std::unique_ptr<ExactCurves> curves;
+      std::vector<Edge>                      all_edges;
+      std::vector<dealii::Point<2>>          all_vertices;
+      std::vector<std::vector<unsigned int>> all_curve_sets;
+      std::vector<unsigned int>              edges_of_regions, first_of_region;
+      std::unique_ptr<ExactCurves>           curves;
     };
   } // namespace internal
 } // namespace NMM

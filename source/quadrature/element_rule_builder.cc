@@ -2,6 +2,7 @@
 #include <nmm/quadrature/element_rule_builder.h>
 
 #include "element_frame.h"
+#include "element_triangles.h"
 #include "moments.h"
 #include "rule_reduction.h"
 #include "slab_candidates.h"
@@ -96,81 +97,33 @@ namespace NMM
 
 
 
-  /**
-   * Rounding of reference coordinates counts in proportion to the largest extent over
-   * the area and over the cell: shapes for which it may grow by more than a hundred are
-   * left to the frame of ElementFrame.
-   */
   bool
   ElementRuleBuilder::Data::divide(
     const dealii::ArrayView<const ElementEdge> &edges,
     const CellFrame                            &cell)
   {
-    constexpr double   least_extent = 0.01, least_shape = 0.05;
-    const unsigned int n        = edges.size();
     const unsigned int n_points = triangle_rule.size();
     const std::size_t  dimension =
       (basis.degree() + 1) * (basis.degree() + 2) / 2;
-    if (n < 3 || n > 4 || n_points == 0 || (n - 2) * n_points > dimension)
+    if (n_points == 0)
       return false;
-    const dealii::Tensor<2, 2> to_reference = dealii::invert(cell.jacobian);
-    dealii::Point<2>           corners[4];
-    for (unsigned int i = 0; i < n; ++i)
-    {
-      if (edges[i].is_arc() || edges[i].end != edges[(i + 1) % n].start)
-        return false;
-      corners[i] =
-        dealii::Point<2>(to_reference * (edges[i].start - cell.origin));
-    }
-
-    const auto twice_the_area =
-      [&](const unsigned int i, const unsigned int j, const unsigned int k) {
-        const dealii::Tensor<1, 2> a = corners[j] - corners[i],
-                                   b = corners[k] - corners[i];
-        return a[0] * b[1] - a[1] * b[0];
-      };
-    const auto is_good = [&](const unsigned int i,
-                             const unsigned int j,
-                             const unsigned int k) {
-      const double longest = std::max({corners[i].distance_square(corners[j]),
-                                       corners[j].distance_square(corners[k]),
-                                       corners[k].distance_square(corners[i])});
-      return longest > least_extent * least_extent &&
-             twice_the_area(i, j, k) > least_shape * longest;
-    };
-    const auto add =
-      [&](const unsigned int i, const unsigned int j, const unsigned int k) {
-        const dealii::Tensor<1, 2> a = corners[j] - corners[i],
-                                   b = corners[k] - corners[i];
-        const double area            = twice_the_area(i, j, k);
-        for (unsigned int q = 0; q < n_points; ++q)
-        {
-          const dealii::Point<2> &xi = triangle_rule.point(q);
-          best_points.push_back(corners[i] + xi[0] * a + xi[1] * b);
-          best_weights.push_back(area * triangle_rule.weight(q));
-        }
-      };
-    if (n == 3)
-    {
-      if (!is_good(0, 1, 2))
-        return false;
-      add(0, 1, 2);
-      return true;
-    }
-    // along the diagonal whose triangles are more alike
-    for (unsigned int i = 0; i < 4; ++i)
-      if (twice_the_area(i, (i + 1) % 4, (i + 2) % 4) <= 0.)
-        return false;
-    const unsigned int i =
-      std::min(twice_the_area(0, 1, 2), twice_the_area(0, 2, 3)) >=
-          std::min(twice_the_area(1, 2, 3), twice_the_area(1, 3, 0))
-        ? 0
-        : 1;
-    if (!is_good(i, i + 1, i + 2) || !is_good(i, i + 2, (i + 3) % 4))
-      return false;
-    add(i, i + 1, i + 2);
-    add(i, i + 2, (i + 3) % 4);
-    return true;
+    ElementRule::Triangle triangles[2];
+    const unsigned int    n_triangles = internal::set_triangles(
+      internal::find_triangles(edges, cell, dimension / n_points),
+      edges,
+      cell,
+      triangles);
+    for (unsigned int i = 0; i < n_triangles; ++i)
+      for (unsigned int q = 0; q < n_points; ++q)
+      {
+        const dealii::Point<2> &xi = triangle_rule.point(q);
+        best_points.push_back(triangles[i].origin +
+                              xi[0] * triangles[i].sides[0] +
+                              xi[1] * triangles[i].sides[1]);
+        best_weights.push_back(triangles[i].twice_the_area *
+                               triangle_rule.weight(q));
+      }
+    return n_triangles > 0;
   }
 
 

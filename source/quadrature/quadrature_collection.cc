@@ -6,6 +6,7 @@
 #include <deal.II/base/parallel.h>
 #include <deal.II/base/quadrature_lib.h>
 
+#include "element_triangles.h"
 #include <algorithm>
 #include <atomic>
 #include <string>
@@ -34,81 +35,190 @@ namespace NMM
 
 
 
+  std::vector<dealii::Point<2>>
+  ElementRule::get_points() const
+  {
+    std::vector<dealii::Point<2>> result(size());
+    for (unsigned int q = 0; q < result.size(); ++q)
+      result[q] = point(q);
+    return result;
+  }
+
+
+
+  std::vector<double>
+  ElementRule::get_weights() const
+  {
+    std::vector<double> result(size());
+    for (unsigned int q = 0; q < result.size(); ++q)
+      result[q] = weight(q);
+    return result;
+  }
+
+
+
+  ElementRule::operator dealii::Quadrature<2>() const
+  {
+    return size() == 0 ? dealii::Quadrature<2>()
+                       : dealii::Quadrature<2>(get_points(), get_weights());
+  }
+
+
+
+  namespace
+  {
+    /// Numbers of rules from here on say how the element is divided.
+    constexpr unsigned int divided = 1u << 31;
+
+    /// While rules are made: the element needs one of its own.
+    constexpr unsigned int to_be_made = invalid_index - 1;
+
+
+    CellFrame
+    cell_frame(const MathematicalMesh &mesh, const unsigned int cell)
+    {
+      return {mesh.vertices()[mesh.cell_vertices(cell)[0]],
+              mesh.jacobian(cell)};
+    }
+
+
+    /// On the threads that deal.II may use.
+    template <typename Action>
+    void
+    for_each_range(const unsigned int n, const Action &action)
+    {
+      constexpr unsigned int grain = 4096;
+      if (dealii::MultithreadInfo::n_threads() == 1)
+        action(0U, n);
+      else
+        dealii::parallel::apply_to_subranges(0U, n, action, grain);
+    }
+  } // namespace
+
+
+
   QuadratureCollection::QuadratureCollection(
-    const ManifoldMesh                         &mesh,
+    const ManifoldMesh                         &manifold_mesh,
     const unsigned int                          degree_whole,
     const unsigned int                          degree_cut,
     const std::pair<unsigned int, unsigned int> elements)
-    : whole_rule(make_triangle_rule(degree_whole))
+    : mesh(&manifold_mesh)
+    , whole_rule(make_triangle_rule(degree_whole))
     , first_element(elements.first)
   {
     Assert(elements.first <= elements.second &&
-             elements.second <= mesh.n_elements(),
+             elements.second <= mesh->n_elements(),
            dealii::ExcMessage("No such range of elements."));
+    constexpr unsigned int largest = 14;
+    if (degree_cut <= largest)
+      triangle_rule = make_triangle_rule(degree_cut);
     const unsigned int n = elements.second - elements.first;
     element_to_rule.assign(n, invalid_index);
-    area_fractions.assign(n, 1.);
 
-    unsigned int n_cut = 0;
-    for (unsigned int i = 0; i < n; ++i)
-      if (!mesh.is_whole(elements.first + i))
-        element_to_rule[i] = n_cut++;
-    cut_rules.resize(n_cut);
-
-    // each rule by itself, so that the same comes out on any number of threads
-    std::atomic<unsigned int> n_bad(0);
-    const auto                make_rules = [&](const unsigned int begin,
-                                const unsigned int end) {
-      n_bad += make_cut_rules(mesh, degree_cut, begin, end);
-    };
-    constexpr unsigned int grain = 4096;
-    if (dealii::MultithreadInfo::n_threads() == 1)
-      make_rules(0, n);
-    else
-      dealii::parallel::apply_to_subranges(0U, n, make_rules, grain);
-    fallbacks = n_bad;
+    // each element by itself, so that the same comes out on any number of threads
+    for_each_range(n, [&](const unsigned int begin, const unsigned int end) {
+      divide(degree_cut, begin, end);
+    });
+    make_own_rules(degree_cut);
   }
 
 
 
-  unsigned int
-  QuadratureCollection::make_cut_rules(const ManifoldMesh &mesh,
-                                       const unsigned int  degree,
-                                       const unsigned int  begin,
-                                       const unsigned int  end)
+  void
+  QuadratureCollection::divide(const unsigned int degree,
+                               const unsigned int begin,
+                               const unsigned int end)
   {
-    const MathematicalMesh &cells = mesh.mathematical_mesh();
-    ElementRuleBuilder      builder(degree);
-    unsigned int            n_bad = 0;
+    const MathematicalMesh &cells     = mesh->mathematical_mesh();
+    const unsigned int      dimension = (degree + 1) * (degree + 2) / 2;
+    const unsigned int      max_triangles =
+      triangle_rule.size() == 0 ? 0 : dimension / triangle_rule.size();
     for (unsigned int i = begin; i < end; ++i)
     {
-      if (element_to_rule[i] == invalid_index)
+      const unsigned int element = first_element + i;
+      if (mesh->is_whole(element))
         continue;
-      const unsigned int     element = first_element + i;
-      const unsigned int     cell    = mesh.cell(element);
-      dealii::Quadrature<2> &rule    = cut_rules[element_to_rule[i]];
-      rule                           = builder.build(mesh.edges(element),
-                           {cells.vertices()[cells.cell_vertices(cell)[0]],
-                                                      cells.jacobian(cell)});
-      if (builder.last_was_fallback())
-        ++n_bad;
-      // the reference triangle has area 1/2
-      double area = 0.;
-      for (const double weight : rule.get_weights())
-        area += weight;
-      area_fractions[i] = std::min(2. * area, 1.);
+      const internal::Triangles kind =
+        internal::find_triangles(mesh->edges(element),
+                                 cell_frame(cells, mesh->cell(element)),
+                                 max_triangles);
+      element_to_rule[i] = kind == internal::Triangles::none
+                             ? to_be_made
+                             : divided + static_cast<unsigned int>(kind);
     }
-    return n_bad;
   }
 
 
 
-  const dealii::Quadrature<2> &
+  void
+  QuadratureCollection::make_own_rules(const unsigned int degree)
+  {
+    std::vector<unsigned int> elements;
+    for (unsigned int i = 0; i < element_to_rule.size(); ++i)
+      if (element_to_rule[i] == to_be_made)
+      {
+        element_to_rule[i] = elements.size();
+        elements.push_back(first_element + i);
+      }
+    const MathematicalMesh            &cells = mesh->mathematical_mesh();
+    std::vector<dealii::Quadrature<2>> rules(elements.size());
+    std::atomic<unsigned int>          n_bad(0);
+    for_each_range(
+      elements.size(), [&](const unsigned int begin, const unsigned int end) {
+        ElementRuleBuilder builder(degree);
+        for (unsigned int i = begin; i < end; ++i)
+        {
+          rules[i] = builder.build(mesh->edges(elements[i]),
+                                   cell_frame(cells, mesh->cell(elements[i])));
+          n_bad += builder.last_was_fallback();
+        }
+      });
+    fallbacks = n_bad;
+
+    first_point.reserve(rules.size() + 1);
+    first_point.push_back(0);
+    for (const dealii::Quadrature<2> &rule : rules)
+      first_point.push_back(first_point.back() + rule.size());
+    own_points.reserve(first_point.back());
+    own_weights.reserve(first_point.back());
+    for (const dealii::Quadrature<2> &rule : rules)
+    {
+      own_points.insert(own_points.end(),
+                        rule.get_points().begin(),
+                        rule.get_points().end());
+      own_weights.insert(own_weights.end(),
+                         rule.get_weights().begin(),
+                         rule.get_weights().end());
+    }
+  }
+
+
+
+  ElementRule
   QuadratureCollection::rule(const unsigned int element) const
   {
     AssertIndexRange(element - first_element, element_to_rule.size());
     const unsigned int index = element_to_rule[element - first_element];
-    return index == invalid_index ? whole_rule : cut_rules[index];
+    ElementRule        result;
+    if (index < divided)
+    {
+      result.n_points = first_point[index + 1] - first_point[index];
+      result.points   = own_points.data() + first_point[index];
+      result.weights  = own_weights.data() + first_point[index];
+      return result;
+    }
+    const dealii::Quadrature<2> &ordinary =
+      index == invalid_index ? whole_rule : triangle_rule;
+    result.n_points = ordinary.size();
+    result.points   = ordinary.get_points().data();
+    result.weights  = ordinary.get_weights().data();
+    if (index != invalid_index)
+      result.n_triangles = internal::set_triangles(
+        static_cast<internal::Triangles>(index - divided),
+        mesh->edges(element),
+        cell_frame(mesh->mathematical_mesh(), mesh->cell(element)),
+        result.triangles);
+    return result;
   }
 
 
@@ -116,8 +226,15 @@ namespace NMM
   double
   QuadratureCollection::area_fraction(const unsigned int element) const
   {
-    AssertIndexRange(element - first_element, area_fractions.size());
-    return area_fractions[element - first_element];
+    AssertIndexRange(element - first_element, element_to_rule.size());
+    if (element_to_rule[element - first_element] == invalid_index)
+      return 1.;
+    // the reference triangle has area 1/2
+    const ElementRule element_rule = rule(element);
+    double            area         = 0.;
+    for (unsigned int q = 0; q < element_rule.size(); ++q)
+      area += element_rule.weight(q);
+    return std::min(2. * area, 1.);
   }
 
 

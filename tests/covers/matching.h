@@ -32,7 +32,7 @@ namespace NMM
     expect_matching_edges(const ManifoldMesh &mesh)
     {
       using Key = std::array<double, 4>;
-      std::map<std::pair<Key, unsigned int>, const ElementEdge *> edge_of;
+      std::map<std::pair<Key, unsigned int>, ElementEdge> edge_of;
       const auto key = [](const dealii::Point<2> &a,
                           const dealii::Point<2> &b) {
         return Key{{a[0], a[1], b[0], b[1]}};
@@ -52,8 +52,7 @@ namespace NMM
               edges[i].start != edges[i].end)
           {
             const bool is_new =
-              edge_of
-                .insert({{key(edges[i].start, edges[i].end), e}, &edges[i]})
+              edge_of.insert({{key(edges[i].start, edges[i].end), e}, edges[i]})
                 .second;
             EXPECT_TRUE(is_new || edges[i].is_arc()) << "element " << e;
           }
@@ -62,21 +61,21 @@ namespace NMM
       double total = 0.;
       for (const auto &[where, edge] : edge_of)
       {
-        if (edge->neighbor == invalid_index)
+        if (edge.neighbor == invalid_index)
           continue;
-        total += length(*edge);
+        total += length(edge);
         const auto twin =
-          edge_of.find({key(edge->end, edge->start), edge->neighbor});
+          edge_of.find({key(edge.end, edge.start), edge.neighbor});
         if (twin == edge_of.end())
         {
           ADD_FAILURE() << "an edge of element " << where.second << " at "
-                        << edge->start << " has no twin in element "
-                        << edge->neighbor;
+                        << edge.start << " has no twin in element "
+                        << edge.neighbor;
           continue;
         }
-        EXPECT_EQ(twin->second->neighbor, where.second);
-        EXPECT_EQ(twin->second->radius, -edge->radius);
-        EXPECT_EQ(twin->second->curve_set, edge->curve_set);
+        EXPECT_EQ(twin->second.neighbor, where.second);
+        EXPECT_EQ(twin->second.radius, -edge.radius);
+        EXPECT_EQ(twin->second.curve_set, edge.curve_set);
       }
       return total;
     }

@@ -4,8 +4,10 @@
 
 #include "../support/simplex_integration.h"
 #include "random_elements.h"
+#include <cmath>
 #include <gtest/gtest.h>
 #include <map>
+#include <random>
 
 using namespace NMM;
 using namespace NMM::Testing;
@@ -233,4 +235,46 @@ namespace
                         Family{"aspect_1e8_rotated", 1e-8, true, 1., 3}),
       ::testing::Values(6, 8)),
     name_of);
+
+
+  /// Cells that lack a corner, of any size: quadrilaterals with a short side.
+  TEST(ElementRuleQuadrilaterals, CellsWithoutACorner)
+  {
+    std::cout << "    seed " << seed << std::endl;
+    std::mt19937 engine(seed);
+    const auto   uniform = [&](const double low, const double high) {
+      return std::uniform_real_distribution<double>(low, high)(engine);
+    };
+    Statistics   statistics;
+    unsigned int n_divided = 0;
+    for (unsigned int i = 0; i < 200; ++i)
+    {
+      CellFrame frame;
+      frame.origin = dealii::Point<2>(uniform(-1., 1.), uniform(-1., 1.));
+      frame.jacobian[0][0]  = uniform(0.5, 1.);
+      frame.jacobian[0][1]  = uniform(-0.5, 0.5);
+      frame.jacobian[1][0]  = uniform(-0.5, 0.5);
+      frame.jacobian[1][1]  = uniform(0.5, 1.);
+      const double     size = std::pow(10., uniform(-12., -0.1));
+      const double     s = size * uniform(0.1, 1.), t = size * uniform(0.1, 1.);
+      dealii::Point<2> x[4] = {{s, 0.}, {1., 0.}, {0., 1.}, {0., t}};
+      for (dealii::Point<2> &corner : x)
+        corner = frame.origin + frame.jacobian * corner;
+      std::vector<ElementEdge> element(4);
+      for (unsigned int k = 0; k < 4; ++k)
+      {
+        element[k].start = x[k];
+        element[k].end   = x[(k + 1) % 4];
+      }
+      check(element, frame, 4, statistics);
+      if (HasFatalFailure())
+        return;
+      n_divided +=
+        make_element_rule(dealii::make_array_view(element), frame, 4).size() ==
+        12;
+    }
+    report(statistics);
+    // those with a side of more than 1e-8, of 12 decades
+    EXPECT_GT(n_divided, 100u);
+  }
 } // namespace

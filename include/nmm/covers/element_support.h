@@ -23,12 +23,9 @@ namespace NMM
   double
   element_support(const ManifoldMesh &mesh, unsigned int element);
 
-  /// The same where it is below @p threshold; elsewhere a number that is not below it,
-  /// for a fraction of the time.
-  double
-  element_support_below(const ManifoldMesh &mesh,
-                        unsigned int        element,
-                        double              threshold);
+  /// Is it at least @p threshold? For a fraction of the time.
+  bool
+  has_support(const ManifoldMesh &mesh, unsigned int element, double threshold);
 } // namespace NMM
 
 #endif

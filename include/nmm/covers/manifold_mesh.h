@@ -7,7 +7,10 @@
 
 #include <deal.II/base/array_view.h>
 #include <deal.II/base/point.h>
+#include <deal.II/base/std_cxx20/iota_view.h>
 
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace NMM
@@ -47,13 +50,94 @@ namespace NMM
   };
 
   /**
+   * The edges of one element, one after the other. Of most elements the mesh keeps the
+   * corners and what lies beyond; their edges are made when they are asked for, and live as
+   * long as this object, others as long as the mesh.
+   */
+  class ElementEdges
+  {
+  public:
+    ElementEdges() = default;
+
+    /// Edges that somebody keeps.
+    explicit ElementEdges(const dealii::ArrayView<const ElementEdge> &edges)
+      : kept(edges.data())
+      , n(edges.size())
+    {
+    }
+
+    const ElementEdge *
+    begin() const
+    {
+      return kept != nullptr ? kept : n <= max_inside ? inside() : many.data();
+    }
+
+    const ElementEdge *
+    end() const
+    {
+      return begin() + n;
+    }
+
+    std::size_t
+    size() const
+    {
+      return n;
+    }
+
+    const ElementEdge &
+    operator[](const unsigned int i) const
+    {
+      AssertIndexRange(i, n);
+      return begin()[i];
+    }
+
+    operator dealii::ArrayView<const ElementEdge>() const
+    {
+      return dealii::ArrayView<const ElementEdge>(begin(), n);
+    }
+
+  private:
+    friend class ManifoldMesh;
+
+    static constexpr unsigned int max_inside = 6;
+
+    /// Room for @p n_edges edges, to be filled.
+    ElementEdge *
+    make(const unsigned int n_edges)
+    {
+      n = n_edges;
+      if (n > max_inside)
+      {
+        many.resize(n);
+        return many.data();
+      }
+      return reinterpret_cast<ElementEdge *>(storage);
+    }
+
+    const ElementEdge *
+    inside() const
+    {
+      return reinterpret_cast<const ElementEdge *>(storage);
+    }
+
+    const ElementEdge       *kept = nullptr;
+    unsigned int             n    = 0;
+    std::vector<ElementEdge> many;
+    /// Not initialized: most elements are whole and have no edges.
+    alignas(
+      ElementEdge) unsigned char storage[max_inside * sizeof(ElementEdge)];
+  };
+
+
+  /**
    * The manifold elements: connected pieces of the mathematical mesh's triangles
    * cut by the physical mesh; the units of integration. Immutable.
    *
    * Cutting is exact and touches only cells that a physical curve comes near;
-   * all others are whole elements that keep no edges. A cell that one straight edge runs
-   * through, clear of corners and of all else by many roundings, is cut by itself;
-   * the other cells by an arrangement with exact numbers. Elements are numbered so
+   * all others are whole elements that keep no edges. Cells that straight edges run
+   * through or end in are divided by themselves, which takes the signs of a few
+   * determinants; cells with arcs, with cracks or blocks inside, and all cells of a
+   * mesh of several parts by an arrangement with exact numbers. Elements are numbered so
    * that neighbours have near numbers (reverse Cuthill-McKee on the element
    * graph).
    *
@@ -120,8 +204,12 @@ namespace NMM
      * appears twice, once in each direction. Empty for a whole element that no
      * physical curve comes near.
      */
-    dealii::ArrayView<const ElementEdge>
+    ElementEdges
     edges(unsigned int element) const;
+
+    /// How many those are.
+    unsigned int
+    n_edges(unsigned int element) const;
 
     /**
      * Elements joined to @p element across mathematical edges that no physical
@@ -130,11 +218,51 @@ namespace NMM
      */
     struct Link
     {
-      unsigned int neighbor;
-      unsigned int edge_here, edge_there;
+      unsigned int  neighbor;
+      unsigned char edge_here, edge_there;
     };
 
-    dealii::ArrayView<const Link>
+    /**
+     * The links of an element, in no particular order. Those of a whole element among
+     * whole ones follow from the mathematical mesh, and are made when they are asked for.
+     */
+    class Links
+    {
+    public:
+      const Link *
+      begin() const
+      {
+        return stored != nullptr ? stored : made;
+      }
+
+      const Link *
+      end() const
+      {
+        return begin() + n;
+      }
+
+      std::size_t
+      size() const
+      {
+        return n;
+      }
+
+      const Link &
+      operator[](const unsigned int i) const
+      {
+        AssertIndexRange(i, n);
+        return begin()[i];
+      }
+
+    private:
+      friend class ManifoldMesh;
+
+      const Link  *stored = nullptr;
+      unsigned int n      = 0;
+      Link         made[3];
+    };
+
+    Links
     joined(unsigned int element) const;
 
     /// Elements of cells this rank owns, first and past-the-end; all if the mesh
@@ -154,8 +282,8 @@ namespace NMM
     const internal::ElementExchange *
     exchange() const;
 
-    /// Elements of a cell.
-    dealii::ArrayView<const unsigned int>
+    /// Elements of a cell, which have consecutive numbers.
+    dealii::std_cxx20::ranges::iota_view<unsigned int, unsigned int>
     cell_elements(unsigned int cell) const;
 
     /// Pieces of the physical mesh (PhysicalMesh::pieces()) on an edge.

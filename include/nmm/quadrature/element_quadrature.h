@@ -7,6 +7,7 @@
 #include <deal.II/base/quadrature.h>
 #include <deal.II/non_matching/immersed_surface_quadrature.h>
 
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -70,9 +71,76 @@ namespace NMM
   make_triangle_rule(unsigned int degree);
 
   /**
-   * The rules of a manifold mesh: one shared ordinary rule for whole elements,
-   * one each for cut elements, built once, on as many threads as deal.II may use
-   * (dealii::MultithreadInfo).
+   * The rule of one element, see make_element_rule(): points in reference-cell
+   * coordinates [-] and weights [-] as of a dealii::Quadrature<2>, into which it converts.
+   * Either points that its collection keeps, or those of an ordinary rule in one or two
+   * triangles, made when they are asked for. The collection must outlive it.
+   */
+  class ElementRule
+  {
+  public:
+    unsigned int
+    size() const
+    {
+      return n_triangles == 0 ? n_points : n_triangles * n_points;
+    }
+
+    dealii::Point<2>
+    point(const unsigned int q) const
+    {
+      AssertIndexRange(q, size());
+      if (n_triangles == 0)
+        return points[q];
+      const Triangle         &triangle = triangles[q < n_points ? 0 : 1];
+      const dealii::Point<2> &xi = points[q < n_points ? q : q - n_points];
+      return triangle.origin + xi[0] * triangle.sides[0] +
+             xi[1] * triangle.sides[1];
+    }
+
+    double
+    weight(const unsigned int q) const
+    {
+      AssertIndexRange(q, size());
+      return n_triangles == 0 ? weights[q]
+             : q < n_points
+               ? triangles[0].twice_the_area * weights[q]
+               : triangles[1].twice_the_area * weights[q - n_points];
+    }
+
+    std::vector<dealii::Point<2>>
+    get_points() const;
+
+    std::vector<double>
+    get_weights() const;
+
+    operator dealii::Quadrature<2>() const;
+
+    /// What the points of an ordinary rule are mapped to.
+    struct Triangle
+    {
+      dealii::Point<2>                    origin;
+      std::array<dealii::Tensor<1, 2>, 2> sides;
+      /// Of the reference cell's coordinates.
+      double twice_the_area;
+    };
+
+  private:
+    friend class QuadratureCollection;
+
+    unsigned int            n_triangles = 0, n_points = 0;
+    const dealii::Point<2> *points  = nullptr;
+    const double           *weights = nullptr;
+    Triangle                triangles[2];
+  };
+
+
+  /**
+   * The rules of a manifold mesh, made on as many threads as deal.II may use
+   * (dealii::MultithreadInfo). Whole elements share an ordinary rule; well-shaped
+   * triangles and quadrilaterals share another one, in one or two triangles each, of which
+   * nothing is kept but which they are; all other cut elements have rules of their own.
+   *
+   * Lifetime: the mesh must outlive this object.
    */
   class QuadratureCollection
   {
@@ -87,7 +155,7 @@ namespace NMM
                          unsigned int                          degree_cut,
                          std::pair<unsigned int, unsigned int> elements);
 
-    const dealii::Quadrature<2> &
+    ElementRule
     rule(unsigned int element) const;
 
     /// Area of the element over the area of its cell, in [0, 1].
@@ -100,20 +168,25 @@ namespace NMM
     n_fallbacks() const;
 
   private:
-    /// Those of elements [first_element + begin, first_element + end); returns the
-    /// number of fallbacks.
-    unsigned int
-    make_cut_rules(const ManifoldMesh &mesh,
-                   unsigned int        degree,
-                   unsigned int        begin,
-                   unsigned int        end);
+    /// Finds which elements take the ordinary rule in triangles.
+    void
+    divide(unsigned int degree, unsigned int begin, unsigned int end);
 
-    dealii::Quadrature<2>              whole_rule;
-    std::vector<unsigned int>          element_to_rule;
-    std::vector<dealii::Quadrature<2>> cut_rules;
-    std::vector<double>                area_fractions;
-    unsigned int                       first_element = 0;
-    unsigned int                       fallbacks     = 0;
+    /// The rules of all others.
+    void
+    make_own_rules(unsigned int degree);
+
+    const ManifoldMesh   *mesh;
+    dealii::Quadrature<2> whole_rule, triangle_rule;
+    /// Of elements from first_element on: how they are divided, or the number of the
+    /// rule, or invalid_index if they are whole.
+    std::vector<unsigned int> element_to_rule;
+    /// Points of rule i: from first_point[i] on.
+    std::vector<unsigned int>     first_point;
+    std::vector<dealii::Point<2>> own_points;
+    std::vector<double>           own_weights;
+    unsigned int                  first_element = 0;
+    unsigned int                  fallbacks     = 0;
   };
 } // namespace NMM
 

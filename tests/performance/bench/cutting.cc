@@ -4,6 +4,7 @@
 #include <deal.II/fe/fe_simplex_p.h>
 
 #include "staged_model.h"
+#include <cmath>
 #include <support/random_scenes.h>
 
 namespace NMM
@@ -96,8 +97,23 @@ namespace NMM
                                               2,
                                               4,
                                               covers.locally_owned_elements());
-        row.quadrature   = watch.lap();
-        row.total        = watch.total();
+        // most rules are made when they are asked for
+        double area = 0.;
+        for (unsigned int e = 0; e < manifold_mesh.n_elements(); ++e)
+        {
+          const double of_cell = mesh.cell_area(manifold_mesh.cell(e));
+          if (manifold_mesh.is_whole(e))
+          {
+            area += of_cell;
+            continue;
+          }
+          const ElementRule rule = quadrature.rule(e);
+          for (unsigned int q = 0; q < rule.size(); ++q)
+            area += 2. * of_cell * rule.weight(q);
+        }
+        row.quadrature = watch.lap();
+        row.total      = watch.total();
+        AssertThrow(std::abs(area - 1.) < 1e-9, dealii::ExcInternalError());
         row.live_memory  = allocated_memory() - before;
         row.elements     = manifold_mesh.n_elements();
         row.cut_elements = 0.;

@@ -185,9 +185,10 @@ namespace NMM
       out
         << "## What became faster\n\n"
            "- Cutting: every cell near a curve went through the exact "
-           "arrangement; now a cell that one straight edge runs through, clear "
-           "of corners and of everything else by many roundings, is cut by "
-           "itself (for each element that joints cut, before and now "
+           "arrangement; now cells near straight edges are divided by "
+           "themselves, with the exact signs of a few determinants, and only "
+           "arcs and what lies wholly inside a cell is arranged (for each "
+           "element that joints cut, before and now "
         << costs(&Row::cutting)
         << ").\n"
            "- Rules of cut elements: a well-shaped triangle takes the rule of "

@@ -1,0 +1,283 @@
+#include "divided_cells.h"
+
+#include <nmm/base/exceptions.h>
+
+#include "arranged_cells.h"
+
+namespace NMM
+{
+  namespace internal
+  {
+    using namespace dealii;
+
+    DividedCells::DividedCells(const MathematicalMesh          &mesh,
+                               const PhysicalEdges             &physical_edges,
+                               const std::vector<unsigned int> &region_to_part,
+                               const PartToCut                 &part,
+                               const NearEdges                 &near,
+                               std::vector<unsigned char>      &state)
+      : mesh(mesh)
+      , physical_edges(physical_edges)
+      , part_cells(part.cells)
+      , cell_to_divided(part.cells.second - part.cells.first, invalid_index)
+    {
+      // most cells have one edge near them, five pieces of sides and one chord
+      const std::size_t n_expected = near.edges.size();
+      cells.reserve(n_expected + 1);
+      half_edges.reserve(7 * n_expected);
+      loops.reserve(7 * n_expected);
+      faces.reserve(2 * n_expected + 1);
+      CellCutter cutter(mesh, physical_edges, region_to_part, part.part);
+      for (unsigned int i = 0; i + 1 < near.first.size(); ++i)
+      {
+        const ArrayView<const unsigned int> edges = near[i];
+        if (edges.size() == 0)
+          continue;
+        const unsigned int c = part_cells.first + i;
+        switch (cutter.divide(c, edges))
+        {
+          case CellCutter::Result::whole:
+            state[c] = CellState::untouched;
+            break;
+          case CellCutter::Result::divided:
+            state[c] = CellState::divided;
+            keep(c, cutter);
+            break;
+          case CellCutter::Result::not_divided:
+            state[c] = CellState::arranged;
+        }
+      }
+      cells.push_back({invalid_index,
+                       static_cast<unsigned int>(half_edges.size()),
+                       static_cast<unsigned int>(faces.size()),
+                       {}});
+      faces.push_back({invalid_index,
+                       static_cast<unsigned int>(loops.size()),
+                       invalid_index});
+    }
+
+
+    void
+    DividedCells::keep(const unsigned int c, const CellCutter &cutter)
+    {
+      cell_to_divided[c - part_cells.first] = cells.size();
+      Cell cell                             = {c,
+                                               static_cast<unsigned int>(half_edges.size()),
+                                               static_cast<unsigned int>(faces.size()),
+                                               {}};
+      for (unsigned int i = 0; i < 4; ++i)
+        cell.first_of_side[i] = cutter.first_of_side()[i];
+      for (const CellCutter::HalfEdge &h : cutter.half_edges())
+        half_edges.push_back(
+          {h.start, h.physical_edge, cell.first_face + h.face});
+      for (const CellCutter::Face &face : cutter.faces())
+        faces.push_back({face.region,
+                         static_cast<unsigned int>(loops.size()) + face.begin,
+                         invalid_index});
+      for (const unsigned int h : cutter.loops())
+        loops.push_back(cell.first_half_edge + h);
+      cells.push_back(cell);
+    }
+
+
+    bool
+    DividedCells::empty() const
+    {
+      return cells.size() == 1;
+    }
+
+
+    const DividedCells::Cell &
+    DividedCells::divided(const unsigned int cell) const
+    {
+      AssertIndexRange(cell_to_divided[cell - part_cells.first], cells.size());
+      return cells[cell_to_divided[cell - part_cells.first]];
+    }
+
+
+    unsigned int
+    DividedCells::n_pieces(const unsigned int cell,
+                           const unsigned int side) const
+    {
+      const Cell &c = divided(cell);
+      return c.first_of_side[side + 1] - c.first_of_side[side];
+    }
+
+
+    unsigned int
+    DividedCells::element(const unsigned int cell,
+                          const unsigned int side,
+                          const unsigned int piece) const
+    {
+      AssertIndexRange(piece, n_pieces(cell, side));
+      const Cell        &c = divided(cell);
+      const unsigned int h = c.first_half_edge + c.first_of_side[side] + piece;
+      return faces[half_edges[h].face].element;
+    }
+
+
+    const Point<2> &
+    DividedCells::start(const unsigned int cell,
+                        const unsigned int side,
+                        const unsigned int piece) const
+    {
+      AssertIndexRange(piece, n_pieces(cell, side));
+      const Cell &c = divided(cell);
+      return half_edges[c.first_half_edge + c.first_of_side[side] + piece]
+        .start;
+    }
+
+
+    void
+    DividedCells::label_beside(const std::vector<unsigned char> &state,
+                               std::vector<unsigned int> &cell_region) const
+    {
+      for (unsigned int i = 0; i + 1 < cells.size(); ++i)
+        for (unsigned int side = 0; side < 3; ++side)
+          for (const unsigned int other :
+               mesh.edges()[mesh.cell_edges(cells[i].cell)[side]].cells)
+            if (other != invalid_index && state[other] == CellState::untouched)
+            {
+              const unsigned int h =
+                cells[i].first_half_edge + cells[i].first_of_side[side];
+              cell_region[other] = faces[half_edges[h].face].region;
+            }
+    }
+
+
+    void
+    DividedCells::number_elements(Cutting &cutting)
+    {
+      if (empty())
+        return;
+      Assert(cutting.elements.empty(), ExcInternalError());
+      std::size_t n_edges = 0;
+      for (unsigned int i = 0; i + 1 < cells.size(); ++i)
+        for (unsigned int f = cells[i].first_face; f < cells[i + 1].first_face;
+             ++f)
+          if (faces[f].region != invalid_index)
+          {
+            faces[f].element = cutting.elements.size();
+            cutting.elements.push_back(
+              {cells[i].cell, faces[f].region, false, 0, 0});
+            n_edges += faces[f + 1].begin - faces[f].begin;
+          }
+      cutting.n_packed = cutting.elements.size();
+      cutting.packed_edges.starts.reserve(n_edges);
+      cutting.packed_edges.beyond.reserve(n_edges);
+      // every other side is shared by two of them
+      cutting.links.reserve(n_edges / 2);
+    }
+
+
+    unsigned int
+    DividedCells::element_beyond(const Cell                       &cell,
+                                 const unsigned int                side,
+                                 const unsigned int                piece,
+                                 const std::vector<unsigned char> &state,
+                                 const ArrangedCells              *arranged,
+                                 const Cutting &cutting) const
+    {
+      const unsigned int e       = mesh.cell_edges(cell.cell)[side];
+      const auto        &edge    = mesh.edges()[e];
+      const bool         is_left = edge.cells[0] == cell.cell;
+      const unsigned int other   = edge.cells[is_left ? 1 : 0];
+      const unsigned int n =
+        cell.first_of_side[side + 1] - cell.first_of_side[side];
+      if (other == invalid_index)
+      {
+        AssertThrow(mesh.rank_cells() != nullptr,
+                    InputError("the solid sticks out of the mathematical mesh",
+                               to_string(start(cell.cell, side, piece)),
+                               "give a mesh that covers it"));
+        return invalid_index;
+      }
+      switch (state[other])
+      {
+        case CellState::untouched:
+          return cutting.cell_region[other] == invalid_index
+                   ? invalid_index
+                   : whole_cell_flag + other;
+        case CellState::divided: {
+          const auto        &theirs = mesh.cell_edges(other);
+          const unsigned int there =
+            theirs[0] == e ? 0 : (theirs[1] == e ? 1 : 2);
+          Assert(n_pieces(other, there) == n, ExcInternalError());
+          return element(other, there, n - 1 - piece);
+        }
+        default:
+          // from the lower vertex on: the way of the cell on the left
+          return arranged->element(e, is_left ? piece : n - 1 - piece);
+      }
+    }
+
+
+    void
+    DividedCells::append_edges(const std::vector<unsigned char> &state,
+                               const ArrangedCells              *arranged,
+                               Cutting                          &cutting) const
+    {
+      for (unsigned int i = 0; i + 1 < cells.size(); ++i)
+      {
+        const Cell        &cell    = cells[i];
+        const unsigned int n_sides = cell.first_of_side[3];
+        for (unsigned int f = cell.first_face; f < cells[i + 1].first_face; ++f)
+        {
+          const unsigned int here = faces[f].element;
+          if (here == invalid_index)
+            continue;
+          Cutting::Element &element = cutting.elements[here];
+          element.first_edge        = cutting.packed_edges.starts.size();
+          element.is_whole          = true;
+          const unsigned int end    = faces[f + 1].begin;
+          for (unsigned int k = faces[f].begin; k < end; ++k)
+          {
+            const HalfEdge     &half_edge = half_edges[loops[k]];
+            PackedEdges::Beyond edge      = {invalid_index,
+                                             invalid_index,
+                                             invalid_index};
+            if (half_edge.physical_edge != invalid_index)
+            {
+              edge.curve_set =
+                physical_edges.edges()[half_edge.physical_edge].curve_set;
+              cutting.is_met[half_edge.physical_edge] = 1;
+            }
+            const unsigned int local = loops[k] - cell.first_half_edge;
+            if (local >= n_sides)
+            {
+              const unsigned int twin =
+                cell.first_half_edge + n_sides + ((local - n_sides) ^ 1u);
+              edge.neighbor    = faces[half_edges[twin].face].element;
+              element.is_whole = false;
+            }
+            else
+            {
+              const unsigned int side  = local < cell.first_of_side[1]   ? 0
+                                         : local < cell.first_of_side[2] ? 1
+                                                                         : 2;
+              edge.mesh_edge           = mesh.cell_edges(cell.cell)[side];
+              edge.neighbor            = element_beyond(cell,
+                                             side,
+                                             local - cell.first_of_side[side],
+                                             state,
+                                             arranged,
+                                             cutting);
+              const auto        &both  = mesh.edges()[edge.mesh_edge].cells;
+              const unsigned int other = both[both[0] == cell.cell ? 1 : 0];
+              // the first of two divided cells joins both
+              if (edge.neighbor != invalid_index &&
+                  half_edge.physical_edge == invalid_index &&
+                  (state[other] == CellState::untouched ||
+                   (state[other] == CellState::divided && cell.cell < other)))
+                cutting.links.push_back(
+                  {edge.mesh_edge, {{here, edge.neighbor}}});
+            }
+            cutting.packed_edges.starts.push_back(half_edge.start);
+            cutting.packed_edges.beyond.push_back(edge);
+          }
+          element.end_edge = cutting.packed_edges.starts.size();
+        }
+      }
+    }
+  } // namespace internal
+} // namespace NMM

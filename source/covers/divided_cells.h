@@ -1,0 +1,120 @@
+#ifndef nmm_source_covers_divided_cells_h
+#define nmm_source_covers_divided_cells_h
+
+// Private: the cells of a part that are divided one by one, free of CGAL types.
+
+#include "cell_cut.h"
+#include "cutting.h"
+#include <array>
+#include <vector>
+
+namespace NMM
+{
+  namespace internal
+  {
+    class ArrangedCells;
+
+    /**
+     * Cells near straight physical edges, each divided by itself (CellCutter). Both cells
+     * of a mathematical edge find the same points on it, with the same doubles, in
+     * the same order; so the pieces of a side are matched by their number.
+     */
+    class DividedCells
+    {
+    public:
+      /**
+       * Divides the cells of a part with edges near them. @p state is made
+       * CellState::untouched where none has more than points in common with the cell,
+       * `divided` or `arranged`. Nothing happens if @p near is empty.
+       */
+      DividedCells(const MathematicalMesh          &mesh,
+                   const PhysicalEdges             &physical_edges,
+                   const std::vector<unsigned int> &region_to_part,
+                   const PartToCut                 &part,
+                   const NearEdges                 &near,
+                   std::vector<unsigned char>      &state);
+
+      bool
+      empty() const;
+
+      /// Regions of untouched cells beside divided ones.
+      void
+      label_beside(const std::vector<unsigned char> &state,
+                   std::vector<unsigned int>        &cell_region) const;
+
+      /// Append the faces in the solid to the elements of @p cutting.
+      void
+      number_elements(Cutting &cutting);
+
+      /// Pieces of a side of a cell, counter-clockwise.
+      unsigned int
+      n_pieces(unsigned int cell, unsigned int side) const;
+
+      /// Code of the element at a piece, or invalid_index outside the solid.
+      unsigned int
+      element(unsigned int cell, unsigned int side, unsigned int piece) const;
+
+      /// Where a piece begins.
+      const dealii::Point<2> &
+      start(unsigned int cell, unsigned int side, unsigned int piece) const;
+
+      /// Edges of the elements, and links but to arranged cells, which know them.
+      /// @throws InputError where the solid sticks out of the mesh.
+      void
+      append_edges(const std::vector<unsigned char> &state,
+                   const ArrangedCells              *arranged,
+                   Cutting                          &cutting) const;
+
+    private:
+      struct Cell
+      {
+        unsigned int cell, first_half_edge, first_face;
+        /// The half-edges of side i begin at first_half_edge + first_of_side[i].
+        std::array<unsigned int, 4> first_of_side;
+      };
+
+      struct HalfEdge
+      {
+        dealii::Point<2> start;
+        unsigned int     physical_edge, face;
+      };
+
+      struct Face
+      {
+        unsigned int region;
+        /// Its half-edges are loops[begin], ..., up to the next face's.
+        unsigned int begin;
+        /// Code of the element.
+        unsigned int element;
+      };
+
+      void
+      keep(unsigned int cell, const CellCutter &cutter);
+
+      const Cell &
+      divided(unsigned int cell) const;
+
+      /// Element beyond a piece of a side.
+      unsigned int
+      element_beyond(const Cell                       &cell,
+                     unsigned int                      side,
+                     unsigned int                      piece,
+                     const std::vector<unsigned char> &state,
+                     const ArrangedCells              *arranged,
+                     const Cutting                    &cutting) const;
+
+      const MathematicalMesh               &mesh;
+      const PhysicalEdges                  &physical_edges;
+      std::pair<unsigned int, unsigned int> part_cells;
+      std::vector<unsigned int>             cell_to_divided;
+      /// With one past the end.
+      std::vector<Cell>         cells;
+      std::vector<HalfEdge>     half_edges;
+      std::vector<unsigned int> loops;
+      /// With one past the end.
+      std::vector<Face> faces;
+    };
+  } // namespace internal
+} // namespace NMM
+
+#endif

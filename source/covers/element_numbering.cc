@@ -1,0 +1,146 @@
+#include <nmm/covers/rank_cells.h>
+
+#include "manifold_mesh_data.h"
+#include <algorithm>
+
+// The order of elements.
+namespace NMM
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /**
+     * Cells that hold elements, in the order of a breadth-first walk over the
+     * cells that starts at a cell far from the middle: neighbours get near
+     * numbers (Cuthill & McKee 1969; all cells have at most three neighbours,
+     * so sorting them by degree, as the full algorithm does, changes nothing).
+     */
+    std::vector<unsigned int>
+    order_cells(const internal::CellNeighbors    &neighbors,
+                const std::vector<unsigned char> &holds_elements)
+    {
+      std::vector<unsigned int> order;
+      order.reserve(neighbors.size());
+      const auto walk = [&](const unsigned int          start,
+                            std::vector<unsigned char> &is_left,
+                            std::vector<unsigned int>  &result) {
+        unsigned int next = result.size();
+        is_left[start]    = 0;
+        result.push_back(start);
+        for (; next < result.size(); ++next)
+          for (const unsigned int c : neighbors[result[next]])
+            if (c != invalid_index && is_left[c])
+            {
+              is_left[c] = 0;
+              result.push_back(c);
+            }
+      };
+
+      std::vector<unsigned char> is_to_probe(holds_elements),
+        is_to_number(holds_elements);
+      std::vector<unsigned int> probe;
+      for (unsigned int c = 0; c < neighbors.size(); ++c)
+        if (is_to_number[c])
+        {
+          // the last cell of a first walk is (nearly) peripheral
+          probe.clear();
+          walk(c, is_to_probe, probe);
+          walk(probe.back(), is_to_number, order);
+        }
+      return order;
+    }
+
+
+    /// The same of a distributed mesh: ghost cells of lower ranks, own ones, ghost
+    /// cells of higher ranks.
+    std::vector<unsigned int>
+    order_cells_of_rank(const internal::CellNeighbors    &neighbors,
+                        const RankCells                  &rank_cells,
+                        const std::vector<unsigned char> &holds_elements)
+    {
+      std::vector<unsigned int>  lower, higher;
+      std::vector<unsigned char> holds_owned(holds_elements);
+      for (unsigned int c = 0; c < neighbors.size(); ++c)
+        if (holds_elements[c] && rank_cells.cell_to_owner[c] != rank_cells.rank)
+        {
+          holds_owned[c] = 0;
+          (rank_cells.cell_to_owner[c] < rank_cells.rank ? lower : higher)
+            .push_back(c);
+        }
+      std::vector<unsigned int>       order = std::move(lower);
+      const std::vector<unsigned int> owned =
+        order_cells(neighbors, holds_owned);
+      order.insert(order.end(), owned.begin(), owned.end());
+      order.insert(order.end(), higher.begin(), higher.end());
+      return order;
+    }
+  } // namespace
+
+
+  void
+  ManifoldMesh::Data::number_elements(
+    const internal::Cutting          &cutting,
+    const internal::CellNeighbors    &neighbors,
+    const std::vector<unsigned char> &state,
+    std::vector<unsigned int>        &exact_to_element)
+  {
+    const unsigned int        n_cells = mathematical_mesh->n_cells();
+    std::vector<unsigned int> n_in_cell(n_cells, 0);
+    for (const auto &element : cutting.elements)
+      ++n_in_cell[element.cell];
+    std::vector<unsigned char> holds(n_cells, 0);
+    for (unsigned int c = 0; c < n_cells; ++c)
+    {
+      if (state[c] == internal::CellState::untouched &&
+          cutting.cell_region[c] != invalid_index)
+        n_in_cell[c] = 1;
+      holds[c] = (n_in_cell[c] > 0);
+    }
+
+    unsigned int n_elements = 0;
+    for (const unsigned int n : n_in_cell)
+      n_elements += n;
+    element_to_cell.reserve(n_elements);
+    element_to_region.reserve(n_elements);
+    cell_first_element.assign(n_cells, invalid_index);
+    const RankCells *rank_cells = mathematical_mesh->rank_cells();
+    for (const unsigned int c :
+         rank_cells == nullptr
+           ? order_cells(neighbors, holds)
+           : order_cells_of_rank(neighbors, *rank_cells, holds))
+    {
+      cell_first_element[c] = element_to_cell.size();
+      for (unsigned int i = 0; i < n_in_cell[c]; ++i)
+      {
+        element_to_cell.push_back(c);
+        element_to_region.push_back(cutting.cell_region[c]);
+      }
+    }
+    owned_elements = {0, element_to_cell.size()};
+    if (rank_cells != nullptr)
+    {
+      const auto end_of = [&](const auto &comes_before) {
+        return std::partition_point(element_to_cell.begin(),
+                                    element_to_cell.end(),
+                                    [&](const unsigned int c) {
+                                      return comes_before(
+                                        rank_cells->cell_to_owner[c],
+                                        rank_cells->rank);
+                                    }) -
+               element_to_cell.begin();
+      };
+      owned_elements = {end_of(std::less<unsigned int>()),
+                        end_of(std::less_equal<unsigned int>())};
+    }
+    std::vector<unsigned int> next(cell_first_element);
+    exact_to_element.resize(cutting.elements.size());
+    for (unsigned int i = 0; i < cutting.elements.size(); ++i)
+    {
+      const auto        &exact   = cutting.elements[i];
+      const unsigned int element = next[exact.cell]++;
+      exact_to_element[i]        = element;
+      element_to_region[element] = exact.region;
+    }
+  }
+} // namespace NMM

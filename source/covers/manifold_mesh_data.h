@@ -1,0 +1,104 @@
+#ifndef nmm_source_covers_manifold_mesh_data_h
+#define nmm_source_covers_manifold_mesh_data_h
+
+// Private: what a ManifoldMesh keeps, and how it is made from what the cutter found.
+
+#include <nmm/covers/manifold_mesh.h>
+
+#include "cutting.h"
+#include "element_exchange.h"
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace NMM
+{
+  namespace internal
+  {
+    using BoostPoint =
+      boost::geometry::model::point<double, 2, boost::geometry::cs::cartesian>;
+    using BoostBox = boost::geometry::model::box<BoostPoint>;
+    using CellTree =
+      boost::geometry::index::rtree<std::pair<BoostBox, unsigned int>,
+                                    boost::geometry::index::rstar<16>>;
+  } // namespace internal
+
+
+  struct ManifoldMesh::Data
+  {
+    const MathematicalMesh *mathematical_mesh;
+    const PhysicalMesh     *physical_mesh;
+
+    std::vector<unsigned int> element_to_cell;
+    std::vector<unsigned int> element_to_region;
+    /// invalid_index: none.
+    std::vector<unsigned int> cell_first_element;
+
+    /**
+     * Elements that the mathematical mesh does not tell all about: what the cutter made,
+     * in its order, and whole ones beside them. By element: its number among them, or
+     * invalid_index.
+     */
+    std::vector<unsigned int> element_to_special;
+    /// Its edges and links: from there on, up to those of the next one. The first ones,
+    /// with straight edges in one loop, have theirs in packed_edges, the next in edges.
+    std::vector<unsigned int>  first_packed_edge, first_edge, first_link;
+    std::vector<unsigned char> special_is_whole;
+
+    internal::PackedEdges                  packed_edges;
+    std::vector<ElementEdge>               edges;
+    std::vector<Link>                      links;
+    std::vector<std::vector<unsigned int>> curve_sets;
+    unsigned int                           n_cells_cut_exactly = 0;
+
+    std::pair<unsigned int, unsigned int>            owned_elements;
+    std::unique_ptr<const internal::ElementExchange> exchange;
+
+    mutable std::once_flag                      tree_made;
+    mutable std::unique_ptr<internal::CellTree> cell_tree;
+
+    /// Numbers elements; @p exact_to_element: by element of the cutter.
+    void
+    number_elements(const internal::Cutting          &cutting,
+                    const internal::CellNeighbors    &neighbors,
+                    const std::vector<unsigned char> &state,
+                    std::vector<unsigned int>        &exact_to_element);
+
+    /// Take over the edges.
+    void
+    take_edges(internal::Cutting               &cutting,
+               const std::vector<unsigned int> &exact_to_element);
+
+    void
+    make_links(internal::Cutting                &cutting,
+               const std::vector<unsigned char> &state,
+               const std::vector<unsigned int>  &exact_to_element);
+
+    /// Make an element special.
+    unsigned int
+    make_special(unsigned int element);
+
+    /// The whole element beyond a side of an untouched cell, of which nothing
+    /// separates it; neighbor is invalid_index if there is none.
+    Link
+    link_across(unsigned int cell, unsigned int side) const;
+
+    /// Element of a code of the cutter, or invalid_index.
+    unsigned int
+    decode(const unsigned int               code,
+           const std::vector<unsigned int> &exact_to_element) const
+    {
+      if (code == invalid_index)
+        return invalid_index;
+      return code >= internal::whole_cell_flag
+               ? cell_first_element[code - internal::whole_cell_flag]
+               : exact_to_element[code];
+    }
+  };
+} // namespace NMM
+
+#endif

@@ -1,0 +1,301 @@
+// Cells near straight edges are divided by themselves: the same elements as by the exact
+// arrangement, which a second part of the mesh, far away, enforces.
+
+#include <nmm/base/exceptions.h>
+#include <nmm/covers/cover_system.h>
+
+#include <algorithm>
+#include <cmath>
+#include <covers/matching.h>
+#include <gtest/gtest.h>
+#include <support/random_scenes.h>
+#include <tuple>
+
+using namespace NMM;
+using namespace NMM::Testing;
+using dealii::Point;
+using dealii::Tensor;
+
+namespace
+{
+  /// Region, numbers of edges, of those on curves and of those with a neighbour, pieces that
+  /// lie on its edges, number of joined elements, area.
+  using Summary = std::tuple<unsigned int,
+                             unsigned int,
+                             unsigned int,
+                             unsigned int,
+                             std::vector<unsigned int>,
+                             unsigned int,
+                             double>;
+
+  std::vector<Summary>
+  elements_of(const ManifoldMesh &mesh, const unsigned int cell)
+  {
+    std::vector<Summary> result;
+    for (const unsigned int e : mesh.cell_elements(cell))
+    {
+      unsigned int              n_on_curves = 0, n_neighbors = 0;
+      std::vector<unsigned int> pieces;
+      for (const ElementEdge &edge : mesh.edges(e))
+      {
+        n_neighbors += edge.neighbor != invalid_index;
+        if (edge.curve_set == invalid_index)
+          continue;
+        ++n_on_curves;
+        const auto &set = mesh.curve_set(edge.curve_set);
+        pieces.insert(pieces.end(), set.begin(), set.end());
+      }
+      std::sort(pieces.begin(), pieces.end());
+      result.emplace_back(mesh.region(e),
+                          mesh.edges(e).size(),
+                          n_on_curves,
+                          n_neighbors,
+                          pieces,
+                          mesh.joined(e).size(),
+                          mesh.area(e));
+    }
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+
+
+  /// Edges between two elements are the same doubles from both sides. Returns how many there
+  /// are.
+  unsigned int
+  expect_shared_ends(const ManifoldMesh &mesh)
+  {
+    unsigned int n = 0;
+    for (unsigned int e = 0; e < mesh.n_elements(); ++e)
+    {
+      const auto edges = mesh.edges(e);
+      for (unsigned int i = 0; i < edges.size(); ++i)
+      {
+        const ElementEdge &edge = edges[i];
+        if (edge.neighbor == invalid_index ||
+            mesh.edges(edge.neighbor).size() == 0)
+          continue;
+        ++n;
+        const auto beyond = mesh.edges(edge.neighbor);
+        EXPECT_TRUE(std::any_of(beyond.begin(),
+                                beyond.end(),
+                                [&](const ElementEdge &other) {
+                                  return other.neighbor == e &&
+                                         other.start == edge.end &&
+                                         other.end == edge.start &&
+                                         other.mesh_edge == edge.mesh_edge &&
+                                         other.curve_set == edge.curve_set;
+                                }))
+          << "element " << e << ", edge " << i;
+      }
+    }
+    return n;
+  }
+
+
+  /**
+   * Compares both ways of cutting; returns the number of cells that curves come near.
+   * @p has_distinct_points: no two corners of elements are the same doubles, so that
+   * edges can be told from each other by their ends.
+   */
+  unsigned int
+  compare(const Geometry         &geometry,
+          const MathematicalMesh &cells,
+          const bool              has_distinct_points = true)
+  {
+    const PhysicalMesh physical(Geometry{geometry});
+    MeshPart           far;
+    far.vertices = {{100., 100.}, {101., 100.}, {100., 101.}};
+    far.cells    = {{{0, 1, 2}}};
+    const MathematicalMesh both =
+      combine_meshes({make_mesh_part(cells), far}, cells.degree());
+    const ManifoldMesh divided(cells, physical);
+    const ManifoldMesh arranged(
+      both, physical, std::vector<unsigned int>(physical.regions().size(), 0));
+
+    EXPECT_EQ(divided.n_elements(), arranged.n_elements());
+    EXPECT_EQ(divided.n_cells_cut_exactly(), arranged.n_cells_cut_exactly());
+    EXPECT_EQ(CoverSystem(divided, MPI_COMM_SELF).n_covers(),
+              CoverSystem(arranged, MPI_COMM_SELF).n_covers());
+    for (unsigned int c = 0; c < cells.n_cells(); ++c)
+    {
+      const auto a = elements_of(divided, c), b = elements_of(arranged, c);
+      EXPECT_EQ(a.size(), b.size()) << "cell " << c;
+      for (unsigned int i = 0; i < std::min(a.size(), b.size()); ++i)
+      {
+        EXPECT_EQ(std::get<0>(a[i]), std::get<0>(b[i])) << "cell " << c;
+        EXPECT_EQ(std::get<1>(a[i]), std::get<1>(b[i])) << "cell " << c;
+        EXPECT_EQ(std::get<2>(a[i]), std::get<2>(b[i])) << "cell " << c;
+        EXPECT_EQ(std::get<3>(a[i]), std::get<3>(b[i])) << "cell " << c;
+        EXPECT_EQ(std::get<4>(a[i]), std::get<4>(b[i])) << "cell " << c;
+        EXPECT_EQ(std::get<5>(a[i]), std::get<5>(b[i])) << "cell " << c;
+        // crossings are within few roundings of coordinates of about 1
+        EXPECT_NEAR(std::get<6>(a[i]), std::get<6>(b[i]), 1e-15)
+          << "cell " << c;
+      }
+    }
+    EXPECT_EQ(expect_shared_ends(divided), expect_shared_ends(arranged));
+    if (has_distinct_points)
+    {
+      EXPECT_NEAR(expect_matching_edges(divided),
+                  expect_matching_edges(arranged),
+                  1e-12);
+    }
+    return divided.n_cells_cut_exactly();
+  }
+} // namespace
+
+
+TEST(DividedCells, AreThoseOfTheArrangement)
+{
+  unsigned int n_cells = 0;
+  for (unsigned int seed = 0; seed < 60; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random   random(seed);
+    Geometry geometry = make_box(1., 1.);
+    // every third one has coincidences with the mesh and between joints
+    const bool is_snapped = seed % 3 == 0;
+    add_random_joints(geometry, random, 1 + random.below(6), is_snapped);
+    if (seed % 4 == 1)
+      geometry.add_circle({0.3, 0.3}, 0.17, "hole", CurveRole::hole);
+    const PhysicalMesh     physical(Geometry{geometry});
+    const MathematicalMesh cells =
+      make_regular_mesh(physical,
+                        random_mesh(random, 0.05, is_snapped),
+                        1 + seed % 2);
+    n_cells += compare(geometry, cells);
+  }
+  // the comparison took place: some 150 cells each
+  EXPECT_GT(n_cells, 60U * 60U);
+}
+
+
+namespace
+{
+  /// A point in the square: anywhere, or a node of the mesh, or the middle of an edge, or
+  /// one or two doubles away from it.
+  Point<2>
+  special_point(const MathematicalMesh &mesh, Random &random)
+  {
+    while (true)
+    {
+      const auto &edge = mesh.edges()[random.below(mesh.edges().size())];
+      Point<2>    a    = mesh.vertices()[edge.vertices[0]];
+      switch (random.below(4))
+      {
+        case 0:
+          a = {random.uniform(0.1, 0.9), random.uniform(0.1, 0.9)};
+          break;
+        case 1:
+          a = Point<2>(0.5 * (a + mesh.vertices()[edge.vertices[1]]));
+          break;
+        case 2:
+          for (unsigned int d = 0; d < 2; ++d)
+            for (unsigned int k = random.below(3); k > 0; --k)
+              a[d] = std::nextafter(a[d], random.below(2) == 0 ? -1. : 2.);
+          break;
+        default:
+          break;
+      }
+      if (a[0] > 0.05 && a[0] < 0.95 && a[1] > 0.05 && a[1] < 0.95)
+        return a;
+    }
+  }
+
+
+  /// Joints that end, cross and touch in cells, at their nodes and on their edges.
+  void
+  add_special_joints(Geometry               &geometry,
+                     const MathematicalMesh &mesh,
+                     Random                 &random,
+                     const unsigned int      n_joints)
+  {
+    std::vector<std::pair<Point<2>, Point<2>>> joints;
+    for (unsigned int j = 0; j < n_joints; ++j)
+    {
+      Point<2> a = special_point(mesh, random), b = special_point(mesh, random);
+      switch (random.below(6))
+      {
+        case 0: {
+          // along an edge of the mesh, from node to node or on
+          const auto &edge = mesh.edges()[random.below(mesh.edges().size())];
+          a                = mesh.vertices()[edge.vertices[0]];
+          b                = mesh.vertices()[edge.vertices[1]];
+          if (random.below(2) == 0)
+            b = Point<2>(b + (b - a));
+          break;
+        }
+        case 1:
+          // from another joint
+          if (!joints.empty())
+          {
+            const auto &other = joints[random.below(joints.size())];
+            a                 = Point<2>(0.5 * (other.first + other.second));
+          }
+          break;
+        case 2:
+          // from the end of another one
+          if (!joints.empty())
+            a = joints[random.below(joints.size())].second;
+          break;
+        case 3: {
+          // one of several through a point; sums of these numbers are exact
+          const Point<2>             p(0.25 + 0.25 * random.below(3), 0.375);
+          const dealii::Tensor<1, 2> d(
+            {(1. + random.below(200)) / 1024., random.below(200) / 1024.});
+          a = p - d;
+          b = p + d;
+          break;
+        }
+        case 4:
+          // within some cell or two
+          b = Point<2>(a + Tensor<1, 2>({random.uniform(-0.02, 0.02),
+                                         random.uniform(-0.02, 0.02)}));
+          break;
+        default:
+          break;
+      }
+      if (a.distance(b) < 1e-3 || std::min({a[0], a[1], b[0], b[1]}) < 0. ||
+          std::max({a[0], a[1], b[0], b[1]}) > 1.)
+        continue;
+      joints.emplace_back(a, b);
+      geometry.add_polyline({a, b},
+                            "joint " + std::to_string(j),
+                            CurveRole::joint);
+    }
+  }
+} // namespace
+
+
+TEST(DividedCells, AreThoseOfTheArrangementAtCoincidences)
+{
+  unsigned int n_cells = 0;
+  for (unsigned int seed = 1000; seed < 1150; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random                 random(seed);
+    const Geometry         box = make_box(1., 1.);
+    const PhysicalMesh     square(Geometry{box});
+    const MathematicalMesh cells =
+      make_regular_mesh(square,
+                        random_mesh(random, 0.0625, seed % 2 == 0),
+                        1 + seed % 2);
+    Geometry geometry = make_box(1., 1.);
+    add_special_joints(geometry, cells, random, 2 + random.below(12));
+    n_cells += compare(geometry, cells, false);
+  }
+  EXPECT_GT(n_cells, 150U * 60U);
+}
+
+
+TEST(DividedCells, BoundaryThatLeavesTheMeshIsRefused)
+{
+  const Geometry     geometry = make_box(1., 1.);
+  const PhysicalMesh physical(Geometry{geometry});
+  MeshPart           part;
+  // covers the corners of the square, but not all of its right side
+  part.vertices                = {{-1., -1.}, {0.7, -1.}, {0.7, 2.}, {-1., 2.}};
+  part.cells                   = {{{0, 1, 2}}, {{0, 2, 3}}};
+  const MathematicalMesh cells = combine_meshes({part}, 2);
+  EXPECT_THROW(ManifoldMesh(cells, physical), InputError);
+}

@@ -79,8 +79,8 @@ namespace NMM
       const ContactSearch::Division &begin = divisions[i];
       const ContactSearch::Division &end   = divisions[i + 1];
       unsigned int                   first, last;
-      const double at_start = search.end_slack(slave, begin.s, end.s, first);
-      const double at_end   = search.end_slack(slave, end.s, begin.s, last);
+      const double at_start = search.end_slack(slave, begin, end.s, first);
+      const double at_end   = search.end_slack(slave, end, begin.s, last);
       const double length   = end.s - begin.s;
       for (unsigned int q = 0; q < rule_points.size(); ++q)
       {

@@ -584,12 +584,45 @@ namespace NMM
     }
 
 
+    /// The nearest point of a face that is open and not parallel lies beyond its
+    /// end while the corner is still on the way: directions tell.
+    unsigned int
+    ContactSearch::edge_beside(const unsigned int position,
+                               const Division    &division,
+                               const double       s_inside) const
+    {
+      if (division.master == invalid_index)
+        return invalid_index;
+      const auto &corner = surface->edges()[division.master];
+      const Place slave  = surface->place(slave_edges[position], division.s);
+      for (const auto &[edge, end] :
+           {std::make_pair(division.master, division.end),
+            std::make_pair(division.end == 0 ? corner.previous : corner.next,
+                           1 - division.end)})
+      {
+        if (edge == invalid_index)
+          continue;
+        const Place        place   = surface->place(edge, end);
+        const Tensor<1, 2> inwards = end == 0 ? place.a : -place.a;
+        if (along_face(-(slave.normal() * place.normal())) > 0. &&
+            (s_inside - division.s) * (inwards * slave.a) > 0.)
+          return edge;
+      }
+      return invalid_index;
+    }
+
+
     double
     ContactSearch::end_slack(const unsigned int position,
-                             const double       s,
+                             const Division    &division,
                              const double       s_inside,
                              unsigned int      &master) const
     {
+      const double s = division.s;
+      master         = edge_beside(position, division, s_inside);
+      if (master != invalid_index)
+        return largest_slack;
+
       // next to the end, and however far away
       constexpr double near = 1e-3, far = 2.;
       const Place      place =

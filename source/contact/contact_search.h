@@ -221,17 +221,17 @@ namespace NMM
                      const AdmittedContact &admitted = AdmittedContact()) const;
 
       /**
-       * For the point @p s at which a piece of a slave begins or ends: it lies
+       * For the division at which a piece of a slave begins or ends: it lies
        * where a master's corner lies, and rounding and small motions must not
        * decide whether it has a master. The piece does: if there is a master
        * next to the end of the piece, which goes on to @p s_inside, the result is
        * positive, else negative. @p master: that one.
        */
       double
-      end_slack(unsigned int  position,
-                double        s,
-                double        s_inside,
-                unsigned int &master) const;
+      end_slack(unsigned int    position,
+                const Division &division,
+                double          s_inside,
+                unsigned int   &master) const;
 
       /// The edge of the body of @p master that ends, within a hundredth of a
       /// cell, where the slave at a position has the parameter @p s, or goes on there.
@@ -246,6 +246,13 @@ namespace NMM
                    const dealii::Point<2> &x) const;
 
     private:
+      /// The edge of the corner at a division that goes on beside the slave's piece
+      /// towards @p s_inside and faces it; invalid_index: none.
+      unsigned int
+      edge_beside(unsigned int    position,
+                  const Division &division,
+                  double          s_inside) const;
+
       bool
       may_touch(unsigned int edge, unsigned int other) const;
 

@@ -527,6 +527,49 @@ namespace
   }
 
 
+  /// A corner that comes down on a face that its own edge nearly lies on: 10 degrees. As
+  /// long as it is above, the face's points next to it have their feet beyond
+  /// the edge's end; the corner is a point of contact all the same, and is
+  /// found whether it is still above or in already.
+  TEST(ContactDetection, CornerOfANearlyParallelEdge)
+  {
+    for (const double gap : {0.02, 0.005, 1e-4, -1e-4, -0.005})
+    {
+      SCOPED_TRACE("gap " + std::to_string(gap));
+      const double       angle = 10. * dealii::numbers::PI / 180.;
+      const Tensor<1, 2> along({std::cos(angle), std::sin(angle)});
+      const Tensor<1, 2> across({-along[1], along[0]});
+      const Point<2>     corner(1.3, 1.1);
+      Geometry           geometry;
+      geometry.add_polygon({{0., 0.}, {3., 0.}, {3., 1.}, {0., 1.}}, "below");
+      geometry.add_polygon({corner,
+                            corner + 1.2 * along,
+                            corner + 1.2 * along + across,
+                            corner + across},
+                           "above");
+      Bodies::Options options;
+      options.cell_size           = 10.;
+      options.mesh_of_every_block = true;
+      Bodies bodies(std::move(geometry), options);
+      bodies.start(contact_parameters(1e8, 0.05));
+      const unsigned int above =
+        bodies.mesh.block(bodies.mesh.find_element(corner + 0.5 * across));
+      const Vector u =
+        bodies.interpolate([&](const Point<2> &, const unsigned int block) {
+          return block == above ? Point<2>(0., gap - 0.1) : Point<2>();
+        });
+      bodies.contact->detect(u);
+      bodies.contact->begin_step(u, 0.);
+      double nearest = 1.;
+      for (const ContactPoint &point : bodies.contact->points())
+        if (point.master != invalid_index && point.weight > 0. &&
+            point.x.distance(Point<2>(1.3, 1. + gap)) < 1e-9)
+          nearest = std::min(nearest, point.gap);
+      EXPECT_NEAR(nearest, gap, 1e-9);
+    }
+  }
+
+
   /// Disks: normals are those of circles, distances those of circles.
   TEST(ContactDetection, ArcsHaveTrueNormals)
   {

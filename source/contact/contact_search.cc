@@ -584,8 +584,9 @@ namespace NMM
     }
 
 
-    /// The nearest point of a face that is open and not parallel lies beyond its
-    /// end while the corner is still on the way: directions tell.
+    /// While a corner is above the slave, the slave's points next to it have their feet
+    /// beyond the end of an edge that is not parallel: directions tell. Once it
+    /// is behind, feet lie within, and which body is behind which is asked for, too.
     unsigned int
     ContactSearch::edge_beside(const unsigned int position,
                                const Division    &division,
@@ -604,7 +605,8 @@ namespace NMM
           continue;
         const Place        place   = surface->place(edge, end);
         const Tensor<1, 2> inwards = end == 0 ? place.a : -place.a;
-        if (along_face(-(slave.normal() * place.normal())) > 0. &&
+        if ((place.x - slave.x) * slave.normal() > 0. &&
+            along_face(-(slave.normal() * place.normal())) > 0. &&
             (s_inside - division.s) * (inwards * slave.a) > 0.)
           return edge;
       }

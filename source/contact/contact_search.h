@@ -246,7 +246,7 @@ namespace NMM
                    const dealii::Point<2> &x) const;
 
     private:
-      /// The edge of the corner at a division that goes on beside the slave's piece
+      /// The edge of the corner at a division that goes on above the slave's piece
       /// towards @p s_inside and faces it; invalid_index: none.
       unsigned int
       edge_beside(unsigned int    position,

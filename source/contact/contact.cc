@@ -483,6 +483,12 @@ namespace NMM
     if (fixed.has_angle && point.weight == 0.)
       return ContactProjection();
     ContactProjection projection = find_master(q, slave);
+    const auto        project_on = [&](const unsigned int &edge) {
+      return search.project(slave,
+                            dealii::ArrayView<const unsigned int>(&edge, 1),
+                            fixed.slack,
+                            fixed.home);
+    };
     // a piece ends where two edges of the master meet; its end stays with one of
     // them, since their normals differ a little and the iteration would not end
     if (fixed.corner == Kind::along && point.master != invalid_index &&
@@ -490,12 +496,20 @@ namespace NMM
         point.master != projection.master &&
         goes_on(point.master, projection.master, 1))
     {
-      const ContactProjection last =
-        search.project(slave,
-                       dealii::ArrayView<const unsigned int>(&point.master, 1),
-                       fixed.slack,
-                       fixed.home);
+      const ContactProjection last = project_on(point.master);
       if (last.master != invalid_index)
+        projection = last;
+    }
+    // where points are made anew in a concave corner in the course of a motion, they
+    // stay on the face that they were on: each change loses or finds what its spring
+    // holds
+    if (is_moving && fixed.corner >= Kind::along &&
+        point.master == invalid_index && point.stick_edge != invalid_index &&
+        projection.master != invalid_index && projection.gap < 0. &&
+        point.stick_edge != projection.master)
+    {
+      const ContactProjection last = project_on(point.stick_edge);
+      if (last.master != invalid_index && last.gap < 0.)
         projection = last;
     }
     point.x      = slave.x;

@@ -334,6 +334,8 @@ namespace NMM
     std::vector<std::vector<unsigned int>> touching;
     /// How deep new contact may be [m], see AdmittedContact.
     double admitted_depth = 0.;
+    /// A time step has begun, of any kind.
+    bool is_moving = false;
     /// A step that conserves energy has been tried.
     bool is_conserving = false;
     /// No state has been accepted yet: faces that touch may be bonded.

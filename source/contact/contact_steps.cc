@@ -143,6 +143,7 @@ namespace NMM
   {
     Data &d      = *data;
     d.is_between = false;
+    d.is_moving  = true;
     d.time_begin = time;
     set_time(time);
     // what lies between the last step and this one opens nothing

@@ -186,7 +186,11 @@ namespace NMM
         cell.first_of_side[side + 1] - cell.first_of_side[side];
       if (other == invalid_index)
       {
-        AssertThrow(mesh.rank_cells() != nullptr,
+        // a boundary of the solid may lie on that of the mesh
+        const unsigned int h =
+          cell.first_half_edge + cell.first_of_side[side] + piece;
+        AssertThrow(half_edges[h].physical_edge != invalid_index ||
+                      mesh.rank_cells() != nullptr,
                     InputError("the solid sticks out of the mathematical mesh",
                                to_string(start(cell.cell, side, piece)),
                                "give a mesh that covers it"));

@@ -596,6 +596,10 @@ namespace NMM
         return invalid_index;
       const auto &corner = surface->edges()[division.master];
       const Place slave  = surface->place(slave_edges[position], division.s);
+      if ((surface->place(division.master, division.end).x - slave.x) *
+            slave.normal() <=
+          0.)
+        return invalid_index;
       for (const auto &[edge, end] :
            {std::make_pair(division.master, division.end),
             std::make_pair(division.end == 0 ? corner.previous : corner.next,
@@ -605,8 +609,7 @@ namespace NMM
           continue;
         const Place        place   = surface->place(edge, end);
         const Tensor<1, 2> inwards = end == 0 ? place.a : -place.a;
-        if ((place.x - slave.x) * slave.normal() > 0. &&
-            along_face(-(slave.normal() * place.normal())) > 0. &&
+        if (along_face(-(slave.normal() * place.normal())) > 0. &&
             (s_inside - division.s) * (inwards * slave.a) > 0.)
           return edge;
       }

@@ -485,7 +485,9 @@ namespace NMM
     void
     BlockSystem::reset(const bool with_matrix)
     {
-      if (with_matrix)
+      if (with_matrix && active_rows.all())
+        std::fill(values.begin(), values.end(), 0.);
+      else if (with_matrix)
         active_rows.for_each(n_rows, [this](const unsigned int r) {
           std::fill(values.begin() + 4 * row_begin[r],
                     values.begin() + 4 * row_begin[r + 1],

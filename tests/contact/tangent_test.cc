@@ -296,7 +296,8 @@ namespace
         // the tangent is that by displacements in the middle of the step
         difference *= 2. * 0.5 / step;
         difference -= product;
-        EXPECT_LE(difference.l2_norm(), 5e-4 * product.l2_norm());
+        const double tolerance = c.gap > 0. && c.friction > 0. ? 5e-4 : 1e-6;
+        EXPECT_LE(difference.l2_norm(), tolerance * product.l2_norm());
       }
     }
     EXPECT_GT(n_stick, 5U);

@@ -185,9 +185,9 @@ namespace NMM
     constexpr double rounding = 1e-6;
     // conserving steps need no such bound: what is found deep brings no energy
     // with it, and must not be lost for good when it is missed once
-    admitted_depth = is_conserving
-                       ? std::numeric_limits<double>::max()
-                       : 2. * search.motion_since_begin() + rounding * reach;
+    const double motion = search.measure_motion_since_begin();
+    admitted_depth      = is_conserving ? std::numeric_limits<double>::max()
+                                        : 2. * motion + rounding * reach;
   }
 
 
@@ -380,6 +380,9 @@ namespace NMM
 
     AdmittedContact admitted;
     admitted.depth = admitted_depth;
+    admitted.edge  = points[q].edge;
+    if (is_conserving)
+      admitted.motions = search.edge_motions();
     if (points[q].edge < touching.size())
     {
       const auto &known = touching[points[q].edge];
@@ -588,9 +591,9 @@ namespace NMM
         (fixed.corner < Kind::along ||
          fixed.piece_length > too_short * size_at(q)))
     {
-      // a corner is pushed out through the face by which it came, which may be
+      // a point is pushed out through the face by which it came, which may be
       // further away than another one
-      if (fixed.corner < Kind::along && point.opening == 0.)
+      if (point.opening == 0.)
         depth =
           std::min(depth,
                    search.depth_inside(fixed.slave,

@@ -336,6 +336,25 @@ namespace NMM
     }
 
 
+    double
+    ContactSearch::measure_motion_since_begin()
+    {
+      motions.assign(accepted_positions.size() / 3, 0.);
+      double largest = 0.;
+      for (unsigned int e = 0; e < motions.size(); ++e)
+      {
+        for (unsigned int i = 0; i < 3; ++i)
+          motions[e] =
+            std::max(motions[e],
+                     surface->place(e, 0.5 * i)
+                       .x.distance_square(accepted_positions[3 * e + i]));
+        motions[e] = std::sqrt(motions[e]);
+        largest    = std::max(largest, motions[e]);
+      }
+      return largest;
+    }
+
+
     bool
     ContactSearch::find_nearest(const unsigned int edge,
                                 const Point<2>    &x,
@@ -566,6 +585,12 @@ namespace NMM
              -(near[j].normal * slave_normal) <= least_facing &&
              -(near[j].normal * other_normal) > least_facing &&
              meet_in_convex_corner(now.master, near[j].master));
+        // or it did not come in by this face
+        if (now.gap < 0. && admitted.is_late(now))
+          for (unsigned int j = 0; j < n && !is_of_other_edge; ++j)
+            is_of_other_edge = std::abs(near[j].gap) < -now.gap &&
+                               surface->edges()[near[j].master].body ==
+                                 surface->edges()[now.master].body;
         if (is_of_other_edge)
           continue;
         // outside of the corner's other face
@@ -695,6 +720,8 @@ namespace NMM
       // far sides: faces of bodies that look the point's way
       auto &outside = outside_of;
       outside.clear();
+      std::vector<ContactProjection> &near = near_faces;
+      near.clear();
       for (const unsigned int master : masters)
       {
         const ContactSurface::Edge &edge = surface->edges()[master];
@@ -719,9 +746,12 @@ namespace NMM
         now.normal          = now.place.normal();
         const double facing = -(now.normal * slave_normal);
         now.gap             = (slave_place.x - now.place.x) * now.normal;
-        if (facing < facing_away && now.t >= -smooth_extension &&
-            now.t <= 1. + smooth_extension)
-          outside.emplace_back(master, now.gap);
+        if (now.t >= -smooth_extension && now.t <= 1. + smooth_extension)
+        {
+          near.push_back(now);
+          if (facing < facing_away)
+            outside.emplace_back(master, now.gap);
+        }
         if (facing <= least_facing || std::abs(now.gap) > largest_gap ||
             !admitted.holds(now) || now.t < -before || now.t > 1. + after)
           continue;
@@ -761,6 +791,11 @@ namespace NMM
             !(far == edge.previous && edge.at_start == concave) &&
             !(far == edge.next && edge.at_end == concave))
           return ContactProjection();
+      if (admitted.is_late(best))
+        for (const ContactProjection &other : near)
+          if (surface->edges()[other.master].body == edge.body &&
+              std::abs(other.gap) < -best.gap)
+            return ContactProjection();
       return best;
     }
   } // namespace internal

@@ -214,7 +214,10 @@ namespace NMM
           return report;
         }
       }
-      if (furthest == 0. || step.max_displacement < 0.5 * furthest)
+      if (step.n_full_iterations > 2 * parameters.few_iterations)
+        h *= 0.7;
+      else if (step.n_full_iterations <= parameters.few_iterations &&
+               (furthest == 0. || step.max_displacement < 0.5 * furthest))
         h *= parameters.growth;
       const double kinetic = integrator.account().kinetic;
       if (kinetic <= previous)

@@ -85,6 +85,9 @@ namespace NMM
     unsigned int max_steps = 1000;
     /// Factor by which steps grow after each success.
     double growth = 1.2;
+    /// Steps may grow while Newton's method takes fewer iterations, and shrink beyond
+    /// twice as many; see StepControlParameters.
+    unsigned int few_iterations = 12;
     /// End as soon as a cover has moved further than this since the begin [m]; 0:
     /// any way is allowed.
     double max_displacement = 0.;

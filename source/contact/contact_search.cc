@@ -514,6 +514,44 @@ namespace NMM
     }
 
 
+    bool
+    ContactSearch::is_beside(const ContactProjection &projection,
+                             const Point<2>          &x,
+                             const AdmittedContact   &admitted) const
+    {
+      // of the depth: how far round a corner a nearer face may begin
+      constexpr double around = 3.;
+
+      if (!admitted.is_late(projection))
+        return false;
+      const auto  &edges = surface->edges();
+      const double depth = -projection.gap;
+      for (const bool forward : {true, false})
+      {
+        unsigned int e         = projection.master;
+        bool         is_convex = false;
+        double       way       = 0.;
+        while (way <= around * depth)
+        {
+          is_convex =
+            is_convex || (forward ? edges[e].at_end : edges[e].at_start) ==
+                           ContactSurface::Corner::convex;
+          e = forward ? edges[e].next : edges[e].previous;
+          if (e == invalid_index || e == projection.master)
+            break;
+          double t;
+          Place  place;
+          if (is_convex && find_nearest(e, x, t, place) &&
+              t >= -smooth_extension && t <= 1. + smooth_extension &&
+              std::abs((x - place.x) * place.normal()) < depth)
+            return true;
+          way += edges[e].length;
+        }
+      }
+      return false;
+    }
+
+
     ContactProjection
     ContactSearch::project(const Place                                &place,
                            const dealii::ArrayView<const unsigned int> masters,
@@ -585,13 +623,7 @@ namespace NMM
              -(near[j].normal * slave_normal) <= least_facing &&
              -(near[j].normal * other_normal) > least_facing &&
              meet_in_convex_corner(now.master, near[j].master));
-        // or it did not come in by this face
-        if (now.gap < 0. && admitted.is_late(now))
-          for (unsigned int j = 0; j < n && !is_of_other_edge; ++j)
-            is_of_other_edge = std::abs(near[j].gap) < -now.gap &&
-                               surface->edges()[near[j].master].body ==
-                                 surface->edges()[now.master].body;
-        if (is_of_other_edge)
+        if (is_of_other_edge || is_beside(now, slave_place.x, admitted))
           continue;
         // outside of the corner's other face
         for (unsigned int j = 0; j < n && now.gap < 0.; ++j)
@@ -720,8 +752,6 @@ namespace NMM
       // far sides: faces of bodies that look the point's way
       auto &outside = outside_of;
       outside.clear();
-      std::vector<ContactProjection> &near = near_faces;
-      near.clear();
       for (const unsigned int master : masters)
       {
         const ContactSurface::Edge &edge = surface->edges()[master];
@@ -746,12 +776,9 @@ namespace NMM
         now.normal          = now.place.normal();
         const double facing = -(now.normal * slave_normal);
         now.gap             = (slave_place.x - now.place.x) * now.normal;
-        if (now.t >= -smooth_extension && now.t <= 1. + smooth_extension)
-        {
-          near.push_back(now);
-          if (facing < facing_away)
-            outside.emplace_back(master, now.gap);
-        }
+        if (facing < facing_away && now.t >= -smooth_extension &&
+            now.t <= 1. + smooth_extension)
+          outside.emplace_back(master, now.gap);
         if (facing <= least_facing || std::abs(now.gap) > largest_gap ||
             !admitted.holds(now) || now.t < -before || now.t > 1. + after)
           continue;
@@ -791,12 +818,8 @@ namespace NMM
             !(far == edge.previous && edge.at_start == concave) &&
             !(far == edge.next && edge.at_end == concave))
           return ContactProjection();
-      if (admitted.is_late(best))
-        for (const ContactProjection &other : near)
-          if (surface->edges()[other.master].body == edge.body &&
-              std::abs(other.gap) < -best.gap)
-            return ContactProjection();
-      return best;
+      return is_beside(best, slave_place.x, admitted) ? ContactProjection()
+                                                      : best;
     }
   } // namespace internal
 } // namespace NMM

@@ -312,6 +312,13 @@ namespace NMM
       bool
       meet_in_convex_corner(unsigned int edge, unsigned int other) const;
 
+      /// Is what lies behind a face, but cannot have come in by it, nearer to a face
+      /// of the same body beyond a convex corner?
+      bool
+      is_beside(const ContactProjection &projection,
+                const dealii::Point<2>  &x,
+                const AdmittedContact   &admitted) const;
+
       bool
       find_nearest(unsigned int            edge,
                    const dealii::Point<2> &x,

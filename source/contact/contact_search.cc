@@ -519,8 +519,9 @@ namespace NMM
                              const Point<2>          &x,
                              const AdmittedContact   &admitted) const
     {
-      // of the depth: how far round a corner a nearer face may begin
-      constexpr double around = 3.;
+      // of the depth: how far round a corner a nearer face may begin, and how much
+      // nearer it is
+      constexpr double around = 3., nearer = 0.5;
 
       if (!admitted.is_late(projection))
         return false;
@@ -543,7 +544,7 @@ namespace NMM
           Place  place;
           if (is_convex && find_nearest(e, x, t, place) &&
               t >= -smooth_extension && t <= 1. + smooth_extension &&
-              std::abs((x - place.x) * place.normal()) < depth)
+              std::abs((x - place.x) * place.normal()) < nearer * depth)
             return true;
           way += edges[e].length;
         }

@@ -371,13 +371,9 @@ namespace NMM
   }
 
 
-  ContactProjection
-  Contact::Data::find_master(const unsigned int           q,
-                             const ContactSurface::Place &slave) const
+  AdmittedContact
+  Contact::Data::find_admitted(const unsigned int q) const
   {
-    const PointData &fixed   = point_data[q];
-    const auto       masters = search.masters(fixed.slave);
-
     AdmittedContact admitted;
     admitted.depth = admitted_depth;
     admitted.edge  = points[q].edge;
@@ -388,6 +384,18 @@ namespace NMM
       const auto &known = touching[points[q].edge];
       admitted.touching = {known.data(), known.size()};
     }
+    return admitted;
+  }
+
+
+  ContactProjection
+  Contact::Data::find_master(const unsigned int           q,
+                             const ContactSurface::Place &slave) const
+  {
+    const PointData &fixed   = point_data[q];
+    const auto       masters = search.masters(fixed.slave);
+
+    const AdmittedContact admitted = find_admitted(q);
     if (fixed.corner >= Kind::along)
     {
       ContactProjection result =
@@ -490,7 +498,8 @@ namespace NMM
       return search.project(slave,
                             dealii::ArrayView<const unsigned int>(&edge, 1),
                             fixed.slack,
-                            fixed.home);
+                            fixed.home,
+                            find_admitted(q));
     };
     // a piece ends where two edges of the master meet; its end stays with one of
     // them, since their normals differ a little and the iteration would not end

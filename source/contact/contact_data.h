@@ -140,6 +140,9 @@ namespace NMM
     void
     note_touching(unsigned int edge, unsigned int master);
 
+    internal::AdmittedContact
+    find_admitted(unsigned int q) const;
+
     /// As ContactSearch finds it for a point along an edge, or a corner.
     internal::ContactProjection
     find_master(unsigned int q, const ContactSurface::Place &slave) const;

@@ -185,9 +185,9 @@ namespace NMM
     constexpr double rounding = 1e-6;
     // conserving steps need no such bound: what is found deep brings no energy
     // with it, and must not be lost for good when it is missed once
-    const double motion = search.measure_motion_since_begin();
-    admitted_depth      = is_conserving ? std::numeric_limits<double>::max()
-                                        : 2. * motion + rounding * reach;
+    admitted_depth = is_conserving
+                       ? std::numeric_limits<double>::max()
+                       : 2. * search.motion_since_begin() + rounding * reach;
   }
 
 
@@ -374,11 +374,15 @@ namespace NMM
   AdmittedContact
   Contact::Data::find_admitted(const unsigned int q) const
   {
+    // of the size: more than springs give way by, and less than the corners that
+    // pass each other overlap by
+    constexpr double deep = 0.02;
+
     AdmittedContact admitted;
     admitted.depth = admitted_depth;
-    admitted.edge  = points[q].edge;
     if (is_conserving)
-      admitted.motions = search.edge_motions();
+      admitted.beside_depth = deep * size_at(q);
+    admitted.edge = points[q].edge;
     if (points[q].edge < touching.size())
     {
       const auto &known = touching[points[q].edge];

@@ -336,25 +336,6 @@ namespace NMM
     }
 
 
-    double
-    ContactSearch::measure_motion_since_begin()
-    {
-      motions.assign(accepted_positions.size() / 3, 0.);
-      double largest = 0.;
-      for (unsigned int e = 0; e < motions.size(); ++e)
-      {
-        for (unsigned int i = 0; i < 3; ++i)
-          motions[e] =
-            std::max(motions[e],
-                     surface->place(e, 0.5 * i)
-                       .x.distance_square(accepted_positions[3 * e + i]));
-        motions[e] = std::sqrt(motions[e]);
-        largest    = std::max(largest, motions[e]);
-      }
-      return largest;
-    }
-
-
     bool
     ContactSearch::find_nearest(const unsigned int edge,
                                 const Point<2>    &x,
@@ -514,16 +495,38 @@ namespace NMM
     }
 
 
+    double
+    ContactSearch::length_behind(const unsigned int edge,
+                                 const Place       &face) const
+    {
+      const auto    &at           = surface->edges()[edge];
+      const Point<2> start        = surface->place(edge, 0.).x,
+                     end          = surface->place(edge, 1.).x;
+      const Tensor<1, 2> normal   = face.normal();
+      const double       at_start = (start - face.x) * normal,
+                   at_end         = (end - face.x) * normal;
+      if (at_start >= 0. && at_end >= 0.)
+        return 0.;
+      const bool starts_behind = at_start < 0.;
+      if ((starts_behind && at_end < 0.) ||
+          (starts_behind ? at.at_start : at.at_end) !=
+            ContactSurface::Corner::convex)
+        return std::numeric_limits<double>::max();
+      return start.distance(end) * std::min(at_start, at_end) /
+             -std::abs(at_end - at_start);
+    }
+
+
     bool
     ContactSearch::is_beside(const ContactProjection &projection,
                              const Point<2>          &x,
                              const AdmittedContact   &admitted) const
     {
-      // of the depth: how far round a corner a nearer face may begin, and how much
-      // nearer it is
-      constexpr double around = 3., nearer = 0.5;
+      // of the depth: how far round a corner the next face may begin, and how long the
+      // overlap is at most
+      constexpr double around = 3., short_part = 0.5;
 
-      if (!admitted.is_late(projection))
+      if (projection.gap >= -admitted.beside_depth)
         return false;
       const auto  &edges = surface->edges();
       const double depth = -projection.gap;
@@ -544,7 +547,8 @@ namespace NMM
           Place  place;
           if (is_convex && find_nearest(e, x, t, place) &&
               t >= -smooth_extension && t <= 1. + smooth_extension &&
-              std::abs((x - place.x) * place.normal()) < nearer * depth)
+              std::abs((x - place.x) * place.normal()) < depth &&
+              length_behind(admitted.edge, place) < short_part * depth)
             return true;
           way += edges[e].length;
         }

@@ -32,10 +32,13 @@ namespace NMM
       double depth = std::numeric_limits<double>::max();
       /// Faces that the point was behind before, however deep.
       dealii::ArrayView<const unsigned int> touching;
-      /// By edge, how far it has moved since the begin of the step [m]; empty: not known.
-      dealii::ArrayView<const double> motions;
-      /// The edge of the point.
-      unsigned int edge = invalid_index;
+      /// Deeper than this [m] a face is not touched if the overlap, which ends at the next
+      /// face round a convex corner, is much less long along the @p edge of the point than it
+      /// is deep: corners that pass each other by the side overlap so.
+      /// What decides is where bodies are, so that a state that is looked at twice has
+      /// the same contacts.
+      double       beside_depth = std::numeric_limits<double>::max();
+      unsigned int edge         = invalid_index;
 
       /// What is found far inside of a body may have got there.
       bool
@@ -45,29 +48,11 @@ namespace NMM
       }
 
       bool
-      is_touching(const unsigned int master) const
-      {
-        return std::find(touching.begin(), touching.end(), master) !=
-               touching.end();
-      }
-
-      bool
       holds(const ContactProjection &projection) const
       {
-        return projection.gap >= -depth || is_touching(projection.master);
-      }
-
-      /// Is it deeper behind the face than both have moved, and was not behind it before?
-      /// Then it came in by another one.
-      bool
-      is_late(const ContactProjection &projection) const
-      {
-        // of the reach of motions: they are known at three places of an edge
-        constexpr double more = 1.1;
-        return motions.size() > 0 && projection.gap < 0. &&
-               -projection.gap >
-                 more * (motions[edge] + motions[projection.master]) &&
-               !is_touching(projection.master);
+        return projection.gap >= -depth ||
+               std::find(touching.begin(), touching.end(), projection.master) !=
+                 touching.end();
       }
     };
 
@@ -178,17 +163,11 @@ namespace NMM
       void
       begin(Begin where);
 
-      /// As motion(), since the begin of the step; also of each edge, for
-      /// edge_motions().
+      /// As motion(), since the begin of the step.
       double
-      measure_motion_since_begin();
-
-      /// Largest way [m] that an end or the middle of an edge has moved between the
-      /// begin of the step and the last measure_motion_since_begin(); empty: not known.
-      dealii::ArrayView<const double>
-      edge_motions() const
+      motion_since_begin() const
       {
-        return {motions.data(), motions.size()};
+        return largest_distance(accepted_positions);
       }
 
       /// As the home of project(): all of the masters.
@@ -219,8 +198,8 @@ namespace NMM
        * body, both are penetrated); the same for two at equal distance, then the lower
        * number. There is none, either, if a face of the master's body that looks the
        * point's own way is nearer, the far side of a thin body: it is not by the master that
-       * the point is inside, if it is; nor if any face of that body is nearer than a
-       * master that the point cannot have come in by (AdmittedContact::is_late()). Beyond a
+       * the point is inside, if it is; nor if the bodies overlap beside the master
+       * (AdmittedContact::beside_depth). Beyond a
        * convex corner or an open end there is no master, beyond a smooth joint or a concave
        * corner an edge goes on. @p slack: part of an edge by which the edge @p home goes on at convex corners
        * and open ends, other bodies than its own being left out; negative: by which all end earlier, see end_slack().
@@ -239,9 +218,8 @@ namespace NMM
        * that one; at first through the one that it is least behind (Shi's entrance
        * edge), at equal depths through the one with the lower number. Where that is a face
        * that only the corner's other edge faces, whose unit normal is @p other_normal
-       * (zero: there is none), the point of that other edge is pushed out. So it is where a
-       * face is nearer that the edge does not face, while it cannot have come in by the one
-       * that it faces. A corner that is
+       * (zero: there is none), the point of that other edge is pushed out. So it is where
+       * bodies overlap beside the master. A corner that is
        * in no body has the nearest face for master.
        */
       ContactProjection
@@ -312,8 +290,12 @@ namespace NMM
       bool
       meet_in_convex_corner(unsigned int edge, unsigned int other) const;
 
-      /// Is what lies behind a face, but cannot have come in by it, nearer to a face
-      /// of the same body beyond a convex corner?
+      /// How long the part of an edge is that lies behind a face and ends at a corner
+      /// of the edge [m]; infinite where the edge goes on behind it.
+      double
+      length_behind(unsigned int edge, const ContactSurface::Place &face) const;
+
+      /// See AdmittedContact::beside_depth.
       bool
       is_beside(const ContactProjection &projection,
                 const dealii::Point<2>  &x,
@@ -337,7 +319,6 @@ namespace NMM
       /// At search(), at update() and where begin() says.
       std::vector<dealii::Point<2>> known_positions, begin_positions;
       std::vector<dealii::Point<2>> accepted_positions;
-      std::vector<double>           motions;
       /// Of one projection; kept so that none allocates.
       mutable std::vector<ContactProjection>               near_faces;
       mutable std::vector<std::pair<unsigned int, double>> outside_of;

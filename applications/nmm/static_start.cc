@@ -156,7 +156,9 @@ motion_newton_parameters(const Scene &scene)
   const NewtonParameters &given  = scene.parameters().newton.newton;
   NewtonParameters        newton = TimeIntegrator::default_newton_parameters();
   newton.residual_tolerance      = given.residual_tolerance;
-  if (given.max_iterations != NewtonParameters().max_iterations)
+  // without contact more iterations only let steps grow that had better be cut
+  if (given.max_iterations != NewtonParameters().max_iterations ||
+      !scene.parameters().contact.is_present())
     newton.max_iterations = given.max_iterations;
   return newton;
 }

@@ -33,8 +33,8 @@ struct StartReport
 };
 
 
-/// Newton's method for time steps and relaxation: TimeIntegrator's iterations where the
-/// scene does not say how many.
+/// Newton's method for time steps and relaxation; more iterations than the default
+/// where there is contact and the scene does not say how many.
 NMM::NewtonParameters
 motion_newton_parameters(const NMM::Scene &scene);
 

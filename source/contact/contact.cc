@@ -374,15 +374,11 @@ namespace NMM
   AdmittedContact
   Contact::Data::find_admitted(const unsigned int q) const
   {
-    // of the size: more than springs give way by, and less than the corners that
-    // pass each other overlap by
-    constexpr double deep = 0.02;
-
     AdmittedContact admitted;
-    admitted.depth = admitted_depth;
-    if (is_conserving)
-      admitted.beside_depth = deep * size_at(q);
-    admitted.edge = points[q].edge;
+    admitted.depth         = admitted_depth;
+    const PointData &fixed = point_data[q];
+    admitted.beside        = {faces_beside.data() + fixed.beside_begin,
+                              fixed.beside_end - fixed.beside_begin};
     if (points[q].edge < touching.size())
     {
       const auto &known = touching[points[q].edge];

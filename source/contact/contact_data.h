@@ -79,10 +79,15 @@ namespace NMM
       double slip = 0., new_slip = 0.;
       /// At the end of a time step.
       Dilation dilation;
+      /// Of faces_beside.
+      unsigned int beside_begin = 0, beside_end = 0;
     };
 
     void
     make_points();
+
+    void
+    find_faces_beside();
 
     void
     add_points_of(unsigned int slave);
@@ -317,9 +322,12 @@ namespace NMM
     std::vector<double> corner_size;
     std::vector<double> rule_points, rule_weights;
 
-    std::vector<double>                    nodal;
-    std::vector<ContactPoint>              points;
-    std::vector<PointData>                 point_data;
+    std::vector<double>       nodal;
+    std::vector<ContactPoint> points;
+    std::vector<PointData>    point_data;
+    /// See ContactSearch::append_faces_beside(): where points were made, and as long as
+    /// they are, so that no step has to find out while it goes.
+    std::vector<unsigned int>              faces_beside;
     std::unique_ptr<internal::BlockSystem> block_system;
     bool                                   is_idle         = true;
     unsigned int                           pattern_version = 0;

@@ -25,6 +25,34 @@ namespace NMM
         add_points_of(i);
       else
         add_corner(i);
+    faces_beside.clear();
+    if (is_conserving)
+      find_faces_beside();
+  }
+
+
+  void
+  Contact::Data::find_faces_beside()
+  {
+    // of the size: more than springs give way by, and less than the corners that
+    // pass each other overlap by
+    constexpr double deep = 0.02;
+
+    for (unsigned int q = 0; q < points.size(); ++q)
+    {
+      PointData         &fixed = point_data[q];
+      const unsigned int edge  = points[q].edge;
+      fixed.beside_begin       = faces_beside.size();
+      search.append_faces_beside(edge,
+                                 surface->place(edge, points[q].s).x,
+                                 fixed.corner <= Kind::along
+                                   ? search.masters(fixed.slave)
+                                   : dealii::ArrayView<const unsigned int>(
+                                       &search.slaves()[fixed.slave], 1),
+                                 deep * size_at(q),
+                                 faces_beside);
+      fixed.beside_end = faces_beside.size();
+    }
   }
 
 

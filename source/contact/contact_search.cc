@@ -518,21 +518,19 @@ namespace NMM
 
 
     bool
-    ContactSearch::is_beside(const ContactProjection &projection,
-                             const Point<2>          &x,
-                             const AdmittedContact   &admitted) const
+    ContactSearch::is_beside(const unsigned int edge,
+                             const Point<2>    &x,
+                             const unsigned int master,
+                             const double       depth) const
     {
       // of the depth: how far round a corner the next face may begin, and how long the
       // overlap is at most
       constexpr double around = 3., short_part = 0.5;
 
-      if (projection.gap >= -admitted.beside_depth)
-        return false;
-      const auto  &edges = surface->edges();
-      const double depth = -projection.gap;
+      const auto &edges = surface->edges();
       for (const bool forward : {true, false})
       {
-        unsigned int e         = projection.master;
+        unsigned int e         = master;
         bool         is_convex = false;
         double       way       = 0.;
         while (way <= around * depth)
@@ -541,19 +539,38 @@ namespace NMM
             is_convex || (forward ? edges[e].at_end : edges[e].at_start) ==
                            ContactSurface::Corner::convex;
           e = forward ? edges[e].next : edges[e].previous;
-          if (e == invalid_index || e == projection.master)
+          if (e == invalid_index || e == master)
             break;
           double t;
           Place  place;
           if (is_convex && find_nearest(e, x, t, place) &&
               t >= -smooth_extension && t <= 1. + smooth_extension &&
               std::abs((x - place.x) * place.normal()) < depth &&
-              length_behind(admitted.edge, place) < short_part * depth)
+              length_behind(edge, place) < short_part * depth)
             return true;
           way += edges[e].length;
         }
       }
       return false;
+    }
+
+
+    void
+    ContactSearch::append_faces_beside(
+      const unsigned int                          edge,
+      const Point<2>                             &x,
+      const dealii::ArrayView<const unsigned int> masters,
+      const double                                depth,
+      std::vector<unsigned int>                  &faces) const
+    {
+      for (const unsigned int master : masters)
+      {
+        const Place  middle = surface->place(master, 0.5);
+        const double behind = (middle.x - x) * middle.normal();
+        if (behind > depth && behind <= reach &&
+            is_beside(edge, x, master, behind))
+          faces.push_back(master);
+      }
     }
 
 
@@ -628,7 +645,7 @@ namespace NMM
              -(near[j].normal * slave_normal) <= least_facing &&
              -(near[j].normal * other_normal) > least_facing &&
              meet_in_convex_corner(now.master, near[j].master));
-        if (is_of_other_edge || is_beside(now, slave_place.x, admitted))
+        if (is_of_other_edge)
           continue;
         // outside of the corner's other face
         for (unsigned int j = 0; j < n && now.gap < 0.; ++j)
@@ -823,8 +840,7 @@ namespace NMM
             !(far == edge.previous && edge.at_start == concave) &&
             !(far == edge.next && edge.at_end == concave))
           return ContactProjection();
-      return is_beside(best, slave_place.x, admitted) ? ContactProjection()
-                                                      : best;
+      return best;
     }
   } // namespace internal
 } // namespace NMM

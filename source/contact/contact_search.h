@@ -32,13 +32,8 @@ namespace NMM
       double depth = std::numeric_limits<double>::max();
       /// Faces that the point was behind before, however deep.
       dealii::ArrayView<const unsigned int> touching;
-      /// Deeper than this [m] a face is not touched if the overlap, which ends at the next
-      /// face round a convex corner, is much less long along the @p edge of the point than it
-      /// is deep: corners that pass each other by the side overlap so.
-      /// What decides is where bodies are, so that a state that is looked at twice has
-      /// the same contacts.
-      double       beside_depth = std::numeric_limits<double>::max();
-      unsigned int edge         = invalid_index;
+      /// Faces that the point is beside, see ContactSearch::append_faces_beside().
+      dealii::ArrayView<const unsigned int> beside;
 
       /// What is found far inside of a body may have got there.
       bool
@@ -50,9 +45,11 @@ namespace NMM
       bool
       holds(const ContactProjection &projection) const
       {
-        return projection.gap >= -depth ||
-               std::find(touching.begin(), touching.end(), projection.master) !=
-                 touching.end();
+        const auto is_in = [&](const auto &faces) {
+          return std::find(faces.begin(), faces.end(), projection.master) !=
+                 faces.end();
+        };
+        return (projection.gap >= -depth || is_in(touching)) && !is_in(beside);
       }
     };
 
@@ -198,8 +195,7 @@ namespace NMM
        * body, both are penetrated); the same for two at equal distance, then the lower
        * number. There is none, either, if a face of the master's body that looks the
        * point's own way is nearer, the far side of a thin body: it is not by the master that
-       * the point is inside, if it is; nor if the bodies overlap beside the master
-       * (AdmittedContact::beside_depth). Beyond a
+       * the point is inside, if it is. Beyond a
        * convex corner or an open end there is no master, beyond a smooth joint or a concave
        * corner an edge goes on. @p slack: part of an edge by which the edge @p home goes on at convex corners
        * and open ends, other bodies than its own being left out; negative: by which all end earlier, see end_slack().
@@ -218,8 +214,7 @@ namespace NMM
        * that one; at first through the one that it is least behind (Shi's entrance
        * edge), at equal depths through the one with the lower number. Where that is a face
        * that only the corner's other edge faces, whose unit normal is @p other_normal
-       * (zero: there is none), the point of that other edge is pushed out. So it is where
-       * bodies overlap beside the master. A corner that is
+       * (zero: there is none), the point of that other edge is pushed out. A corner that is
        * in no body has the nearest face for master.
        */
       ContactProjection
@@ -246,6 +241,20 @@ namespace NMM
       /// cell, where the slave at a position has the parameter @p s, or goes on there.
       unsigned int
       find_home(unsigned int position, double s, unsigned int master) const;
+
+      /**
+       * Which of some masters a point of an edge is beside of: it lies deeper behind them
+       * than @p depth [m], but the overlap of the edge with their body ends at the next face
+       * round a convex corner, and is much less long than deep. Corners that pass each other
+       * by the side overlap so; the faces there touch, not the ones that the point is
+       * far behind.
+       */
+      void
+      append_faces_beside(unsigned int                          edge,
+                          const dealii::Point<2>               &x,
+                          dealii::ArrayView<const unsigned int> masters,
+                          double                                depth,
+                          std::vector<unsigned int>            &faces) const;
 
       /// How far @p x is inside of a body: from the nearest of the candidates at
       /// @p position that belong to it [m]; 0 outside.
@@ -295,11 +304,12 @@ namespace NMM
       double
       length_behind(unsigned int edge, const ContactSurface::Place &face) const;
 
-      /// See AdmittedContact::beside_depth.
+      /// See append_faces_beside(); @p depth: behind this master.
       bool
-      is_beside(const ContactProjection &projection,
-                const dealii::Point<2>  &x,
-                const AdmittedContact   &admitted) const;
+      is_beside(unsigned int            edge,
+                const dealii::Point<2> &x,
+                unsigned int            master,
+                double                  depth) const;
 
       bool
       find_nearest(unsigned int            edge,

@@ -1,0 +1,149 @@
+// How bodies overlap: what a search for the nearest faces does not tell.
+#include <algorithm>
+#include <cmath>
+#include <contact/contact_search.h>
+#include <limits>
+
+namespace NMM
+{
+  namespace internal
+  {
+    using dealii::Point;
+    using dealii::Tensor;
+    using Place = ContactSurface::Place;
+
+    double
+    ContactSearch::gap_beyond_corner(const unsigned int edge,
+                                     const Point<2>    &x) const
+    {
+      const auto &at     = surface->edges()[edge];
+      double      result = -std::numeric_limits<double>::max();
+      for (const auto &[neighbor, corner] :
+           {std::make_pair(at.previous, at.at_start),
+            std::make_pair(at.next, at.at_end)})
+      {
+        double t;
+        Place  place;
+        if (corner != ContactSurface::Corner::convex ||
+            !find_nearest(neighbor, x, t, place))
+          continue;
+        const double gap = (x - place.x) * place.normal();
+        if (gap >= 0.)
+          result = std::max(result, gap);
+      }
+      return result;
+    }
+
+
+    double
+    ContactSearch::depth_inside(const unsigned int position,
+                                const unsigned int body,
+                                const Point<2>    &x) const
+    {
+      constexpr double same = 1e-9;
+
+      double nearest = reach, gap = 0.;
+      for (const unsigned int master : masters(position))
+      {
+        double t;
+        Place  place;
+        if (surface->edges()[master].body != body ||
+            surface->is_further(master, x, nearest, 0., 0.) ||
+            !find_nearest(master, x, t, place))
+          continue;
+        const Place  end      = surface->place(master, std::clamp(t, 0., 1.));
+        const double distance = x.distance(end.x);
+        const double now      = (x - end.x) * end.normal();
+        // at the corner of two edges the one that sees more of the distance knows
+        const bool is_tied = std::abs(distance - nearest) <= same * reach;
+        if (is_tied ? std::abs(now) > std::abs(gap) : distance < nearest)
+        {
+          nearest = distance;
+          gap     = now;
+        }
+      }
+      return gap < 0. ? nearest : 0.;
+    }
+
+
+    double
+    ContactSearch::length_behind(const unsigned int edge,
+                                 const Place       &face) const
+    {
+      const auto    &at           = surface->edges()[edge];
+      const Point<2> start        = surface->place(edge, 0.).x,
+                     end          = surface->place(edge, 1.).x;
+      const Tensor<1, 2> normal   = face.normal();
+      const double       at_start = (start - face.x) * normal,
+                   at_end         = (end - face.x) * normal;
+      if (at_start >= 0. && at_end >= 0.)
+        return 0.;
+      const bool starts_behind = at_start < 0.;
+      if ((starts_behind && at_end < 0.) ||
+          (starts_behind ? at.at_start : at.at_end) !=
+            ContactSurface::Corner::convex)
+        return std::numeric_limits<double>::max();
+      return start.distance(end) * std::min(at_start, at_end) /
+             -std::abs(at_end - at_start);
+    }
+
+
+    bool
+    ContactSearch::is_beside(const unsigned int edge,
+                             const Point<2>    &x,
+                             const unsigned int master,
+                             const double       depth) const
+    {
+      // of the depth: how far round a corner the next face may begin, and how long the
+      // overlap is at most
+      constexpr double around = 3., short_part = 0.5;
+      // parts of an edge by which it goes on beyond its ends
+      constexpr double beyond = 0.1;
+
+      const auto &edges = surface->edges();
+      for (const bool forward : {true, false})
+      {
+        unsigned int e         = master;
+        bool         is_convex = false;
+        double       way       = 0.;
+        while (way <= around * depth)
+        {
+          is_convex =
+            is_convex || (forward ? edges[e].at_end : edges[e].at_start) ==
+                           ContactSurface::Corner::convex;
+          e = forward ? edges[e].next : edges[e].previous;
+          if (e == invalid_index || e == master)
+            break;
+          double t;
+          Place  place;
+          if (is_convex && find_nearest(e, x, t, place) && t >= -beyond &&
+              t <= 1. + beyond &&
+              std::abs((x - place.x) * place.normal()) < depth &&
+              length_behind(edge, place) < short_part * depth)
+            return true;
+          way += edges[e].length;
+        }
+      }
+      return false;
+    }
+
+
+    void
+    ContactSearch::append_faces_beside(
+      const unsigned int                          edge,
+      const Point<2>                             &x,
+      const dealii::ArrayView<const unsigned int> masters,
+      const double                                depth,
+      std::vector<unsigned int>                  &faces) const
+    {
+      for (const unsigned int master : masters)
+      {
+        const Place  middle = surface->place(master, 0.5);
+        const double behind = (middle.x - x) * middle.normal();
+        if (behind > depth && behind <= reach &&
+            is_beside(edge, x, master, behind))
+          faces.push_back(master);
+      }
+    }
+  } // namespace internal
+} // namespace NMM

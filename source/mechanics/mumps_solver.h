@@ -1,6 +1,7 @@
 #ifndef nmm_source_mechanics_mumps_solver_h
 #define nmm_source_mechanics_mumps_solver_h
 
+#include <deal.II/base/point.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
@@ -50,6 +51,11 @@ namespace NMM
                             bool     has_blocks = false);
       ~DirectSolver();
 
+      /// Where this rank's unknowns are, one point for the two of each cover. With these,
+      /// large systems are ordered by nested_dissection(), which the first rank does.
+      void
+      set_points(std::vector<dealii::Point<2>> points);
+
       /// Order the unknowns for the pattern of @p matrix, for MUMPS. @throws
       /// NumericalFailure for lack of memory.
       void
@@ -79,7 +85,7 @@ namespace NMM
 
     private:
       void
-      set_controls();
+      set_controls(const dealii::TrilinosWrappers::SparseMatrix &matrix);
 
       struct Data;
       std::unique_ptr<Data> data;

@@ -247,7 +247,8 @@ namespace NMM
        * than @p depth [m], but the overlap of the edge with their body ends at the next face
        * round a convex corner, and is much less long than deep. Corners that pass each other
        * by the side overlap so; the faces there touch, not the ones that the point is
-       * far behind.
+       * far behind. Depths are from the tangent in the middle of a master: arcs are taken for
+       * straight.
        */
       void
       append_faces_beside(unsigned int                          edge,

@@ -1,4 +1,4 @@
-// What a body can only have come by in another way than the face it is found behind.
+// Corners that overlap by the side do not touch the faces that they are far behind.
 #include <gtest/gtest.h>
 #include <support/contact_bars/moving_bodies.h>
 #include <support/contact_bars/overlap.h>
@@ -15,7 +15,7 @@ namespace NMM
      * what it would push is up. Both turn by the impact, which is not central, and their
      * normals by as much, some 0.02 while it lasts.
      */
-    TEST(LateContact, CornersOverlapByTheSide)
+    TEST(FacesBeside, DoNotTouch)
     {
       constexpr double E = 1e8, V = 1., common = 0.19, gap = 0.002;
       Geometry         geometry;

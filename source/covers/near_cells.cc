@@ -290,8 +290,11 @@ namespace NMM
         // of all vertices, unless the triangles are a small part of the mesh
         std::vector<ChunkGrid::Square> squares;
         if (vertices.size() <= triangles.size())
+        {
+          squares.reserve(vertices.size());
           for (const Point<2> &vertex : vertices)
             squares.push_back(grid.square_of(vertex));
+        }
         // many a chunk is in several squares
         std::vector<std::size_t> last_triangle(chunks.size(), triangles.size());
         const auto               square_of = [&](const unsigned int vertex) {

@@ -22,7 +22,9 @@ namespace NMM
      * Cost: O(n log n). Against PORD, what MUMPS chooses by itself for large
      * systems where it has neither METIS nor SCOTCH, on the stiffness of second
      * order of a quarter ring with 403,550 unknowns: half of the time, 1.4 % more
-     * entries of the factors.
+     * entries of the factors. METIS_NodeND takes 1.3 s for the order of a
+     * regular mesh with as many unknowns, twice as long as all of the analysis
+     * with this one, and leaves 2 % less.
      *
      * @p row_begin and @p columns: row-compressed pattern, symmetric; columns may name the
      * row itself. Returns the place of each row in the order.

@@ -94,6 +94,8 @@ namespace NMM
         const Row  own         = find(with_joints, "cut mesh", "cutting");
         const Row  theirs      = find(with_joints, "cut mesh", "Triangulation");
         const Row  whole       = find(without, "cut mesh", "cutting");
+        const Row  scalar      = find(rows, "scalar cut mesh", "cutting"),
+                  their_scalar = find(rows, "scalar cut mesh", "Triangulation");
         const std::string mesh =
           text_of(theirs.elements) + " cells, " +
           own.name.substr(std::min<std::size_t>(9, own.name.size()));
@@ -104,7 +106,12 @@ namespace NMM
              << " s and " << text_of(theirs.covers) << " s; "
              << text_of(own.cut_elements) << " of " << text_of(own.elements)
              << " elements are cut; the arrangement of the curves, "
-             << text_of(own.geometry) << " s, is not in it";
+             << text_of(own.geometry)
+             << " s, is not in it. Both are for displacements; for a scalar on "
+                "both sides "
+             << text_of(scalar.total / their_scalar.total) << " ("
+             << text_of(scalar.total) << " s against "
+             << text_of(their_scalar.total) << " s)";
         bars.push_back(
           {"1: cutting, covers and quadrature over deal.II's "
            "Triangulation and DoFHandler, time, " +

@@ -1,7 +1,8 @@
 // Cutting, covers and quadrature of a mesh with many joints against what deal.II itself
-// needs for the mesh.
+// needs for the mesh: for displacements on both sides, and for a scalar on both.
 
 #include <deal.II/fe/fe_simplex_p.h>
+#include <deal.II/fe/fe_system.h>
 
 #include "staged_model.h"
 #include <cmath>
@@ -44,12 +45,22 @@ namespace NMM
       }
 
 
+      std::string
+      name_of(const unsigned int n_joints, const unsigned int n_components)
+      {
+        return (n_components == 1 ? "scalar cut mesh " : "cut mesh ") +
+               std::to_string(n_joints) + " joints";
+      }
+
+
       /// deal.II's triangulation and dofs of the same triangles.
       Row
-      run_deal_ii(const MeshPart &part, const unsigned int n_joints)
+      run_deal_ii(const MeshPart    &part,
+                  const unsigned int n_joints,
+                  const unsigned int n_components)
       {
         Row row;
-        row.name     = "cut mesh " + std::to_string(n_joints) + " joints";
+        row.name     = name_of(n_joints, n_components);
         row.method   = "Triangulation and DoFHandler (deal.II)";
         row.degree   = 2;
         row.elements = part.cells.size();
@@ -66,12 +77,17 @@ namespace NMM
                                            cells,
                                            dealii::SubCellData());
         row.mesh = watch.lap();
-        dealii::DoFHandler<2> dof_handler(triangulation);
-        dof_handler.distribute_dofs(dealii::FE_SimplexP<2>(2));
+        dealii::DoFHandler<2>        dof_handler(triangulation);
+        const dealii::FE_SimplexP<2> element(2);
+        if (n_components == 1)
+          dof_handler.distribute_dofs(element);
+        else
+          dof_handler.distribute_dofs(
+            dealii::FESystem<2>(element, n_components));
         row.covers      = watch.lap();
         row.total       = watch.total();
         row.live_memory = allocated_memory() - before;
-        row.unknowns    = 2. * dof_handler.n_dofs();
+        row.unknowns    = dof_handler.n_dofs();
         return row;
       }
 
@@ -79,48 +95,53 @@ namespace NMM
       Row
       run(const PhysicalMesh     &physical_mesh,
           const MathematicalMesh &mesh,
-          const unsigned int      n_joints)
+          const unsigned int      n_joints,
+          const unsigned int      n_components)
       {
         Row row;
-        row.name   = "cut mesh " + std::to_string(n_joints) + " joints";
-        row.method = "cutting; covers; quadrature (manifold)";
-        row.degree = 2;
+        row.name                  = name_of(n_joints, n_components);
+        row.method                = "cutting; covers; quadrature (manifold)";
+        row.degree                = 2;
         const double       before = allocated_memory();
         Stopwatch          watch;
         const ManifoldMesh manifold_mesh(mesh, physical_mesh);
         row.cutting = watch.lap();
         CoverSystem       covers(manifold_mesh, MPI_COMM_SELF);
         const Aggregation aggregation = aggregate(covers);
-        const auto constraints = make_constraints(covers, aggregation, 2);
-        row.covers             = watch.lap();
+        const auto        constraints =
+          make_constraints(covers, aggregation, n_components);
+        row.covers = watch.lap();
         const QuadratureCollection quadrature(manifold_mesh,
                                               2,
                                               4,
                                               covers.locally_owned_elements());
         // most rules are made when they are asked for
-        double area = 0.;
+        std::vector<double> sums_of_weights;
         for (unsigned int e = 0; e < manifold_mesh.n_elements(); ++e)
-        {
-          const double of_cell = mesh.cell_area(manifold_mesh.cell(e));
-          if (manifold_mesh.is_whole(e))
+          if (!manifold_mesh.is_whole(e))
           {
-            area += of_cell;
-            continue;
+            const ElementRule rule = quadrature.rule(e);
+            double            sum  = 0.;
+            for (unsigned int q = 0; q < rule.size(); ++q)
+              sum += rule.weight(q);
+            sums_of_weights.push_back(sum);
           }
-          const ElementRule rule = quadrature.rule(e);
-          for (unsigned int q = 0; q < rule.size(); ++q)
-            area += 2. * of_cell * rule.weight(q);
-        }
         row.quadrature = watch.lap();
         row.total      = watch.total();
-        AssertThrow(std::abs(area - 1.) < 1e-9, dealii::ExcInternalError());
-        row.live_memory  = allocated_memory() - before;
-        row.elements     = manifold_mesh.n_elements();
-        row.cut_elements = 0.;
+
+        double      area = 0.;
+        std::size_t cut  = 0;
         for (unsigned int e = 0; e < manifold_mesh.n_elements(); ++e)
-          row.cut_elements += manifold_mesh.is_whole(e) ? 0. : 1.;
-        row.unknowns =
-          2. * (covers.n_covers() - aggregation.cover_to_root.size());
+          area +=
+            mesh.cell_area(manifold_mesh.cell(e)) *
+            (manifold_mesh.is_whole(e) ? 1. : 2. * sums_of_weights[cut++]);
+        AssertThrow(std::abs(area - 1.) < 1e-9, dealii::ExcInternalError());
+        row.elements     = manifold_mesh.n_elements();
+        row.cut_elements = sums_of_weights.size();
+        sums_of_weights  = std::vector<double>();
+        row.live_memory  = allocated_memory() - before;
+        row.unknowns     = static_cast<double>(n_components) *
+                       (covers.n_covers() - aggregation.cover_to_root.size());
         AssertThrow(quadrature.n_fallbacks() == 0, dealii::ExcInternalError());
         return row;
       }
@@ -143,13 +164,18 @@ namespace NMM
           make_regular_mesh(physical_mesh, mesh_of(1000 * n_joints), 2);
         const double   making = watch.lap();
         const MeshPart part   = make_mesh_part(mesh);
-        recorder.record([&]() { return run_deal_ii(part, n); });
-        recorder.record([&]() {
-          Row row      = run(physical_mesh, mesh, n);
-          row.geometry = geometry;
-          row.mesh     = making;
-          return row;
-        });
+        for (const unsigned int n_components : {2U, 1U})
+        {
+          if (n == 0 && n_components == 1)
+            continue;
+          recorder.record([&]() { return run_deal_ii(part, n, n_components); });
+          recorder.record([&]() {
+            Row row      = run(physical_mesh, mesh, n, n_components);
+            row.geometry = geometry;
+            row.mesh     = making;
+            return row;
+          });
+        }
       }
     }
   } // namespace Bench

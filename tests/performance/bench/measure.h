@@ -58,9 +58,9 @@ namespace NMM
       size() const;
 
       /**
-       * Run @p run a few times: while all runs together took less than two
-       * seconds, three times at most. Of each time the least counts, of everything
-       * else the first run's. Memory is that of the first run.
+       * Run @p run three times, or twice if that takes longer than two seconds,
+       * or once if that takes longer than ten. Of each time the least counts, of
+       * everything else the first run's. Memory is that of the first run.
        */
       void
       record(const std::function<Row()> &run);

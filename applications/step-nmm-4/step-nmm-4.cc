@@ -486,12 +486,24 @@ main(int argc, char **argv)
       if (parameters.is_halved)
         outcomes.push_back(Slope(parameters, friction_angle)
                              .run(0.5 * parameters.step, name + "-half-step"));
-      if (parameters.perturbation > 0.)
+      const unsigned int n_perturbed =
+        parameters.perturbation > 0. ? parameters.n_perturbed : 0;
+      for (unsigned int k = 1; k <= n_perturbed; ++k)
+      {
+        const double perturbed = friction_angle + k * parameters.perturbation;
+        const std::string run_name =
+          name + "-perturbed" +
+          (n_perturbed == 1 ? "" : "-" + std::to_string(k));
         outcomes.push_back(
-          Slope(parameters, friction_angle + parameters.perturbation)
-            .run(parameters.step, name + "-perturbed"));
+          Slope(parameters, perturbed).run(parameters.step, run_name));
+        if (n_perturbed > 1 && parameters.is_halved)
+          outcomes.push_back(
+            Slope(parameters, perturbed)
+              .run(0.5 * parameters.step, run_name + "-half-step"));
+      }
     }
     print_summary(outcomes);
+    print_means(outcomes);
     if (is_first)
       write_results(parameters, outcomes);
   }

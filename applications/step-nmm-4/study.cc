@@ -13,6 +13,8 @@
 #include <fstream>
 #include <iomanip>
 #include <iostream>
+#include <map>
+#include <numeric>
 #include <sstream>
 
 namespace StepNMM4
@@ -41,6 +43,11 @@ namespace StepNMM4
                         Patterns::Double(0.),
                         "Of the friction angle, in one more run of what falls; "
                         "0: none [degrees].");
+      prm.declare_entry("Perturbed runs",
+                        "1",
+                        Patterns::Integer(0, 1000),
+                        "With 1, 2, ... times the perturbation; more than one: "
+                        "also with half of the step, if that is asked for.");
       prm.declare_entry("End time", "12", positive, "Or at rest [s].");
       prm.declare_entry("Stages",
                         "1, 2",
@@ -121,6 +128,7 @@ namespace StepNMM4
     parameters.dashpot          = prm.get_double("Dashpot");
     parameters.damping          = prm.get_double("Rock damping");
     parameters.perturbation     = prm.get_double("Perturbation");
+    parameters.n_perturbed      = prm.get_integer("Perturbed runs");
     parameters.output_directory = output_directory;
     std::sort(parameters.stages.begin(), parameters.stages.end());
     try
@@ -268,6 +276,38 @@ namespace StepNMM4
       for (const Outcome &first : outcomes)
         if (&other != &first && other.name.rfind(first.name + '-', 0) == 0)
           print_difference(first, other);
+  }
+
+
+  void
+  print_means(const std::vector<Outcome> &outcomes)
+  {
+    // (friction angle as it is in names, step): ways [m]
+    std::map<std::pair<std::string, double>, std::vector<double>> ways;
+    for (const Outcome &outcome : outcomes)
+      ways[{outcome.name.substr(0, outcome.name.find('-')), outcome.step}]
+        .push_back(outcome.rows.back().center_of_mass.distance(
+          outcome.rows.front().center_of_mass));
+    for (const auto &[run, values] : ways)
+    {
+      const double n = values.size();
+      if (n < 3.)
+        continue;
+      const double mean = std::accumulate(values.begin(), values.end(), 0.) / n;
+      double       squares = 0.;
+      for (const double value : values)
+        squares += (value - mean) * (value - mean);
+      const double deviation = std::sqrt(squares / (n - 1.));
+      std::cout << "\nway of the centre of mass, friction angle " << run.first
+                << " degrees, steps of " << run.second << " s, "
+                << values.size() << " runs: mean " << std::fixed
+                << std::setprecision(3) << mean << " m +- "
+                << deviation / std::sqrt(n) << " m (standard deviation "
+                << deviation << " m, "
+                << *std::min_element(values.begin(), values.end()) << " to "
+                << *std::max_element(values.begin(), values.end()) << " m)"
+                << std::defaultfloat << std::endl;
+    }
   }
 
 

@@ -41,6 +41,9 @@ namespace StepNMM4
     /// What falls is computed once more with a friction angle that differs by this
     /// [degrees]; 0: it is not. Tells what of the end can be predicted at all.
     double perturbation = 1e-7;
+    /// As many runs, with 1, 2, ... times this; if more than one, each with half of
+    /// the step, too, to tell what the step does to their mean.
+    unsigned int n_perturbed = 1;
     /// Runs end here, or at rest [s].
     double end_time = 12.;
     /// Rest: kinetic energy over what all would gain by falling as far as a block is
@@ -108,6 +111,11 @@ namespace StepNMM4
 
   void
   print_summary(const std::vector<Outcome> &outcomes);
+
+  /// For each friction angle and step: how far the centre of mass moves in the mean
+  /// of all runs that begin (nearly) the same, and how much they scatter.
+  void
+  print_means(const std::vector<Outcome> &outcomes);
 
   /// CSV files: a row per step of each run, and a row per run.
   void

@@ -27,7 +27,8 @@ namespace NMM
                                          "#5b6b1f",
                                          "#000000",
                                          "#90c0f0",
-                                         "#d9d9d9"};
+                                         "#d9d9d9",
+                                         "#f0d090"};
       constexpr unsigned int n_colors = sizeof(colors) / sizeof(colors[0]);
       const int              marks[]  = {7, 5, 9, 11, 13, 6, 4, 8, 10, 12};
       constexpr unsigned int n_marks  = sizeof(marks) / sizeof(marks[0]);

@@ -13,6 +13,19 @@ namespace NMM
 
     /// Share of a bound that the next step aims at.
     constexpr double safety = 0.9;
+
+
+    /// By how much steps may change after one with so many iterations: many cost more
+    /// than shorter steps would.
+    double
+    growth_after(const unsigned int n_iterations,
+                 const unsigned int few_iterations,
+                 const double       largest)
+    {
+      if (n_iterations > 2 * few_iterations)
+        return 0.7;
+      return n_iterations > few_iterations ? 1. : largest;
+    }
   } // namespace
 
 
@@ -106,11 +119,10 @@ namespace NMM
       if (report.converged && factor >= 1.)
       {
         integrator.accept();
-        double growth = std::min(1.5, safety * factor);
-        if (report.n_full_iterations > parameters.few_iterations)
-          growth = std::min(growth, 1.);
-        if (report.n_full_iterations > 2 * parameters.few_iterations)
-          growth = std::min(growth, 0.7);
+        double growth = std::min(growth_after(report.n_full_iterations,
+                                              parameters.few_iterations,
+                                              1.5),
+                                 safety * factor);
         // small changes are not worth a factorization
         if (growth >= 1. && growth < 1.2)
           growth = 1.;
@@ -214,11 +226,12 @@ namespace NMM
           return report;
         }
       }
-      if (step.n_full_iterations > 2 * parameters.few_iterations)
-        h *= 0.7;
-      else if (step.n_full_iterations <= parameters.few_iterations &&
-               (furthest == 0. || step.max_displacement < 0.5 * furthest))
-        h *= parameters.growth;
+      const double growth = growth_after(step.n_full_iterations,
+                                         parameters.few_iterations,
+                                         parameters.growth);
+      const bool   is_near =
+        furthest > 0. && step.max_displacement >= 0.5 * furthest;
+      h *= is_near ? std::min(growth, 1.) : growth;
       const double kinetic = integrator.account().kinetic;
       if (kinetic <= previous)
       {

@@ -195,6 +195,43 @@ namespace
   }
 
 
+  TEST(Relaxation, StepsGrowWhileIterationsAreFew)
+  {
+    Body body = cantilever(8.);
+    body.make_finite();
+    TimeIntegrator       integrator(*body.mechanics,
+                              TimeScheme::constant_acceleration());
+    RelaxationParameters parameters;
+    parameters.step           = 0.2;
+    parameters.few_iterations = 3;
+    // steps and iterations: the time goes on by a step
+    std::vector<std::pair<double, unsigned int>> steps;
+    double                                       time = 0.;
+    relax(integrator, parameters, [&](const StepRecord &record) {
+      const double now = integrator.state().time;
+      if (record.n_cuts == 0)
+        steps.emplace_back(now - time, record.report.n_full_iterations);
+      else
+        steps.clear();
+      time = now;
+    });
+    ASSERT_GT(steps.size(), 10u);
+    unsigned int n_grown = 0, n_kept = 0, n_shrunk = 0;
+    for (unsigned int i = 0; i + 1 < steps.size(); ++i)
+    {
+      const unsigned int n  = steps[i].second;
+      const double expected = n <= 3 ? parameters.growth : n <= 6 ? 1. : 0.7;
+      // times are sums
+      EXPECT_NEAR(steps[i + 1].first / steps[i].first, expected, 1e-9) << i;
+      ++(n <= 3 ? n_grown : n <= 6 ? n_kept : n_shrunk);
+    }
+    std::cout << n_grown << " steps grew, " << n_kept << " stayed, " << n_shrunk
+              << " shrank\n";
+    EXPECT_GT(n_grown, 0u);
+    EXPECT_GT(n_kept, 0u);
+  }
+
+
   TEST(History, RowPerStepAndContinuation)
   {
     const std::string file = NMM_TEST_OUTPUT_DIR "/history.csv";

@@ -320,7 +320,7 @@ namespace StepNMM4
     runs << "run,friction_angle,step,blocks,unknowns,steps,cuts,iterations,"
             "is_at_rest,stands,end_time,released,account_error,"
             "largest_penetration,penetration_at_rest,start_seconds,"
-            "motion_seconds\n"
+            "motion_seconds,way\n"
          << std::setprecision(10);
     for (const Outcome &o : outcomes)
     {
@@ -330,7 +330,10 @@ namespace StepNMM4
            << o.stands() << ',' << o.rows.back().time << ',' << o.released
            << ',' << o.account_error << ',' << o.largest_penetration << ','
            << o.penetration_at_rest << ',' << o.start_time << ','
-           << o.motion_time << '\n';
+           << o.motion_time << ','
+           << o.rows.back().center_of_mass.distance(
+                o.rows.front().center_of_mass)
+           << '\n';
       std::ofstream table(prefix + o.name + ".csv");
       table << "time,x,y,kinetic,strain,contact,dissipated,external_work,"
                "balance,stick,slip,penetration,penetration_over_block\n"

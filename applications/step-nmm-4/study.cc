@@ -256,10 +256,11 @@ namespace StepNMM4
   void
   print_summary(const std::vector<Outcome> &outcomes)
   {
-    std::cout << "\nrun            outcome        time [s]  steps  cuts  "
-                 "iterations  account   penetration: largest, last  s\n";
+    std::cout
+      << "\nrun                        outcome        time [s]  steps  cuts  "
+         "iterations  account   penetration: largest, last  s\n";
     for (const Outcome &outcome : outcomes)
-      std::cout << std::left << std::setw(15) << outcome.name << std::setw(15)
+      std::cout << std::left << std::setw(27) << outcome.name << std::setw(15)
                 << (outcome.stands()     ? "stands"
                     : outcome.is_at_rest ? "slid to rest"
                                          : "moves at end")

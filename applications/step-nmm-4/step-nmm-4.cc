@@ -30,8 +30,10 @@
 #include "study.h"
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <iostream>
 #include <memory>
+#include <sstream>
 
 namespace StepNMM4
 {
@@ -477,8 +479,9 @@ main(int argc, char **argv)
     std::vector<Outcome> outcomes;
     for (const double friction_angle : parameters.friction_angles)
     {
-      const std::string name =
-        std::to_string(static_cast<int>(std::lround(friction_angle)));
+      std::ostringstream number;
+      number << std::setprecision(12) << friction_angle;
+      const std::string name = number.str();
       outcomes.push_back(
         Slope(parameters, friction_angle).run(parameters.step, name));
       if (outcomes.back().stands())

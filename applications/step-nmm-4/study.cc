@@ -211,6 +211,26 @@ namespace StepNMM4
 
   namespace
   {
+    /// Between rows, or where the run ended.
+    Point<2>
+    center_of_mass_at(const Outcome &outcome, const double time)
+    {
+      const auto after = std::lower_bound(outcome.rows.begin(),
+                                          outcome.rows.end(),
+                                          time,
+                                          [](const Row &row, const double t) {
+                                            return row.time < t;
+                                          });
+      if (after == outcome.rows.begin() || after == outcome.rows.end())
+        return (after == outcome.rows.end() ? outcome.rows.back() : *after)
+          .center_of_mass;
+      const Row &row = *(after - 1);
+      return row.center_of_mass +
+             (time - row.time) / (after->time - row.time) *
+               (after->center_of_mass - row.center_of_mass);
+    }
+
+
     /// Of the centres of mass at times that the rows on the screen have.
     void
     print_difference(const Outcome &first, const Outcome &other)
@@ -220,20 +240,13 @@ namespace StepNMM4
                 << "'\n time   difference    of its way\n";
       const Point<2> start = first.rows.front().center_of_mass;
       double         next  = 0.5;
-      auto           row   = other.rows.begin();
       for (const Row &at : first.rows)
       {
         if (at.time < next && &at != &first.rows.back())
           continue;
-        next = std::floor(2. * at.time) / 2. + 0.5;
-        // between the rows of the other run, or where that rests
-        while (row + 1 != other.rows.end() && (row + 1)->time < at.time)
-          ++row;
-        Point<2> position = row->center_of_mass;
-        if (row + 1 != other.rows.end())
-          position += (at.time - row->time) / ((row + 1)->time - row->time) *
-                      ((row + 1)->center_of_mass - row->center_of_mass);
-        const double difference = position.distance(at.center_of_mass);
+        next                      = std::floor(2. * at.time) / 2. + 0.5;
+        const Point<2> position   = center_of_mass_at(other, at.time);
+        const double   difference = position.distance(at.center_of_mass);
         std::cout << std::fixed << std::setprecision(2) << std::setw(5)
                   << at.time << std::setprecision(4) << std::setw(11)
                   << difference << " m" << std::setprecision(3) << std::setw(10)
@@ -283,31 +296,45 @@ namespace StepNMM4
   void
   print_means(const std::vector<Outcome> &outcomes)
   {
-    // (friction angle as it is in names, step): ways [m]
-    std::map<std::pair<std::string, double>, std::vector<double>> ways;
+    // those of a friction angle as it is in names and a step
+    std::map<std::pair<std::string, double>, std::vector<const Outcome *>> runs;
     for (const Outcome &outcome : outcomes)
-      ways[{outcome.name.substr(0, outcome.name.find('-')), outcome.step}]
-        .push_back(outcome.rows.back().center_of_mass.distance(
-          outcome.rows.front().center_of_mass));
-    for (const auto &[run, values] : ways)
+      runs[{outcome.name.substr(0, outcome.name.find('-')), outcome.step}]
+        .push_back(&outcome);
+    for (const auto &[run, members] : runs)
     {
-      const double n = values.size();
+      const double n = members.size();
       if (n < 3.)
         continue;
-      const double mean = std::accumulate(values.begin(), values.end(), 0.) / n;
-      double       squares = 0.;
-      for (const double value : values)
-        squares += (value - mean) * (value - mean);
-      const double deviation = std::sqrt(squares / (n - 1.));
+      double end = 0.;
+      for (const Outcome *outcome : members)
+        end = std::max(end, outcome->rows.back().time);
       std::cout << "\nway of the centre of mass, friction angle " << run.first
                 << " degrees, steps of " << run.second << " s, "
-                << values.size() << " runs: mean " << std::fixed
-                << std::setprecision(3) << mean << " m +- "
-                << deviation / std::sqrt(n) << " m (standard deviation "
-                << deviation << " m, "
-                << *std::min_element(values.begin(), values.end()) << " to "
-                << *std::max_element(values.begin(), values.end()) << " m)"
-                << std::defaultfloat << std::endl;
+                << members.size()
+                << " runs\n time   mean [m]  its error  deviation   least  "
+                   "largest\n";
+      for (double time = std::min(1., end);; time = std::min(time + 1., end))
+      {
+        std::vector<double> ways;
+        for (const Outcome *outcome : members)
+          ways.push_back(center_of_mass_at(*outcome, time)
+                           .distance(outcome->rows.front().center_of_mass));
+        const double mean = std::accumulate(ways.begin(), ways.end(), 0.) / n;
+        double       squares = 0.;
+        for (const double way : ways)
+          squares += (way - mean) * (way - mean);
+        const double deviation = std::sqrt(squares / (n - 1.));
+        const auto [least, largest] =
+          std::minmax_element(ways.begin(), ways.end());
+        std::cout << std::fixed << std::setprecision(2) << std::setw(5) << time
+                  << std::setprecision(4) << std::setw(11) << mean
+                  << std::setw(11) << deviation / std::sqrt(n) << std::setw(11)
+                  << deviation << std::setw(9) << *least << std::setw(9)
+                  << *largest << std::defaultfloat << std::endl;
+        if (time == end)
+          break;
+      }
     }
   }
 

@@ -130,7 +130,7 @@ namespace NMM
     void
     Recorder::record(const std::function<Row()> &run)
     {
-      // the others on a machine are felt in every other run of some seconds
+      // what else the machine does shows in single runs of some seconds
       constexpr unsigned int max_repetitions = 3;
       constexpr double       long_enough = 2., too_long_to_repeat = 10.;
       const double           before = reset_peak_memory();

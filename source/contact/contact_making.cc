@@ -141,7 +141,13 @@ namespace NMM
           fixed.home   = edge;
         }
         else if (fixed.slack > 0.)
+        {
           fixed.home = search.find_home(slave, point.s, on);
+          // what the piece lies on does not reach its end, and what begins there
+          // does not lie on the piece
+          if (fixed.home == invalid_index)
+            fixed.slack = -fixed.slack;
+        }
         surface->weights(point.edge, point.s, fixed.weights);
         restore(point, fixed, edge);
         if (fixed.corner > Kind::along && point.stick_edge == invalid_index)

@@ -530,9 +530,10 @@ namespace NMM
     }
 
 
-    /// While a corner is above the slave, the slave's points next to it have their feet
-    /// beyond the end of an edge that is not parallel: directions tell. Once it
-    /// is behind, feet lie within, and which body is behind which is asked for, too.
+    /// Directions tell: the slave's points next to a corner above it have their feet
+    /// beyond the end of an edge that is not parallel, and where two bodies' corners
+    /// have passed each other the nearer one would be found for both. Far behind the
+    /// slave, which body is behind which is asked for, too.
     unsigned int
     ContactSearch::edge_beside(const unsigned int position,
                                const Division    &division,
@@ -540,11 +541,13 @@ namespace NMM
     {
       if (division.master == invalid_index)
         return invalid_index;
-      const auto &corner = surface->edges()[division.master];
-      const Place slave  = surface->place(slave_edges[position], division.s);
+      // parts of the reach; more than springs give way by
+      constexpr double behind = 0.1;
+      const auto      &corner = surface->edges()[division.master];
+      const Place slave = surface->place(slave_edges[position], division.s);
       if ((surface->place(division.master, division.end).x - slave.x) *
             slave.normal() <=
-          0.)
+          -behind * reach)
         return invalid_index;
       for (const auto &[edge, end] :
            {std::make_pair(division.master, division.end),

@@ -570,6 +570,115 @@ namespace
   }
 
 
+  /// The same with a third block, whose corner comes past the first one's on
+  /// the same face: between both corners there are two masters, and each corner
+  /// bears as if it were alone, before and after they have passed each other.
+  TEST(ContactDetection, CornersThatPassEachOtherOnAFace)
+  {
+    constexpr double stiffness = 1e8, reach = 0.05, side = 1.2;
+    const double     angle = 7. * pi / 180.;
+    const double     x = side * std::cos(angle), y = side * std::sin(angle);
+    const Point<2>   corner(1.5, 1.1), other(1.3, 1.1);
+    Geometry         geometry;
+    geometry.add_polygon({{0., 0.}, {3., 0.}, {3., 1.}, {0., 1.}}, "below");
+    geometry.add_polygon({corner,
+                          corner + Point<2>(x, y),
+                          corner + Point<2>(0.5 * x, y + 1.)},
+                         "right");
+    geometry.add_polygon({other,
+                          other + Point<2>(-0.5 * x, y + 1.),
+                          other + Point<2>(-x, y)},
+                         "left");
+    Bodies::Options options;
+    options.cell_size           = 10.;
+    options.mesh_of_every_block = true;
+    Bodies             bodies(std::move(geometry), options);
+    const unsigned int below =
+      bodies.mesh.block(bodies.mesh.find_element({1.5, 0.5}));
+    const unsigned int right = bodies.mesh.block(
+      bodies.mesh.find_element(corner + Point<2>(0.5 * x, y + 0.1)));
+    const unsigned int left = bodies.mesh.block(
+      bodies.mesh.find_element(other + Point<2>(-0.5 * x, y + 0.1)));
+    for (const double overlap : {-0.05, -0.003, -1e-4, 1e-4, 0.003, 0.01})
+      for (const auto &[gap, other_gap] : {std::make_pair(-0.0025, 0.001),
+                                           std::make_pair(-0.0025, -1e-4),
+                                           std::make_pair(0.001, -0.0025),
+                                           std::make_pair(-2e-4, -3e-4)})
+      {
+        SCOPED_TRACE("overlap " + std::to_string(overlap) + ", gaps " +
+                     std::to_string(gap) + ", " + std::to_string(other_gap));
+        bodies.start(contact_parameters(stiffness, reach));
+        Tensor<1, 2> shift({0., gap - 0.1});
+        Tensor<1, 2> other_shift({0.2 + overlap, other_gap - 0.1});
+        const Vector u =
+          bodies.interpolate([&](const Point<2> &, const unsigned int block) {
+            return block == right  ? shift
+                   : block == left ? other_shift
+                                   : Tensor<1, 2>();
+          });
+        bodies.contact->detect(u);
+        bodies.contact->begin_step(u, 0.);
+        double gap_at_right = 1., gap_at_left = 1.;
+        for (const ContactPoint &point : bodies.contact->points())
+          if (point.master != invalid_index && point.weight > 0. &&
+              bodies.surface.edges()[point.master].body == below)
+          {
+            if (point.x.distance(corner + shift) < 1e-9)
+              gap_at_right = std::min(gap_at_right, point.gap);
+            if (point.x.distance(other + other_shift) < 1e-9)
+              gap_at_left = std::min(gap_at_left, point.gap);
+          }
+        EXPECT_NEAR(gap_at_right, gap, 1e-9);
+        EXPECT_NEAR(gap_at_left, other_gap, 1e-9);
+      }
+  }
+
+
+  /// One block is pressed into a face from above, and beside it another one is
+  /// above the same face, but further away than faces are looked for: the piece
+  /// of the face that looks at that one bears nothing, not even where it ends, at the
+  /// first one's corner. Pressure is that of the penetration on the length in common.
+  TEST(ContactDetection, PieceThatEndsBesideAnotherFace)
+  {
+    constexpr double stiffness = 1e8, reach = 0.05, length = 1.2, depth = 0.002;
+    for (const double height : {0.5 * reach, 1.3 * reach, 1.9 * reach})
+      for (const bool is_right : {false, true})
+      {
+        SCOPED_TRACE("height " + std::to_string(height) + ", on the right " +
+                     std::to_string(is_right));
+        const double begin = is_right ? 0.4 : 1.4,
+                     other =
+                       is_right ? begin + length + 1e-4 : begin - length - 1e-4;
+        Geometry geometry;
+        add_named_box(geometry, "below ", {0., 0.}, {3., 1.});
+        add_named_box(geometry,
+                      "pressed ",
+                      {begin, 1.1},
+                      {begin + length, 1.8});
+        add_named_box(geometry,
+                      "beside ",
+                      {other, 1. + height},
+                      {other + length, 1.9});
+        Bodies::Options options;
+        options.cell_size           = 10.;
+        options.mesh_of_every_block = true;
+        Bodies bodies(std::move(geometry), options);
+        bodies.start(contact_parameters(stiffness, reach));
+        const unsigned int pressed =
+          bodies.mesh.block(bodies.mesh.find_element({begin + 0.5, 1.5}));
+        const Vector u =
+          bodies.interpolate([&](const Point<2> &, const unsigned int block) {
+            return block == pressed ? Point<2>(0., -0.1 - depth) : Point<2>();
+          });
+        bodies.contact->detect(u);
+        bodies.contact->assemble(u, false);
+        EXPECT_NEAR(bodies.contact->report().force.norm(),
+                    stiffness * depth * length,
+                    1e-9 * stiffness * depth * length);
+      }
+  }
+
+
   /// Disks: normals are those of circles, distances those of circles.
   TEST(ContactDetection, ArcsHaveTrueNormals)
   {

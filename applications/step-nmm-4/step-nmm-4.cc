@@ -414,6 +414,9 @@ namespace StepNMM4
     row.n_slip                       = report.n_slip;
     row.penetration                  = report.largest_penetration;
     row.penetration_over_block       = row.penetration / block_size();
+    // what penetrates without pressing is none of the contact's springs
+    row.overlap            = surface->largest_overlap();
+    row.overlap_over_block = row.overlap / block_size();
 
     // the density is the same everywhere
     const NMM::ManifoldMesh     &mesh = *meshes.manifold_mesh;

@@ -159,10 +159,12 @@ namespace StepNMM4
       account_error = std::max(account_error, std::abs(row.balance));
       largest_penetration =
         std::max(largest_penetration, row.penetration_over_block);
+      largest_overlap = std::max(largest_overlap, row.overlap_over_block);
     }
     if (released != 0.)
       account_error /= std::abs(released);
     penetration_at_rest = rows.back().penetration_over_block;
+    overlap_at_rest     = rows.back().overlap_over_block;
   }
 
 
@@ -271,7 +273,8 @@ namespace StepNMM4
   {
     std::cout
       << "\nrun                        outcome        time [s]  steps  cuts  "
-         "iterations  account   penetration: largest, last  s\n";
+         "iterations  account   penetration: largest, last   overlap: largest, "
+         "last  s\n";
     for (const Outcome &outcome : outcomes)
       std::cout << std::left << std::setw(27) << outcome.name << std::setw(15)
                 << (outcome.stands()     ? "stands"
@@ -283,7 +286,9 @@ namespace StepNMM4
                 << std::setw(12) << outcome.n_iterations << std::scientific
                 << std::setprecision(1) << std::setw(9) << outcome.account_error
                 << std::setw(14) << outcome.largest_penetration << std::setw(13)
-                << outcome.penetration_at_rest << std::fixed << std::setw(8)
+                << outcome.penetration_at_rest << std::setw(18)
+                << outcome.largest_overlap << std::setw(9)
+                << outcome.overlap_at_rest << std::fixed << std::setw(8)
                 << outcome.start_time + outcome.motion_time << std::defaultfloat
                 << '\n';
     for (const Outcome &other : outcomes)
@@ -347,8 +352,8 @@ namespace StepNMM4
     std::ofstream     runs(prefix + "runs.csv");
     runs << "run,friction_angle,step,blocks,unknowns,steps,cuts,iterations,"
             "is_at_rest,stands,end_time,released,account_error,"
-            "largest_penetration,penetration_at_rest,start_seconds,"
-            "motion_seconds,way\n"
+            "largest_penetration,penetration_at_rest,largest_overlap,"
+            "overlap_at_rest,start_seconds,motion_seconds,way\n"
          << std::setprecision(10);
     for (const Outcome &o : outcomes)
     {
@@ -357,14 +362,16 @@ namespace StepNMM4
            << o.n_cuts << ',' << o.n_iterations << ',' << o.is_at_rest << ','
            << o.stands() << ',' << o.rows.back().time << ',' << o.released
            << ',' << o.account_error << ',' << o.largest_penetration << ','
-           << o.penetration_at_rest << ',' << o.start_time << ','
-           << o.motion_time << ','
+           << o.penetration_at_rest << ',' << o.largest_overlap << ','
+           << o.overlap_at_rest << ',' << o.start_time << ',' << o.motion_time
+           << ','
            << o.rows.back().center_of_mass.distance(
                 o.rows.front().center_of_mass)
            << '\n';
       std::ofstream table(prefix + o.name + ".csv");
       table << "time,x,y,kinetic,strain,contact,dissipated,external_work,"
-               "balance,stick,slip,penetration,penetration_over_block\n"
+               "balance,stick,slip,penetration,penetration_over_block,overlap,"
+               "overlap_over_block\n"
             << std::setprecision(10);
       for (const Row &r : o.rows)
         table << r.time << ',' << r.center_of_mass[0] << ','
@@ -372,7 +379,8 @@ namespace StepNMM4
               << ',' << r.contact << ',' << r.dissipated << ','
               << r.external_work << ',' << r.balance << ',' << r.n_stick << ','
               << r.n_slip << ',' << r.penetration << ','
-              << r.penetration_over_block << '\n';
+              << r.penetration_over_block << ',' << r.overlap << ','
+              << r.overlap_over_block << '\n';
     }
     AssertThrow(runs.flush().good(),
                 NMM::InputError("results cannot be written",

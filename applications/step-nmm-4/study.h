@@ -73,6 +73,8 @@ namespace StepNMM4
     unsigned int n_stick = 0, n_slip = 0;
     /// [m], and over the mean size of blocks [-].
     double penetration = 0., penetration_over_block = 0.;
+    /// The same for how deep blocks are in each other, whether that presses or not.
+    double overlap = 0., overlap_over_block = 0.;
   };
 
 
@@ -90,6 +92,7 @@ namespace StepNMM4
     double released = 0., account_error = 0.;
     /// Largest of all steps, and of the last one, over the size of blocks [-].
     double largest_penetration = 0., penetration_at_rest = 0.;
+    double largest_overlap = 0., overlap_at_rest = 0.;
     /// Of the processor [s].
     double start_time = 0., motion_time = 0.;
 

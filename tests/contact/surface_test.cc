@@ -155,4 +155,65 @@ namespace
     }
     EXPECT_EQ(n, 2U);
   }
+
+
+  /// A plate with a round hole, a block in the hole and one beside the plate, all of
+  /// them in a box that is open above; by hand.
+  TEST(ContactSurface, LargestOverlap)
+  {
+    const Point<2> center(1., 1.);
+    Geometry       geometry;
+    add_named_box(geometry, "plate ", {0., 0.}, {2., 2.});
+    geometry.add_circle(center, 0.6, "hole", CurveRole::hole);
+    add_named_box(geometry, "inner ", {0.8, 0.8}, {1.2, 1.2});
+    add_named_box(geometry, "beside ", {2.1, 0.5}, {3., 1.5});
+    Bodies::Options options;
+    options.cell_size = 0.31;
+    options.rotation  = 7.;
+    options.obstacles = {
+      obstacle("walls", {{3.2, 3.}, {3.2, -0.1}, {-0.1, -0.1}, {-0.1, 3.}})};
+    Bodies             bodies(std::move(geometry), options);
+    const unsigned int inner =
+                         bodies.mesh.block(bodies.mesh.find_element(center)),
+                       beside =
+                         bodies.mesh.block(bodies.mesh.find_element({2.5, 1.}));
+    const auto overlap = [&](const Tensor<1, 2> &of_plate,
+                             const Tensor<1, 2> &of_inner,
+                             const Tensor<1, 2> &of_beside) {
+      std::vector<double> nodal(2 * bodies.covers.n_covers());
+      for (unsigned int e = 0; e < bodies.mesh.n_elements(); ++e)
+      {
+        const unsigned int  block = bodies.mesh.block(e);
+        const Tensor<1, 2> &u     = block == inner    ? of_inner
+                                    : block == beside ? of_beside
+                                                      : of_plate;
+        for (const unsigned int cover : bodies.covers.covers(e))
+          for (unsigned int c = 0; c < 2; ++c)
+            nodal[2 * cover + c] = u[c];
+      }
+      bodies.surface.set_displacements(&nodal);
+      return bodies.surface.largest_overlap();
+    };
+    const Tensor<1, 2> none;
+    EXPECT_EQ(overlap(none, none, none), 0.);
+    // its corner is in the plate; the hole is one of chords, half an edge long
+    const double corner = 0.2 * std::sqrt(2.);
+    for (const double way : {0.5, 0.6})
+      EXPECT_NEAR(overlap(none,
+                          Point<2>(way / std::sqrt(2.), way / std::sqrt(2.)),
+                          none),
+                  corner + way - 0.6,
+                  0.01);
+    // by both corners of the side
+    EXPECT_NEAR(overlap(none, none, Point<2>(-0.13, 0.)), 0.03, 1e-12);
+    // in the middle of the plate: beyond the hole is no more depth than to the hole
+    EXPECT_NEAR(overlap(none, none, Point<2>(-0.5, -0.9)), 0.4, 1e-12);
+    // a wall, the floor, its corner, and beyond the end of the walls
+    EXPECT_NEAR(overlap(none, none, Point<2>(0.22, 0.)), 0.02, 1e-12);
+    EXPECT_NEAR(overlap(Point<2>(0., -0.15), none, none), 0.05, 1e-12);
+    EXPECT_NEAR(overlap(Point<2>(-0.14, -0.15), none, none),
+                std::hypot(0.04, 0.05),
+                1e-12);
+    EXPECT_EQ(overlap(none, none, Point<2>(0.22, 3.)), 0.);
+  }
 } // namespace

@@ -1,7 +1,6 @@
 // Corners that overlap by the side do not touch the faces that they are far behind.
 #include <gtest/gtest.h>
 #include <support/contact_bars/moving_bodies.h>
-#include <support/contact_bars/overlap.h>
 
 namespace NMM
 {
@@ -43,7 +42,7 @@ namespace NMM
         }));
       double     deepest = 0.;
       const auto run     = bodies.run(0.002, 0.03, [&]() {
-        deepest = std::max(deepest, find_overlap(bodies.surface));
+        deepest = std::max(deepest, bodies.surface.largest_overlap());
         return true;
       });
       EXPECT_EQ(run.failure, "");

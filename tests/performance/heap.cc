@@ -19,7 +19,6 @@
 #include <set>
 #include <sstream>
 #include <support/contact_bars/moving_bodies.h>
-#include <support/contact_bars/overlap.h>
 
 using namespace NMM;
 using namespace NMM::ContactBars;
@@ -325,9 +324,10 @@ namespace
       last            = now;
       largest_kinetic = std::max(largest_kinetic, account.kinetic);
       if (static_cast<unsigned int>(phase.n_steps) % steps_between == 0)
-        phase.overlap = std::max(phase.overlap, find_overlap(bodies->surface));
+        phase.overlap =
+          std::max(phase.overlap, bodies->surface.largest_overlap());
     }
-    phase.overlap = std::max(phase.overlap, find_overlap(bodies->surface));
+    phase.overlap = std::max(phase.overlap, bodies->surface.largest_overlap());
     phase.stages  = stages;
     return phase;
   }

@@ -161,6 +161,18 @@ namespace NMM
     void
     check_initial_overlap(double tolerance) const;
 
+    /**
+     * How deep bodies are in each other at the current displacements and time [m]: the
+     * largest distance of a corner, or of an edge's middle, of a block that lies
+     * inside of another one or behind an obstacle from the boundary of that
+     * one. Of all blocks, whether they are in contact or not, by Boost.Geometry
+     * and without anything that the contact knows: what it says can be checked by this.
+     * Edges count as two chords. A corner of an obstacle in a block is not seen, nor is
+     * what lies beyond the ends of an obstacle that is not closed.
+     */
+    double
+    largest_overlap() const;
+
     /// Displacements: two per cover of the whole system [m]; to be called again
     /// whenever they change. Must outlive their use.
     void

@@ -4,7 +4,6 @@
 #include <random>
 #include <sstream>
 #include <support/contact_bars/contact_bars.h>
-#include <support/contact_bars/overlap.h>
 
 namespace NMM
 {
@@ -112,7 +111,7 @@ namespace NMM
           result.energy =
             std::max(result.energy, bodies.integrator->account().kinetic);
           result.overlap =
-            std::max(result.overlap, find_overlap(bodies.surface));
+            std::max(result.overlap, bodies.surface.largest_overlap());
           return std::isfinite(now);
         });
         double shortest = std::numeric_limits<double>::max();

@@ -1,0 +1,153 @@
+// How deep bodies are in each other, without anything that the contact knows.
+#include <nmm/contact/contact_surface.h>
+
+#include <algorithm>
+#include <boost/geometry.hpp>
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/linestring.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/geometries/polygon.hpp>
+#include <boost/geometry/index/rtree.hpp>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+namespace NMM
+{
+  using dealii::Point;
+  using dealii::Tensor;
+
+  namespace
+  {
+    namespace bg  = boost::geometry;
+    using Vertex  = bg::model::d2::point_xy<double>;
+    using Polygon = bg::model::polygon<Vertex, /* clockwise = */ false>;
+    using Chain   = bg::model::linestring<Vertex>;
+    using Box     = bg::model::box<Vertex>;
+
+    /// A closed part of a block's boundary, outer or inner.
+    struct Ring
+    {
+      unsigned int body;
+      Polygon      polygon;
+      Chain        chain;
+    };
+
+
+    std::vector<Ring>
+    rings_of_blocks(const ContactSurface &surface)
+    {
+      const auto       &edges = surface.edges();
+      std::vector<bool> is_done(edges.size(), false);
+      std::vector<Ring> result;
+      for (unsigned int first = 0; first < edges.size(); ++first)
+      {
+        if (is_done[first] || surface.is_rigid(first))
+          continue;
+        Ring ring;
+        ring.body = edges[first].body;
+        for (unsigned int e = first; e != invalid_index && !is_done[e];
+             e              = edges[e].next)
+        {
+          is_done[e] = true;
+          for (const double t : {0., 0.5})
+          {
+            const Point<2> x = surface.place(e, t).x;
+            ring.polygon.outer().emplace_back(x[0], x[1]);
+          }
+        }
+        bg::correct(ring.polygon);
+        ring.chain.assign(ring.polygon.outer().begin(),
+                          ring.polygon.outer().end());
+        result.push_back(std::move(ring));
+      }
+      return result;
+    }
+
+
+    /// Depth of a point behind the nearest piece of an obstacle [m]; not beyond the ends
+    /// of one that is not closed.
+    double
+    depth_in_obstacle(const ContactSurface            &surface,
+                      const std::vector<unsigned int> &edges,
+                      const Point<2>                  &x)
+    {
+      constexpr double same    = 1e-9;
+      double           nearest = std::numeric_limits<double>::max();
+      double           behind  = 0.;
+      bool             is_end  = false;
+      for (const unsigned int e : edges)
+        for (unsigned int half = 0; half < 2; ++half)
+        {
+          const Point<2>     start = surface.place(e, 0.5 * half).x;
+          const Tensor<1, 2> d = surface.place(e, 0.5 * (half + 1)).x - start;
+          const double       length = d.norm();
+          const double       t      = (x - start) * d / (length * length);
+          const double distance = x.distance(start + std::clamp(t, 0., 1.) * d);
+          const double now =
+            ((x - start) * Point<2>(-d[1] / length, d[0] / length));
+          // where two pieces meet, the one that sees more of the distance knows
+          if (std::abs(distance - nearest) <= same * length
+                ? std::abs(now) <= std::abs(behind)
+                : distance > nearest)
+            continue;
+          const auto &edge = surface.edges()[e];
+          nearest          = distance;
+          behind           = now;
+          is_end = (half == 0 && t < 0. && edge.previous == invalid_index) ||
+                   (half == 1 && t > 1. && edge.next == invalid_index);
+        }
+      return behind > 0. && !is_end ? nearest : 0.;
+    }
+  } // namespace
+
+
+  double
+  ContactSurface::largest_overlap() const
+  {
+    const std::vector<Ring> rings = rings_of_blocks(*this);
+    using Entry                   = std::pair<Box, unsigned int>;
+    std::vector<Entry>                     boxes;
+    std::vector<std::vector<unsigned int>> body_to_rings(n_bodies()),
+      obstacle_to_edges(n_bodies());
+    for (unsigned int i = 0; i < rings.size(); ++i)
+    {
+      boxes.emplace_back(bg::return_envelope<Box>(rings[i].polygon), i);
+      body_to_rings[rings[i].body].push_back(i);
+    }
+    const bg::index::rtree<Entry, bg::index::rstar<16>> tree(boxes);
+    for (unsigned int e = 0; e < all_edges.size(); ++e)
+      if (is_rigid(e))
+        obstacle_to_edges[all_edges[e].body].push_back(e);
+
+    double                    deepest = 0.;
+    std::vector<Entry>        found;
+    std::vector<unsigned int> around;
+    for (const Ring &ring : rings)
+      for (const Vertex &x : ring.polygon.outer())
+      {
+        // bodies around it: in an outer boundary and in no inner one of theirs
+        found.clear();
+        tree.query(bg::index::intersects(x), std::back_inserter(found));
+        around.clear();
+        for (const auto &[box, i] : found)
+          if (rings[i].body != ring.body && bg::within(x, rings[i].polygon))
+            around.push_back(rings[i].body);
+        for (const unsigned int body : around)
+        {
+          if (std::count(around.begin(), around.end(), body) % 2 == 0)
+            continue;
+          double depth = std::numeric_limits<double>::max();
+          for (const unsigned int i : body_to_rings[body])
+            depth = std::min(depth, bg::distance(x, rings[i].chain));
+          deepest = std::max(deepest, depth);
+        }
+        for (unsigned int body = n_blocks; body < n_bodies(); ++body)
+          deepest = std::max(deepest,
+                             depth_in_obstacle(*this,
+                                               obstacle_to_edges[body],
+                                               Point<2>(x.x(), x.y())));
+      }
+    return deepest;
+  }
+} // namespace NMM

@@ -29,6 +29,8 @@ namespace NMM
         bool is_active = true;
         /// It is not solved at all.
         bool is_held = false;
+        /// Of this iteration.
+        bool has_tangent = false;
         /// In the last iteration.
         bool         has_converged = false;
         unsigned int n_unknowns    = 0;

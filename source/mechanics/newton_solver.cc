@@ -149,24 +149,40 @@ namespace NMM
   }
 
 
-  /// Of what is active and of what it presses on, with residual and groups.
+  /// Of what is active and of what it presses on, with residual and groups. What is
+  /// pressed on may press on something else: each time only the rows of what is
+  /// new are assembled.
   Deformation
   NewtonSolver::Data::assemble_tangent(const Vector &u, const Vector *increment)
   {
     const unsigned int k = report->iterations.size();
+    for (const unsigned int root : groups.roots())
+      groups[root].has_tangent = false;
+    touched.clear();
     while (true)
     {
-      touched.clear();
       const Deformation state =
         assemble(u,
                  k > parameters.n_robust_iterations ? Tangent::consistent
                                                     : Tangent::robust,
                  use_increment ? increment : nullptr,
-                 is_active);
-      if (state != Deformation::admissible || touched.empty())
+                 [](const Group &group) {
+                   return group.is_active && !group.has_tangent;
+                 });
+      if (state != Deformation::admissible)
         return state;
+      for (const unsigned int root : groups.roots())
+        groups[root].has_tangent = groups[root].is_active;
       for (const unsigned int block : touched)
         groups.wake(block);
+      touched.clear();
+      if (std::all_of(groups.roots().begin(),
+                      groups.roots().end(),
+                      [this](const unsigned int root) {
+                        return !groups[root].is_active ||
+                               groups[root].has_tangent;
+                      }))
+        return state;
     }
   }
 

@@ -3,8 +3,10 @@
 // triangle of its own for each, argument 3: duration [s], argument 4: the file that two
 // lines are added to, one for the first half of the time, while blocks fall, and one for
 // the second, when they lie on each other; argument 5: speed below which blocks may
-// sleep [m/s], 0: none does; argument 6: damping in proportion to the stiffness [s]. One run per process, since the largest memory is that
-// of the process.
+// sleep [m/s], 0: none does; argument 6: damping in proportion to the stiffness [s];
+// argument 7: rows on each other, however many blocks there are, 0: as many as
+// keep the shape of the heap. One run per process, since the largest memory is that of
+// the process.
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
@@ -150,11 +152,15 @@ namespace
   /// Convex quadrilaterals, nearly squares of 1 m, in rows above the floor, every other
   /// row half a block to the right; the box's width and the heap's height.
   Geometry
-  blocks(const unsigned int n, double &width, double &height)
+  blocks(const unsigned int n,
+         const unsigned int n_rows,
+         double            &width,
+         double            &height)
   {
     std::mt19937                           generator(6);
     std::uniform_real_distribution<double> random(-1., 1.);
-    const auto   n_columns = static_cast<unsigned int>(std::sqrt(3.2 * n));
+    const unsigned int                     n_columns =
+      n_rows > 0 ? (n + n_rows - 1) / n_rows : std::floor(std::sqrt(3.2 * n));
     Geometry     geometry;
     unsigned int row = 0;
     for (unsigned int i = 0; i < n; ++i)
@@ -204,7 +210,8 @@ namespace
     Heap(unsigned int n_blocks,
          double       n_cells,
          double       sleep_speed,
-         double       stiffness_damping);
+         double       stiffness_damping,
+         unsigned int n_rows);
 
     /// Steps until @p end.
     Phase
@@ -213,7 +220,7 @@ namespace
     void
     write(const Phase &phase, std::ostream &csv) const;
 
-    unsigned int                  n_blocks;
+    unsigned int                  n_blocks, n_rows;
     double                        n_cells, sleep_speed, stiffness_damping;
     Stages                        stages;
     std::unique_ptr<MovingBodies> bodies;
@@ -225,15 +232,17 @@ namespace
   Heap::Heap(const unsigned int n_blocks,
              const double       n_cells,
              const double       sleep_speed,
-             const double       stiffness_damping)
+             const double       stiffness_damping,
+             const unsigned int n_rows)
     : n_blocks(n_blocks)
+    , n_rows(n_rows)
     , n_cells(n_cells)
     , sleep_speed(sleep_speed)
     , stiffness_damping(stiffness_damping)
     , memory_before(peak_memory())
   {
     double                width, height;
-    Geometry              geometry = blocks(n_blocks, width, height);
+    Geometry              geometry = blocks(n_blocks, n_rows, width, height);
     MovingBodies::Options options;
     options.cell_size           = n_cells > 0. ? 1. / n_cells : 2.5;
     options.mesh_of_every_block = n_cells == 0.;
@@ -342,7 +351,7 @@ namespace
     "block,"
     "us_per_touching_point_and_step,memory_kB_per_block,largest_overlap_m,"
     "energy_gained,kinetic_energy,sleep_speed_m_per_s,"
-    "stiffness_damping_s,share_asleep\n";
+    "stiffness_damping_s,share_asleep,rows\n";
 
 
   void
@@ -376,7 +385,7 @@ namespace
         << gain / largest_kinetic << ','
         << bodies->integrator->account().kinetic / largest_kinetic << ','
         << sleep_speed << ',' << stiffness_damping << ','
-        << phase.n_asleep / (n * phase.n_steps) << '\n';
+        << phase.n_asleep / (n * phase.n_steps) << ',' << n_rows << '\n';
   }
 } // namespace
 
@@ -393,7 +402,9 @@ main(int argc, char **argv)
 
   const double damping = argc > 6 ? std::stod(argv[6]) : 0.;
 
-  Heap               heap(n_blocks, n_cells, sleep_speed, damping);
+  const unsigned int n_rows = argc > 7 ? std::stoi(argv[7]) : 0;
+
+  Heap               heap(n_blocks, n_cells, sleep_speed, damping, n_rows);
   std::ostringstream lines;
   for (const auto &[name, end] : {std::make_pair("falls", 0.5 * duration),
                                   std::make_pair("lies", duration)})

@@ -131,9 +131,15 @@ namespace
 
 
   // Blocks slide on each other and fall; all that contact remembers has to be in the
-  // checkpoint.
+  // checkpoint. At the end of these 3 s the blocks are as fast as they ever get; Debug is
+  // twenty times slower and sees the begin.
   TEST(Restart, SlopeGoesOnInItsSlide)
   {
+#ifdef NDEBUG
+    const std::string end = "3";
+#else
+    const std::string end = "0.2";
+#endif
     const Arguments   settings{"--set",
                              "Contact/Friction angle=20",
                              "--set",
@@ -144,23 +150,24 @@ namespace
                              "/applications/nmm/scenes/slope.prm"};
     const std::string straight = fresh_output_dir("straight-slope");
     const std::string stopped  = fresh_output_dir("stopped-slope");
-    run(settings + Arguments{"-o", straight, "--set", "Time/End time=0.2"});
+    run(settings + Arguments{"-o", straight, "--set", "Time/End time=" + end});
     const std::string history = read_file(straight + "/history.csv");
-    // at the end of a step of that run, whose length contact has chosen: two lines of
-    // names, the begin, and ten steps
+    const auto n_lines = std::count(history.begin(), history.end(), '\n');
+    // at the end of a step of that run, whose length contact has chosen, after half of
+    // them
     std::istringstream lines(history);
     std::string        line;
-    for (unsigned int i = 0; i < 13; ++i)
+    for (unsigned int i = 0; i < n_lines / 2; ++i)
       std::getline(lines, line);
     const std::string half = line.substr(0, line.find(','));
     run(settings + Arguments{"-o", stopped, "--set", "Time/End time=" + half});
     run(settings + Arguments{"-o",
                              stopped,
                              "--set",
-                             "Time/End time=0.2",
+                             "Time/End time=" + end,
                              "--restart",
                              stopped + "/checkpoint.nmm"});
-    EXPECT_GT(std::count(history.begin(), history.end(), '\n'), 20);
+    EXPECT_GT(n_lines, 20);
     EXPECT_TRUE(history == read_file(stopped + "/history.csv"));
     EXPECT_TRUE(read_file(straight + "/checkpoint.nmm") ==
                 read_file(stopped + "/checkpoint.nmm"));

@@ -160,15 +160,39 @@ namespace NMM
       return;
     if (points_begin.empty())
       list_points_of_bodies();
+    // few are sorted, many marked
+    constexpr unsigned int few = 16;
     active_points.clear();
+    unsigned int n = 0;
     for (unsigned int b = 0; b < is_active.size(); ++b)
       if (is_active[b])
-        active_points.insert(active_points.end(),
-                             body_to_points.begin() + points_begin[b],
-                             body_to_points.begin() + points_begin[b + 1]);
-    std::sort(active_points.begin(), active_points.end());
-    active_points.erase(std::unique(active_points.begin(), active_points.end()),
-                        active_points.end());
+        n += points_begin[b + 1] - points_begin[b];
+    const bool are_few = few * n < points.size();
+    if (!are_few)
+      is_point_active.assign(points.size(), false);
+    for (unsigned int b = 0; b < is_active.size(); ++b)
+      if (is_active[b])
+      {
+        const auto begin = body_to_points.begin() + points_begin[b],
+                   end   = body_to_points.begin() + points_begin[b + 1];
+        if (are_few)
+          active_points.insert(active_points.end(), begin, end);
+        else
+          std::for_each(begin, end, [this](const unsigned int q) {
+            is_point_active[q] = true;
+          });
+      }
+    if (are_few)
+    {
+      std::sort(active_points.begin(), active_points.end());
+      active_points.erase(std::unique(active_points.begin(),
+                                      active_points.end()),
+                          active_points.end());
+    }
+    else
+      for (unsigned int q = 0; q < points.size(); ++q)
+        if (is_point_active[q])
+          active_points.push_back(q);
   }
 
 
@@ -388,25 +412,28 @@ namespace NMM
   }
 
 
+  dealii::ArrayView<const unsigned int>
+  Contact::Data::masters_of(const unsigned int q) const
+  {
+    const unsigned int slave = point_data[q].slave;
+    if (point_data[q].corner <= Kind::along)
+      return search.masters(slave);
+    return dealii::ArrayView<const unsigned int>(&search.slaves()[slave], 1);
+  }
+
+
   ContactProjection
   Contact::Data::find_master(const unsigned int           q,
                              const ContactSurface::Place &slave) const
   {
     const PointData &fixed   = point_data[q];
-    const auto       masters = search.masters(fixed.slave);
+    const auto       masters = masters_of(q);
 
     const AdmittedContact admitted = find_admitted(q);
     if (fixed.corner >= Kind::along)
     {
       ContactProjection result =
-        fixed.corner == Kind::along
-          ? search.project(slave, masters, fixed.slack, fixed.home, admitted)
-          : search.project(slave,
-                           dealii::ArrayView<const unsigned int>(
-                             &search.slaves()[fixed.slave], 1),
-                           fixed.slack,
-                           fixed.home,
-                           admitted);
+        search.project(slave, masters, fixed.slack, fixed.home, admitted);
       // what overlaps far more deeply than it is long came in by the other face
       constexpr double deep = 4.;
       if (result.master != invalid_index &&

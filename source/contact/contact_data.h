@@ -4,6 +4,7 @@
 #include <nmm/contact/contact.h>
 
 #include <array>
+#include <contact/contact_motion.h>
 #include <contact/contact_points.h>
 #include <contact/contact_search.h>
 #include <contact/contact_terms.h>
@@ -152,6 +153,18 @@ namespace NMM
     internal::ContactProjection
     find_master(unsigned int q, const ContactSurface::Place &slave) const;
 
+    /// Candidates of a point.
+    dealii::ArrayView<const unsigned int>
+    masters_of(unsigned int q) const;
+
+    /// At the begin of a step: how far points are from touching.
+    void
+    find_clearances();
+
+    /// A point that was open when the step began cannot have come to touch.
+    bool
+    is_clear(unsigned int q);
+
     /// @name One point in an assembly
     /// @{
     void
@@ -159,6 +172,10 @@ namespace NMM
               const internal::ContactProjection &projection,
               const internal::ContactTraction   &traction,
               bool                               with_tangent);
+
+    /// Where a point is at the end of a step; false if it does not touch.
+    bool
+    find_end(unsigned int q);
 
     void
     add_point_between(unsigned int q, bool with_tangent);
@@ -365,6 +382,7 @@ namespace NMM
     /// See Contact::set_active_bodies(); by body.
     std::vector<bool>         is_active, is_held;
     std::vector<unsigned int> active_points, touched_bodies;
+    std::vector<char>         is_point_active;
     /// Points that a body may have part in, one body after the other; empty: not known.
     std::vector<unsigned int> body_to_points, points_begin;
 
@@ -378,6 +396,14 @@ namespace NMM
     /// continuation looks for them there, too, to get the same ones.
     std::vector<double> searched_nodal;
     double              searched_time = 0., searched_reach = 0.;
+
+    /// Of a time step: how far points are at its begin from touching, 0: not known, or
+    /// they may; and by how much the candidates at each position of
+    /// ContactSearch::slaves() have moved against each other, negative: not known.
+    internal::ContactMotion motion;
+    std::vector<double>     clearances, position_motion;
+    /// Active points that are not clear.
+    std::vector<unsigned int> near_points;
 
     /// Of a time step: displacements and obstacles at its ends.
     std::vector<double>               nodal_begin, nodal_end;

@@ -20,6 +20,7 @@ namespace NMM
   {
     points.clear();
     point_data.clear();
+    clearances.clear();
     for (unsigned int i = 0; i < search.slaves().size(); ++i)
       if (search.corner(i) == Kind::along)
         add_points_of(i);
@@ -45,10 +46,7 @@ namespace NMM
       fixed.beside_begin       = faces_beside.size();
       search.append_faces_beside(edge,
                                  surface->place(edge, points[q].s).x,
-                                 fixed.corner <= Kind::along
-                                   ? search.masters(fixed.slave)
-                                   : dealii::ArrayView<const unsigned int>(
-                                       &search.slaves()[fixed.slave], 1),
+                                 masters_of(q),
                                  deep * size_at(q),
                                  faces_beside);
       fixed.beside_end = faces_beside.size();

@@ -92,6 +92,14 @@ namespace NMM
                                      edge_names[master]]];
       }
 
+      bool
+      has_dilation() const
+      {
+        return std::any_of(laws.begin(), laws.end(), [](const ContactLaw &law) {
+          return law.dilation > 0.;
+        });
+      }
+
     private:
       std::vector<ContactLaw>   laws;
       std::vector<unsigned int> edge_names, law_of_names;

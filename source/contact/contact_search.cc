@@ -30,21 +30,6 @@ namespace NMM
       constexpr double largest_slack = 0.1;
 
 
-      double
-      extension(const ContactSurface::Corner corner, const double slack)
-      {
-        switch (corner)
-        {
-          case ContactSurface::Corner::smooth:
-            return smooth_extension;
-          case ContactSurface::Corner::concave:
-            return concave_extension;
-          default:
-            return slack;
-        }
-      }
-
-
       /// Part of an edge beyond a corner that is as good as the edge itself.
       double
       inside_slack(const ContactSurface::Corner corner, const double slack)
@@ -462,7 +447,7 @@ namespace NMM
       const unsigned int                          entrance,
       const AdmittedContact                      &admitted) const
     {
-      // parts of an edge and of the reach that are rounding
+      // part of the reach that is rounding
       constexpr double same = 1e-9;
       // faces at nearly a right angle, or that look the same way, do not touch
       constexpr double least_facing = 0.01;
@@ -475,8 +460,8 @@ namespace NMM
         const ContactSurface::Edge &edge = surface->edges()[master];
         ContactProjection           now;
         now.master          = master;
-        const double before = extension(edge.at_start, same);
-        const double after  = extension(edge.at_end, same);
+        const double before = extension(edge.at_start, corner_slack);
+        const double after  = extension(edge.at_end, corner_slack);
         if (surface->is_further(master, slave_place.x, reach, before, after) ||
             !find_nearest(master, slave_place.x, now.t, now.place) ||
             now.t < -before || now.t > 1. + after)
@@ -593,6 +578,34 @@ namespace NMM
     }
 
 
+    double
+    ContactSearch::extension(const ContactSurface::Corner corner,
+                             const double                 slack)
+    {
+      switch (corner)
+      {
+        case ContactSurface::Corner::smooth:
+          return smooth_extension;
+        case ContactSurface::Corner::concave:
+          return concave_extension;
+        default:
+          return slack;
+      }
+    }
+
+
+    double
+    ContactSearch::slack_of(const unsigned int master,
+                            const double       slack,
+                            const unsigned int home)
+    {
+      // parts of an edge
+      constexpr double rounding = 1e-9;
+      return slack < 0. || master == home || home == any_edge ? slack
+                                                              : rounding;
+    }
+
+
     unsigned int
     ContactSearch::find_home(const unsigned int position,
                              const double       s,
@@ -630,8 +643,6 @@ namespace NMM
     {
       // gaps that differ by less than this part of the reach are equal
       constexpr double same = 1e-9;
-      // parts of an edge
-      constexpr double rounding = 1e-9;
       // faces at nearly a right angle do not touch
       constexpr double least_facing = 0.01;
       // faces that look the same way
@@ -649,9 +660,7 @@ namespace NMM
         const ContactSurface::Edge &edge = surface->edges()[master];
         if (body != invalid_index && edge.body != body)
           continue;
-        const double slack =
-          given_slack < 0. || master == home || home == any_edge ? given_slack
-                                                                 : rounding;
+        const double slack  = slack_of(master, given_slack, home);
         const double before = extension(edge.at_start, slack);
         const double after  = extension(edge.at_end, slack);
         // neither in contact nor a far side

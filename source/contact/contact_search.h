@@ -167,6 +167,9 @@ namespace NMM
         return largest_distance(accepted_positions);
       }
 
+      /// Parts of an edge by which it goes on beyond its ends for corners.
+      static constexpr double corner_slack = 1e-9;
+
       /// As the home of project(): all of the masters.
       static constexpr unsigned int any_edge = invalid_index - 1;
 
@@ -225,6 +228,18 @@ namespace NMM
                      const AdmittedContact &admitted = AdmittedContact()) const;
 
       /**
+       * How far a point at @p x is, at least, from where it would be behind one of
+       * the masters as project() finds it with @p slack and @p home, project_corner() with
+       * corner_slack and any_edge: the distance from the strips behind all of
+       * them that are as deep as the reach [m]. 0 if one of them is an arc.
+       */
+      double
+      clearance(const dealii::Point<2>               &x,
+                dealii::ArrayView<const unsigned int> masters,
+                double                                slack,
+                unsigned int                          home) const;
+
+      /**
        * For the division at which a piece of a slave begins or ends: it lies
        * where a master's corner lies, and rounding and small motions must not
        * decide whether it has a master. The piece does: if there is a master
@@ -271,6 +286,14 @@ namespace NMM
       edge_beside(unsigned int    position,
                   const Division &division,
                   double          s_inside) const;
+
+      /// Part of an edge by which it may go on beyond an end.
+      static double
+      extension(ContactSurface::Corner corner, double slack);
+
+      /// Of a master in project().
+      static double
+      slack_of(unsigned int master, double slack, unsigned int home);
 
       bool
       may_touch(unsigned int edge, unsigned int other) const;

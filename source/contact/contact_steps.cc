@@ -174,6 +174,57 @@ namespace NMM
         point.stick_t -=
           point.shear / (d.point_data[q].law->shear_stiffness * length);
     }
+    d.find_clearances();
+  }
+
+
+  void
+  Contact::Data::find_clearances()
+  {
+    clearances.assign(points.size(), 0.);
+    position_motion.resize(search.slaves().size());
+    // what slides apart may open faces that are in contact
+    if (laws.has_dilation())
+      return;
+    motion.begin(*surface);
+    for (unsigned int q = 0; q < points.size(); ++q)
+    {
+      const ContactPoint &point = points[q];
+      const PointData    &fixed = point_data[q];
+      if (fixed.gap_begin >= fixed.offset && !point.is_bonded &&
+          surface->edges()[point.edge].radius == 0.)
+        clearances[q] = search.clearance(surface->place(point.edge, point.s).x,
+                                         masters_of(q),
+                                         fixed.corner >= Kind::along
+                                           ? fixed.slack
+                                           : ContactSearch::corner_slack,
+                                         fixed.corner >= Kind::along
+                                           ? fixed.home
+                                           : ContactSearch::any_edge);
+    }
+  }
+
+
+  bool
+  Contact::Data::is_clear(const unsigned int q)
+  {
+    constexpr double rounding = 1e-6;
+
+    if (clearances.empty() || clearances[q] == 0.)
+      return false;
+    const PointData &fixed = point_data[q];
+    // a corner of the master has a single candidate; others of a position the same ones
+    const bool is_master_end = fixed.corner > Kind::along;
+    double     moved = is_master_end ? -1. : position_motion[fixed.slave];
+    if (moved < 0.)
+    {
+      for (const unsigned int master : masters_of(q))
+        moved = std::max(moved,
+                         motion.bound(*surface, points[q].edge, master, reach));
+      if (!is_master_end)
+        position_motion[fixed.slave] = moved;
+    }
+    return clearances[q] > moved + rounding * reach;
   }
 
 
@@ -424,6 +475,47 @@ namespace NMM
   }
 
 
+  bool
+  Contact::Data::find_end(const unsigned int q)
+  {
+    ContactPoint &point = points[q];
+    PointData    &fixed = point_data[q];
+    fixed.dilation      = Dilation();
+    fixed.new_slip      = 0.;
+    if ((fixed.has_angle && point.weight == 0.) || is_clear(q))
+    {
+      fixed.master_end = invalid_index;
+      fixed.gap_end    = reach;
+    }
+    else
+    {
+      const ContactSurface::Place slave = surface->place(point.edge, point.s);
+      const ContactProjection     projection = find_master(q, slave);
+      fixed.master_end                       = projection.master;
+      fixed.t_end                            = projection.t;
+      fixed.normal_end                       = projection.normal;
+      fixed.dilation.opening                 = opening_before(q);
+      if (fixed.master_begin != invalid_index &&
+          projection.master != invalid_index &&
+          goes_on(fixed.master_begin, projection.master))
+        fixed.dilation = find_dilation(q, slave, projection);
+      fixed.gap_end = projection.master == invalid_index
+                        ? reach
+                        : projection.gap - fixed.dilation.opening;
+    }
+    // without contact in the middle of the step nothing is stored at its end
+    fixed.shear_work = fixed.normal_loss = 0.;
+    fixed.offset_end                     = std::min(0., fixed.gap_end);
+    if (fixed.gap_begin < fixed.offset || fixed.gap_end < fixed.offset ||
+        point.is_bonded)
+      return true;
+    report.n_changes += point.state != ContactState::open;
+    point.pressure = point.shear = 0.;
+    point.state                  = ContactState::open;
+    return false;
+  }
+
+
   /// A point in the mean position.
   void
   Contact::Data::add_point_between(const unsigned int q,
@@ -432,18 +524,8 @@ namespace NMM
     ContactPoint      &point  = points[q];
     PointData         &fixed  = point_data[q];
     const ContactState before = point.state;
-    // without contact in the middle of the step nothing is stored at its end
-    fixed.shear_work = fixed.normal_loss = 0.;
-    fixed.offset_end                     = std::min(0., fixed.gap_end);
-    point.pressure = point.shear = 0.;
-    point.state                  = ContactState::open;
-    if (fixed.gap_begin >= fixed.offset && fixed.gap_end >= fixed.offset &&
-        !point.is_bonded)
-    {
-      report.n_changes += before != point.state;
-      return;
-    }
-
+    point.pressure = point.shear      = 0.;
+    point.state                       = ContactState::open;
     const ContactSurface::Place slave = surface->place(point.edge, point.s);
     const ContactProjection     projection = project(q, slave);
     ContactTraction             traction;
@@ -495,26 +577,12 @@ namespace NMM
     d.move_to(end);
     d.is_conserving = true;
     d.set_admitted_depth();
+    d.motion.move();
+    std::fill(d.position_motion.begin(), d.position_motion.end(), -1.);
+    d.near_points.clear();
     d.for_each_active_point([&](const unsigned int q) {
-      if (d.point_data[q].has_angle && d.points[q].weight == 0.)
-        return;
-      const ContactPoint         &point = d.points[q];
-      Data::PointData            &fixed = d.point_data[q];
-      const ContactSurface::Place slave = d.surface->place(point.edge, point.s);
-      const ContactProjection     projection = d.find_master(q, slave);
-      fixed.master_end                       = projection.master;
-      fixed.t_end                            = projection.t;
-      fixed.normal_end                       = projection.normal;
-      fixed.dilation                         = Data::Dilation();
-      fixed.dilation.opening                 = d.opening_before(q);
-      fixed.new_slip                         = 0.;
-      if (fixed.master_begin != invalid_index &&
-          projection.master != invalid_index &&
-          d.goes_on(fixed.master_begin, projection.master))
-        fixed.dilation = d.find_dilation(q, slave, projection);
-      fixed.gap_end = projection.master == invalid_index
-                        ? d.reach
-                        : projection.gap - fixed.dilation.opening;
+      if (d.find_end(q))
+        d.near_points.push_back(q);
     });
     d.nodal_end = d.nodal;
 
@@ -527,8 +595,8 @@ namespace NMM
     d.surface->set_displacements(&d.nodal);
     d.is_between = true;
     d.block_system->reset(with_tangent);
-    d.for_each_active_point(
-      [&](const unsigned int q) { d.add_point_between(q, with_tangent); });
+    for (const unsigned int q : d.near_points)
+      d.add_point_between(q, with_tangent);
     if (with_tangent)
       d.block_system->transfer(d.matrix, d.residual);
     else

@@ -404,24 +404,41 @@ namespace NMM
   void
   ContactSurface::set_displacements(const std::vector<double> *displacements)
   {
-    nodal = displacements;
-    edge_displacements.resize(all_edges.size());
-    Weights f;
-    for (unsigned int e = 0; e < all_edges.size(); ++e)
+    nodal                  = displacements;
+    const unsigned int n_e = all_edges.size();
+    if (edge_displacements.size() != n_e)
     {
-      if (is_rigid(e) || all_edges[e].radius != 0.)
+      edge_displacements.resize(n_e);
+      start_weights_begin.assign(1, 0);
+      Weights f;
+      for (unsigned int e = 0; e < n_e; ++e)
+      {
+        if (!is_rigid(e) && all_edges[e].radius == 0.)
+        {
+          weights(e, 0., f);
+          for (unsigned int i = 0; i < f.n; ++i)
+            start_weights.push_back({{f.w[i], f.dw[i], 0.5 * f.ddw[i]}});
+        }
+        start_weights_begin.push_back(start_weights.size());
+      }
+    }
+    for (unsigned int e = 0; e < n_e; ++e)
+    {
+      const unsigned int begin = start_weights_begin[e],
+                         n     = start_weights_begin[e + 1] - begin;
+      if (n == 0)
         continue;
-      weights(e, 0., f);
       const auto   edge_covers = covers(e);
       Tensor<1, 2> value, slope, bend;
-      for (unsigned int i = 0; i < f.n; ++i)
+      for (unsigned int i = 0; i < n; ++i)
       {
-        const double *u = nodal->data() + 2 * edge_covers[i];
+        const double                *u = nodal->data() + 2 * edge_covers[i];
+        const std::array<double, 3> &f = start_weights[begin + i];
         for (unsigned int c = 0; c < 2; ++c)
         {
-          value[c] += f.w[i] * u[c];
-          slope[c] += f.dw[i] * u[c];
-          bend[c] += 0.5 * f.ddw[i] * u[c];
+          value[c] += f[0] * u[c];
+          slope[c] += f[1] * u[c];
+          bend[c] += f[2] * u[c];
         }
       }
       edge_displacements[e] = {{value, slope, bend}};

@@ -105,6 +105,12 @@ namespace NMM
       double       ddw[WeightFunctions::max_per_cell];
     };
 
+    /// Along straight edges displacements are polynomials d[0] + d[1] t + d[2] t^2 [m].
+    struct EdgeDisplacement
+    {
+      dealii::Tensor<1, 2> d[3];
+    };
+
     /**
      * @p obstacles are numbered after the blocks. The covers of all edges are made
      * relevant to all ranks, so vectors have to be laid out afterwards.
@@ -186,6 +192,19 @@ namespace NMM
     Place
     place(unsigned int edge, double t) const;
 
+    /// Of a straight edge, at the current displacements and time; of arcs it says
+    /// nothing.
+    EdgeDisplacement
+    edge_displacement(const unsigned int edge) const
+    {
+      EdgeDisplacement result;
+      if (is_rigid(edge))
+        result.d[0] = obstacle_displacements[all_edges[edge].body - n_blocks];
+      else
+        result = edge_displacements[edge];
+      return result;
+    }
+
     /// Is a point surely further than @p distance [m] from all places
     /// -before <= t <= 1 + after, both at most 1/2? For straight edges; of arcs this is
     /// not known. Much less work than looking for the nearest place.
@@ -233,12 +252,12 @@ namespace NMM
     std::pair<unsigned int, unsigned int> owned;
     unsigned int                          degree, n_blocks;
     const std::vector<double>            *nodal = nullptr;
-    /// Along straight edges displacements are polynomials d[0] + d[1] t + d[2] t^2.
-    struct Displacement
-    {
-      dealii::Tensor<1, 2> d[3];
-    };
-    std::vector<Displacement> edge_displacements;
+    /// Of blocks.
+    std::vector<EdgeDisplacement> edge_displacements;
+    /// Of straight edges' elements at t = 0, one edge after the other: weight functions and
+    /// their first and half their second derivatives by t.
+    std::vector<std::array<double, 3>> start_weights;
+    std::vector<unsigned int>          start_weights_begin;
     /// Construction only: edge of an element's boundary position.
     std::vector<std::pair<std::pair<unsigned int, unsigned int>, unsigned int>>
       position_to_edge;

@@ -1,0 +1,63 @@
+#ifndef nmm_source_contact_contact_motion_h
+#define nmm_source_contact_contact_motion_h
+
+#include <nmm/contact/contact_surface.h>
+
+#include <vector>
+
+namespace NMM
+{
+  namespace internal
+  {
+    /**
+     * How far faces move against each other in a step, at most: what is clear of each
+     * other by more than that needs no search.
+     *
+     * Displacements of a straight edge are c_0 + c_1 tau + c_2 tau^2 with
+     * tau = t - 1/2. For -1/2 <= t <= 3/2 they differ from c_0 by r = |c_1| + |c_2|
+     * at most, and the normal turns by
+     * (|c_1| + 2 |c_2|) / L. Hence a point of one edge, against what lies behind another
+     * one, or its continuation, by a depth of D at most, moves by
+     * @f[ |c_0^s - c_0^m| + r^s + r^m + \tfrac54 D\,(|c_1^m| + 2 |c_2^m|) / L^m, @f]
+     * as long as the other edge turns by less than half a radian; for coefficients
+     * that are differences between now and the begin. Everything in between has
+     * moved by less. Arcs move by any distance.
+     */
+    class ContactMotion
+    {
+    public:
+      /// Where the surface is now.
+      void
+      begin(const ContactSurface &surface);
+
+      /// The surface has moved.
+      void
+      move();
+
+      /// Of a place of @p edge against what is behind @p master by at most @p depth,
+      /// since the begin [m].
+      double
+      bound(const ContactSurface &surface,
+            unsigned int          edge,
+            unsigned int          master,
+            double                depth);
+
+    private:
+      struct Motion
+      {
+        unsigned int         version = 0;
+        dealii::Tensor<1, 2> center;
+        double               radius = 0., turn = 0.;
+      };
+
+      const Motion &
+      motion(const ContactSurface &surface, unsigned int edge);
+
+      std::vector<ContactSurface::EdgeDisplacement> at_begin;
+      std::vector<Motion>                           motions;
+      unsigned int                                  version = 0;
+    };
+  } // namespace internal
+} // namespace NMM
+
+#endif

@@ -1,0 +1,159 @@
+// What is clear of each other in a step does not touch at its end.
+
+#include <contact/contact_motion.h>
+#include <contact/contact_search.h>
+#include <contact/random_polygons.h>
+
+using namespace NMM;
+using namespace NMM::Test;
+
+namespace
+{
+  using internal::ContactMotion;
+  using internal::ContactProjection;
+  using internal::ContactSearch;
+  using Place = ContactSurface::Place;
+
+  /// Some way from one state to another one, of which most touches nothing else: blocks
+  /// are moved, turned and sheared.
+  std::vector<double>
+  move_on(const Bodies              &bodies,
+          const std::vector<double> &begin,
+          const double               way,
+          std::mt19937              &generator)
+  {
+    std::uniform_real_distribution<double> random(-1., 1.);
+    const unsigned int        n_blocks = bodies.physical_mesh.n_blocks();
+    std::vector<Tensor<1, 2>> shift(n_blocks);
+    std::vector<Tensor<2, 2>> gradient(n_blocks);
+    for (unsigned int b = 0; b < n_blocks; ++b)
+      for (unsigned int i = 0; i < 2; ++i)
+      {
+        shift[b][i] = way * random(generator);
+        for (unsigned int j = 0; j < 2; ++j)
+          gradient[b][i][j] = 8. * way * random(generator);
+      }
+    std::vector<double> end = begin;
+    for (unsigned int e = 0; e < bodies.mesh.n_elements(); ++e)
+      for (const unsigned int cover : bodies.covers.covers(e))
+      {
+        const unsigned int b = bodies.mesh.block(e);
+        const Point<2>     X = bodies.covers.node(cover);
+        const Tensor<1, 2> u = shift[b] +
+                               gradient[b] * (X - Point<2>(0.8, 0.8)) +
+                               Point<2>(way * X[0] * X[1], 0.);
+        for (unsigned int c = 0; c < 2; ++c)
+          end[2 * cover + c] = begin[2 * cover + c] + u[c];
+      }
+    return end;
+  }
+
+
+  /// Points of edges and corners, as Contact asks for them.
+  struct Query
+  {
+    unsigned int position, edge;
+    double       s, slack;
+    unsigned int home;
+    double       clearance;
+  };
+
+
+  TEST(ContactMotion, WhatIsClearDoesNotTouch)
+  {
+    constexpr double reach   = 0.2;
+    unsigned int     n_clear = 0, n_near = 0, n_new = 0;
+    for (unsigned int seed = 0; seed < 100; ++seed)
+    {
+      SCOPED_TRACE("seed " + std::to_string(seed));
+      std::mt19937 generator(seed);
+      Bodies       bodies =
+        random_bodies(generator, seed, seed % 4 == 0 ? 0.25 : 1.5);
+      auto                     &surface = bodies.surface;
+      ContactSearch             search(surface, {});
+      const std::vector<double> begin =
+        move(bodies, random_motions(bodies, generator));
+      surface.set_displacements(&begin);
+      search.update(reach);
+      ContactMotion motion;
+      motion.begin(surface);
+      std::vector<Query> queries;
+      for (unsigned int i = 0; i < search.slaves().size(); ++i)
+      {
+        const unsigned int edge      = search.slaves()[i];
+        const bool         is_corner = search.corner(i) != 2;
+        for (const double s : {0., 0.1, 0.5, 0.9, 1.})
+          for (const unsigned int home : search.masters(i))
+          {
+            Query q{i, edge, s, 0.1, home, 0.};
+            if (is_corner)
+              q = {i,
+                   edge,
+                   double(search.corner(i)),
+                   ContactSearch::corner_slack,
+                   ContactSearch::any_edge,
+                   0.};
+            q.clearance = search.clearance(surface.place(edge, q.s).x,
+                                           search.masters(i),
+                                           q.slack,
+                                           q.home);
+            queries.push_back(q);
+          }
+      }
+      const auto touches = [&](const Query &q) {
+        const Place             place = surface.place(q.edge, q.s);
+        const ContactProjection found =
+          search.corner(q.position) == 2
+            ? search.project(place, search.masters(q.position), q.slack, q.home)
+            : search.project_corner(place,
+                                    Tensor<1, 2>(),
+                                    search.masters(q.position),
+                                    invalid_index);
+        return found.master != invalid_index && found.gap < 0.;
+      };
+      std::vector<bool> touched;
+      for (const Query &q : queries)
+      {
+        touched.push_back(touches(q));
+        EXPECT_TRUE(!touched.back() || q.clearance == 0.);
+      }
+
+      for (const double way : {0.001, 0.01, 0.03})
+      {
+        std::vector<double> end = move_on(bodies, begin, way, generator);
+        std::vector<double> middle(end);
+        for (unsigned int i = 0; i < middle.size(); ++i)
+          middle[i] = 0.5 * (begin[i] + end[i]);
+        surface.set_displacements(&end);
+        motion.move();
+        std::vector<bool> is_clear;
+        for (const Query &q : queries)
+        {
+          double moved = 0.;
+          for (const unsigned int master : search.masters(q.position))
+            moved =
+              std::max(moved, motion.bound(surface, q.edge, master, reach));
+          is_clear.push_back(q.clearance > moved);
+          n_clear += is_clear.back();
+          n_near += !is_clear.back();
+        }
+        for (const auto *state : {&end, &middle})
+        {
+          surface.set_displacements(state);
+          for (unsigned int i = 0; i < queries.size(); ++i)
+          {
+            const bool now = touches(queries[i]);
+            EXPECT_FALSE(now && is_clear[i])
+              << "edge " << queries[i].edge << " at " << queries[i].s;
+            n_new += now && !touched[i];
+          }
+        }
+      }
+    }
+    std::cout << n_clear << " points are clear, " << n_near
+              << " are not, of which " << n_new << " come to touch"
+              << std::endl;
+    EXPECT_GT(n_clear, n_near / 10);
+    EXPECT_GT(n_new, 100U);
+  }
+} // namespace

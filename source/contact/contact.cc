@@ -160,39 +160,15 @@ namespace NMM
       return;
     if (points_begin.empty())
       list_points_of_bodies();
-    // few are sorted, many marked
-    constexpr unsigned int few = 16;
+    is_point_active.assign(points.size(), false);
+    for (unsigned int b = 0; b < is_active.size(); ++b)
+      if (is_active[b])
+        for (unsigned int i = points_begin[b]; i < points_begin[b + 1]; ++i)
+          is_point_active[body_to_points[i]] = true;
     active_points.clear();
-    unsigned int n = 0;
-    for (unsigned int b = 0; b < is_active.size(); ++b)
-      if (is_active[b])
-        n += points_begin[b + 1] - points_begin[b];
-    const bool are_few = few * n < points.size();
-    if (!are_few)
-      is_point_active.assign(points.size(), false);
-    for (unsigned int b = 0; b < is_active.size(); ++b)
-      if (is_active[b])
-      {
-        const auto begin = body_to_points.begin() + points_begin[b],
-                   end   = body_to_points.begin() + points_begin[b + 1];
-        if (are_few)
-          active_points.insert(active_points.end(), begin, end);
-        else
-          std::for_each(begin, end, [this](const unsigned int q) {
-            is_point_active[q] = true;
-          });
-      }
-    if (are_few)
-    {
-      std::sort(active_points.begin(), active_points.end());
-      active_points.erase(std::unique(active_points.begin(),
-                                      active_points.end()),
-                          active_points.end());
-    }
-    else
-      for (unsigned int q = 0; q < points.size(); ++q)
-        if (is_point_active[q])
-          active_points.push_back(q);
+    for (unsigned int q = 0; q < points.size(); ++q)
+      if (is_point_active[q])
+        active_points.push_back(q);
   }
 
 
@@ -282,10 +258,7 @@ namespace NMM
   double
   Contact::Data::largest_opening() const
   {
-    bool dilates = parameters.dilation > 0.;
-    for (const ContactPair &pair : parameters.pairs)
-      dilates = dilates || pair.law.dilation > 0.;
-    if (!dilates)
+    if (!laws.has_dilation())
       return 0.;
     double slip = 0.;
     for (const auto &[key, places] : stick_places)

@@ -173,7 +173,8 @@ namespace NMM
               const internal::ContactTraction   &traction,
               bool                               with_tangent);
 
-    /// Where a point is at the end of a step; false if it does not touch.
+    /// Where a point is at the end of a step; false, and open, if it touches neither there
+    /// nor at the begin.
     bool
     find_end(unsigned int q);
 
@@ -402,7 +403,7 @@ namespace NMM
     /// ContactSearch::slaves() have moved against each other, negative: not known.
     internal::ContactMotion motion;
     std::vector<double>     clearances, position_motion;
-    /// Active points that are not clear.
+    /// Active points that touch at the begin or the end of the step.
     std::vector<unsigned int> near_points;
 
     /// Of a time step: displacements and obstacles at its ends.

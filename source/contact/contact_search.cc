@@ -460,8 +460,8 @@ namespace NMM
         const ContactSurface::Edge &edge = surface->edges()[master];
         ContactProjection           now;
         now.master          = master;
-        const double before = extension(edge.at_start, corner_slack);
-        const double after  = extension(edge.at_end, corner_slack);
+        const double before = extension(edge.at_start, rounding_slack);
+        const double after  = extension(edge.at_end, rounding_slack);
         if (surface->is_further(master, slave_place.x, reach, before, after) ||
             !find_nearest(master, slave_place.x, now.t, now.place) ||
             now.t < -before || now.t > 1. + after)
@@ -599,10 +599,8 @@ namespace NMM
                             const double       slack,
                             const unsigned int home)
     {
-      // parts of an edge
-      constexpr double rounding = 1e-9;
       return slack < 0. || master == home || home == any_edge ? slack
-                                                              : rounding;
+                                                              : rounding_slack;
     }
 
 

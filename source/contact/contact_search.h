@@ -167,8 +167,9 @@ namespace NMM
         return largest_distance(accepted_positions);
       }
 
-      /// Parts of an edge by which it goes on beyond its ends for corners.
-      static constexpr double corner_slack = 1e-9;
+      /// Part of an edge by which it goes on beyond its ends because of rounding: for
+      /// corners, and where there is no other slack.
+      static constexpr double rounding_slack = 1e-9;
 
       /// As the home of project(): all of the masters.
       static constexpr unsigned int any_edge = invalid_index - 1;
@@ -230,7 +231,7 @@ namespace NMM
       /**
        * How far a point at @p x is, at least, from where it would be behind one of
        * the masters as project() finds it with @p slack and @p home, project_corner() with
-       * corner_slack and any_edge: the distance from the strips behind all of
+       * rounding_slack and any_edge: the distance from the strips behind all of
        * them that are as deep as the reach [m]. 0 if one of them is an arc.
        */
       double

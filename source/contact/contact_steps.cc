@@ -197,7 +197,7 @@ namespace NMM
                                          masters_of(q),
                                          fixed.corner >= Kind::along
                                            ? fixed.slack
-                                           : ContactSearch::corner_slack,
+                                           : ContactSearch::rounding_slack,
                                          fixed.corner >= Kind::along
                                            ? fixed.home
                                            : ContactSearch::any_edge);

@@ -149,6 +149,26 @@ namespace NMM
       for (const unsigned int cover : this->covers(e))
         relevant.push_back(cover);
     covers.make_relevant(std::move(relevant));
+    set_start_weights();
+  }
+
+
+  void
+  ContactSurface::set_start_weights()
+  {
+    edge_displacements.resize(all_edges.size());
+    start_weights_begin.assign(1, 0);
+    Weights f;
+    for (unsigned int e = 0; e < all_edges.size(); ++e)
+    {
+      if (!is_rigid(e) && all_edges[e].radius == 0.)
+      {
+        weights(e, 0., f);
+        for (unsigned int i = 0; i < f.n; ++i)
+          start_weights.push_back({{f.w[i], f.dw[i], 0.5 * f.ddw[i]}});
+      }
+      start_weights_begin.push_back(start_weights.size());
+    }
   }
 
 
@@ -404,25 +424,8 @@ namespace NMM
   void
   ContactSurface::set_displacements(const std::vector<double> *displacements)
   {
-    nodal                  = displacements;
-    const unsigned int n_e = all_edges.size();
-    if (edge_displacements.size() != n_e)
-    {
-      edge_displacements.resize(n_e);
-      start_weights_begin.assign(1, 0);
-      Weights f;
-      for (unsigned int e = 0; e < n_e; ++e)
-      {
-        if (!is_rigid(e) && all_edges[e].radius == 0.)
-        {
-          weights(e, 0., f);
-          for (unsigned int i = 0; i < f.n; ++i)
-            start_weights.push_back({{f.w[i], f.dw[i], 0.5 * f.ddw[i]}});
-        }
-        start_weights_begin.push_back(start_weights.size());
-      }
-    }
-    for (unsigned int e = 0; e < n_e; ++e)
+    nodal = displacements;
+    for (unsigned int e = 0; e < all_edges.size(); ++e)
     {
       const unsigned int begin = start_weights_begin[e],
                          n     = start_weights_begin[e + 1] - begin;

@@ -15,11 +15,12 @@ namespace
   using Place = ContactSurface::Place;
 
   /// Some way from one state to another one, of which most touches nothing else: blocks
-  /// are moved, turned and sheared.
+  /// are moved, turned and sheared, and all are bent.
   std::vector<double>
   move_on(const Bodies              &bodies,
           const std::vector<double> &begin,
           const double               way,
+          const double               bend,
           std::mt19937              &generator)
   {
     std::uniform_real_distribution<double> random(-1., 1.);
@@ -41,7 +42,7 @@ namespace
         const Point<2>     X = bodies.covers.node(cover);
         const Tensor<1, 2> u = shift[b] +
                                gradient[b] * (X - Point<2>(0.8, 0.8)) +
-                               Point<2>(way * X[0] * X[1], 0.);
+                               Point<2>(bend * X[0] * X[1], bend * X[0] * X[0]);
         for (unsigned int c = 0; c < 2; ++c)
           end[2 * cover + c] = begin[2 * cover + c] + u[c];
       }
@@ -72,7 +73,11 @@ namespace
       auto                     &surface = bodies.surface;
       ContactSearch             search(surface, {});
       const std::vector<double> begin =
-        move(bodies, random_motions(bodies, generator));
+        move_on(bodies,
+                move(bodies, random_motions(bodies, generator)),
+                0.,
+                seed % 4 < 2 ? 0.3 : 0.,
+                generator);
       surface.set_displacements(&begin);
       search.update(reach);
       ContactMotion motion;
@@ -90,7 +95,7 @@ namespace
               q = {i,
                    edge,
                    double(search.corner(i)),
-                   ContactSearch::corner_slack,
+                   ContactSearch::rounding_slack,
                    ContactSearch::any_edge,
                    0.};
             q.clearance = search.clearance(surface.place(edge, q.s).x,
@@ -120,7 +125,7 @@ namespace
 
       for (const double way : {0.001, 0.01, 0.03})
       {
-        std::vector<double> end = move_on(bodies, begin, way, generator);
+        std::vector<double> end = move_on(bodies, begin, way, way, generator);
         std::vector<double> middle(end);
         for (unsigned int i = 0; i < middle.size(); ++i)
           middle[i] = 0.5 * (begin[i] + end[i]);
@@ -155,5 +160,78 @@ namespace
               << std::endl;
     EXPECT_GT(n_clear, n_near / 10);
     EXPECT_GT(n_new, 100U);
+  }
+
+
+  /// A column whose top turns about its middle, and the lower left corner of another
+  /// block, which comes to be behind the top by that.
+  void
+  check_turn(const double    width,
+             const Point<2> &corner,
+             const double    angle,
+             const double    reach,
+             const double    expected_clearance)
+  {
+    Geometry geometry;
+    add_named_box(geometry, "column ", {0., 0.}, {width, 1.});
+    add_named_box(geometry, "other ", corner, corner + Point<2>(0.9, 0.9));
+    Bodies::Options options;
+    options.cell_size           = 5.;
+    options.mesh_of_every_block = true;
+    Bodies             bodies(std::move(geometry), options);
+    auto              &surface = bodies.surface;
+    const unsigned int column =
+      bodies.mesh.block(bodies.mesh.find_element({0.5 * width, 0.5}));
+    unsigned int top = invalid_index, bottom = invalid_index;
+    for (unsigned int e = 0; e < surface.edges().size(); ++e)
+      if (surface.name(e) == "column top")
+        top = e;
+      else if (surface.name(e) == "other bottom")
+        bottom = e;
+    const auto  &edge = surface.edges()[bottom];
+    const double s    = edge.start[0] < edge.end[0] ? 0. : 1.;
+    const dealii::ArrayView<const unsigned int> masters(&top, 1);
+    const std::vector<double> nodal(2 * bodies.covers.n_covers(), 0.);
+    surface.set_displacements(&nodal);
+    ContactSearch search(surface, {});
+    search.update(reach);
+    const double clearance =
+      search.clearance(surface.place(bottom, s).x, masters, 0., invalid_index);
+    EXPECT_NEAR(clearance, expected_clearance, 1e-9);
+    ContactMotion motion;
+    motion.begin(surface);
+
+    std::vector<Motion> motions(2);
+    motions[column].center = Point<2>(0.5 * width, 1.);
+    motions[column].angle  = angle;
+    const auto end         = move(bodies, motions);
+    surface.set_displacements(&end);
+    motion.move();
+    const ContactProjection found =
+      search.project(surface.place(bottom, s), masters, 0., invalid_index);
+    ASSERT_EQ(found.master, top);
+    EXPECT_LT(found.gap, 0.);
+    EXPECT_GT(motion.bound(surface, bottom, top, reach), clearance);
+  }
+
+
+  /// Above the end of a long face, which is lifted.
+  TEST(ContactMotion, LongFaceThatTurns)
+  {
+    constexpr double gap = 0.01;
+    check_turn(2., Point<2>(1.9, 1. + gap), 2. * gap, 0.1, gap);
+  }
+
+
+  /// Beside a narrow column and far below its top: what turns by little moves there by
+  /// more than anything on the face itself.
+  TEST(ContactMotion, ShortFaceThatTurns)
+  {
+    constexpr double depth = 0.4, beside = 0.02;
+    check_turn(0.1,
+               Point<2>(0.1 + beside, 1. - depth),
+               1.5 * beside / depth,
+               0.5,
+               beside);
   }
 } // namespace

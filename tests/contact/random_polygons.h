@@ -102,9 +102,6 @@ namespace NMM
         }
       return motions;
     }
-
-
-
   } // namespace Test
 } // namespace NMM
 

@@ -245,6 +245,9 @@ namespace NMM
     void
     set_corners();
 
+    void
+    set_start_weights();
+
     CoverSystem                          *cover_pointer;
     std::vector<RigidObstacle>            rigid_obstacles;
     std::vector<dealii::Tensor<1, 2>>     obstacle_displacements;

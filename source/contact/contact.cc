@@ -104,7 +104,7 @@ namespace NMM
     d.set_admitted_depth();
     d.make_points();
     d.make_pattern();
-    d.points_begin.clear();
+    d.active_points.clear();
     d.note_activity();
   }
 
@@ -117,6 +117,10 @@ namespace NMM
     data->is_held   = is_held;
     data->is_held.resize(is_active.size(), false);
     data->note_activity();
+    if (!is_active.empty() && data->active_covers.empty())
+      data->list_covers_of_bodies();
+    data->active_covers.select(is_active);
+    data->active_edges.select(is_active);
     if (data->block_system)
       data->block_system->set_active_rows(is_active);
   }
@@ -127,28 +131,42 @@ namespace NMM
   {
     const unsigned int n = surface->n_bodies() - static_cast<unsigned int>(
                                                    surface->obstacles().size());
-    const auto &edges    = surface->edges();
-    const auto  for_each = [&](const auto &action) {
+    const auto &edges = surface->edges();
+    active_points.reinit(points.size(), [&](const auto &add) {
       for (unsigned int q = 0; q < points.size(); ++q)
       {
         const unsigned int position = point_data[q].slave;
         const unsigned int slave    = edges[search.slaves()[position]].body;
         if (slave < n)
-          action(slave, q);
+          add(q, slave);
         unsigned int last = slave;
         for (const unsigned int master : search.masters(position))
           if (edges[master].body < n && edges[master].body != last)
-            action(last = edges[master].body, q);
+            add(q, last = edges[master].body);
       }
-    };
-    points_begin.assign(n + 2, 0);
-    for_each(
-      [&](const unsigned int body, unsigned int) { ++points_begin[body + 2]; });
-    for (unsigned int b = 0; b < n; ++b)
-      points_begin[b + 2] += points_begin[b + 1];
-    body_to_points.resize(points_begin.back());
-    for_each([&](const unsigned int body, const unsigned int q) {
-      body_to_points[points_begin[body + 1]++] = q;
+    });
+  }
+
+
+  void
+  Contact::Data::list_covers_of_bodies()
+  {
+    const CoverSystem  &covers = surface->cover_system();
+    const ManifoldMesh &mesh   = covers.manifold_mesh();
+    active_covers.reinit(covers.n_covers(), [&](const auto &add) {
+      std::vector<bool> is_known(covers.n_covers(), false);
+      for (unsigned int e = 0; e < mesh.n_elements(); ++e)
+        for (const unsigned int k : covers.covers(e))
+          if (!is_known[k])
+          {
+            is_known[k] = true;
+            add(k, mesh.block(e));
+          }
+    });
+    active_edges.reinit(surface->edges().size(), [&](const auto &add) {
+      for (unsigned int e = 0; e < surface->edges().size(); ++e)
+        if (!surface->is_rigid(e))
+          add(e, surface->edges()[e].body);
     });
   }
 
@@ -156,19 +174,9 @@ namespace NMM
   void
   Contact::Data::note_activity()
   {
-    if (is_active.empty())
-      return;
-    if (points_begin.empty())
+    if (!is_active.empty() && active_points.empty())
       list_points_of_bodies();
-    is_point_active.assign(points.size(), false);
-    for (unsigned int b = 0; b < is_active.size(); ++b)
-      if (is_active[b])
-        for (unsigned int i = points_begin[b]; i < points_begin[b + 1]; ++i)
-          is_point_active[body_to_points[i]] = true;
-    active_points.clear();
-    for (unsigned int q = 0; q < points.size(); ++q)
-      if (is_point_active[q])
-        active_points.push_back(q);
+    active_points.select(is_active);
   }
 
 

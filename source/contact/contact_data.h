@@ -9,6 +9,7 @@
 #include <contact/contact_search.h>
 #include <contact/contact_terms.h>
 #include <map>
+#include <mechanics/active_items.h>
 #include <mechanics/block_system.h>
 
 namespace NMM
@@ -108,6 +109,11 @@ namespace NMM
     /// All faces move to where @p u (locally relevant) puts them.
     void
     move_to(const Vector &u);
+
+    /// The state at the end of a step is that of @p end in the active bodies, and the
+    /// one in its middle is the mean of both ends.
+    void
+    set_step_states(const Vector &end);
 
     /// Of the places of an edge, or of a corner.
     unsigned int
@@ -271,10 +277,7 @@ namespace NMM
     void
     for_each_active_point(const Action &action)
     {
-      const unsigned int n =
-        is_active.empty() ? points.size() : active_points.size();
-      for (unsigned int i = 0; i < n; ++i)
-        action(is_active.empty() ? i : active_points[i]);
+      active_points.for_each(points.size(), action);
     }
 
     void
@@ -282,6 +285,9 @@ namespace NMM
 
     void
     list_points_of_bodies();
+
+    void
+    list_covers_of_bodies();
 
     /// A point presses: on something that is not active?
     void
@@ -382,10 +388,9 @@ namespace NMM
 
     /// See Contact::set_active_bodies(); by body.
     std::vector<bool>         is_active, is_held;
-    std::vector<unsigned int> active_points, touched_bodies;
-    std::vector<char>         is_point_active;
-    /// Points that a body may have part in, one body after the other; empty: not known.
-    std::vector<unsigned int> body_to_points, points_begin;
+    std::vector<unsigned int> touched_bodies;
+    /// Points that active bodies may have part in, and their covers and edges.
+    internal::ActiveItems active_points, active_covers, active_edges;
 
     internal::ContactLocalSystem local;
     Matrix                       matrix;
@@ -400,14 +405,18 @@ namespace NMM
 
     /// Of a time step: how far points are at its begin from touching, 0: not known, or
     /// they may; and by how much the candidates at each position of
-    /// ContactSearch::slaves() have moved against each other, negative: not known.
-    internal::ContactMotion motion;
-    std::vector<double>     clearances, position_motion;
+    /// ContactSearch::slaves() have moved against each other, and at which assembly.
+    internal::ContactMotion   motion;
+    std::vector<double>       clearances, position_motion;
+    std::vector<unsigned int> position_assembly;
+    unsigned int              n_assemblies = 0;
     /// Active points that touch at the begin or the end of the step.
     std::vector<unsigned int> near_points;
 
-    /// Of a time step: displacements and obstacles at its ends.
-    std::vector<double>               nodal_begin, nodal_end;
+    /// Of a time step: displacements at its begin, faces at its end and in its middle, and
+    /// the way of obstacles.
+    std::vector<double>               nodal_begin;
+    ContactSurface::State             end_state, middle_state;
     std::vector<dealii::Tensor<1, 2>> obstacle_changes;
     double                            time = 0., time_begin = 0., step = 0.;
     bool                              is_between = false;

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <contact/contact_data.h>
+#include <mechanics/nodal_values.h>
 #include <sstream>
 
 namespace NMM
@@ -154,6 +155,7 @@ namespace NMM
       d.energies_of_pairs = d.pair_energies();
     d.keep_energies();
     d.nodal_begin = d.nodal;
+    d.end_state = d.middle_state = d.surface->state();
     for (unsigned int q = 0; q < d.points.size(); ++q)
     {
       d.point_data[q].gap_begin    = d.points[q].gap - d.opening_before(q);
@@ -183,6 +185,8 @@ namespace NMM
   {
     clearances.assign(points.size(), 0.);
     position_motion.resize(search.slaves().size());
+    position_assembly.assign(search.slaves().size(), 0);
+    n_assemblies = 0;
     // what slides apart may open faces that are in contact
     if (laws.has_dilation())
       return;
@@ -215,14 +219,17 @@ namespace NMM
     const PointData &fixed = point_data[q];
     // a corner of the master has a single candidate; others of a position the same ones
     const bool is_master_end = fixed.corner > Kind::along;
-    double     moved = is_master_end ? -1. : position_motion[fixed.slave];
-    if (moved < 0.)
-    {
+    const bool is_known =
+      !is_master_end && position_assembly[fixed.slave] == n_assemblies;
+    double moved = is_known ? position_motion[fixed.slave] : 0.;
+    if (!is_known)
       for (const unsigned int master : masters_of(q))
         moved = std::max(moved,
                          motion.bound(*surface, points[q].edge, master, reach));
-      if (!is_master_end)
-        position_motion[fixed.slave] = moved;
+    if (!is_master_end)
+    {
+      position_motion[fixed.slave]   = moved;
+      position_assembly[fixed.slave] = n_assemblies;
     }
     return clearances[q] > moved + rounding * reach;
   }
@@ -262,9 +269,9 @@ namespace NMM
       const auto covers = surface->covers(edge);
       for (unsigned int i = 0; i < f.n; ++i)
         for (unsigned int c = 0; c < 2; ++c)
-          motion[c] +=
-            sign * f.w[i] *
-            (nodal_end[2 * covers[i] + c] - nodal_begin[2 * covers[i] + c]);
+          motion[c] += sign * f.w[i] *
+                       (end_state.nodal[2 * covers[i] + c] -
+                        nodal_begin[2 * covers[i] + c]);
     };
     ContactSurface::Weights master;
     surface->weights(projection.master, projection.t, master);
@@ -417,7 +424,7 @@ namespace NMM
     surface->weights(projection.master, projection.t, weights);
     for (unsigned int i = 0; i < weights.n; ++i)
       for (unsigned int c = 0; c < 2; ++c)
-        stretch[c] -= weights.dw[i] * (nodal_end[2 * covers[i] + c] -
+        stretch[c] -= weights.dw[i] * (end_state.nodal[2 * covers[i] + c] -
                                        nodal_begin[2 * covers[i] + c]);
     const double along = motion * f.tangent, across = motion * f.normal;
     const double by_foot_along  = stretch * f.tangent,
@@ -556,6 +563,32 @@ namespace NMM
 
 
   void
+  Contact::Data::set_step_states(const Vector &end)
+  {
+    std::vector<double> &at_end = end_state.nodal;
+    if (active_covers.all())
+      read_nodal_values(surface->cover_system(), end, at_end);
+    else
+    {
+      const auto from = end.begin();
+      for (const unsigned int k : active_covers.chosen())
+      {
+        at_end[2 * k]     = *(from + 2 * k);
+        at_end[2 * k + 1] = *(from + 2 * k + 1);
+      }
+    }
+    active_covers.for_each(at_end.size() / 2, [&](const unsigned int k) {
+      for (const unsigned int i : {2 * k, 2 * k + 1})
+        middle_state.nodal[i] = 0.5 * (nodal_begin[i] + at_end[i]);
+    });
+    for (ContactSurface::State *state : {&end_state, &middle_state})
+      active_edges.for_each(surface->edges().size(), [&](const unsigned int e) {
+        surface->update(*state, e);
+      });
+  }
+
+
+  void
   Contact::assemble_between(const Vector &end,
                             const double  time,
                             const bool    with_tangent)
@@ -574,25 +607,23 @@ namespace NMM
     for (unsigned int i = 0; i < n_obstacles; ++i)
       d.obstacle_changes[i] = d.surface->obstacle_displacement(i);
     d.step = time - d.time_begin;
-    d.move_to(end);
+    d.set_step_states(end);
+    d.surface->set_state(d.end_state);
     d.is_conserving = true;
     d.set_admitted_depth();
     d.motion.move();
-    std::fill(d.position_motion.begin(), d.position_motion.end(), -1.);
+    ++d.n_assemblies;
     d.near_points.clear();
     d.for_each_active_point([&](const unsigned int q) {
       if (d.find_end(q))
         d.near_points.push_back(q);
     });
-    d.nodal_end = d.nodal;
 
     d.surface->set_time(d.time_begin);
     for (unsigned int i = 0; i < n_obstacles; ++i)
       d.obstacle_changes[i] -= d.surface->obstacle_displacement(i);
     d.surface->set_time(d.time_begin, time);
-    for (unsigned int i = 0; i < d.nodal.size(); ++i)
-      d.nodal[i] = 0.5 * (d.nodal_begin[i] + d.nodal_end[i]);
-    d.surface->set_displacements(&d.nodal);
+    d.surface->set_state(d.middle_state);
     d.is_between = true;
     d.block_system->reset(with_tangent);
     for (const unsigned int q : d.near_points)

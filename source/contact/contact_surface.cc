@@ -157,6 +157,7 @@ namespace NMM
   ContactSurface::set_start_weights()
   {
     edge_displacements.resize(all_edges.size());
+    current = edge_displacements.data();
     start_weights_begin.assign(1, 0);
     Weights f;
     for (unsigned int e = 0; e < all_edges.size(); ++e)
@@ -424,28 +425,58 @@ namespace NMM
   void
   ContactSurface::set_displacements(const std::vector<double> *displacements)
   {
-    nodal = displacements;
+    nodal   = displacements;
+    current = edge_displacements.data();
     for (unsigned int e = 0; e < all_edges.size(); ++e)
+      find_displacement(e, *nodal, edge_displacements[e]);
+  }
+
+
+  void
+  ContactSurface::find_displacement(const unsigned int         e,
+                                    const std::vector<double> &from,
+                                    EdgeDisplacement &displacement) const
+  {
+    const unsigned int begin = start_weights_begin[e],
+                       n     = start_weights_begin[e + 1] - begin;
+    if (n == 0)
+      return;
+    const auto   edge_covers = covers(e);
+    Tensor<1, 2> value, slope, bend;
+    for (unsigned int i = 0; i < n; ++i)
     {
-      const unsigned int begin = start_weights_begin[e],
-                         n     = start_weights_begin[e + 1] - begin;
-      if (n == 0)
-        continue;
-      const auto   edge_covers = covers(e);
-      Tensor<1, 2> value, slope, bend;
-      for (unsigned int i = 0; i < n; ++i)
+      const double                *u = from.data() + 2 * edge_covers[i];
+      const std::array<double, 3> &f = start_weights[begin + i];
+      for (unsigned int c = 0; c < 2; ++c)
       {
-        const double                *u = nodal->data() + 2 * edge_covers[i];
-        const std::array<double, 3> &f = start_weights[begin + i];
-        for (unsigned int c = 0; c < 2; ++c)
-        {
-          value[c] += f[0] * u[c];
-          slope[c] += f[1] * u[c];
-          bend[c] += f[2] * u[c];
-        }
+        value[c] += f[0] * u[c];
+        slope[c] += f[1] * u[c];
+        bend[c] += f[2] * u[c];
       }
-      edge_displacements[e] = {{value, slope, bend}};
     }
+    displacement = {{value, slope, bend}};
+  }
+
+
+  ContactSurface::State
+  ContactSurface::state() const
+  {
+    return {*nodal, {current, current + all_edges.size()}};
+  }
+
+
+  void
+  ContactSurface::update(State &state, const unsigned int edge) const
+  {
+    find_displacement(edge, state.nodal, state.edges[edge]);
+  }
+
+
+  void
+  ContactSurface::set_state(const State &state)
+  {
+    nodal   = &state.nodal;
+    current = state.edges.data();
   }
 
 
@@ -528,7 +559,7 @@ namespace NMM
     }
     if (edge.radius == 0.)
     {
-      const auto &d = edge_displacements[e].d;
+      const auto &d = current[e].d;
       place.x += d[0] + t * (d[1] + t * d[2]);
       place.a += d[1] + (2. * t) * d[2];
       place.b += 2. * d[2];
@@ -568,7 +599,7 @@ namespace NMM
     else
     {
       // the place is on the chord but for d_2 t (t - 1), |t (t - 1)| <= 3/4
-      const auto &d = edge_displacements[e].d;
+      const auto &d = current[e].d;
       way -= d[0];
       chord += d[1] + d[2];
       most += 0.75 * d[2].norm();

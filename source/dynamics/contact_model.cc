@@ -15,6 +15,7 @@ namespace NMM
     Contact                     *contact;
     std::vector<ObstacleRelease> releases;
     internal::MatrixSum          matrix;
+    internal::ActiveItems        active_rows;
     Vector                       sum;
     double                       scale       = 0.;
     bool                         is_detected = false;
@@ -28,9 +29,16 @@ namespace NMM
     void
     add_contact(const bool with_tangent)
     {
-      sum = model->residual();
-      sum += contact->residual();
-      scale = std::hypot(model->force_scale(), contact->residual().l2_norm());
+      const auto to         = sum.begin();
+      const auto of_model   = std::as_const(*model).residual().begin();
+      const auto of_contact = std::as_const(*contact).residual().begin();
+      double     square     = 0.;
+      active_rows.for_each(sum.locally_owned_size(), [&](const unsigned int i) {
+        *(to + i) = *(of_model + i) + *(of_contact + i);
+        square += *(of_contact + i) * *(of_contact + i);
+      });
+      square = dealii::Utilities::MPI::sum(square, sum.get_mpi_communicator());
+      scale  = std::hypot(model->force_scale(), std::sqrt(square));
       if (with_tangent)
         matrix.assemble(contact->tangent(),
                         1.,
@@ -38,7 +46,8 @@ namespace NMM
                         1.,
                         nullptr,
                         0.,
-                        contact->pattern_version());
+                        contact->pattern_version(),
+                        active_rows);
     }
   };
 
@@ -410,7 +419,9 @@ namespace NMM
   {
     data->model->set_active_blocks(is_active, is_held);
     data->contact->set_active_bodies(is_active, is_held);
-    data->matrix.set_active_rows(blocks_of_unknowns(), is_active);
+    if (!is_active.empty() && data->active_rows.empty())
+      data->active_rows.reinit(blocks_of_unknowns());
+    data->active_rows.select(is_active);
   }
 
 

@@ -3,9 +3,11 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <Epetra_CrsMatrix.h>
 #include <algorithm>
 #include <cmath>
 #include <dynamics/step_equations.h>
+#include <utility>
 
 namespace NMM
 {
@@ -83,17 +85,55 @@ namespace NMM
   void
   TimeIntegrator::Data::set_rates()
   {
-    // differences first: u_1 and u_0 are near each other
-    a_1 = u_1;
-    a_1 -= state.u;
-    a_1.add(-h, state.v);
-    if (scheme.beta != 0.5)
-      a_1.add(-h * h * (0.5 - scheme.beta), state.a);
-    a_1 *= 1. / (scheme.beta * h * h);
-    v_1 = state.v;
-    if (scheme.gamma != 1.)
-      v_1.add(h * (1. - scheme.gamma), state.a);
-    v_1.add(h * scheme.gamma, a_1);
+    const auto u_0 = std::as_const(state.u).begin(),
+               v_0 = std::as_const(state.v).begin(),
+               a_0 = std::as_const(state.a).begin(),
+               u   = std::as_const(u_1).begin();
+    const auto   v = v_1.begin(), a = a_1.begin();
+    const double by_a_0   = h * h * (0.5 - scheme.beta),
+                 by_u     = 1. / (scheme.beta * h * h),
+                 v_by_a_0 = h * (1. - scheme.gamma), v_by_a = h * scheme.gamma;
+    active_rows.for_each(u_1.locally_owned_size(), [&](const unsigned int i) {
+      // differences first: u_1 and u_0 are near each other
+      double x = u[i] - u_0[i] - h * v_0[i];
+      if (by_a_0 != 0.)
+        x -= by_a_0 * a_0[i];
+      a[i]     = by_u * x;
+      double y = v_0[i];
+      if (v_by_a_0 != 0.)
+        y += v_by_a_0 * a_0[i];
+      v[i] = y + v_by_a * a[i];
+    });
+  }
+
+
+  void
+  TimeIntegrator::Data::add_product(
+    const double                                  factor,
+    const dealii::TrilinosWrappers::SparseMatrix &A,
+    const Vector                                 &in,
+    Vector                                       &out)
+  {
+    if (active_rows.all())
+    {
+      A.vmult(other_scratch, in);
+      out.add(factor, other_scratch);
+      return;
+    }
+    // on one rank
+    const Epetra_CrsMatrix &matrix  = A.trilinos_matrix();
+    const int              *columns = matrix.ColMap().MyGlobalElements();
+    const auto              x       = in.begin();
+    const auto              y       = out.begin();
+    for (const unsigned int row : active_rows.chosen())
+    {
+      int     n, *indices;
+      double *values, sum = 0.;
+      matrix.ExtractMyRowView(row, n, values, indices);
+      for (int i = 0; i < n; ++i)
+        sum += values[i] * x[columns[indices[i]]];
+      y[row] += factor * sum;
+    }
   }
 
 
@@ -103,15 +143,9 @@ namespace NMM
                                     Vector       &out)
   {
     if (damping.mass > 0.)
-    {
-      model->mass().vmult(other_scratch, in);
-      out.add(factor * damping.mass, other_scratch);
-    }
+      add_product(factor * damping.mass, model->mass(), in, out);
     if (damps_by_stiffness())
-    {
-      stiffness_at_rest.vmult(other_scratch, in);
-      out.add(factor * damping.stiffness, other_scratch);
-    }
+      add_product(factor * damping.stiffness, stiffness_at_rest, in, out);
   }
 
 
@@ -145,7 +179,8 @@ namespace NMM
                     m + c * damping.mass,
                     damps_by_stiffness() ? &stiffness_at_rest : nullptr,
                     c * damping.stiffness,
-                    model->pattern_version());
+                    model->pattern_version(),
+                    active_rows);
   }
 
 
@@ -154,29 +189,49 @@ namespace NMM
                                  const Tangent tangent,
                                  const Vector *increment)
   {
-    u_1 = u;
+    const unsigned int n = u_1.locally_owned_size();
+    if (active_rows.all())
+      u_1 = u;
+    else
+      for (const unsigned int i : active_rows.chosen())
+        u_1.begin()[i] = u.begin()[i];
     set_rates();
     if (assemble_forces(u, tangent, increment) != Deformation::admissible)
       return Deformation::inverted;
     if (tangent != Tangent::none)
       make_matrix();
 
-    scratch = a_1;
-    if (scheme.alpha_m != 0.)
-      scratch.sadd(1. - scheme.alpha_m, scheme.alpha_m, state.a);
-    model->mass().vmult(forces, scratch);
-    scale = std::hypot(model->force_scale(), forces.l2_norm());
+    /// x + alpha (x_0 - x)
+    const auto mix =
+      [&](const Vector &x, const double alpha, const Vector &x_0) {
+        const auto from = x.begin(), other = x_0.begin();
+        const auto to = scratch.begin();
+        active_rows.for_each(n, [&](const unsigned int i) {
+          to[i] =
+            alpha == 0. ? from[i] : (1. - alpha) * from[i] + alpha * other[i];
+        });
+      };
+    const auto f = forces.begin();
+    active_rows.for_each(n, [&](const unsigned int i) { f[i] = 0.; });
+    mix(a_1, scheme.alpha_m, state.a);
+    add_product(1., model->mass(), scratch, forces);
+    const auto r      = model->residual().begin();
+    double     square = 0.;
+    active_rows.for_each(n, [&](const unsigned int i) {
+      square += f[i] * f[i];
+      f[i] += r[i];
+    });
+    square = dealii::Utilities::MPI::sum(square, model->communicator());
+    scale  = std::hypot(model->force_scale(), std::sqrt(square));
     // accelerations are differences of displacements: their rounding must stay
     // below tolerances, however small the step
     constexpr double rounding = 1e-6;
     scale                     = std::hypot(scale,
                        rounding / (scheme.beta * h * h) * mass_of_displacement);
-    forces += model->residual();
-    scratch = v_1;
-    if (scheme.alpha_f != 0.)
-      scratch.sadd(1. - scheme.alpha_f, scheme.alpha_f, state.v);
+    mix(v_1, scheme.alpha_f, state.v);
     add_damping(1., scratch, forces);
-    model->constraints().set_zero(forces);
+    if (model->constraints().n_constraints() > 0)
+      model->constraints().set_zero(forces);
     return Deformation::admissible;
   }
 
@@ -359,7 +414,7 @@ namespace NMM
         newton.solve(*this, model->constraints(), u_end);
       report.converged = result.converged;
       report.reason    = result.reason;
-      report.n_iterations += result.iterations.size();
+      report.n_iterations += result.n_iterations;
       for (const NewtonReport::Iteration &iteration : result.iterations)
         report.n_full_iterations += iteration.active_share;
       report.factorization_time += result.factorization_time;

@@ -65,7 +65,9 @@ namespace NMM
     set_active_blocks(const std::vector<bool> &is_active) override
     {
       model->set_active_blocks(is_active, held_blocks());
-      matrix.set_active_rows(model->blocks_of_unknowns(), is_active);
+      if (!is_active.empty() && active_rows.empty())
+        active_rows.reinit(model->blocks_of_unknowns());
+      active_rows.select(is_active);
     }
 
     const std::vector<bool> &
@@ -87,9 +89,16 @@ namespace NMM
       return Vector(model->locally_owned(), model->communicator());
     }
 
-    /// v_1 and a_1 of u_1.
+    /// v_1 and a_1 of u_1, in active rows.
     void
     set_rates();
+
+    /// out += factor A in, in active rows.
+    void
+    add_product(double                                        factor,
+                const dealii::TrilinosWrappers::SparseMatrix &A,
+                const Vector                                 &in,
+                Vector                                       &out);
 
     Deformation
     assemble_forces(const Vector &u, Tangent tangent, const Vector *increment);
@@ -154,6 +163,7 @@ namespace NMM
     NewtonSolver                            newton;
     dealii::TrilinosWrappers::SparseMatrix  stiffness_at_rest;
     internal::MatrixSum                     matrix;
+    internal::ActiveItems                   active_rows;
     std::unique_ptr<internal::DirectSolver> mass_solver, linear_solver;
     /// What linear_solver was factorized for.
     double factorized_step = 0., factorized_events = 0.;

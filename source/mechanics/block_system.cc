@@ -470,15 +470,16 @@ namespace NMM
     void
     BlockSystem::set_active_rows(const std::vector<bool> &blocks)
     {
-      if (!blocks.empty() && row_to_block.empty())
+      if (!blocks.empty() && active_rows.empty())
       {
-        const ManifoldMesh &mesh = covers->manifold_mesh();
-        row_to_block.resize(n_owned);
+        const ManifoldMesh       &mesh = covers->manifold_mesh();
+        std::vector<unsigned int> row_to_block(n_owned);
         for (unsigned int e = 0; e < mesh.n_elements(); ++e)
           for (const unsigned int k : covers->covers(e))
             row_to_block[cover_to_local[k]] = mesh.block(e);
+        active_rows.reinit(row_to_block);
       }
-      active_rows.select(row_to_block, blocks);
+      active_rows.select(blocks);
     }
 
 
@@ -493,7 +494,9 @@ namespace NMM
                     values.begin() + 4 * row_begin[r + 1],
                     0.);
         });
-      std::fill(right_hand_side.begin(), right_hand_side.end(), 0.);
+      active_rows.for_each(n_rows, [this](const unsigned int r) {
+        right_hand_side[2 * r] = right_hand_side[2 * r + 1] = 0.;
+      });
     }
 
 

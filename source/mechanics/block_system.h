@@ -9,7 +9,7 @@
 #include <deal.II/lac/trilinos_vector.h>
 
 #include <array>
-#include <mechanics/active_rows.h>
+#include <mechanics/active_items.h>
 #include <vector>
 
 class Epetra_CrsMatrix;
@@ -201,9 +201,8 @@ namespace NMM
       std::vector<unsigned int> columns;
       std::vector<double>       values;
       std::vector<double>       right_hand_side;
-      /// Block rows that count, unless all do, and the block of each.
-      ActiveRows                active_rows;
-      std::vector<unsigned int> row_to_block;
+      /// Block rows that count.
+      ActiveItems active_rows;
 
       /// Per rank: rows sent and received, each as cover, n, n columns (global).
       std::vector<std::pair<unsigned int, std::vector<unsigned int>>> sent,

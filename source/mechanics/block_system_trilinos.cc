@@ -131,9 +131,11 @@ namespace NMM
     {
       if (rhs.size() != 2 * covers->n_global_covers())
         rhs.reinit(covers->locally_owned_dofs(2), covers->communicator());
-      std::copy(right_hand_side.begin(),
-                right_hand_side.begin() + 2 * n_owned,
-                rhs.begin());
+      const auto to = rhs.begin();
+      active_rows.for_each(n_owned, [&](const unsigned int r) {
+        *(to + 2 * r)     = right_hand_side[2 * r];
+        *(to + 2 * r + 1) = right_hand_side[2 * r + 1];
+      });
     }
   } // namespace internal
 } // namespace NMM

@@ -145,12 +145,26 @@ namespace NMM
       std::vector<Load> boundary_conditions, point_forces;
       Load              gravity, body_force;
 
+      /// Call action(load) for all loads: boundary conditions, point forces, gravity and
+      /// the body force.
+      template <typename Action>
+      void
+      for_each_load(const Action &action) const
+      {
+        for (const Load &load : boundary_conditions)
+          action(load);
+        for (const Load &load : point_forces)
+          action(load);
+        action(gravity);
+        action(body_force);
+      }
+
       /// Call action(cover, force) for the forces of all loads.
       template <typename Action>
       void
       for_each_force(const Action &action) const
       {
-        const auto visit = [&](const Load &load) {
+        for_each_load([&](const Load &load) {
           for (unsigned int i = 0; i < load.covers.size(); ++i)
           {
             dealii::Tensor<1, 2> force;
@@ -158,13 +172,7 @@ namespace NMM
             force[1] = load.forces[2 * i + 1];
             action(load.covers[i], force);
           }
-        };
-        for (const Load &load : boundary_conditions)
-          visit(load);
-        for (const Load &load : point_forces)
-          visit(load);
-        visit(gravity);
-        visit(body_force);
+        });
       }
 
     private:

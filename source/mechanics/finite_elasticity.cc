@@ -59,11 +59,14 @@ namespace NMM
                                      const LoadAmplitudes *last,
                                      const double          damping)
   {
-    read_nodal_values(*data->covers, begin, data->nodal_begin);
-    read_nodal_values(*data->covers, end, data->nodal_end);
-    data->nodal.resize(data->nodal_begin.size());
-    for (unsigned int i = 0; i < data->nodal.size(); ++i)
-      data->nodal[i] = 0.5 * (data->nodal_begin[i] + data->nodal_end[i]);
+    Data &d = *data;
+    d.read(begin, d.nodal_begin);
+    d.read(end, d.nodal_end);
+    d.nodal.resize(d.nodal_begin.size());
+    d.active_covers.for_each(d.covers->n_covers(), [&](const unsigned int k) {
+      for (const unsigned int i : {2 * k, 2 * k + 1})
+        d.nodal[i] = 0.5 * (d.nodal_begin[i] + d.nodal_end[i]);
+    });
     Data::Task task{load_factor,
                     tangent,
                     tangent != Tangent::none,
@@ -136,8 +139,7 @@ namespace NMM
   void
   FiniteElasticity::set_active_blocks(const std::vector<bool> &is_active)
   {
-    data->active_blocks = is_active;
-    data->block_system.set_active_rows(is_active);
+    data->set_active_blocks(is_active);
   }
 
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <mechanics/finite_elasticity_data.h>
 #include <mechanics/floating_blocks.h>
+#include <mechanics/nodal_values.h>
 #include <mechanics/trace_constant.h>
 
 // One assembly: volumes, conditions and ties, loads.
@@ -91,6 +92,58 @@ namespace NMM
     }
     block_system.ignore_inhomogeneities();
     block_system.build();
+  }
+
+
+  void
+  FiniteElasticity::Data::set_active_blocks(const std::vector<bool> &blocks)
+  {
+    active_blocks = blocks;
+    block_system.set_active_rows(blocks);
+    if (!blocks.empty() && active_elements.empty())
+    {
+      const ManifoldMesh       &mesh = covers->manifold_mesh();
+      std::vector<unsigned int> element_to_block(mesh.n_elements()),
+        cover_to_block(covers->n_covers());
+      for (unsigned int e = 0; e < mesh.n_elements(); ++e)
+      {
+        element_to_block[e] = mesh.block(e);
+        for (const unsigned int k : covers->covers(e))
+          cover_to_block[k] = mesh.block(e);
+      }
+      active_elements.reinit(element_to_block);
+      active_covers.reinit(cover_to_block);
+      dead_loads.for_each_load([&](const DeadLoads::Load &load) {
+        active_loads.emplace_back();
+        active_loads.back().reinit(load.covers.size(), [&](const auto &add) {
+          for (unsigned int i = 0; i < load.covers.size(); ++i)
+            add(i, cover_to_block[load.covers[i]]);
+        });
+      });
+    }
+    active_elements.select(blocks);
+    active_covers.select(blocks);
+    for (internal::ActiveItems &load : active_loads)
+      load.select(blocks);
+  }
+
+
+  void
+  FiniteElasticity::Data::read(const Vector &u, std::vector<double> &to) const
+  {
+    // ties look at blocks beside active ones
+    if (active_covers.all() || !edges->ties.empty() ||
+        to.size() != 2 * covers->n_covers())
+    {
+      read_nodal_values(*covers, u, to);
+      return;
+    }
+    const auto from = u.begin();
+    for (const unsigned int k : active_covers.chosen())
+    {
+      to[2 * k]     = *(from + 2 * k);
+      to[2 * k + 1] = *(from + 2 * k + 1);
+    }
   }
 
 
@@ -263,15 +316,22 @@ namespace NMM
     const auto [first, last] = covers->locally_owned_elements();
     // what other threads work at then is in vain
     std::atomic<bool> is_inverted(false);
-    n_assembled        = 0;
-    const auto is_idle = [&](const unsigned int e) {
-      return is_absent(e) || !is_active(e);
+    n_assembled           = 0;
+    const bool is_all     = active_elements.all();
+    const auto element_of = [&](const unsigned int i) {
+      return is_all ? i : active_elements.chosen()[i];
+    };
+    const auto go_to = [](auto &site, const auto &end, const unsigned int e) {
+      while (site != end && site->element < e)
+        ++site;
+      return site != end && site->element == e;
     };
     for_each_in_order<Volume>(
-      first,
-      last,
-      [&](const unsigned int e, Volume &volume) {
-        if (is_idle(e) || is_inverted)
+      is_all ? first : 0,
+      is_all ? last : active_elements.chosen().size(),
+      [&](const unsigned int i, Volume &volume) {
+        const unsigned int e = element_of(i);
+        if (is_absent(e) || is_inverted)
           return;
         volume.u.gather(covers->covers(e), nodal);
         volume.local.reset(n_per_cell);
@@ -279,12 +339,11 @@ namespace NMM
         volume.state =
           add_volume(e, task, volume.u, volume.local, volume.energies);
       },
-      [&](const unsigned int e, Volume &volume) {
-        const bool has_condition = condition != edges->conditions.end() &&
-                                   condition->element == e,
-                   has_follower = follower != edges->followers.end() &&
-                                  follower->element == e;
-        if (!is_idle(e) && state == Deformation::admissible)
+      [&](const unsigned int i, Volume &volume) {
+        const unsigned int e     = element_of(i);
+        const bool has_condition = go_to(condition, edges->conditions.end(), e);
+        const bool has_follower  = go_to(follower, edges->followers.end(), e);
+        if (!is_absent(e) && state == Deformation::admissible)
         {
           ++n_assembled;
           energies.strain += volume.energies.strain;
@@ -303,8 +362,6 @@ namespace NMM
           gauge(volume.local, known);
           hand_over(covers->covers(e), task, volume.local);
         }
-        condition += has_condition ? 1 : 0;
-        follower += has_follower ? 1 : 0;
       });
     return state;
   }
@@ -342,19 +399,26 @@ namespace NMM
   void
   FiniteElasticity::Data::add_dead_loads(const Task &task)
   {
-    double     square = 0., work = 0.;
-    const auto add = [&](const DeadLoads::Load &load, const double factor) {
-      for (unsigned int i = 0; i < load.covers.size(); ++i)
-      {
+    double       square = 0., work = 0.;
+    unsigned int n   = 0;
+    const auto   add = [&](const DeadLoads::Load &load, const double factor) {
+      const auto add_entry = [&](const unsigned int i) {
         const unsigned int k = load.covers[i];
         if (!absent_covers.empty() && absent_covers[k])
-          continue;
+          return;
         const double f[2] = {-factor * load.forces[2 * i],
                              -factor * load.forces[2 * i + 1]};
         block_system.add_rhs({&k, 1}, f);
         square += f[0] * f[0] + f[1] * f[1];
         work += f[0] * nodal[2 * k] + f[1] * nodal[2 * k + 1];
-      }
+      };
+      if (active_elements.all())
+        for (unsigned int i = 0; i < load.covers.size(); ++i)
+          add_entry(i);
+      else
+        for (const unsigned int i : active_loads[n].chosen())
+          add_entry(i);
+      ++n;
     };
     for (unsigned int c = 0; c < dead_loads.boundary_conditions.size(); ++c)
       add(dead_loads.boundary_conditions[c], condition_factor(c, task));

@@ -131,6 +131,13 @@ namespace NMM
              active_blocks[covers->manifold_mesh().block(element)];
     }
 
+    void
+    set_active_blocks(const std::vector<bool> &blocks);
+
+    /// Displacements where they are needed.
+    void
+    read(const Vector &u, std::vector<double> &to) const;
+
     /// Add the squares of what has come to the forces since the last call.
     void
     gauge(const LocalSystem &local, double *known)
@@ -181,6 +188,9 @@ namespace NMM
     /// Empty, or by block; and which covers belong to them.
     std::vector<bool> absent_blocks, absent_covers, active_blocks;
     unsigned int      n_assembled = 0;
+    /// Of the active blocks: elements, covers, and entries of each dead load.
+    internal::ActiveItems              active_elements, active_covers;
+    std::vector<internal::ActiveItems> active_loads;
 
     /// Per weak point, what its penalty is multiplied by.
     std::vector<double> penalty_growth;

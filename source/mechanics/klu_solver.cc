@@ -5,6 +5,7 @@
 #include <base/disjoint_sets.h>
 #include <klu.h>
 #include <mechanics/klu_solver.h>
+#include <numeric>
 #include <vector>
 
 namespace NMM
@@ -59,16 +60,19 @@ namespace NMM
       }
 
       void
-      number_rows(const unsigned int n, const std::vector<bool> &mask)
+      number_rows(const unsigned int n, const std::vector<unsigned int> &some)
       {
-        rows.clear();
-        numbers.assign(n, left_out);
-        for (unsigned int i = 0; i < n; ++i)
-          if (mask.empty() || mask[i])
-          {
-            numbers[i] = rows.size();
-            rows.push_back(i);
-          }
+        for (const unsigned int row : rows)
+          numbers[row] = left_out;
+        numbers.resize(n, left_out);
+        rows = some;
+        if (some.empty())
+        {
+          rows.resize(n);
+          std::iota(rows.begin(), rows.end(), 0U);
+        }
+        for (unsigned int k = 0; k < rows.size(); ++k)
+          numbers[rows[k]] = k;
       }
 
       static constexpr unsigned int left_out = -1;
@@ -99,7 +103,7 @@ namespace NMM
 
     bool
     KluSolver::is_suitable(const dealii::TrilinosWrappers::SparseMatrix &matrix,
-                           const std::vector<bool>                      &rows)
+                           const std::vector<unsigned int>              &rows)
     {
       Data &d = *data;
       d.number_rows(matrix.m(), rows);
@@ -120,7 +124,7 @@ namespace NMM
 
     double
     KluSolver::analyze(const dealii::TrilinosWrappers::SparseMatrix &matrix,
-                       const std::vector<bool>                      &rows)
+                       const std::vector<unsigned int>              &rows)
     {
       Data &d = *data;
       d.number_rows(matrix.m(), rows);
@@ -188,8 +192,6 @@ namespace NMM
       klu_tsolve(
         d.symbolic, d.numeric, d.rows.size(), 1, d.scratch.data(), &d.common);
       const auto to = solution.begin();
-      if (d.rows.size() < solution.size())
-        std::fill(to, solution.end(), 0.);
       for (unsigned int k = 0; k < d.rows.size(); ++k)
         *(to + d.rows[k]) = d.scratch[k];
     }

@@ -38,17 +38,17 @@ namespace NMM
 
       /// Does no group of unknowns that are coupled by values other than zero have more
       /// than max_group? Looks no further than to the first that has.
-      /// Of @p rows; empty: of all.
+      /// Of @p rows, ascending; empty: of all.
       bool
       is_suitable(const dealii::TrilinosWrappers::SparseMatrix &matrix,
-                  const std::vector<bool>                      &rows);
+                  const std::vector<unsigned int>              &rows);
 
       /// Take values of @p rows and columns (empty: all) and order them. Returns how
       /// many operations the factorization is going to take per unknown: KLU has no dense
       /// kernels, what takes many is done better by others.
       double
       analyze(const dealii::TrilinosWrappers::SparseMatrix &matrix,
-              const std::vector<bool>                      &rows);
+              const std::vector<unsigned int>              &rows);
 
       /// After analyze(). @throws NumericalFailure for a singular matrix or lack of memory.
       void
@@ -58,7 +58,8 @@ namespace NMM
       double
       n_factor_entries() const;
 
-      /// 0 in rows that were left out. @p solution may be the same vector as @p rhs.
+      /// Leaves rows alone that were left out. @p solution may be the same vector as
+      /// @p rhs.
       void
       solve(const dealii::TrilinosWrappers::MPI::Vector &rhs,
             dealii::TrilinosWrappers::MPI::Vector       &solution);

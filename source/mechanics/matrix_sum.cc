@@ -43,13 +43,14 @@ namespace NMM
 
 
     void
-    MatrixSum::add(const Matrix &matrix,
-                   const double  factor,
-                   const Places &places)
+    MatrixSum::add(const Matrix      &matrix,
+                   const double       factor,
+                   const Places      &places,
+                   const ActiveItems &rows)
     {
       const Epetra_CrsMatrix &from = matrix.trilinos_matrix();
       const Epetra_CrsMatrix &to   = sum.trilinos_matrix();
-      active_rows.for_each(n_rows, [&](const unsigned int r) {
+      rows.for_each(from.NumMyRows(), [&](const unsigned int r) {
         int     n_from, n_to, *indices;
         double *from_values, *to_values;
         from.ExtractMyRowView(r, n_from, from_values, indices);
@@ -62,21 +63,14 @@ namespace NMM
 
 
     void
-    MatrixSum::set_active_rows(const std::vector<unsigned int> &block_of,
-                               const std::vector<bool>         &blocks)
-    {
-      active_rows.select(block_of, blocks);
-    }
-
-
-    void
     MatrixSum::assemble(const Matrix      &stiffness,
                         const double       k,
                         const Matrix      &mass,
                         const double       m,
                         const Matrix      *damping,
                         const double       c,
-                        const unsigned int version)
+                        const unsigned int version,
+                        const ActiveItems &rows)
     {
       if (sum.m() != stiffness.m() || version != known_version)
       {
@@ -90,8 +84,7 @@ namespace NMM
 
       const Epetra_CrsMatrix &from = stiffness.trilinos_matrix();
       const Epetra_CrsMatrix &to   = sum.trilinos_matrix();
-      n_rows                       = from.NumMyRows();
-      active_rows.for_each(n_rows, [&](const unsigned int r) {
+      rows.for_each(from.NumMyRows(), [&](const unsigned int r) {
         int     n, *indices;
         double *from_values, *to_values;
         from.ExtractMyRowView(r, n, from_values, indices);
@@ -99,9 +92,9 @@ namespace NMM
         for (int i = 0; i < n; ++i)
           to_values[i] = k * from_values[i];
       });
-      add(mass, m, mass_places);
+      add(mass, m, mass_places, rows);
       if (damping != nullptr && c != 0.)
-        add(*damping, c, damping_places);
+        add(*damping, c, damping_places, rows);
     }
   } // namespace internal
 } // namespace NMM

@@ -3,7 +3,7 @@
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
-#include <mechanics/active_rows.h>
+#include <mechanics/active_items.h>
 #include <vector>
 
 namespace NMM
@@ -20,21 +20,16 @@ namespace NMM
       using Matrix = dealii::TrilinosWrappers::SparseMatrix;
 
       /// @p damping may be null. @p version: another number if K has another
-      /// pattern.
+      /// pattern. Of @p rows only.
       void
-      assemble(const Matrix &stiffness,
-               double        k,
-               const Matrix &mass,
-               double        m,
-               const Matrix *damping,
-               double        c,
-               unsigned int  version = 0);
-
-      /// From now on assemble() makes rows of these blocks only, @p block_of having the
-      /// block of each row; empty: all.
-      void
-      set_active_rows(const std::vector<unsigned int> &block_of,
-                      const std::vector<bool>         &blocks);
+      assemble(const Matrix      &stiffness,
+               double             k,
+               const Matrix      &mass,
+               double             m,
+               const Matrix      *damping,
+               double             c,
+               unsigned int       version = 0,
+               const ActiveItems &rows    = ActiveItems());
 
       const Matrix &
       operator()() const
@@ -54,11 +49,12 @@ namespace NMM
       find_places(const Matrix &matrix) const;
 
       void
-      add(const Matrix &matrix, double factor, const Places &places);
+      add(const Matrix      &matrix,
+          double             factor,
+          const Places      &places,
+          const ActiveItems &rows);
 
       Matrix       sum;
-      unsigned int n_rows = 0;
-      ActiveRows   active_rows;
       Places       mass_places, damping_places;
       unsigned int known_version = 0;
     };

@@ -142,10 +142,13 @@ namespace NMM
           AssertDimension(i, values.size());
         }
 
-        /// An equation x = f of its own for each row that is not of @p kept.
+        /// An equation x = f of its own for each of @p n rows that is not of @p some.
         void
-        leave_out(const std::vector<bool> &kept)
+        keep(const std::vector<unsigned int> &some, const unsigned int n)
         {
+          std::vector<bool> kept(n, false);
+          for (const unsigned int row : some)
+            kept[row] = true;
           for (std::size_t i = 0; i < values.size(); ++i)
             if (!kept[rows[i] - 1] || !kept[columns[i] - 1])
               values[i] = rows[i] == columns[i] ? 1. : 0.;
@@ -198,7 +201,7 @@ namespace NMM
       bool      is_serial = false;
       KluSolver klu;
       /// What is solved for; empty: all.
-      std::vector<bool> rows;
+      std::vector<unsigned int> rows;
       /// The last factorization is KLU's.
       bool is_klus = false;
       /// See DirectSolver().
@@ -411,7 +414,7 @@ namespace NMM
     void
     DirectSolver::factorize(
       const dealii::TrilinosWrappers::SparseMatrix &matrix,
-      const std::vector<bool>                      &rows)
+      const std::vector<unsigned int>              &rows)
     {
       data->rows    = rows;
       data->is_klus = data->may_be_klus(matrix);
@@ -425,7 +428,7 @@ namespace NMM
       AssertDimension(matrix.m(), data->n);
       data->triplets.set_values(matrix.trilinos_matrix(), data->is_symmetric);
       if (!rows.empty())
-        data->triplets.leave_out(rows);
+        data->triplets.keep(rows, data->n);
       if (data->is_serial)
         gather(data->triplets.values,
                MPI_DOUBLE,
@@ -468,9 +471,6 @@ namespace NMM
       {
         if (&rhs != &solution)
           std::copy(rhs.begin(), rhs.end(), solution.begin());
-        for (unsigned int i = 0; i < data->rows.size(); ++i)
-          if (!data->rows[i])
-            *(solution.begin() + i) = 0.;
         data->mumps->data.rhs = &*solution.begin();
         data->run(3, "solution");
         return;

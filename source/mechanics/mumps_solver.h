@@ -64,11 +64,11 @@ namespace NMM
       /// Factorize; analyze() is called if it has not been. The pattern must be
       /// the one analyzed. @throws NumericalFailure with MUMPS' error code for a
       /// singular matrix or lack of memory.
-      /// @p rows: only these rows and columns are solved for, on one rank; solutions
-      /// are 0 in the others. Empty: all.
+      /// @p rows: only these rows and columns are solved for, ascending, on one rank;
+      /// solutions mean nothing in the others. Empty: all.
       void
       factorize(const dealii::TrilinosWrappers::SparseMatrix &matrix,
-                const std::vector<bool>                      &rows = {});
+                const std::vector<unsigned int>              &rows = {});
 
       /// @p solution has the layout of @p rhs; may be the same vector.
       void

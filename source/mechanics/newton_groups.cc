@@ -13,12 +13,17 @@ namespace NMM
                          const std::vector<bool>         &is_held,
                          const Vector                    &like)
     {
+      if (blocks != block_of)
+        active_unknowns.clear();
       block_of = blocks;
       n_all    = like.size();
+      if (active_unknowns.empty() && !blocks.empty())
+        active_unknowns.reinit(blocks);
       const unsigned int n =
         blocks.empty() ? 1
                        : *std::max_element(blocks.begin(), blocks.end()) + 1;
       groups.assign(n, Group());
+      states.assign(n, State::active);
       joined.reinit(n);
       if (blocks.empty())
         groups[0].n_unknowns = n_all;
@@ -26,10 +31,7 @@ namespace NMM
         ++groups[block].n_unknowns;
       for (unsigned int b = 0; b < is_held.size() && b < n; ++b)
         if (is_held[b])
-        {
-          groups[b].is_active = false;
-          groups[b].is_held   = true;
-        }
+          states[b] = State::held;
       number_roots();
     }
 
@@ -45,6 +47,24 @@ namespace NMM
         if (root_of[b] == b)
           all_roots.push_back(b);
       }
+      list_active();
+    }
+
+
+    void
+    NewtonGroups::list_active()
+    {
+      all_active_roots.clear();
+      active_blocks.clear();
+      for (unsigned int b = 0; b < groups.size(); ++b)
+        if (states[root_of[b]] == State::active)
+        {
+          active_blocks.push_back(b);
+          if (root_of[b] == b)
+            all_active_roots.push_back(b);
+        }
+      if (!block_of.empty())
+        active_unknowns.select(mask([](const Group &) { return true; }));
     }
 
 
@@ -55,10 +75,7 @@ namespace NMM
         return;
       const Epetra_CrsMatrix &entries    = matrix.trilinos_matrix();
       bool                    has_joined = false;
-      for (int row = 0; row < entries.NumMyRows(); ++row)
-      {
-        if (!groups[joined.find(block_of[row])].is_active)
-          continue;
+      active_unknowns.for_each(n_all, [&](const unsigned int row) {
         int     n;
         double *values;
         int    *columns;
@@ -71,7 +88,7 @@ namespace NMM
           const unsigned int a = joined.find(block_of[row]),
                              b = joined.find(other);
           // what is not active does not feel this row: see NonlinearSystem
-          if (a == b || !groups[a].is_active || !groups[b].is_active)
+          if (a == b || states[b] != State::active)
             continue;
           Group both;
           both.n_unknowns = groups[a].n_unknowns + groups[b].n_unknowns;
@@ -79,20 +96,9 @@ namespace NMM
           groups[joined.find(a)] = both;
           has_joined             = true;
         }
-      }
+      });
       if (has_joined)
         number_roots();
-    }
-
-
-    bool
-    NewtonGroups::is_any_active() const
-    {
-      return std::any_of(all_roots.begin(),
-                         all_roots.end(),
-                         [&](const unsigned int root) {
-                           return groups[root].is_active;
-                         });
     }
 
 
@@ -100,37 +106,95 @@ namespace NMM
     NewtonGroups::active_share() const
     {
       double n = 0.;
-      for (const unsigned int root : all_roots)
-        n += groups[root].is_active ? groups[root].n_unknowns : 0.;
+      for (const unsigned int root : all_active_roots)
+        n += groups[root].n_unknowns;
       return n / n_all;
     }
 
 
     void
-    NewtonGroups::wake(const unsigned int block)
+    NewtonGroups::wake(const std::vector<unsigned int> &blocks)
     {
-      Group &group = groups[root_of[block]];
-      if (group.is_active || group.is_held)
-        return;
-      const unsigned int n = group.n_unknowns;
-      group                = Group();
-      group.n_unknowns     = n;
+      bool is_any = false;
+      for (const unsigned int block : blocks)
+      {
+        const unsigned int root = root_of[block];
+        if (states[root] == State::active || states[root] == State::held)
+          continue;
+        const unsigned int n    = groups[root].n_unknowns;
+        groups[root]            = Group();
+        groups[root].n_unknowns = n;
+        states[root]            = State::active;
+        is_any                  = true;
+      }
+      if (is_any)
+        list_active();
+    }
+
+
+    void
+    NewtonGroups::let_go()
+    {
+      bool is_any = false;
+      for (const unsigned int root : all_active_roots)
+        if (groups[root].has_converged)
+        {
+          states[root] = State::done;
+          is_any       = true;
+        }
+      if (is_any)
+        list_active();
+    }
+
+
+    bool
+    NewtonGroups::postpone(const unsigned int most)
+    {
+      unsigned int n      = 0;
+      bool         is_any = false;
+      for (const unsigned int root : all_active_roots)
+      {
+        if (n >= most)
+        {
+          states[root] = State::waiting;
+          is_any       = true;
+        }
+        n += groups[root].n_unknowns;
+      }
+      if (is_any)
+        list_active();
+      return is_any;
+    }
+
+
+    bool
+    NewtonGroups::go_on(const unsigned int most)
+    {
+      unsigned int n = 0;
+      for (const unsigned int root : all_roots)
+        if (states[root] == State::waiting && n < most)
+        {
+          states[root] = State::active;
+          n += groups[root].n_unknowns;
+        }
+      if (n > 0)
+        list_active();
+      return n > 0;
     }
 
 
     void
     NewtonGroups::sum(const Vector &residual, const Vector &correction)
     {
-      for (const unsigned int root : all_roots)
+      for (const unsigned int root : all_active_roots)
         groups[root].product = groups[root].square = 0.;
-      auto r = residual.begin();
-      auto c = correction.begin();
-      for (unsigned int i = 0; r != residual.end(); ++r, ++c, ++i)
-      {
-        Group &group = of_unknown(i);
-        group.product += *r * *c;
-        group.square += *r * *r;
-      }
+      const auto r = residual.begin(), c = correction.begin();
+      active_unknowns.for_each(residual.locally_owned_size(),
+                               [&](const unsigned int i) {
+                                 Group &group = of_unknown(i);
+                                 group.product += r[i] * c[i];
+                                 group.square += r[i] * r[i];
+                               });
       if (!block_of.empty())
         return;
       double sums[2] = {groups[0].product, groups[0].square};
@@ -139,6 +203,17 @@ namespace NMM
                                   dealii::ArrayView<double>(sums, 2));
       groups[0].product = sums[0];
       groups[0].square  = sums[1];
+    }
+
+
+    void
+    NewtonGroups::sum_squares(const Vector &residual)
+    {
+      for (const unsigned int root : all_roots)
+        groups[root].square = 0.;
+      const auto r = residual.begin();
+      for (unsigned int i = 0; i < residual.locally_owned_size(); ++i)
+        of_unknown(i).square += r[i] * r[i];
     }
   } // namespace internal
 } // namespace NMM

@@ -5,6 +5,7 @@
 #include <deal.II/lac/trilinos_vector.h>
 
 #include <base/disjoint_sets.h>
+#include <mechanics/active_items.h>
 #include <mechanics/share_search.h>
 #include <vector>
 
@@ -17,6 +18,8 @@ namespace NMM
      * presses on something of the other: groups, each of which Newton's
      * method solves at its own pace. Groups only ever grow during a solution.
      * One group of all unknowns if there are no blocks to tell apart.
+     *
+     * Some are being solved (active), some wait for their turn, others are done or held.
      */
     class NewtonGroups
     {
@@ -25,11 +28,7 @@ namespace NMM
 
       struct Group
       {
-        /// Is it still being solved?
-        bool is_active = true;
-        /// It is not solved at all.
-        bool is_held = false;
-        /// Of this iteration.
+        /// It has the tangent of this iteration.
         bool has_tangent = false;
         /// In the last iteration.
         bool         has_converged = false;
@@ -56,11 +55,17 @@ namespace NMM
       void
       unite(const dealii::TrilinosWrappers::SparseMatrix &matrix);
 
-      /// Roots: one block of each group.
+      /// Roots, one block of each group: of all groups, and of active ones.
       const std::vector<unsigned int> &
       roots() const
       {
         return all_roots;
+      }
+
+      const std::vector<unsigned int> &
+      active_roots() const
+      {
+        return all_active_roots;
       }
 
       Group &
@@ -76,13 +81,22 @@ namespace NMM
       }
 
       bool
+      is_held(const unsigned int root) const
+      {
+        return states[root] == State::held;
+      }
+
+      bool
       are_there_several() const
       {
         return !block_of.empty();
       }
 
       bool
-      is_any_active() const;
+      is_any_active() const
+      {
+        return !all_active_roots.empty();
+      }
 
       /// Share of all unknowns that are in active groups.
       double
@@ -94,23 +108,39 @@ namespace NMM
         return n_all;
       }
 
-      /// The group of a block is active again, from the beginning, unless it is held.
+      /// The groups of these blocks are active again, from the beginning, unless they are
+      /// held.
       void
-      wake(unsigned int block);
+      wake(const std::vector<unsigned int> &blocks);
 
-      /// Blocks of groups for which @p is_meant; empty if that is all of them.
+      /// Active groups that have converged are done.
+      void
+      let_go();
+
+      /// Active groups wait, but for the first ones, that have @p most unknowns and no
+      /// fewer together. False if that is all of them.
+      bool
+      postpone(unsigned int most);
+
+      /// When nothing is active: the next ones, as many, of those that wait. False if
+      /// none does.
+      bool
+      go_on(unsigned int most);
+
+      /// Blocks of active groups for which @p is_meant; empty if that is all blocks.
       template <typename Predicate>
       std::vector<bool>
       mask(const Predicate &is_meant) const
       {
-        std::vector<bool> result(groups.size());
-        bool              is_all = true;
-        for (unsigned int b = 0; b < groups.size(); ++b)
-        {
-          result[b] = is_meant(groups[root_of[b]]);
-          is_all    = is_all && result[b];
-        }
-        return is_all ? std::vector<bool>() : result;
+        unsigned int      n = 0;
+        std::vector<bool> result(groups.size(), false);
+        for (const unsigned int b : active_blocks)
+          if (is_meant(groups[root_of[b]]))
+          {
+            result[b] = true;
+            ++n;
+          }
+        return n == groups.size() ? std::vector<bool>() : result;
       }
 
       /// Is the i-th owned unknown in a block of a mask()?
@@ -120,6 +150,13 @@ namespace NMM
         return blocks.empty() || blocks[block_of.empty() ? 0 : block_of[i]];
       }
 
+      /// Owned unknowns of active groups.
+      const ActiveItems &
+      unknowns() const
+      {
+        return active_unknowns;
+      }
+
       /// Group of the i-th owned unknown.
       Group &
       of_unknown(const unsigned int i)
@@ -127,18 +164,37 @@ namespace NMM
         return groups[block_of.empty() ? 0 : root_of[block_of[i]]];
       }
 
-      /// Products and squares of all groups, from the residual and a correction.
+      /// Products and squares of active groups, from the residual and a correction.
       void
       sum(const Vector &residual, const Vector &correction);
 
+      /// Squares of all groups.
+      void
+      sum_squares(const Vector &residual);
+
     private:
+      enum class State : unsigned char
+      {
+        active,
+        waiting,
+        done,
+        held
+      };
+
       void
       number_roots();
 
+      /// Lists of what is active.
+      void
+      list_active();
+
       DisjointSets              joined;
-      std::vector<unsigned int> block_of, root_of, all_roots;
-      std::vector<Group>        groups;
-      unsigned int              n_all = 0;
+      std::vector<unsigned int> block_of, root_of, all_roots, all_active_roots,
+        active_blocks;
+      std::vector<Group> groups;
+      std::vector<State> states;
+      ActiveItems        active_unknowns;
+      unsigned int       n_all = 0;
     };
   } // namespace internal
 } // namespace NMM

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <mechanics/mumps_solver.h>
 #include <mechanics/newton_groups.h>
+#include <utility>
 
 namespace NMM
 {
@@ -45,21 +46,20 @@ namespace NMM
     NonlinearSystem                         *system      = nullptr;
     const dealii::AffineConstraints<double> *constraints = nullptr;
     NewtonReport                            *report      = nullptr;
-    /// Owned unknowns. The residual of what is not active is that of the time when
-    /// it was.
-    Vector owned, correction, residual;
+    /// Owned unknowns, now and before the correction. The residual of what is not
+    /// active is that of the time when it was.
+    Vector owned, before, correction, residual;
+    /// How far each group came in the last iteration that it took part in; relevant
+    /// unknowns.
+    Vector last_increment;
     bool   use_increment = true;
     /// That of the last assembly of all, or of the first one.
     double       scale = 0.;
     NewtonGroups groups;
+    /// Of the groups that are being solved: with what came before they had to wait.
+    unsigned int n_iterations = 0;
     /// What active groups pressed on in this iteration.
     std::vector<unsigned int> touched;
-
-    static bool
-    is_active(const Group &group)
-    {
-      return group.is_active;
-    }
 
     template <typename Predicate>
     Deformation
@@ -69,6 +69,15 @@ namespace NMM
              const Predicate &is_meant);
 
     Deformation
+    assemble_all(const Vector &u);
+
+    Deformation
+    assemble_blocks(const Vector            &u,
+                    Tangent                  tangent,
+                    const Vector            *increment,
+                    const std::vector<bool> &blocks);
+
+    Deformation
     assemble_tangent(const Vector &u, const Vector *increment);
 
     void
@@ -76,6 +85,13 @@ namespace NMM
 
     void
     solve(const Vector &rhs, Vector &solution);
+
+    /// u becomes what owned unknowns of active groups say.
+    void
+    distribute(Vector &u);
+
+    void
+    note_increment();
 
     void
     begin_searches(bool use_slopes);
@@ -107,7 +123,7 @@ namespace NMM
   NewtonSolver::~NewtonSolver() = default;
 
 
-  /// Residual, and tangent, of groups for which @p is_meant.
+  /// Residual, and tangent, of active groups for which @p is_meant.
   template <typename Predicate>
   Deformation
   NewtonSolver::Data::assemble(const Vector    &u,
@@ -115,13 +131,32 @@ namespace NMM
                                const Vector    *increment,
                                const Predicate &is_meant)
   {
-    dealii::Timer     timer;
-    std::vector<bool> blocks;
+    return assemble_blocks(u,
+                           tangent,
+                           increment,
+                           groups.are_there_several() ? groups.mask(is_meant)
+                                                      : std::vector<bool>());
+  }
+
+
+  /// The residual of what is done or held, too.
+  Deformation
+  NewtonSolver::Data::assemble_all(const Vector &u)
+  {
+    return assemble_blocks(u, Tangent::none, nullptr, {});
+  }
+
+
+  /// Of blocks of active groups; of all if there are none.
+  Deformation
+  NewtonSolver::Data::assemble_blocks(const Vector            &u,
+                                      const Tangent            tangent,
+                                      const Vector            *increment,
+                                      const std::vector<bool> &blocks)
+  {
+    dealii::Timer timer;
     if (groups.are_there_several())
-    {
-      blocks = groups.mask(is_meant);
       system->set_active_blocks(blocks);
-    }
     const Deformation state = system->assemble(u, tangent, increment);
     if (groups.are_there_several())
       for (const unsigned int block : system->take_touched_blocks())
@@ -132,17 +167,24 @@ namespace NMM
     // the first one is of all that is not held
     if (blocks.empty() || scale == 0.)
       scale = system->force_scale();
+    double norm = 0.;
     if (blocks.empty())
+    {
       residual = system->residual();
+      norm     = residual.l2_norm();
+    }
     else
     {
-      auto from = system->residual().begin();
-      auto to   = residual.begin();
-      for (unsigned int i = 0; to != residual.end(); ++from, ++to, ++i)
-        if (groups.is_in(blocks, i))
-          *to = *from;
+      const auto from = system->residual().begin();
+      const auto to   = residual.begin();
+      groups.unknowns().for_each(residual.locally_owned_size(),
+                                 [&](const unsigned int i) {
+                                   if (groups.is_in(blocks, i))
+                                     to[i] = from[i];
+                                   norm += to[i] * to[i];
+                                 });
+      norm = std::sqrt(norm);
     }
-    const double norm         = residual.l2_norm();
     report->relative_residual = norm > 0. ? norm / scale : 0.;
     return std::isfinite(report->relative_residual) ? state
                                                     : Deformation::inverted;
@@ -155,8 +197,8 @@ namespace NMM
   Deformation
   NewtonSolver::Data::assemble_tangent(const Vector &u, const Vector *increment)
   {
-    const unsigned int k = report->iterations.size();
-    for (const unsigned int root : groups.roots())
+    const unsigned int k = n_iterations;
+    for (const unsigned int root : groups.active_roots())
       groups[root].has_tangent = false;
     touched.clear();
     while (true)
@@ -166,24 +208,37 @@ namespace NMM
                  k > parameters.n_robust_iterations ? Tangent::consistent
                                                     : Tangent::robust,
                  use_increment ? increment : nullptr,
-                 [](const Group &group) {
-                   return group.is_active && !group.has_tangent;
-                 });
+                 [](const Group &group) { return !group.has_tangent; });
       if (state != Deformation::admissible)
         return state;
-      for (const unsigned int root : groups.roots())
-        groups[root].has_tangent = groups[root].is_active;
-      for (const unsigned int block : touched)
-        groups.wake(block);
+      for (const unsigned int root : groups.active_roots())
+        groups[root].has_tangent = true;
+      groups.wake(touched);
       touched.clear();
-      if (std::all_of(groups.roots().begin(),
-                      groups.roots().end(),
+      if (std::all_of(groups.active_roots().begin(),
+                      groups.active_roots().end(),
                       [this](const unsigned int root) {
-                        return !groups[root].is_active ||
-                               groups[root].has_tangent;
+                        return groups[root].has_tangent;
                       }))
         return state;
     }
+  }
+
+
+  void
+  NewtonSolver::Data::note_increment()
+  {
+    if (groups.unknowns().all())
+    {
+      Vector change(owned);
+      change -= before;
+      last_increment = change;
+      return;
+    }
+    const auto to = last_increment.begin();
+    for (const unsigned int i : groups.unknowns().chosen())
+      to[i] =
+        std::as_const(owned).begin()[i] - std::as_const(before).begin()[i];
   }
 
 
@@ -203,17 +258,7 @@ namespace NMM
                      : internal::DirectSolver::Symmetry::unsymmetric,
         groups.are_there_several());
     }
-    const std::vector<bool> blocks =
-      groups.are_there_several() ? groups.mask(is_active) : std::vector<bool>();
-    if (blocks.empty())
-      direct_solver->factorize(system->tangent());
-    else
-    {
-      std::vector<bool> rows(n);
-      for (unsigned int i = 0; i < n; ++i)
-        rows[i] = groups.is_in(blocks, i);
-      direct_solver->factorize(system->tangent(), rows);
-    }
+    direct_solver->factorize(system->tangent(), groups.unknowns().chosen());
     report->factorization_time += timer.wall_time();
   }
 
@@ -222,9 +267,27 @@ namespace NMM
   NewtonSolver::Data::solve(const Vector &rhs, Vector &solution)
   {
     dealii::Timer timer;
-    solution.reinit(rhs, /* omit_zeroing_entries = */ true);
+    if (solution.size() != rhs.size())
+      solution.reinit(rhs);
     direct_solver->solve(rhs, solution);
     report->substitution_time += timer.wall_time();
+  }
+
+
+  void
+  NewtonSolver::Data::distribute(Vector &u)
+  {
+    if (groups.unknowns().all() || constraints->n_constraints() > 0)
+    {
+      constraints->distribute(owned);
+      u = owned;
+      return;
+    }
+    // one rank: both have the same unknowns
+    const auto from = owned.begin();
+    const auto to   = u.begin();
+    for (const unsigned int i : groups.unknowns().chosen())
+      to[i] = from[i];
   }
 
 
@@ -259,11 +322,9 @@ namespace NMM
   {
     constexpr unsigned int n_young = 4;
 
-    for (const unsigned int root : groups.roots())
+    for (const unsigned int root : groups.active_roots())
     {
       Group &group = groups[root];
-      if (!group.is_active)
-        continue;
       group.squares.push_back(group.square / (scale * scale));
       group.energies.push_back(std::abs(group.product));
       const auto k = group.energies.size();
@@ -285,29 +346,26 @@ namespace NMM
   Deformation
   NewtonSolver::Data::search_shares(Vector &u)
   {
-    const Vector before  = owned;
-    const auto   is_open = [](const Group &group) {
-      return group.is_active && !group.search.is_done();
+    const auto is_open = [](const Group &group) {
+      return !group.search.is_done();
     };
+    const auto         x = owned.begin(), a = before.begin();
+    const auto         c = std::as_const(correction).begin();
+    const unsigned int n = owned.locally_owned_size();
+    groups.unknowns().for_each(n, [&](const unsigned int i) { a[i] = x[i]; });
     Deformation state   = Deformation::admissible;
     bool        goes_on = true;
     while (goes_on)
     {
-      auto x = owned.begin();
-      auto a = before.begin();
-      auto c = correction.begin();
-      for (unsigned int i = 0; x != owned.end(); ++x, ++a, ++c, ++i)
-      {
-        const Group &group = groups.of_unknown(i);
-        *x = group.is_active ? *a - group.search.share() * *c : *a;
-      }
-      constraints->distribute(owned);
-      u     = owned;
+      groups.unknowns().for_each(n, [&](const unsigned int i) {
+        x[i] = a[i] - groups.of_unknown(i).search.share() * c[i];
+      });
+      distribute(u);
       state = assemble(u, Tangent::none, nullptr, is_open);
       if (state == Deformation::admissible)
         groups.sum(residual, correction);
       goes_on = false;
-      for (const unsigned int root : groups.roots())
+      for (const unsigned int root : groups.active_roots())
         if (is_open(groups[root]))
         {
           Group &group = groups[root];
@@ -325,6 +383,8 @@ namespace NMM
   bool
   NewtonSolver::Data::iterate(Vector &u, const Vector *increment)
   {
+    ++n_iterations;
+    report->n_iterations = std::max(report->n_iterations, n_iterations);
     report->iterations.emplace_back();
     NewtonReport::Iteration &iteration = report->iterations.back();
     if (assemble_tangent(u, increment) != Deformation::admissible)
@@ -349,9 +409,8 @@ namespace NMM
     }
     solve(residual, correction);
     groups.sum(residual, correction);
-    for (const unsigned int root : groups.roots())
-      if (groups[root].is_active)
-        iteration.energy += std::abs(groups[root].product);
+    for (const unsigned int root : groups.active_roots())
+      iteration.energy += std::abs(groups[root].product);
     if (!std::isfinite(iteration.energy))
     {
       report->reason = "the tangent is singular";
@@ -360,13 +419,14 @@ namespace NMM
 
     begin_searches(parameters.always_search);
     const Deformation state = search_shares(u);
-    for (const unsigned int root : groups.roots())
-      if (groups[root].is_active)
-      {
-        const ShareSearch &search = groups[root].search;
-        iteration.line_search = std::min(iteration.line_search, search.share());
-        report->n_line_search_cuts += search.n_cuts();
-      }
+    for (const unsigned int root : groups.active_roots())
+    {
+      const ShareSearch &search = groups[root].search;
+      iteration.line_search = std::min(iteration.line_search, search.share());
+      report->n_line_search_cuts += search.n_cuts();
+    }
+    if (use_increment)
+      note_increment();
     if (state != Deformation::admissible)
       report->reason =
         "every share of the correction gives a deformation that "
@@ -394,19 +454,18 @@ namespace NMM
   bool
   NewtonSolver::Data::refine(Vector &u)
   {
-    const auto is_new = [](const Group &group) {
-      return group.is_active && group.has_converged;
-    };
+    const auto is_new = [](const Group &group) { return group.has_converged; };
     for (unsigned int i = 0; i < parameters.n_refinements; ++i)
     {
       solve(residual, correction);
-      auto x = owned.begin();
-      auto c = correction.begin();
-      for (unsigned int j = 0; x != owned.end(); ++x, ++c, ++j)
-        if (is_new(groups.of_unknown(j)))
-          *x -= *c;
-      constraints->distribute(owned);
-      u = owned;
+      const auto x = owned.begin();
+      const auto c = std::as_const(correction).begin();
+      groups.unknowns().for_each(owned.locally_owned_size(),
+                                 [&](const unsigned int j) {
+                                   if (is_new(groups.of_unknown(j)))
+                                     x[j] -= c[j];
+                                 });
+      distribute(u);
       if (assemble(u, Tangent::none, nullptr, is_new) !=
           Deformation::admissible)
       {
@@ -423,19 +482,16 @@ namespace NMM
   NewtonSolver::Data::settle(Vector &u, const double largest_energy)
   {
     bool is_any_new = false;
-    for (const unsigned int root : groups.roots())
+    for (const unsigned int root : groups.active_roots())
     {
       Group &group        = groups[root];
       group.has_converged = has_converged(group, largest_energy);
-      is_any_new = is_any_new || (group.is_active && group.has_converged);
+      is_any_new          = is_any_new || group.has_converged;
     }
     if (is_any_new && !refine(u))
       return false;
-    for (const unsigned int root : groups.roots())
-      groups[root].is_active =
-        groups[root].is_active && !groups[root].has_converged;
-    for (const unsigned int block : touched)
-      groups.wake(block);
+    groups.let_go();
+    groups.wake(touched);
     if (groups.is_any_active())
       return false;
     if (!groups.are_there_several())
@@ -443,20 +499,19 @@ namespace NMM
 
     // what was settled early may have been pressed on, below what was noticed; and
     // the caller may want to know forces on what is held
-    if (assemble(u, Tangent::none, nullptr, [](const Group &) {
-          return true;
-        }) != Deformation::admissible)
+    if (assemble_all(u) != Deformation::admissible)
     {
       report->reason = "the deformation is not admissible";
       return false;
     }
-    groups.sum(residual, correction);
+    groups.sum_squares(residual);
     const double allowed = parameters.residual_tolerance * scale;
+    touched.clear();
     for (const unsigned int root : groups.roots())
-      if (!groups[root].is_held &&
-          groups[root].square * groups.n_unknowns() >
-            allowed * allowed * groups[root].n_unknowns)
-        groups.wake(root);
+      if (groups[root].square * groups.n_unknowns() >
+          allowed * allowed * groups[root].n_unknowns)
+        touched.push_back(root);
+    groups.wake(touched);
     return !groups.is_any_active();
   }
 
@@ -476,18 +531,19 @@ namespace NMM
     d.owned.reinit(u.locally_owned_elements(), u.get_mpi_communicator());
     d.owned = u;
     d.residual.reinit(d.owned);
-    d.scale = 0.;
+    d.before.reinit(d.owned);
+    if (d.use_increment)
+      d.last_increment.reinit(u);
+    d.scale        = 0.;
+    d.n_iterations = 0;
     d.groups.reinit(system.blocks_of_unknowns(), system.held_blocks(), d.owned);
 
-    Vector last_increment(u), before(u);
     double largest_energy = 0.;
     // everything is held: only forces are wanted
     if (!d.groups.is_any_active())
       report.converged = d.settle(u, largest_energy);
-    while (!report.converged &&
-           report.iterations.size() < d.parameters.max_iterations)
+    while (!report.converged && d.n_iterations < d.parameters.max_iterations)
     {
-      before = u;
       if (!d.iterate(u, increment))
         break;
       largest_energy =
@@ -495,13 +551,12 @@ namespace NMM
       report.converged = d.settle(u, largest_energy);
       if (report.converged || !report.reason.empty())
         break;
-      last_increment = u;
-      last_increment -= before;
-      increment = &last_increment;
+      if (d.use_increment)
+        increment = &d.last_increment;
     }
     if (!report.converged && report.reason.empty())
-      report.reason = "no convergence in " +
-                      std::to_string(report.iterations.size()) + " iterations";
+      report.reason =
+        "no convergence in " + std::to_string(d.n_iterations) + " iterations";
     if (d.groups.are_there_several())
       system.set_active_blocks({});
     return report;

@@ -120,6 +120,10 @@ namespace NMM
     explicit ContactSurface(CoverSystem               &covers,
                             std::vector<RigidObstacle> obstacles = {});
 
+    ContactSurface(const ContactSurface &) = delete;
+    ContactSurface &
+    operator=(const ContactSurface &) = delete;
+
     const std::vector<Edge> &
     edges() const
     {
@@ -184,6 +188,24 @@ namespace NMM
     void
     set_displacements(const std::vector<double> *nodal);
 
+    /// What set_displacements() makes of them, to keep several of them side by side.
+    struct State
+    {
+      std::vector<double>           nodal;
+      std::vector<EdgeDisplacement> edges;
+    };
+
+    State
+    state() const;
+
+    /// The covers of an edge have moved.
+    void
+    update(State &state, unsigned int edge) const;
+
+    /// As set_displacements() with its displacements. Must outlive their use.
+    void
+    set_state(const State &state);
+
     /// X(t) [m], and derivatives.
     Place
     reference_place(unsigned int edge, double t) const;
@@ -201,7 +223,7 @@ namespace NMM
       if (is_rigid(edge))
         result.d[0] = obstacle_displacements[all_edges[edge].body - n_blocks];
       else
-        result = edge_displacements[edge];
+        result = current[edge];
       return result;
     }
 
@@ -248,6 +270,11 @@ namespace NMM
     void
     set_start_weights();
 
+    void
+    find_displacement(unsigned int               edge,
+                      const std::vector<double> &nodal,
+                      EdgeDisplacement          &displacement) const;
+
     CoverSystem                          *cover_pointer;
     std::vector<RigidObstacle>            rigid_obstacles;
     std::vector<dealii::Tensor<1, 2>>     obstacle_displacements;
@@ -255,8 +282,9 @@ namespace NMM
     std::pair<unsigned int, unsigned int> owned;
     unsigned int                          degree, n_blocks;
     const std::vector<double>            *nodal = nullptr;
-    /// Of blocks.
+    /// Of blocks, as set_displacements() was told; and those that count.
     std::vector<EdgeDisplacement> edge_displacements;
+    const EdgeDisplacement       *current = nullptr;
     /// Of straight edges' elements at t = 0, one edge after the other: weight functions and
     /// their first and half their second derivatives by t.
     std::vector<std::array<double, 3>> start_weights;

@@ -110,7 +110,7 @@ namespace NMM
   {
     struct Iteration
     {
-      /// |r| / force_scale() before the correction [-].
+      /// |r| / force_scale() before the correction, of what was being solved for [-].
       double relative_residual = 0.;
       /// |r . du| before the correction du [J/m].
       double energy = 0.;
@@ -124,6 +124,8 @@ namespace NMM
     /// Why not, for people.
     std::string            reason;
     std::vector<Iteration> iterations;
+    /// Of the group that took most.
+    unsigned int n_iterations = 0;
     /// |r| / force_scale() in the end.
     double       relative_residual  = 0.;
     unsigned int n_line_search_cuts = 0;

@@ -103,7 +103,7 @@ namespace NMM
                                : ContactSearch::Begin::unchanged);
     d.set_admitted_depth();
     d.make_points();
-    d.make_pattern();
+    d.note_candidates();
     d.active_points.clear();
     d.note_activity();
   }
@@ -702,6 +702,8 @@ namespace NMM
       d.residual = 0.;
       return;
     }
+    if (with_tangent)
+      d.couple_all();
     d.move_to(u);
     d.set_admitted_depth();
     d.block_system->reset(with_tangent);

@@ -122,6 +122,22 @@ namespace NMM
       return corner == 2 ? edge : edge + (corner + 1) * surface->edges().size();
     }
 
+    /// What may come to touch, and be coupled; the pattern is kept if that is as before.
+    void
+    note_candidates();
+
+    void
+    append_couplings(unsigned int               position,
+                     std::vector<unsigned int> &couplings) const;
+
+    /// Every candidate is in the pattern of the matrix.
+    void
+    couple_all();
+
+    /// At least points that touch in the step are in the pattern.
+    void
+    couple_near();
+
     void
     make_pattern();
 
@@ -355,7 +371,11 @@ namespace NMM
     std::unique_ptr<internal::BlockSystem> block_system;
     bool                                   is_idle         = true;
     unsigned int                           pattern_version = 0;
-    std::vector<unsigned int>              couplings, known_couplings;
+    /// See append_couplings(): of all positions now, and when the pattern was begun.
+    std::vector<unsigned int> candidates, coupled_candidates;
+    /// By position in ContactSearch::slaves(): is it in the pattern of the matrix?
+    std::vector<bool> is_coupled;
+    bool              has_pattern = false, is_pattern_of_step = false;
 
     /// Augmented Lagrangian only.
     std::unique_ptr<internal::MultiplierSpace> multiplier_space;

@@ -212,25 +212,51 @@ namespace NMM
 
 
   void
-  Contact::Data::make_pattern()
+  Contact::Data::note_candidates()
   {
     is_idle =
       Parallel::max(search.slaves().empty() ? 0U : 1U, communicator) == 0U;
     if (is_idle)
       return;
-    couplings.clear();
+    candidates.clear();
     for (unsigned int i = 0; i < search.slaves().size(); ++i)
+      append_couplings(i, candidates);
+    const bool is_new =
+      block_system == nullptr || candidates != coupled_candidates;
+    if (Parallel::max(is_new ? 1U : 0U, communicator) == 0U)
+      return;
+    coupled_candidates = candidates;
+    is_coupled.assign(search.slaves().size(), false);
+    has_pattern = false;
+    if (block_system == nullptr)
+      couple_all();
+  }
+
+
+  /// Covers that may be coupled at a position: those of the slave, of masters of one body,
+  /// and of places where it sticks to that body; body by body, each with their number
+  /// before.
+  void
+  Contact::Data::append_couplings(const unsigned int         i,
+                                  std::vector<unsigned int> &couplings) const
+  {
+    const auto        &edges   = surface->edges();
+    const unsigned int slave   = search.slaves()[i];
+    const auto         masters = search.masters(i);
+    for (auto first = masters.begin(); first != masters.end(); ++first)
     {
-      const unsigned int slave = search.slaves()[i];
+      const unsigned int body     = edges[*first].body;
+      const auto         is_of_it = [&](const unsigned int edge) {
+        return edges[edge].body == body;
+      };
+      if (std::any_of(masters.begin(), first, is_of_it))
+        continue;
       const unsigned int begin = couplings.size();
       couplings.push_back(0);
       const auto append = [&](const unsigned int edge) {
         const auto covers = surface->covers(edge);
         couplings.insert(couplings.end(), covers.begin(), covers.end());
       };
-      append(slave);
-      for (const unsigned int master : search.masters(i))
-        append(master);
       const auto append_places = [&](const unsigned int key) {
         const auto sticking = stick_places.find(key);
         if (sticking != stick_places.end())
@@ -238,29 +264,87 @@ namespace NMM
             if (!surface->is_rigid(place.edge))
               append(place.edge);
       };
+      append(slave);
       append_places(place_key(slave, search.corner(i)));
-      if (search.corner(i) == Kind::along)
-        for (const unsigned int master : search.masters(i))
+      for (const unsigned int master : masters)
+        if (is_of_it(master))
+        {
+          append(master);
           for (unsigned int end = 0; end < 2; ++end)
-            append_places(place_key(master, Kind::master_ends + end));
+            if (search.corner(i) == Kind::along)
+              append_places(place_key(master, Kind::master_ends + end));
+        }
       std::sort(couplings.begin() + begin + 1, couplings.end());
       couplings.erase(std::unique(couplings.begin() + begin + 1,
                                   couplings.end()),
                       couplings.end());
       couplings[begin] = couplings.size() - begin - 1;
     }
-    const bool is_new = block_system == nullptr || couplings != known_couplings;
-    if (Parallel::max(is_new ? 1U : 0U, communicator) == 0U)
+  }
+
+
+  void
+  Contact::Data::couple_all()
+  {
+    const bool is_missing =
+      !has_pattern || std::find(is_coupled.begin(), is_coupled.end(), false) !=
+                        is_coupled.end();
+    if (Parallel::max(is_missing ? 1U : 0U, communicator) == 0U)
       return;
-    known_couplings = couplings;
+    std::fill(is_coupled.begin(), is_coupled.end(), true);
+    make_pattern();
+  }
+
+
+  /// In the first assembly of a step what it is that may touch depends on the state at its
+  /// begin alone, so that a continuation has the same pattern; from then on what touches
+  /// nevertheless is added. On one rank.
+  void
+  Contact::Data::couple_near()
+  {
+    // times the motion that was predicted
+    constexpr double margin = 2.;
+
+    const std::vector<bool> before = is_coupled;
+    const auto              couple = [&](const unsigned int q) {
+      is_coupled[point_data[q].slave] = true;
+    };
+    if (!is_pattern_of_step)
+    {
+      std::fill(is_coupled.begin(), is_coupled.end(), false);
+      for_each_active_point([&](const unsigned int q) {
+        const unsigned int position = point_data[q].slave;
+        if (clearances[q] == 0. ||
+            (position_assembly[position] == n_assemblies &&
+             clearances[q] < margin * position_motion[position]))
+          couple(q);
+      });
+    }
+    for (const unsigned int q : near_points)
+      couple(q);
+    is_pattern_of_step = true;
+    if (!has_pattern || is_coupled != before)
+      make_pattern();
+  }
+
+
+  void
+  Contact::Data::make_pattern()
+  {
+    has_pattern = true;
     block_system =
       std::make_unique<BlockSystem>(surface->cover_system(), *constraints);
+    std::vector<unsigned int> couplings;
+    for (unsigned int i = 0; i < is_coupled.size(); ++i)
+      if (is_coupled[i])
+        append_couplings(i, couplings);
     for (unsigned int i = 0; i < couplings.size(); i += couplings[i] + 1)
       block_system->couple({couplings.data() + i + 1, couplings[i]});
     couple_ties();
     block_system->ignore_inhomogeneities();
     block_system->leave_empty_rows();
     block_system->build();
+    block_system->set_active_rows(is_active);
     matrix.clear();
     ++pattern_version;
   }

@@ -142,10 +142,11 @@ namespace NMM
   void
   Contact::begin_step(const Vector &u, const double time)
   {
-    Data &d      = *data;
-    d.is_between = false;
-    d.is_moving  = true;
-    d.time_begin = time;
+    Data &d              = *data;
+    d.is_between         = false;
+    d.is_pattern_of_step = false;
+    d.is_moving          = true;
+    d.time_begin         = time;
     set_time(time);
     // what lies between the last step and this one opens nothing
     d.slip_is_frozen = true;
@@ -625,6 +626,10 @@ namespace NMM
     d.surface->set_time(d.time_begin, time);
     d.surface->set_state(d.middle_state);
     d.is_between = true;
+    if (with_tangent && Parallel::n_mpi_processes(d.communicator) > 1)
+      d.couple_all();
+    else if (with_tangent)
+      d.couple_near();
     d.block_system->reset(with_tangent);
     for (const unsigned int q : d.near_points)
       d.add_point_between(q, with_tangent);

@@ -414,7 +414,7 @@ namespace NMM
         newton.solve(*this, model->constraints(), u_end);
       report.converged = result.converged;
       report.reason    = result.reason;
-      report.n_iterations += result.n_iterations;
+      report.n_iterations += result.iterations.size();
       for (const NewtonReport::Iteration &iteration : result.iterations)
         report.n_full_iterations += iteration.active_share;
       report.factorization_time += result.factorization_time;

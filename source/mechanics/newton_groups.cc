@@ -147,42 +147,6 @@ namespace NMM
     }
 
 
-    bool
-    NewtonGroups::postpone(const unsigned int most)
-    {
-      unsigned int n      = 0;
-      bool         is_any = false;
-      for (const unsigned int root : all_active_roots)
-      {
-        if (n >= most)
-        {
-          states[root] = State::waiting;
-          is_any       = true;
-        }
-        n += groups[root].n_unknowns;
-      }
-      if (is_any)
-        list_active();
-      return is_any;
-    }
-
-
-    bool
-    NewtonGroups::go_on(const unsigned int most)
-    {
-      unsigned int n = 0;
-      for (const unsigned int root : all_roots)
-        if (states[root] == State::waiting && n < most)
-        {
-          states[root] = State::active;
-          n += groups[root].n_unknowns;
-        }
-      if (n > 0)
-        list_active();
-      return n > 0;
-    }
-
-
     void
     NewtonGroups::sum(const Vector &residual, const Vector &correction)
     {

@@ -19,7 +19,7 @@ namespace NMM
      * method solves at its own pace. Groups only ever grow during a solution.
      * One group of all unknowns if there are no blocks to tell apart.
      *
-     * Some are being solved (active), some wait for their turn, others are done or held.
+     * Some are being solved (active), others are done, or held: not solved at all.
      */
     class NewtonGroups
     {
@@ -81,12 +81,6 @@ namespace NMM
       }
 
       bool
-      is_held(const unsigned int root) const
-      {
-        return states[root] == State::held;
-      }
-
-      bool
       are_there_several() const
       {
         return !block_of.empty();
@@ -116,16 +110,6 @@ namespace NMM
       /// Active groups that have converged are done.
       void
       let_go();
-
-      /// Active groups wait, but for the first ones, that have @p most unknowns and no
-      /// fewer together. False if that is all of them.
-      bool
-      postpone(unsigned int most);
-
-      /// When nothing is active: the next ones, as many, of those that wait. False if
-      /// none does.
-      bool
-      go_on(unsigned int most);
 
       /// Blocks of active groups for which @p is_meant; empty if that is all blocks.
       template <typename Predicate>
@@ -176,7 +160,6 @@ namespace NMM
       enum class State : unsigned char
       {
         active,
-        waiting,
         done,
         held
       };

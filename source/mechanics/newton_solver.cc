@@ -1,4 +1,5 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/base/types.h>
 #include <nmm/mechanics/newton_solver.h>
 
 #include <deal.II/base/timer.h>
@@ -56,8 +57,6 @@ namespace NMM
     /// That of the last assembly of all, or of the first one.
     double       scale = 0.;
     NewtonGroups groups;
-    /// Of the groups that are being solved: with what came before they had to wait.
-    unsigned int n_iterations = 0;
     /// What active groups pressed on in this iteration.
     std::vector<unsigned int> touched;
 
@@ -197,7 +196,8 @@ namespace NMM
   Deformation
   NewtonSolver::Data::assemble_tangent(const Vector &u, const Vector *increment)
   {
-    const unsigned int k = n_iterations;
+    const unsigned int k      = report->iterations.size();
+    unsigned int       before = invalid_index;
     for (const unsigned int root : groups.active_roots())
       groups[root].has_tangent = false;
     touched.clear();
@@ -211,8 +211,12 @@ namespace NMM
                  [](const Group &group) { return !group.has_tangent; });
       if (state != Deformation::admissible)
         return state;
+      // a matrix of another pattern has lost what was assembled before
+      const unsigned int version = system->pattern_version();
+      const bool         is_kept = before == invalid_index || version == before;
+      before                     = version;
       for (const unsigned int root : groups.active_roots())
-        groups[root].has_tangent = true;
+        groups[root].has_tangent = is_kept || !groups[root].has_tangent;
       groups.wake(touched);
       touched.clear();
       if (std::all_of(groups.active_roots().begin(),
@@ -383,8 +387,6 @@ namespace NMM
   bool
   NewtonSolver::Data::iterate(Vector &u, const Vector *increment)
   {
-    ++n_iterations;
-    report->n_iterations = std::max(report->n_iterations, n_iterations);
     report->iterations.emplace_back();
     NewtonReport::Iteration &iteration = report->iterations.back();
     if (assemble_tangent(u, increment) != Deformation::admissible)
@@ -534,15 +536,15 @@ namespace NMM
     d.before.reinit(d.owned);
     if (d.use_increment)
       d.last_increment.reinit(u);
-    d.scale        = 0.;
-    d.n_iterations = 0;
+    d.scale = 0.;
     d.groups.reinit(system.blocks_of_unknowns(), system.held_blocks(), d.owned);
 
     double largest_energy = 0.;
     // everything is held: only forces are wanted
     if (!d.groups.is_any_active())
       report.converged = d.settle(u, largest_energy);
-    while (!report.converged && d.n_iterations < d.parameters.max_iterations)
+    while (!report.converged &&
+           report.iterations.size() < d.parameters.max_iterations)
     {
       if (!d.iterate(u, increment))
         break;
@@ -555,8 +557,8 @@ namespace NMM
         increment = &d.last_increment;
     }
     if (!report.converged && report.reason.empty())
-      report.reason =
-        "no convergence in " + std::to_string(d.n_iterations) + " iterations";
+      report.reason = "no convergence in " +
+                      std::to_string(report.iterations.size()) + " iterations";
     if (d.groups.are_there_several())
       system.set_active_blocks({});
     return report;

@@ -45,7 +45,8 @@ namespace NMM
     virtual double
     force_scale() const = 0;
 
-    /// Another number whenever tangent() has another pattern.
+    /// Another number whenever tangent() has another pattern. Its values then are right
+    /// in rows that were assembled last, and nowhere else.
     virtual unsigned int
     pattern_version() const
     {
@@ -124,8 +125,6 @@ namespace NMM
     /// Why not, for people.
     std::string            reason;
     std::vector<Iteration> iterations;
-    /// Of the group that took most.
-    unsigned int n_iterations = 0;
     /// |r| / force_scale() in the end.
     double       relative_residual  = 0.;
     unsigned int n_line_search_cuts = 0;

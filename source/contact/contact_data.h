@@ -85,6 +85,20 @@ namespace NMM
       unsigned int beside_begin = 0, beside_end = 0;
     };
 
+    /// All that an assembly asks for of a point that cannot touch: the rest is far more,
+    /// and comes from further away.
+    struct Clearance
+    {
+      /// At the begin of the step from touching [m]; 0: not known, or it may.
+      double distance = 0.;
+      /// In ContactSearch::slaves().
+      unsigned int position      = 0;
+      unsigned int edge          = invalid_index;
+      bool         is_master_end = false;
+      /// It was clear in the last assembly, too, and says so.
+      bool was_clear = false;
+    };
+
     void
     make_points();
 
@@ -185,7 +199,7 @@ namespace NMM
 
     /// A point that was open when the step began cannot have come to touch.
     bool
-    is_clear(unsigned int q);
+    is_clear(const Clearance &clearance);
 
     /// @name One point in an assembly
     /// @{
@@ -423,11 +437,12 @@ namespace NMM
     std::vector<double> searched_nodal;
     double              searched_time = 0., searched_reach = 0.;
 
-    /// Of a time step: how far points are at its begin from touching, 0: not known, or
-    /// they may; and by how much the candidates at each position of
-    /// ContactSearch::slaves() have moved against each other, and at which assembly.
+    /// Of a time step: how far points are at its begin from touching, and by how much the
+    /// candidates at each position of ContactSearch::slaves() have moved against each
+    /// other, and at which assembly.
     internal::ContactMotion   motion;
-    std::vector<double>       clearances, position_motion;
+    std::vector<Clearance>    clearances;
+    std::vector<double>       position_motion;
     std::vector<unsigned int> position_assembly;
     unsigned int              n_assemblies = 0;
     /// Active points that touch at the begin or the end of the step.

@@ -314,9 +314,9 @@ namespace NMM
       std::fill(is_coupled.begin(), is_coupled.end(), false);
       for_each_active_point([&](const unsigned int q) {
         const unsigned int position = point_data[q].slave;
-        if (clearances[q] == 0. ||
-            (position_assembly[position] == n_assemblies &&
-             clearances[q] < margin * position_motion[position]))
+        const double       distance = clearances[q].distance;
+        if (distance == 0. || (position_assembly[position] == n_assemblies &&
+                               distance < margin * position_motion[position]))
           couple(q);
       });
     }

@@ -184,7 +184,7 @@ namespace NMM
   void
   Contact::Data::find_clearances()
   {
-    clearances.assign(points.size(), 0.);
+    clearances.assign(points.size(), Clearance());
     position_motion.resize(search.slaves().size());
     position_assembly.assign(search.slaves().size(), 0);
     n_assemblies = 0;
@@ -194,45 +194,50 @@ namespace NMM
     motion.begin(*surface);
     for (unsigned int q = 0; q < points.size(); ++q)
     {
-      const ContactPoint &point = points[q];
-      const PointData    &fixed = point_data[q];
+      const ContactPoint &point     = points[q];
+      const PointData    &fixed     = point_data[q];
+      const bool          is_corner = fixed.corner < Kind::along;
+      Clearance          &clearance = clearances[q];
+      clearance.position            = fixed.slave;
+      clearance.edge                = point.edge;
+      // a corner of the master has a single candidate; others of a position the same ones
+      clearance.is_master_end = fixed.corner > Kind::along;
       if (fixed.gap_begin >= fixed.offset && !point.is_bonded &&
           surface->edges()[point.edge].radius == 0.)
-        clearances[q] = search.clearance(surface->place(point.edge, point.s).x,
-                                         masters_of(q),
-                                         fixed.corner >= Kind::along
-                                           ? fixed.slack
-                                           : ContactSearch::rounding_slack,
-                                         fixed.corner >= Kind::along
-                                           ? fixed.home
-                                           : ContactSearch::any_edge);
+        clearance.distance =
+          search.clearance(surface->place(point.edge, point.s).x,
+                           masters_of(q),
+                           is_corner ? ContactSearch::rounding_slack
+                                     : fixed.slack,
+                           is_corner ? ContactSearch::any_edge : fixed.home);
     }
   }
 
 
   bool
-  Contact::Data::is_clear(const unsigned int q)
+  Contact::Data::is_clear(const Clearance &clearance)
   {
     constexpr double rounding = 1e-6;
 
-    if (clearances.empty() || clearances[q] == 0.)
+    if (clearance.distance == 0.)
       return false;
-    const PointData &fixed = point_data[q];
-    // a corner of the master has a single candidate; others of a position the same ones
-    const bool is_master_end = fixed.corner > Kind::along;
-    const bool is_known =
-      !is_master_end && position_assembly[fixed.slave] == n_assemblies;
-    double moved = is_known ? position_motion[fixed.slave] : 0.;
-    if (!is_known)
-      for (const unsigned int master : masters_of(q))
-        moved = std::max(moved,
-                         motion.bound(*surface, points[q].edge, master, reach));
-    if (!is_master_end)
+    const unsigned int position = clearance.position;
+    const auto         bound    = [&](const unsigned int master) {
+      return motion.bound(*surface, clearance.edge, master, reach);
+    };
+    double moved = 0.;
+    if (clearance.is_master_end)
+      moved = bound(search.slaves()[position]);
+    else if (position_assembly[position] == n_assemblies)
+      moved = position_motion[position];
+    else
     {
-      position_motion[fixed.slave]   = moved;
-      position_assembly[fixed.slave] = n_assemblies;
+      for (const unsigned int master : search.masters(position))
+        moved = std::max(moved, bound(master));
+      position_motion[position]   = moved;
+      position_assembly[position] = n_assemblies;
     }
-    return clearances[q] > moved + rounding * reach;
+    return clearance.distance > moved + rounding * reach;
   }
 
 
@@ -486,11 +491,16 @@ namespace NMM
   bool
   Contact::Data::find_end(const unsigned int q)
   {
+    Clearance &clearance = clearances[q];
+    const bool was_clear = clearance.was_clear;
+    clearance.was_clear  = is_clear(clearance);
+    if (was_clear && clearance.was_clear)
+      return false;
     ContactPoint &point = points[q];
     PointData    &fixed = point_data[q];
     fixed.dilation      = Dilation();
     fixed.new_slip      = 0.;
-    if ((fixed.has_angle && point.weight == 0.) || is_clear(q))
+    if (clearance.was_clear || (fixed.has_angle && point.weight == 0.))
     {
       fixed.master_end = invalid_index;
       fixed.gap_end    = reach;

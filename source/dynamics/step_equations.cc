@@ -3,10 +3,10 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <Epetra_CrsMatrix.h>
 #include <algorithm>
 #include <cmath>
 #include <dynamics/step_equations.h>
+#include <mechanics/matrix_rows.h>
 #include <utility>
 
 namespace NMM
@@ -121,17 +121,15 @@ namespace NMM
       return;
     }
     // on one rank
-    const Epetra_CrsMatrix &matrix  = A.trilinos_matrix();
-    const int              *columns = matrix.ColMap().MyGlobalElements();
-    const auto              x       = in.begin();
-    const auto              y       = out.begin();
+    const internal::MatrixRows entries(A);
+    const int *columns = A.trilinos_matrix().ColMap().MyGlobalElements();
+    const auto x       = in.begin();
+    const auto y       = out.begin();
     for (const unsigned int row : active_rows.chosen())
     {
-      int     n, *indices;
-      double *values, sum = 0.;
-      matrix.ExtractMyRowView(row, n, values, indices);
-      for (int i = 0; i < n; ++i)
-        sum += values[i] * x[columns[indices[i]]];
+      double sum = 0.;
+      for (int i = entries.begins[row]; i < entries.begins[row + 1]; ++i)
+        sum += entries.values[i] * x[columns[entries.columns[i]]];
       y[row] += factor * sum;
     }
   }

@@ -3,6 +3,7 @@
 #include <Epetra_Map.h>
 #include <algorithm>
 #include <mechanics/block_system.h>
+#include <mechanics/matrix_rows.h>
 
 namespace NMM
 {
@@ -110,18 +111,14 @@ namespace NMM
     void
     BlockSystem::copy_values(const Epetra_CrsMatrix &matrix) const
     {
-      active_rows.for_each(n_owned, [&](const unsigned int block_row) {
-        const int length =
-          2 * static_cast<int>(row_begin[block_row + 1] - row_begin[block_row]);
-        const double *from = values.data() + 4 * row_begin[block_row];
-        for (unsigned int c = 0; c < 2; ++c, from += length)
-        {
-          int     n;
-          double *row;
-          check(matrix.ExtractMyRowView(2 * block_row + c, n, row));
-          AssertDimension(n, length);
-          std::copy(from, from + length, row);
-        }
+      // both have the same order
+      const MatrixRows to(matrix);
+      active_rows.for_each(n_owned, [&](const unsigned int r) {
+        AssertDimension(static_cast<std::size_t>(to.begins[2 * r]),
+                        4 * row_begin[r]);
+        std::copy(values.begin() + 4 * row_begin[r],
+                  values.begin() + 4 * row_begin[r + 1],
+                  to.values + to.begins[2 * r]);
       });
     }
 

@@ -1,10 +1,10 @@
 #include <nmm/base/exceptions.h>
 
-#include <Epetra_CrsMatrix.h>
 #include <algorithm>
 #include <base/disjoint_sets.h>
 #include <klu.h>
 #include <mechanics/klu_solver.h>
+#include <mechanics/matrix_rows.h>
 #include <numeric>
 #include <vector>
 
@@ -40,22 +40,19 @@ namespace NMM
       /// did.
       template <typename Action>
       bool
-      for_each_value(const Epetra_CrsMatrix &matrix, const Action &action) const
+      for_each_value(const dealii::TrilinosWrappers::SparseMatrix &matrix,
+                     const Action                                 &action) const
       {
+        const MatrixRows entries(matrix);
         for (unsigned int k = 0; k < rows.size(); ++k)
-        {
-          int     n;
-          double *matrix_values;
-          int    *matrix_columns;
-          matrix.ExtractMyRowView(rows[k], n, matrix_values, matrix_columns);
-          for (int i = 0; i < n; ++i)
-          {
-            const unsigned int column = numbers[matrix_columns[i]];
-            if (matrix_values[i] != 0. && column != left_out &&
-                !action(k, column, matrix_values[i]))
-              return false;
-          }
-        }
+          for (int i = entries.begins[rows[k]]; i < entries.begins[rows[k] + 1];
+               ++i)
+            if (entries.values[i] != 0.)
+            {
+              const unsigned int column = numbers[entries.columns[i]];
+              if (column != left_out && !action(k, column, entries.values[i]))
+                return false;
+            }
         return true;
       }
 
@@ -110,7 +107,7 @@ namespace NMM
       d.groups.reinit(d.rows.size());
       d.sizes.assign(d.rows.size(), 1);
       return d.for_each_value(
-        matrix.trilinos_matrix(),
+        matrix,
         [&](const unsigned int row, const unsigned int column, const double) {
           const unsigned int a = d.groups.find(row), b = d.groups.find(column);
           if (a == b)
@@ -132,7 +129,7 @@ namespace NMM
       d.begins.assign(1, 0);
       d.columns.clear();
       d.values.clear();
-      d.for_each_value(matrix.trilinos_matrix(),
+      d.for_each_value(matrix,
                        [&](const unsigned int row,
                            const unsigned int column,
                            const double       value) {

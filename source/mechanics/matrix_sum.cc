@@ -1,5 +1,6 @@
 #include <Epetra_CrsMatrix.h>
 #include <algorithm>
+#include <mechanics/matrix_rows.h>
 #include <mechanics/matrix_sum.h>
 
 namespace NMM
@@ -48,17 +49,15 @@ namespace NMM
                    const Places      &places,
                    const ActiveItems &rows)
     {
-      const Epetra_CrsMatrix &from = matrix.trilinos_matrix();
-      const Epetra_CrsMatrix &to   = sum.trilinos_matrix();
-      rows.for_each(from.NumMyRows(), [&](const unsigned int r) {
-        int     n_from, n_to, *indices;
-        double *from_values, *to_values;
-        from.ExtractMyRowView(r, n_from, from_values, indices);
-        to.ExtractMyRowView(r, n_to, to_values, indices);
-        const int *place = places.places.data() + places.row_begin[r];
-        for (int i = 0; i < n_from; ++i)
-          to_values[*place++] += factor * from_values[i];
-      });
+      const MatrixRows from(matrix), to(sum);
+      rows.for_each(matrix.trilinos_matrix().NumMyRows(),
+                    [&](const unsigned int r) {
+                      const int *place =
+                        places.places.data() + places.row_begin[r];
+                      double *values = to.values + to.begins[r];
+                      for (int i = from.begins[r]; i < from.begins[r + 1]; ++i)
+                        values[*place++] += factor * from.values[i];
+                    });
     }
 
 
@@ -82,16 +81,12 @@ namespace NMM
       if (damping != nullptr && damping_places.places.empty())
         damping_places = find_places(*damping);
 
-      const Epetra_CrsMatrix &from = stiffness.trilinos_matrix();
-      const Epetra_CrsMatrix &to   = sum.trilinos_matrix();
-      rows.for_each(from.NumMyRows(), [&](const unsigned int r) {
-        int     n, *indices;
-        double *from_values, *to_values;
-        from.ExtractMyRowView(r, n, from_values, indices);
-        to.ExtractMyRowView(r, n, to_values, indices);
-        for (int i = 0; i < n; ++i)
-          to_values[i] = k * from_values[i];
-      });
+      const MatrixRows from(stiffness), to(sum);
+      rows.for_each(stiffness.trilinos_matrix().NumMyRows(),
+                    [&](const unsigned int r) {
+                      for (int i = from.begins[r]; i < from.begins[r + 1]; ++i)
+                        to.values[i] = k * from.values[i];
+                    });
       add(mass, m, mass_places, rows);
       if (damping != nullptr && c != 0.)
         add(*damping, c, damping_places, rows);

@@ -1,7 +1,7 @@
 #include <deal.II/base/mpi.h>
 
-#include <Epetra_CrsMatrix.h>
 #include <algorithm>
+#include <mechanics/matrix_rows.h>
 #include <mechanics/newton_groups.h>
 
 namespace NMM
@@ -73,17 +73,13 @@ namespace NMM
     {
       if (block_of.empty())
         return;
-      const Epetra_CrsMatrix &entries    = matrix.trilinos_matrix();
-      bool                    has_joined = false;
+      const MatrixRows entries(matrix);
+      bool             has_joined = false;
       active_unknowns.for_each(n_all, [&](const unsigned int row) {
-        int     n;
-        double *values;
-        int    *columns;
-        entries.ExtractMyRowView(row, n, values, columns);
-        for (int i = 0; i < n; ++i)
+        for (int i = entries.begins[row]; i < entries.begins[row + 1]; ++i)
         {
-          const unsigned int other = block_of[columns[i]];
-          if (other == block_of[row] || values[i] == 0.)
+          const unsigned int other = block_of[entries.columns[i]];
+          if (other == block_of[row] || entries.values[i] == 0.)
             continue;
           const unsigned int a = joined.find(block_of[row]),
                              b = joined.find(other);

@@ -492,6 +492,29 @@ namespace NMM
   }
 
 
+  void
+  Contact::Data::stay_with_face_of_end(const unsigned int           q,
+                                       const ContactSurface::Place &slave,
+                                       ContactProjection &projection) const
+  {
+    const PointData   &fixed   = point_data[q];
+    const bool         touches = fixed.gap_end < fixed.offset;
+    const unsigned int face = touches ? fixed.master_end : fixed.master_begin;
+    if (touches == (fixed.gap_begin < fixed.offset) || face == invalid_index ||
+        face == projection.master || projection.master == invalid_index ||
+        surface->edges()[face].body != surface->edges()[projection.master].body)
+      return;
+    const ContactProjection there =
+      search.project_corner(slave,
+                            Tensor<1, 2>(),
+                            dealii::ArrayView<const unsigned int>(&face, 1),
+                            invalid_index,
+                            find_admitted(q));
+    if (there.master != invalid_index)
+      projection = there;
+  }
+
+
   ContactProjection
   Contact::Data::project(const unsigned int           q,
                          const ContactSurface::Place &slave)
@@ -509,6 +532,8 @@ namespace NMM
                             fixed.home,
                             find_admitted(q));
     };
+    if (is_between && fixed.corner < Kind::along)
+      stay_with_face_of_end(q, slave, projection);
     // a piece ends where two edges of the master meet; its end stays with one of
     // them, since their normals differ a little and the iteration would not end
     if (fixed.corner == Kind::along && point.master != invalid_index &&

@@ -163,6 +163,14 @@ namespace NMM
     internal::ContactProjection
     project(unsigned int q, const ContactSurface::Place &slave);
 
+    /// A corner that is in contact at one end of a step only is so by the face of that
+    /// end: at a corner of the master, which face is nearer in the middle jumps, and
+    /// with it the force.
+    void
+    stay_with_face_of_end(unsigned int                 q,
+                          const ContactSurface::Place &slave,
+                          internal::ContactProjection &projection) const;
+
     /// Does one of the edges go on in the other, within a few edges?
     bool
     goes_on(unsigned int edge,

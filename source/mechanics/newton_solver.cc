@@ -57,7 +57,7 @@ namespace NMM
     /// That of the last assembly of all, or of the first one.
     double       scale = 0.;
     NewtonGroups groups;
-    /// What active groups pressed on in this iteration.
+    /// What active groups pressed on in the last assembly.
     std::vector<unsigned int> touched;
 
     template <typename Predicate>
@@ -365,6 +365,7 @@ namespace NMM
         x[i] = a[i] - groups.of_unknown(i).search.share() * c[i];
       });
       distribute(u);
+      touched.clear();
       state = assemble(u, Tangent::none, nullptr, is_open);
       if (state == Deformation::admissible)
         groups.sum(residual, correction);
@@ -468,6 +469,7 @@ namespace NMM
                                      x[j] -= c[j];
                                  });
       distribute(u);
+      touched.clear();
       if (assemble(u, Tangent::none, nullptr, is_new) !=
           Deformation::admissible)
       {
@@ -493,7 +495,9 @@ namespace NMM
     if (is_any_new && !refine(u))
       return false;
     groups.let_go();
-    groups.wake(touched);
+    // the next tangent tells what those press on that go on
+    if (is_any_new)
+      groups.wake(touched);
     if (groups.is_any_active())
       return false;
     if (!groups.are_there_several())

@@ -154,17 +154,23 @@ namespace StepNMM4
   Outcome::finish()
   {
     released = rows.back().external_work;
+    std::vector<double> penetrations, overlaps;
     for (const Row &row : rows)
     {
       account_error = std::max(account_error, std::abs(row.balance));
-      largest_penetration =
-        std::max(largest_penetration, row.penetration_over_block);
-      largest_overlap = std::max(largest_overlap, row.overlap_over_block);
+      penetrations.push_back(row.penetration_over_block);
+      overlaps.push_back(row.overlap_over_block);
     }
     if (released != 0.)
       account_error /= std::abs(released);
-    penetration_at_rest = rows.back().penetration_over_block;
-    overlap_at_rest     = rows.back().overlap_over_block;
+    penetration_at_rest = penetrations.back();
+    overlap_at_rest     = overlaps.back();
+    std::sort(penetrations.begin(), penetrations.end());
+    std::sort(overlaps.begin(), overlaps.end());
+    largest_penetration = penetrations.back();
+    largest_overlap     = overlaps.back();
+    median_penetration  = penetrations[penetrations.size() / 2];
+    median_overlap      = overlaps[overlaps.size() / 2];
   }
 
 
@@ -352,8 +358,9 @@ namespace StepNMM4
     std::ofstream     runs(prefix + "runs.csv");
     runs << "run,friction_angle,step,blocks,unknowns,steps,cuts,iterations,"
             "is_at_rest,stands,end_time,released,account_error,"
-            "largest_penetration,penetration_at_rest,largest_overlap,"
-            "overlap_at_rest,start_seconds,motion_seconds,way\n"
+            "largest_penetration,median_penetration,penetration_at_rest,"
+            "largest_overlap,median_overlap,overlap_at_rest,start_seconds,"
+            "motion_seconds,way\n"
          << std::setprecision(10);
     for (const Outcome &o : outcomes)
     {
@@ -362,7 +369,8 @@ namespace StepNMM4
            << o.n_cuts << ',' << o.n_iterations << ',' << o.is_at_rest << ','
            << o.stands() << ',' << o.rows.back().time << ',' << o.released
            << ',' << o.account_error << ',' << o.largest_penetration << ','
-           << o.penetration_at_rest << ',' << o.largest_overlap << ','
+           << o.median_penetration << ',' << o.penetration_at_rest << ','
+           << o.largest_overlap << ',' << o.median_overlap << ','
            << o.overlap_at_rest << ',' << o.start_time << ',' << o.motion_time
            << ','
            << o.rows.back().center_of_mass.distance(

@@ -90,9 +90,10 @@ namespace StepNMM4
     /// Potential energy released until the end [J/m], and the largest error of the
     /// account over it [-].
     double released = 0., account_error = 0.;
-    /// Largest of all steps, and of the last one, over the size of blocks [-].
-    double largest_penetration = 0., penetration_at_rest = 0.;
-    double largest_overlap = 0., overlap_at_rest = 0.;
+    /// Largest and median of all steps, and of the last one, over the size of blocks [-].
+    double largest_penetration = 0., median_penetration = 0.,
+           penetration_at_rest = 0.;
+    double largest_overlap = 0., median_overlap = 0., overlap_at_rest = 0.;
     /// Of the processor [s].
     double start_time = 0., motion_time = 0.;
 

@@ -301,6 +301,7 @@ namespace NMM
     {
       const RigidObstacle &obstacle = rigid_obstacles[i];
       const unsigned int   first    = all_edges.size();
+      obstacle_begins.push_back(first);
       for (const CurvePiece &piece : obstacle.pieces)
       {
         AssertThrow(piece.kind != CurvePiece::Kind::circle,
@@ -335,6 +336,7 @@ namespace NMM
         all_edges[first].previous = all_edges.size() - 1;
       }
     }
+    obstacle_begins.push_back(all_edges.size());
   }
 
 

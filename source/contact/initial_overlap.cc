@@ -12,17 +12,6 @@ namespace NMM
 
   namespace
   {
-    /// Nearest point of an undeformed edge and signed distance [m], positive
-    /// outside.
-    struct Nearest
-    {
-      double distance = std::numeric_limits<double>::max();
-      double gap      = 0.;
-      /// The nearest point is an end of a chain that is not closed.
-      bool is_open_end = false;
-    };
-
-
     /// Parameter in [0, 1] of the nearest point of a segment or an arc.
     double
     nearest_parameter(const ContactSurface::Edge &edge, const Point<2> &x)
@@ -48,38 +37,43 @@ namespace NMM
   } // namespace
 
 
+  ContactSurface::Nearest
+  ContactSurface::nearest_of_obstacle(const unsigned int obstacle,
+                                      const Point<2>    &x) const
+  {
+    Nearest            result;
+    Tensor<1, 2>       normal;
+    const Tensor<1, 2> shift = obstacle_displacements[obstacle];
+    for (unsigned int e = obstacle_begins[obstacle];
+         e < obstacle_begins[obstacle + 1];
+         ++e)
+    {
+      const Edge        &edge  = all_edges[e];
+      const double       t     = nearest_parameter(edge, x - shift);
+      const Place        place = reference_place(e, t);
+      const Tensor<1, 2> d     = x - (place.x + shift);
+      const double       same  = 1e-12 * (d.norm() + edge.length);
+      if (d.norm() < result.distance - same)
+      {
+        result.distance = d.norm();
+        normal          = Tensor<1, 2>();
+      }
+      if (d.norm() <= result.distance + same)
+      {
+        // at a corner the mean of both normals tells the side
+        normal += place.normal();
+        result.gap         = d * normal > 0. ? d.norm() : -d.norm();
+        result.is_open_end = (t == 0. && edge.previous == invalid_index) ||
+                             (t == 1. && edge.next == invalid_index);
+      }
+    }
+    return result;
+  }
+
+
   void
   ContactSurface::check_initial_overlap(const double tolerance) const
   {
-    const auto nearest_of = [&](const unsigned int body, const Point<2> &x) {
-      Nearest      result;
-      Tensor<1, 2> normal;
-      for (unsigned int e = 0; e < all_edges.size(); ++e)
-        if (all_edges[e].body == body)
-        {
-          const Edge        &edge  = all_edges[e];
-          const Tensor<1, 2> shift = obstacle_displacements[body - n_blocks];
-          const double       t     = nearest_parameter(edge, x - shift);
-          const Place        place = reference_place(e, t);
-          const Tensor<1, 2> d     = x - (place.x + shift);
-          const double       same  = 1e-12 * (d.norm() + edge.length);
-          if (d.norm() < result.distance - same)
-          {
-            result.distance = d.norm();
-            normal          = Tensor<1, 2>();
-          }
-          if (d.norm() <= result.distance + same)
-          {
-            // at a corner the mean of both normals tells the side
-            normal += place.normal();
-            result.gap         = d * normal > 0. ? d.norm() : -d.norm();
-            result.is_open_end = (t == 0. && edge.previous == invalid_index) ||
-                                 (t == 1. && edge.next == invalid_index);
-          }
-        }
-      return result;
-    };
-
     constexpr unsigned int n_samples = 4;
     for (unsigned int i = 0; i < rigid_obstacles.size(); ++i)
     {
@@ -96,7 +90,7 @@ namespace NMM
           for (unsigned int k = 0; k < n_samples; ++k)
           {
             const Point<2>     x = reference_place(e, k / double(n_samples)).x;
-            const Nearest      nearest = nearest_of(n_blocks + i, x);
+            const Nearest      nearest = nearest_of_obstacle(i, x);
             const unsigned int block   = all_edges[e].body;
             if (nearest.is_open_end)
               continue;

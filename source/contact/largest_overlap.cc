@@ -15,7 +15,6 @@
 namespace NMM
 {
   using dealii::Point;
-  using dealii::Tensor;
 
   namespace
   {
@@ -63,42 +62,6 @@ namespace NMM
       }
       return result;
     }
-
-
-    /// Depth of a point behind the nearest piece of an obstacle [m]; not beyond the ends
-    /// of one that is not closed.
-    double
-    depth_in_obstacle(const ContactSurface            &surface,
-                      const std::vector<unsigned int> &edges,
-                      const Point<2>                  &x)
-    {
-      constexpr double same    = 1e-9;
-      double           nearest = std::numeric_limits<double>::max();
-      double           behind  = 0.;
-      bool             is_end  = false;
-      for (const unsigned int e : edges)
-        for (unsigned int half = 0; half < 2; ++half)
-        {
-          const Point<2>     start = surface.place(e, 0.5 * half).x;
-          const Tensor<1, 2> d = surface.place(e, 0.5 * (half + 1)).x - start;
-          const double       length = d.norm();
-          const double       t      = (x - start) * d / (length * length);
-          const double distance = x.distance(start + std::clamp(t, 0., 1.) * d);
-          const double now =
-            ((x - start) * Point<2>(-d[1] / length, d[0] / length));
-          // where two pieces meet, the one that sees more of the distance knows
-          if (std::abs(distance - nearest) <= same * length
-                ? std::abs(now) <= std::abs(behind)
-                : distance > nearest)
-            continue;
-          const auto &edge = surface.edges()[e];
-          nearest          = distance;
-          behind           = now;
-          is_end = (half == 0 && t < 0. && edge.previous == invalid_index) ||
-                   (half == 1 && t > 1. && edge.next == invalid_index);
-        }
-      return behind > 0. && !is_end ? nearest : 0.;
-    }
   } // namespace
 
 
@@ -108,17 +71,13 @@ namespace NMM
     const std::vector<Ring> rings = rings_of_blocks(*this);
     using Entry                   = std::pair<Box, unsigned int>;
     std::vector<Entry>                     boxes;
-    std::vector<std::vector<unsigned int>> body_to_rings(n_bodies()),
-      obstacle_to_edges(n_bodies());
+    std::vector<std::vector<unsigned int>> body_to_rings(n_blocks);
     for (unsigned int i = 0; i < rings.size(); ++i)
     {
       boxes.emplace_back(bg::return_envelope<Box>(rings[i].polygon), i);
       body_to_rings[rings[i].body].push_back(i);
     }
     const bg::index::rtree<Entry, bg::index::rstar<16>> tree(boxes);
-    for (unsigned int e = 0; e < all_edges.size(); ++e)
-      if (is_rigid(e))
-        obstacle_to_edges[all_edges[e].body].push_back(e);
 
     double                    deepest = 0.;
     std::vector<Entry>        found;
@@ -142,11 +101,13 @@ namespace NMM
             depth = std::min(depth, bg::distance(x, rings[i].chain));
           deepest = std::max(deepest, depth);
         }
-        for (unsigned int body = n_blocks; body < n_bodies(); ++body)
-          deepest = std::max(deepest,
-                             depth_in_obstacle(*this,
-                                               obstacle_to_edges[body],
-                                               Point<2>(x.x(), x.y())));
+        for (unsigned int i = 0; i < rigid_obstacles.size(); ++i)
+        {
+          const Nearest nearest =
+            nearest_of_obstacle(i, Point<2>(x.x(), x.y()));
+          if (!nearest.is_open_end)
+            deepest = std::max(deepest, -nearest.gap);
+        }
       }
     return deepest;
   }

@@ -255,6 +255,19 @@ namespace NMM
     name(unsigned int edge) const;
 
   private:
+    /// Of an obstacle.
+    struct Nearest
+    {
+      /// From its nearest point [m], and the same with a sign: negative behind it.
+      double distance = std::numeric_limits<double>::max();
+      double gap      = 0.;
+      /// The nearest point is an end of a chain that is not closed.
+      bool is_open_end = false;
+    };
+
+    Nearest
+    nearest_of_obstacle(unsigned int obstacle, const dealii::Point<2> &x) const;
+
     void
     add_elements();
 
@@ -275,10 +288,12 @@ namespace NMM
                       const std::vector<double> &nodal,
                       EdgeDisplacement          &displacement) const;
 
-    CoverSystem                          *cover_pointer;
-    std::vector<RigidObstacle>            rigid_obstacles;
-    std::vector<dealii::Tensor<1, 2>>     obstacle_displacements;
-    std::vector<Edge>                     all_edges;
+    CoverSystem                      *cover_pointer;
+    std::vector<RigidObstacle>        rigid_obstacles;
+    std::vector<dealii::Tensor<1, 2>> obstacle_displacements;
+    std::vector<Edge>                 all_edges;
+    /// First edge of each obstacle, and the number of all edges.
+    std::vector<unsigned int>             obstacle_begins;
     std::pair<unsigned int, unsigned int> owned;
     unsigned int                          degree, n_blocks;
     const std::vector<double>            *nodal = nullptr;

@@ -121,6 +121,7 @@ namespace NMM
       data->list_covers_of_bodies();
     data->active_covers.select(is_active);
     data->active_edges.select(is_active);
+    data->active_rows.select(is_active);
     if (data->block_system)
       data->block_system->set_active_rows(is_active);
   }
@@ -151,18 +152,16 @@ namespace NMM
   void
   Contact::Data::list_covers_of_bodies()
   {
-    const CoverSystem  &covers = surface->cover_system();
-    const ManifoldMesh &mesh   = covers.manifold_mesh();
-    active_covers.reinit(covers.n_covers(), [&](const auto &add) {
-      std::vector<bool> is_known(covers.n_covers(), false);
-      for (unsigned int e = 0; e < mesh.n_elements(); ++e)
-        for (const unsigned int k : covers.covers(e))
-          if (!is_known[k])
-          {
-            is_known[k] = true;
-            add(k, mesh.block(e));
-          }
-    });
+    const CoverSystem        &covers = surface->cover_system();
+    const ManifoldMesh       &mesh   = covers.manifold_mesh();
+    std::vector<unsigned int> cover_to_block(covers.n_covers()),
+      row_to_block(2 * covers.n_covers());
+    for (unsigned int e = 0; e < mesh.n_elements(); ++e)
+      for (const unsigned int k : covers.covers(e))
+        cover_to_block[k] = row_to_block[2 * k] = row_to_block[2 * k + 1] =
+          mesh.block(e);
+    active_covers.reinit(cover_to_block);
+    active_rows.reinit(row_to_block);
     active_edges.reinit(surface->edges().size(), [&](const auto &add) {
       for (unsigned int e = 0; e < surface->edges().size(); ++e)
         if (!surface->is_rigid(e))
@@ -746,6 +745,14 @@ namespace NMM
   Contact::residual() const
   {
     return data->residual;
+  }
+
+
+  void
+  Contact::add_to_tangent(const Matrix &other)
+  {
+    data->adder.add(
+      1., other, data->matrix, data->pattern_version, data->active_rows);
   }
 
 

@@ -11,6 +11,7 @@
 #include <map>
 #include <mechanics/active_items.h>
 #include <mechanics/block_system.h>
+#include <mechanics/matrix_sum.h>
 
 namespace NMM
 {
@@ -431,11 +432,13 @@ namespace NMM
     /// See Contact::set_active_bodies(); by body.
     std::vector<bool>         is_active, is_held;
     std::vector<unsigned int> touched_bodies;
-    /// Points that active bodies may have part in, and their covers and edges.
-    internal::ActiveItems active_points, active_covers, active_edges;
+    /// Points that active bodies may have part in, and their covers, rows and edges.
+    internal::ActiveItems active_points, active_covers, active_rows,
+      active_edges;
 
     internal::ContactLocalSystem local;
     Matrix                       matrix;
+    internal::MatrixAdder        adder;
     Vector                       residual;
     ContactReport                report;
     /// How far faces were looked for last [m].

@@ -343,6 +343,7 @@ namespace NMM
     couple_ties();
     block_system->ignore_inhomogeneities();
     block_system->leave_empty_rows();
+    block_system->assemble_in_place();
     block_system->build();
     block_system->set_active_rows(is_active);
     matrix.clear();

@@ -3,18 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mechanics/matrix_sum.h>
 
 namespace NMM
 {
   struct ContactSystem::Data
   {
-    NonlinearSystem                     *elasticity;
-    Contact                             *contact;
-    std::unique_ptr<internal::MatrixSum> matrix;
-    unsigned int                         known_version = 0;
-    Vector                               sum;
-    double                               scale = 0.;
+    NonlinearSystem *elasticity;
+    Contact         *contact;
+    Vector           sum;
+    double           scale = 0.;
   };
 
 
@@ -48,16 +45,7 @@ namespace NMM
     d.sum += d.contact->residual();
     d.scale = std::hypot(d.scale, d.contact->residual().l2_norm());
     if (with_tangent)
-    {
-      if (d.matrix == nullptr ||
-          d.known_version != d.contact->pattern_version())
-      {
-        d.matrix        = std::make_unique<internal::MatrixSum>();
-        d.known_version = d.contact->pattern_version();
-      }
-      d.matrix->assemble(
-        d.contact->tangent(), 1., d.elasticity->tangent(), 1., nullptr, 0.);
-    }
+      d.contact->add_to_tangent(d.elasticity->tangent());
     return state;
   }
 
@@ -73,7 +61,7 @@ namespace NMM
   ContactSystem::tangent() const
   {
     return data->contact->is_idle() ? data->elasticity->tangent()
-                                    : (*data->matrix)();
+                                    : data->contact->tangent();
   }
 
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mechanics/matrix_sum.h>
+#include <mechanics/active_items.h>
 #include <utility>
 
 namespace NMM
@@ -14,7 +14,6 @@ namespace NMM
     MechanicalModel             *model;
     Contact                     *contact;
     std::vector<ObstacleRelease> releases;
-    internal::MatrixSum          matrix;
     internal::ActiveItems        active_rows;
     Vector                       sum;
     double                       scale       = 0.;
@@ -40,14 +39,7 @@ namespace NMM
       square = dealii::Utilities::MPI::sum(square, sum.get_mpi_communicator());
       scale  = std::hypot(model->force_scale(), std::sqrt(square));
       if (with_tangent)
-        matrix.assemble(contact->tangent(),
-                        1.,
-                        model->tangent(),
-                        1.,
-                        nullptr,
-                        0.,
-                        contact->pattern_version(),
-                        active_rows);
+        contact->add_to_tangent(model->tangent());
     }
   };
 
@@ -209,7 +201,8 @@ namespace NMM
   const ContactModel::Matrix &
   ContactModel::tangent() const
   {
-    return data->contact->is_idle() ? data->model->tangent() : data->matrix();
+    return data->contact->is_idle() ? data->model->tangent()
+                                    : data->contact->tangent();
   }
 
 

@@ -145,6 +145,14 @@ namespace NMM
 
 
     void
+    BlockSystem::assemble_in_place()
+    {
+      is_made_in_place =
+        dealii::Utilities::MPI::n_mpi_processes(covers->communicator()) == 1;
+    }
+
+
+    void
     BlockSystem::couple(const dealii::ArrayView<const unsigned int> covers)
     {
       if (has_constrained(covers))
@@ -175,6 +183,7 @@ namespace NMM
         exchange_pattern();
       localize_columns();
       values.assign(4 * columns.size(), 0.);
+      entries = values.data();
       right_hand_side.assign(2 * n_rows, 0.);
     }
 
@@ -373,7 +382,7 @@ namespace NMM
       const auto it    = std::lower_bound(begin, end, column);
       Assert(it != end && *it == column, dealii::ExcInternalError());
       stride = 2 * (row_begin[row + 1] - row_begin[row]);
-      return values.data() + 4 * row_begin[row] + 2 * (it - begin);
+      return entries + 4 * row_begin[row] + 2 * (it - begin);
     }
 
 
@@ -418,7 +427,7 @@ namespace NMM
         const double       *from   = matrix + 4 * n * order[a];
         const unsigned int *row    = columns.data() + row_begin[r];
         const std::size_t   length = row_begin[r + 1] - row_begin[r];
-        double             *first  = values.data() + 4 * row_begin[r];
+        double             *first  = entries + 4 * row_begin[r];
         double             *second = first + 2 * length;
         std::size_t         p      = 0;
         for (unsigned int b = 0; b < n; ++b)
@@ -487,11 +496,11 @@ namespace NMM
     BlockSystem::reset(const bool with_matrix)
     {
       if (with_matrix && active_rows.all())
-        std::fill(values.begin(), values.end(), 0.);
+        std::fill_n(entries, 4 * columns.size(), 0.);
       else if (with_matrix)
         active_rows.for_each(n_rows, [this](const unsigned int r) {
-          std::fill(values.begin() + 4 * row_begin[r],
-                    values.begin() + 4 * row_begin[r + 1],
+          std::fill(entries + 4 * row_begin[r],
+                    entries + 4 * row_begin[r + 1],
                     0.);
         });
       active_rows.for_each(n_rows, [this](const unsigned int r) {

@@ -12,12 +12,12 @@
 #include <mechanics/active_items.h>
 #include <vector>
 
-class Epetra_CrsMatrix;
-
 namespace NMM
 {
   namespace internal
   {
+    struct MatrixRows;
+
     /**
      * The linear system while it is assembled: a row-compressed matrix of 2x2
      * blocks, one block row per physical cover that this rank's elements touch,
@@ -53,6 +53,12 @@ namespace NMM
       /// others. Otherwise they get a diagonal entry.
       void
       leave_empty_rows();
+
+      /// On one rank, from the second assembly on: add() writes into the matrix that
+      /// transfer() has made, which therefore has to be there, and be the same, as
+      /// long as this; its values are those of the last reset() and what was added since.
+      void
+      assemble_in_place();
 
       /// All pairs of @p covers will be coupled. Owned elements are coupled
       /// already.
@@ -150,7 +156,7 @@ namespace NMM
       make_matrix(dealii::TrilinosWrappers::SparseMatrix &matrix) const;
 
       void
-      copy_values(const Epetra_CrsMatrix &matrix) const;
+      copy_values(const MatrixRows &to) const;
 
       void
       copy_rhs(dealii::TrilinosWrappers::MPI::Vector &rhs) const;
@@ -201,6 +207,9 @@ namespace NMM
       std::vector<unsigned int> columns;
       std::vector<double>       values;
       std::vector<double>       right_hand_side;
+      /// Where values are: in the vector, or in the matrix.
+      double *entries          = nullptr;
+      bool    is_made_in_place = false;
       /// Block rows that count.
       ActiveItems active_rows;
 

@@ -43,7 +43,14 @@ namespace NMM
       fix_empty_diagonals();
       if (matrix.m() != 2 * covers->n_global_covers())
         make_matrix(matrix);
-      copy_values(matrix.trilinos_matrix());
+      const MatrixRows to(matrix);
+      if (to.values != entries)
+        copy_values(to);
+      if (to.values != entries && is_made_in_place)
+      {
+        entries = to.values;
+        std::vector<double>().swap(values);
+      }
       copy_rhs(rhs);
     }
 
@@ -109,15 +116,14 @@ namespace NMM
 
 
     void
-    BlockSystem::copy_values(const Epetra_CrsMatrix &matrix) const
+    BlockSystem::copy_values(const MatrixRows &to) const
     {
       // both have the same order
-      const MatrixRows to(matrix);
       active_rows.for_each(n_owned, [&](const unsigned int r) {
         AssertDimension(static_cast<std::size_t>(to.begins[2 * r]),
                         4 * row_begin[r]);
-        std::copy(values.begin() + 4 * row_begin[r],
-                  values.begin() + 4 * row_begin[r + 1],
+        std::copy(entries + 4 * row_begin[r],
+                  entries + 4 * row_begin[r + 1],
                   to.values + to.begins[2 * r]);
       });
     }

@@ -91,6 +91,7 @@ namespace NMM
       block_system.couple({both.data(), both.size()});
     }
     block_system.ignore_inhomogeneities();
+    block_system.assemble_in_place();
     block_system.build();
   }
 

@@ -7,54 +7,58 @@ namespace NMM
 {
   namespace internal
   {
-    MatrixSum::Places
-    MatrixSum::find_places(const Matrix &matrix) const
+    void
+    MatrixAdder::find_places(const Matrix &from_matrix, const Matrix &to_matrix)
     {
-      const Epetra_CrsMatrix &from         = matrix.trilinos_matrix();
-      const Epetra_CrsMatrix &to           = sum.trilinos_matrix();
+      const Epetra_CrsMatrix &from         = from_matrix.trilinos_matrix();
+      const Epetra_CrsMatrix &to           = to_matrix.trilinos_matrix();
       const int              *from_columns = from.ColMap().MyGlobalElements();
       const int              *to_columns   = to.ColMap().MyGlobalElements();
-      Places                  places;
-      places.places.reserve(from.NumMyNonzeros());
+      const MatrixRows        from_rows(from), to_rows(to);
+      places.clear();
+      places.reserve(from.NumMyNonzeros());
+      row_begin.clear();
       std::vector<std::pair<int, int>> row;
       for (int r = 0; r < from.NumMyRows(); ++r)
       {
-        int     n_from, n_to, *from_indices, *to_indices;
-        double *values;
-        places.row_begin.push_back(places.places.size());
-        from.ExtractMyRowView(r, n_from, values, from_indices);
-        to.ExtractMyRowView(r, n_to, values, to_indices);
+        row_begin.push_back(places.size());
         row.clear();
-        for (int i = 0; i < n_to; ++i)
-          row.emplace_back(to_columns[to_indices[i]], i);
+        for (int i = to_rows.begins[r]; i < to_rows.begins[r + 1]; ++i)
+          row.emplace_back(to_columns[to_rows.columns[i]],
+                           i - to_rows.begins[r]);
         std::sort(row.begin(), row.end());
-        for (int i = 0; i < n_from; ++i)
+        for (int i = from_rows.begins[r]; i < from_rows.begins[r + 1]; ++i)
         {
-          const int  column = from_columns[from_indices[i]];
+          const int  column = from_columns[from_rows.columns[i]];
           const auto place =
             std::lower_bound(row.begin(), row.end(), std::make_pair(column, 0));
           AssertThrow(place != row.end() && place->first == column,
                       dealii::ExcMessage(
                         "The pattern is not within that of the stiffness."));
-          places.places.push_back(place->second);
+          places.push_back(place->second);
         }
       }
-      return places;
     }
 
 
     void
-    MatrixSum::add(const Matrix      &matrix,
-                   const double       factor,
-                   const Places      &places,
-                   const ActiveItems &rows)
+    MatrixAdder::add(const double       factor,
+                     const Matrix      &from_matrix,
+                     Matrix            &to_matrix,
+                     const unsigned int version,
+                     const ActiveItems &rows)
     {
-      const MatrixRows from(matrix), to(sum);
-      rows.for_each(matrix.trilinos_matrix().NumMyRows(),
+      if (!is_known || version != known_version)
+      {
+        find_places(from_matrix, to_matrix);
+        is_known      = true;
+        known_version = version;
+      }
+      const MatrixRows from(from_matrix), to(to_matrix);
+      rows.for_each(from_matrix.trilinos_matrix().NumMyRows(),
                     [&](const unsigned int r) {
-                      const int *place =
-                        places.places.data() + places.row_begin[r];
-                      double *values = to.values + to.begins[r];
+                      const int *place  = places.data() + row_begin[r];
+                      double    *values = to.values + to.begins[r];
                       for (int i = from.begins[r]; i < from.begins[r + 1]; ++i)
                         values[*place++] += factor * from.values[i];
                     });
@@ -75,21 +79,16 @@ namespace NMM
       {
         known_version = version;
         sum.reinit(stiffness);
-        mass_places    = find_places(mass);
-        damping_places = Places();
       }
-      if (damping != nullptr && damping_places.places.empty())
-        damping_places = find_places(*damping);
-
       const MatrixRows from(stiffness), to(sum);
       rows.for_each(stiffness.trilinos_matrix().NumMyRows(),
                     [&](const unsigned int r) {
                       for (int i = from.begins[r]; i < from.begins[r + 1]; ++i)
                         to.values[i] = k * from.values[i];
                     });
-      add(mass, m, mass_places, rows);
+      mass_adder.add(m, mass, sum, version, rows);
       if (damping != nullptr && c != 0.)
-        add(*damping, c, damping_places, rows);
+        damping_adder.add(c, *damping, sum, version, rows);
     }
   } // namespace internal
 } // namespace NMM

@@ -11,9 +11,36 @@ namespace NMM
   namespace internal
   {
     /**
-     * k K + m M + c C for matrices whose patterns lie within that of K, again and
-     * again with other values: where the entries go is looked up once.
+     * Adds a matrix to another one whose pattern it lies within, again and again with
+     * other values: where the entries go is looked up once.
      */
+    class MatrixAdder
+    {
+    public:
+      using Matrix = dealii::TrilinosWrappers::SparseMatrix;
+
+      /// to += factor from, in @p rows. @p version: another number if one of them has
+      /// another pattern.
+      void
+      add(double             factor,
+          const Matrix      &from,
+          Matrix            &to,
+          unsigned int       version,
+          const ActiveItems &rows);
+
+    private:
+      void
+      find_places(const Matrix &from, const Matrix &to);
+
+      /// Per entry, row by row, its place in the other one's row.
+      std::vector<std::size_t> row_begin;
+      std::vector<int>         places;
+      bool                     is_known      = false;
+      unsigned int             known_version = 0;
+    };
+
+
+    /// k K + m M + c C for matrices whose patterns lie within that of K.
     class MatrixSum
     {
     public:
@@ -38,24 +65,8 @@ namespace NMM
       }
 
     private:
-      /// Per entry of a matrix, row by row, its place in the sum's row.
-      struct Places
-      {
-        std::vector<std::size_t> row_begin;
-        std::vector<int>         places;
-      };
-
-      Places
-      find_places(const Matrix &matrix) const;
-
-      void
-      add(const Matrix      &matrix,
-          double             factor,
-          const Places      &places,
-          const ActiveItems &rows);
-
       Matrix       sum;
-      Places       mass_places, damping_places;
+      MatrixAdder  mass_adder, damping_adder;
       unsigned int known_version = 0;
     };
   } // namespace internal

@@ -257,6 +257,11 @@ namespace NMM
     const Matrix &
     tangent() const;
 
+    /// Until the next assembly tangent() is that plus @p matrix, whose pattern lies
+    /// within its own, in the rows of active bodies: that of what is in contact.
+    void
+    add_to_tangent(const Matrix &matrix);
+
     /// Grows whenever the pattern of tangent() changes.
     unsigned int
     pattern_version() const;

@@ -183,8 +183,8 @@ namespace
   {
   public:
     CubicSprings(const std::vector<double> &f, const double gap)
-      : f(f)
-      , gap(gap)
+      : gap(gap)
+      , f(f)
     {
       const unsigned int             n = f.size();
       dealii::DynamicSparsityPattern pattern(n);
@@ -274,24 +274,29 @@ namespace
     std::vector<bool> held;
     unsigned int      n_rows = 0;
 
+  protected:
+    double            gap;
+    std::vector<bool> active;
+
   private:
     static constexpr double c = 100.;
 
     std::vector<double>       f;
-    double                    gap;
     std::vector<unsigned int> blocks, touched;
-    std::vector<bool>         active;
   };
 
 
   NewtonReport
-  solve(CubicSprings &system, NonlinearSystem::Vector &u)
+  solve(CubicSprings            &system,
+        NonlinearSystem::Vector &u,
+        const bool               always_search = false)
   {
     dealii::AffineConstraints<double> constraints;
     constraints.close();
     NewtonParameters parameters;
     parameters.n_robust_iterations = 0;
     parameters.max_iterations      = 30;
+    parameters.always_search       = always_search;
     return NewtonSolver(parameters).solve(system, constraints, u);
   }
 
@@ -334,6 +339,71 @@ namespace
     EXPECT_NEAR(u(0) + u(0) * u(0) * u(0) + press, 1010., 1e-8);
     EXPECT_NEAR(u(1) + u(1) * u(1) * u(1), press, 1e-8);
     EXPECT_NEAR(u(2), 0., 1e-12);
+  }
+
+
+  // From -30 over 4 the fifth correction goes to 21, through the second spring's place,
+  // which is done by then; but only a share of it is taken.
+  TEST(Newton, WhatIsTouchedInVainIsLeftAlone)
+  {
+    CubicSprings            system({1010., 0., 0.}, 12.);
+    NonlinearSystem::Vector u(dealii::complete_index_set(3), MPI_COMM_SELF);
+    u(0)                      = -30.;
+    const NewtonReport report = solve(system, u, /* always_search = */ true);
+    ASSERT_TRUE(report.converged) << report.reason;
+    EXPECT_NEAR(u(0), 10., 1e-10);
+    EXPECT_GT(report.n_line_search_cuts, 0U);
+    ASSERT_GT(report.iterations.size(), 6u);
+    for (unsigned int i = 1; i < report.iterations.size(); ++i)
+      EXPECT_EQ(report.iterations[i].active_share, 1. / 3.);
+  }
+
+
+  /// The pattern has no place for the contact of the first two before it is needed, and is
+  /// made anew then: other rows are empty until they are assembled again.
+  class GrowingPattern : public CubicSprings
+  {
+  public:
+    using CubicSprings::CubicSprings;
+
+    Deformation
+    assemble(const Vector &u, const Tangent tangent, const Vector *v) override
+    {
+      if (tangent != Tangent::none && version == 0 && !active.empty() &&
+          active[1] && !active[0] && u(0) - u(1) > gap)
+      {
+        ++version;
+        matrix = 0.;
+      }
+      return CubicSprings::assemble(u, tangent, v);
+    }
+
+    unsigned int
+    pattern_version() const override
+    {
+      return version;
+    }
+
+  private:
+    unsigned int version = 0;
+  };
+
+
+  // The third spring is still being solved when the first one touches the second one,
+  // which is done.
+  TEST(Newton, RowsOfAnotherPatternAreMadeAgain)
+  {
+    GrowingPattern          system({1010., 0., 1e5}, 5.);
+    NonlinearSystem::Vector u(dealii::complete_index_set(3), MPI_COMM_SELF);
+    u(0)                      = -30.;
+    const NewtonReport report = solve(system, u);
+    ASSERT_TRUE(report.converged) << report.reason;
+    EXPECT_EQ(system.pattern_version(), 1U);
+    const double press = 100. * (u(0) - u(1) - 5.);
+    EXPECT_GT(press, 10.);
+    EXPECT_NEAR(u(0) + u(0) * u(0) * u(0) + press, 1010., 1e-8);
+    EXPECT_NEAR(u(1) + u(1) * u(1) * u(1), press, 1e-8);
+    EXPECT_NEAR(u(2) + u(2) * u(2) * u(2), 1e5, 1e-8);
   }
 
 

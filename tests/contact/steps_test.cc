@@ -1,0 +1,210 @@
+// Contact in steps: what is coupled, and that forces do not jump.
+
+#include <contact/contact_model.h>
+
+using namespace NMM;
+using namespace NMM::Test;
+
+namespace
+{
+  Bodies::Options
+  one_triangle_each()
+  {
+    Bodies::Options options;
+    options.cell_size           = 10.;
+    options.mesh_of_every_block = true;
+    return options;
+  }
+
+
+  /// A block above another one, and a third one beside that is only looked for.
+  class TwoAndOne : public testing::Test
+  {
+  protected:
+    static constexpr double gap = 0.01, reach = 0.1, h = 0.01;
+
+    TwoAndOne()
+    {
+      Geometry geometry;
+      geometry.add_polygon({{0., 0.}, {3., 0.}, {3., 1.}, {0., 1.}}, "below");
+      geometry.add_polygon({{1., 1. + gap}, {2., 1. + gap}, {2., 2.}, {1., 2.}},
+                           "above");
+      geometry.add_polygon({{-1., 0.2}, {-gap, 0.2}, {-gap, 0.8}, {-1., 0.8}},
+                           "beside");
+      bodies =
+        std::make_unique<Bodies>(std::move(geometry), one_triangle_each());
+      bodies->start(contact_parameters(1e8, reach));
+      above = bodies->mesh.block(bodies->mesh.find_element({1.5, 1.5}));
+    }
+
+    /// The one above sinks.
+    Vector
+    sunk_by(const double depth)
+    {
+      return bodies->interpolate(
+        [&](const Point<2> &X, const unsigned int block) {
+          return block == above ? Point<2>(0., -depth * (1. + 0.1 * X[0]))
+                                : Point<2>();
+        });
+    }
+
+    void
+    begin_step()
+    {
+      const Vector begin = sunk_by(0.);
+      bodies->contact->detect(begin, reach);
+      bodies->contact->begin_step(begin, 0.);
+      bodies->contact->set_time(h);
+    }
+
+    unsigned int
+    n_touching() const
+    {
+      return bodies->contact->report().n_stick +
+             bodies->contact->report().n_slip;
+    }
+
+    std::unique_ptr<Bodies> bodies;
+    unsigned int            above = 0;
+  };
+
+
+  // Blocks that cannot touch in the step are not coupled; those that do nevertheless are
+  // from then on, with the tangent of the forces; the next step begins anew.
+  TEST_F(TwoAndOne, PatternFollowsWhatTouches)
+  {
+    Contact &contact = *bodies->contact;
+    contact.detect(sunk_by(0.), reach);
+    contact.assemble(sunk_by(0.), true);
+    const auto n_all = contact.tangent().n_nonzero_elements();
+
+    begin_step();
+    contact.assemble_between(sunk_by(1e-4), h, true);
+    const unsigned int first  = contact.pattern_version();
+    const auto         n_none = contact.tangent().n_nonzero_elements();
+    EXPECT_EQ(n_touching(), 0U);
+    // three blocks of twelve unknowns, each with itself
+    EXPECT_EQ(n_none, 3U * 12U * 12U);
+    contact.assemble_between(sunk_by(2e-4), h, true);
+    EXPECT_EQ(contact.pattern_version(), first);
+
+    // without a tangent nothing is coupled
+    const Vector deep = sunk_by(1.2 * gap);
+    contact.assemble_between(deep, h, false);
+    EXPECT_GT(n_touching(), 0U);
+    EXPECT_EQ(contact.pattern_version(), first);
+    contact.assemble_between(deep, h, true);
+    EXPECT_EQ(contact.pattern_version(), first + 1);
+    const auto n_two = contact.tangent().n_nonzero_elements();
+    EXPECT_EQ(n_two, n_none + 2U * 12U * 12U);
+    EXPECT_GT(n_all, n_two);
+
+    // the tangent is that by displacements in the middle of the step
+    const Vector d =
+      bodies->interpolate([&](const Point<2> &X, const unsigned int block) {
+        return block == above ? Point<2>(X[1], 1. + X[0])
+                              : Point<2>(0.3, -X[0]);
+      });
+    Vector owned(contact.residual()), direction(owned), product(owned);
+    constexpr double step = 1e-8;
+    direction             = d;
+    contact.tangent().vmult(product, direction);
+    owned = deep;
+    owned.add(step, direction);
+    contact.assemble_between(bodies->relevant(owned), h, false);
+    Vector difference(contact.residual());
+    owned.add(-2. * step, direction);
+    contact.assemble_between(bodies->relevant(owned), h, false);
+    difference -= contact.residual();
+    difference *= 2. * 0.5 / step;
+    difference -= product;
+    // rounding of differences of 1e-8 m
+    EXPECT_LE(difference.l2_norm(), 1e-6 * product.l2_norm());
+
+    begin_step();
+    contact.assemble_between(sunk_by(1e-4), h, true);
+    EXPECT_EQ(contact.tangent().n_nonzero_elements(), n_none);
+  }
+
+
+  // What is added is there until the next assembly, in whatever is assembled.
+  TEST_F(TwoAndOne, TangentWithAnotherMatrix)
+  {
+    Contact &contact = *bodies->contact;
+    begin_step();
+    const Vector deep = sunk_by(1.2 * gap);
+    contact.assemble_between(deep, h, true);
+    const Vector d = bodies->interpolate(
+      [&](const Point<2> &X, const unsigned int) { return X * X[0]; });
+    Vector direction(contact.residual()), of_contact(direction),
+      of_elasticity(direction), of_both(direction);
+    direction = d;
+    contact.tangent().vmult(of_contact, direction);
+    EXPECT_GT(of_contact.l2_norm(), 0.);
+    ASSERT_EQ(bodies->elasticity->assemble(sunk_by(0.),
+                                           1.,
+                                           Tangent::consistent),
+              Deformation::admissible);
+    bodies->elasticity->tangent().vmult(of_elasticity, direction);
+    EXPECT_GT(of_elasticity.l2_norm(), 1e-10 * of_contact.l2_norm());
+    contact.add_to_tangent(bodies->elasticity->tangent());
+    contact.tangent().vmult(of_both, direction);
+    of_both -= of_contact;
+    of_both -= of_elasticity;
+    // rounding of the larger one
+    EXPECT_LE(of_both.l2_norm(), 1e-13 * of_contact.l2_norm());
+    contact.assemble_between(deep, h, true);
+    contact.tangent().vmult(of_both, direction);
+    of_both -= of_contact;
+    EXPECT_EQ(of_both.l2_norm(), 0.);
+  }
+
+
+  // A corner comes into a face just beside the end of that one: it is in front of the
+  // face at the begin of a step and behind it at the end, and what it does in the middle,
+  // where the other face of the corner is as near, does not matter.
+  TEST(ContactSteps, CornerBesideACorner)
+  {
+    constexpr double reach = 0.1, h = 0.01, gap = 1e-4, stiffness = 1e8;
+    const Point<2>   corner(1. + gap, 0.98);
+    for (const double direction : {45., 60., 80.})
+    {
+      const double       turn = dealii::numbers::PI * direction / 180.;
+      const Tensor<1, 2> e({std::cos(turn), std::sin(turn)}),
+        f({-std::sin(turn), std::cos(turn)});
+      Geometry geometry;
+      geometry.add_polygon({{0., 0.}, {1., 0.}, {1., 1.}, {0., 1.}}, "left");
+      geometry.add_polygon({corner,
+                            corner - f * 0.5,
+                            corner + e * 0.5 - f * 0.5,
+                            corner + e * 0.5},
+                           "right");
+      Bodies bodies(std::move(geometry), one_triangle_each());
+      bodies.start(contact_parameters(stiffness, reach));
+      const unsigned int right =
+        bodies.mesh.block(bodies.mesh.find_element(corner + 0.25 * (e - f)));
+      const auto moved_by = [&](const double way) {
+        return bodies.interpolate(
+          [&](const Point<2> &, const unsigned int block) {
+            return block == right ? Point<2>(-way, 0.) : Point<2>();
+          });
+      };
+      const Vector begin = moved_by(0.);
+      bodies.contact->detect(begin, reach);
+      bodies.contact->begin_step(begin, 0.);
+      bodies.contact->set_time(h);
+      double last = 0., largest_jump = 0., largest = 0.;
+      for (double way = gap; way < 3. * gap; way += 0.01 * gap)
+      {
+        bodies.contact->assemble_between(moved_by(way), h, false);
+        const double force = bodies.contact->report().force.norm();
+        largest_jump       = std::max(largest_jump, std::abs(force - last));
+        largest            = std::max(largest, force);
+        last               = force;
+      }
+      EXPECT_GT(largest, 0.) << direction;
+      // a hundredth of the gap each: force and slope are those of one spring
+      EXPECT_LE(largest_jump, 0.02 * largest) << direction;
+    }
+  }
+} // namespace

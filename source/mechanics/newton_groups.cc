@@ -14,24 +14,40 @@ namespace NMM
                          const Vector                    &like)
     {
       if (blocks != block_of)
+      {
         active_unknowns.clear();
+        corrected_unknowns.clear();
+      }
       block_of = blocks;
       n_all    = like.size();
       if (active_unknowns.empty() && !blocks.empty())
+      {
         active_unknowns.reinit(blocks);
+        corrected_unknowns.reinit(blocks);
+      }
       const unsigned int n =
         blocks.empty() ? 1
                        : *std::max_element(blocks.begin(), blocks.end()) + 1;
       groups.assign(n, Group());
+      all_blocks.resize(n);
+      for (Block &block : all_blocks)
+      {
+        block.residual_is_known = false;
+        block.n_unknowns        = 0;
+        block.neighbours.clear();
+      }
       states.assign(n, State::active);
       joined.reinit(n);
       if (blocks.empty())
-        groups[0].n_unknowns = n_all;
+        all_blocks[0].n_unknowns = n_all;
       for (const unsigned int block : blocks)
-        ++groups[block].n_unknowns;
-      for (unsigned int b = 0; b < is_held.size() && b < n; ++b)
-        if (is_held[b])
+        ++all_blocks[block].n_unknowns;
+      for (unsigned int b = 0; b < n; ++b)
+      {
+        groups[b].n_unknowns = all_blocks[b].n_unknowns;
+        if (b < is_held.size() && is_held[b])
           states[b] = State::held;
+      }
       number_roots();
     }
 
@@ -56,75 +72,236 @@ namespace NMM
     {
       all_active_roots.clear();
       active_blocks.clear();
+      std::vector<bool> is_active(groups.size(), false);
       for (unsigned int b = 0; b < groups.size(); ++b)
         if (states[root_of[b]] == State::active)
         {
+          is_active[b] = true;
           active_blocks.push_back(b);
           if (root_of[b] == b)
             all_active_roots.push_back(b);
         }
+        else
+          all_blocks[b].is_loud = all_blocks[b].is_corrected = false;
       if (!block_of.empty())
-        active_unknowns.select(mask([](const Group &) { return true; }));
+        active_unknowns.select(active_blocks.size() == groups.size()
+                                 ? std::vector<bool>()
+                                 : is_active);
     }
 
 
     void
-    NewtonGroups::unite(const dealii::TrilinosWrappers::SparseMatrix &matrix)
+    NewtonGroups::choose(const Vector &residual, const double allowed)
     {
+      // of the part of a tolerance
+      constexpr double quiet = 0.1;
+
+      std::vector<double> squares(groups.size(), 0.);
+      const auto          r = residual.begin();
+      if (!block_of.empty())
+        active_unknowns.for_each(n_all, [&](const unsigned int i) {
+          squares[block_of[i]] += r[i] * r[i];
+        });
+      std::vector<bool> is_any_loud(groups.size(), false);
+      for (const unsigned int b : active_blocks)
+      {
+        Block       &block = all_blocks[b];
+        const double part  = double(block.n_unknowns) / n_all;
+        block.is_loud      = !block.residual_is_known ||
+                        squares[b] > quiet * quiet * allowed * allowed * part;
+        block.is_corrected = false;
+        if (block.is_loud)
+          is_any_loud[root_of[b]] = true;
+      }
+      for (const unsigned int b : active_blocks)
+        if (!is_any_loud[root_of[b]])
+          all_blocks[b].is_loud = true;
+      extend();
+    }
+
+
+    std::vector<unsigned int>
+    NewtonGroups::with_neighbours(const std::vector<unsigned int> &chosen) const
+    {
+      std::vector<bool>         is_in(groups.size(), false);
+      std::vector<unsigned int> result = chosen;
+      for (const unsigned int b : chosen)
+        is_in[b] = true;
+      for (const unsigned int b : chosen)
+        for (const unsigned int other : all_blocks[b].neighbours)
+          if (!is_in[other] && states[root_of[other]] == State::active)
+          {
+            is_in[other] = true;
+            result.push_back(other);
+          }
+      return result;
+    }
+
+
+    void
+    NewtonGroups::extend()
+    {
+      std::vector<unsigned int> chosen;
+      for (const unsigned int b : active_blocks)
+        if (all_blocks[b].is_loud)
+          chosen.push_back(b);
+      chosen         = with_neighbours(with_neighbours(chosen));
+      watched_blocks = with_neighbours(chosen);
+      std::vector<bool> is_chosen(groups.size(), false);
+      for (const unsigned int b : chosen)
+        all_blocks[b].is_corrected = is_chosen[b] = true;
+      if (!block_of.empty())
+        corrected_unknowns.select(
+          chosen.size() == groups.size() ? std::vector<bool>() : is_chosen);
+    }
+
+
+    std::vector<bool>
+    NewtonGroups::without_tangent() const
+    {
+      unsigned int      n = 0;
+      std::vector<bool> result(groups.size(), false);
+      for (const unsigned int b : active_blocks)
+        if (all_blocks[b].is_corrected && !all_blocks[b].has_tangent)
+        {
+          result[b] = true;
+          ++n;
+        }
+      return n == groups.size() ? std::vector<bool>() : result;
+    }
+
+
+    bool
+    NewtonGroups::have_tangents() const
+    {
+      return std::all_of(active_blocks.begin(),
+                         active_blocks.end(),
+                         [this](const unsigned int b) {
+                           return !all_blocks[b].is_corrected ||
+                                  all_blocks[b].has_tangent;
+                         });
+    }
+
+
+    void
+    NewtonGroups::lose_tangents()
+    {
+      for (Block &block : all_blocks)
+        block.has_tangent = false;
+    }
+
+
+    void
+    NewtonGroups::note_residual(const std::vector<bool> &blocks)
+    {
+      for (unsigned int b = 0; b < all_blocks.size(); ++b)
+        if (blocks.empty() || blocks[b])
+          all_blocks[b].residual_is_known = true;
+    }
+
+
+    void
+    NewtonGroups::unite(const std::vector<bool>                      &blocks,
+                        const dealii::TrilinosWrappers::SparseMatrix &matrix)
+    {
+      std::vector<std::vector<unsigned int>> before(all_blocks.size());
+      for (unsigned int b = 0; b < all_blocks.size(); ++b)
+        if (blocks.empty() || blocks[b])
+        {
+          all_blocks[b].has_tangent = true;
+          before[b].swap(all_blocks[b].neighbours);
+        }
       if (block_of.empty())
         return;
       const MatrixRows entries(matrix);
-      bool             has_joined = false;
-      active_unknowns.for_each(n_all, [&](const unsigned int row) {
+      corrected_unknowns.for_each(n_all, [&](const unsigned int row) {
+        const unsigned int b = block_of[row];
+        if (!blocks.empty() && !blocks[b])
+          return;
+        auto &neighbours = all_blocks[b].neighbours;
         for (int i = entries.begins[row]; i < entries.begins[row + 1]; ++i)
         {
           const unsigned int other = block_of[entries.columns[i]];
-          if (other == block_of[row] || entries.values[i] == 0.)
-            continue;
-          const unsigned int a = joined.find(block_of[row]),
-                             b = joined.find(other);
-          // what is not active does not feel this row: see NonlinearSystem
-          if (a == b || states[b] != State::active)
-            continue;
-          Group both;
-          both.n_unknowns = groups[a].n_unknowns + groups[b].n_unknowns;
-          joined.join(a, b);
-          groups[joined.find(a)] = both;
-          has_joined             = true;
+          if (other != b && entries.values[i] != 0. &&
+              std::find(neighbours.begin(), neighbours.end(), other) ==
+                neighbours.end())
+            neighbours.push_back(other);
         }
       });
+
+      bool has_joined = false, is_any_new = false;
+      for (const unsigned int b : active_blocks)
+        if (blocks.empty() || blocks[b])
+          for (const unsigned int other : all_blocks[b].neighbours)
+          {
+            // what is not active does not feel this row: see NonlinearSystem
+            if (states[joined.find(other)] != State::active)
+              continue;
+            if (joined.find(b) != joined.find(other))
+            {
+              join(b, other);
+              has_joined = true;
+            }
+            if (!all_blocks[other].is_corrected &&
+                std::find(before[b].begin(), before[b].end(), other) ==
+                  before[b].end())
+              all_blocks[other].is_loud = is_any_new = true;
+          }
       if (has_joined)
         number_roots();
+      if (is_any_new)
+        extend();
+    }
+
+
+    void
+    NewtonGroups::join(const unsigned int i, const unsigned int j)
+    {
+      Group both;
+      both.n_unknowns =
+        groups[joined.find(i)].n_unknowns + groups[joined.find(j)].n_unknowns;
+      joined.join(i, j);
+      groups[joined.find(i)] = both;
     }
 
 
     double
-    NewtonGroups::active_share() const
+    NewtonGroups::corrected_share() const
     {
       double n = 0.;
-      for (const unsigned int root : all_active_roots)
-        n += groups[root].n_unknowns;
+      for (const unsigned int b : active_blocks)
+        if (all_blocks[b].is_corrected)
+          n += all_blocks[b].n_unknowns;
       return n / n_all;
     }
 
 
     void
-    NewtonGroups::wake(const std::vector<unsigned int> &blocks)
+    NewtonGroups::wake(const std::vector<unsigned int> &blocks,
+                       const bool                       is_known)
     {
-      bool is_any = false;
+      std::vector<unsigned int> roots;
       for (const unsigned int block : blocks)
       {
         const unsigned int root = root_of[block];
-        if (states[root] == State::active || states[root] == State::held)
+        if (states[root] != State::done)
           continue;
+        roots.push_back(root);
+        all_blocks[block].residual_is_known = is_known;
+        all_blocks[block].is_loud           = true;
+      }
+      for (const unsigned int root : roots)
+      {
         const unsigned int n    = groups[root].n_unknowns;
         groups[root]            = Group();
         groups[root].n_unknowns = n;
         states[root]            = State::active;
-        is_any                  = true;
       }
-      if (is_any)
+      if (!roots.empty())
+      {
         list_active();
+        extend();
+      }
     }
 
 
@@ -152,9 +329,12 @@ namespace NMM
       active_unknowns.for_each(residual.locally_owned_size(),
                                [&](const unsigned int i) {
                                  Group &group = of_unknown(i);
-                                 group.product += r[i] * c[i];
                                  group.square += r[i] * r[i];
                                });
+      corrected_unknowns.for_each(residual.locally_owned_size(),
+                                  [&](const unsigned int i) {
+                                    of_unknown(i).product += r[i] * c[i];
+                                  });
       if (!block_of.empty())
         return;
       double sums[2] = {groups[0].product, groups[0].square};

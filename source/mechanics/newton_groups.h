@@ -20,6 +20,8 @@ namespace NMM
      * One group of all unknowns if there are no blocks to tell apart.
      *
      * Some are being solved (active), others are done, or held: not solved at all.
+     * What an iteration corrects of an active group is what is far from equilibrium and
+     * what is near that: few blocks of a large heap, in the end.
      */
     class NewtonGroups
     {
@@ -28,8 +30,6 @@ namespace NMM
 
       struct Group
       {
-        /// It has the tangent of this iteration.
-        bool has_tangent = false;
         /// In the last iteration.
         bool         has_converged = false;
         unsigned int n_unknowns    = 0;
@@ -50,10 +50,35 @@ namespace NMM
              const std::vector<bool>         &is_held,
              const Vector                    &like);
 
-      /// Blocks that values of active rows of @p matrix other than zero couple are
-      /// one group from now on. What joins begins its history anew.
+      /// What is corrected from now on: in each active group blocks the residual of which
+      /// is not known, or above a tenth of their part of @p allowed, and what touches
+      /// those at second hand; all if there are none. Blocks that are left out feel
+      /// corrections as forces: see watch().
       void
-      unite(const dealii::TrilinosWrappers::SparseMatrix &matrix);
+      choose(const Vector &residual, const double allowed);
+
+      /// Blocks that are to be corrected and have no tangent yet.
+      std::vector<bool>
+      without_tangent() const;
+
+      /// All blocks that are to be corrected have one?
+      bool
+      have_tangents() const;
+
+      /// Rows of @p blocks (empty: all) of the tangent @p matrix are new. What values
+      /// other than zero couple is one group from now on; what joins begins its history
+      /// anew. Blocks that were not coupled before are corrected, too.
+      void
+      unite(const std::vector<bool>                      &blocks,
+            const dealii::TrilinosWrappers::SparseMatrix &matrix);
+
+      /// No block has its tangent.
+      void
+      lose_tangents();
+
+      /// The residual of @p blocks (empty: all) is known.
+      void
+      note_residual(const std::vector<bool> &blocks);
 
       /// Roots, one block of each group: of all groups, and of active ones.
       const std::vector<unsigned int> &
@@ -92,9 +117,9 @@ namespace NMM
         return !all_active_roots.empty();
       }
 
-      /// Share of all unknowns that are in active groups.
+      /// Share of all unknowns that are being corrected.
       double
-      active_share() const;
+      corrected_share() const;
 
       unsigned int
       n_unknowns() const
@@ -102,23 +127,26 @@ namespace NMM
         return n_all;
       }
 
-      /// The groups of these blocks are active again, from the beginning, unless they are
-      /// held.
+      /// The groups of these blocks are active again, from the beginning, if they are
+      /// done; is the residual of these blocks known?
       void
-      wake(const std::vector<unsigned int> &blocks);
+      wake(const std::vector<unsigned int> &blocks,
+           const bool                       is_known = false);
 
       /// Active groups that have converged are done.
       void
       let_go();
 
-      /// Blocks of active groups for which @p is_meant; empty if that is all blocks.
+      /// Blocks of active groups for which @p is_meant the residual of which corrections
+      /// change: those that are corrected, and what touches them. Empty if that is all
+      /// blocks.
       template <typename Predicate>
       std::vector<bool>
-      mask(const Predicate &is_meant) const
+      watched(const Predicate &is_meant) const
       {
         unsigned int      n = 0;
         std::vector<bool> result(groups.size(), false);
-        for (const unsigned int b : active_blocks)
+        for (const unsigned int b : watched_blocks)
           if (is_meant(groups[root_of[b]]))
           {
             result[b] = true;
@@ -141,6 +169,13 @@ namespace NMM
         return active_unknowns;
       }
 
+      /// And those that are being corrected.
+      const ActiveItems &
+      corrected() const
+      {
+        return corrected_unknowns;
+      }
+
       /// Group of the i-th owned unknown.
       Group &
       of_unknown(const unsigned int i)
@@ -148,7 +183,8 @@ namespace NMM
         return groups[block_of.empty() ? 0 : root_of[block_of[i]]];
       }
 
-      /// Products and squares of active groups, from the residual and a correction.
+      /// Products and squares of active groups, from the residual and a correction,
+      /// which is zero but for what is being corrected.
       void
       sum(const Vector &residual, const Vector &correction);
 
@@ -164,6 +200,15 @@ namespace NMM
         held
       };
 
+      struct Block
+      {
+        bool residual_is_known = false, is_loud = false, is_corrected = false,
+             has_tangent        = false;
+        unsigned int n_unknowns = 0;
+        /// With which its rows were coupled when they were assembled last.
+        std::vector<unsigned int> neighbours;
+      };
+
       void
       number_roots();
 
@@ -171,12 +216,24 @@ namespace NMM
       void
       list_active();
 
+      /// @p chosen and the blocks of active groups that touch them.
+      std::vector<unsigned int>
+      with_neighbours(const std::vector<unsigned int> &chosen) const;
+
+      /// What is loud and what is near is corrected.
+      void
+      extend();
+
+      void
+      join(const unsigned int i, const unsigned int j);
+
       DisjointSets              joined;
       std::vector<unsigned int> block_of, root_of, all_roots, all_active_roots,
-        active_blocks;
+        active_blocks, watched_blocks;
       std::vector<Group> groups;
       std::vector<State> states;
-      ActiveItems        active_unknowns;
+      std::vector<Block> all_blocks;
+      ActiveItems        active_unknowns, corrected_unknowns;
       unsigned int       n_all = 0;
     };
   } // namespace internal

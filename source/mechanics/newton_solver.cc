@@ -62,10 +62,7 @@ namespace NMM
 
     template <typename Predicate>
     Deformation
-    assemble(const Vector    &u,
-             Tangent          tangent,
-             const Vector    *increment,
-             const Predicate &is_meant);
+    assemble_residual(const Vector &u, const Predicate &is_meant);
 
     Deformation
     assemble_all(const Vector &u);
@@ -122,18 +119,16 @@ namespace NMM
   NewtonSolver::~NewtonSolver() = default;
 
 
-  /// Residual, and tangent, of active groups for which @p is_meant.
+  /// Residual of what corrections change in active groups for which @p is_meant.
   template <typename Predicate>
   Deformation
-  NewtonSolver::Data::assemble(const Vector    &u,
-                               const Tangent    tangent,
-                               const Vector    *increment,
-                               const Predicate &is_meant)
+  NewtonSolver::Data::assemble_residual(const Vector    &u,
+                                        const Predicate &is_meant)
   {
     return assemble_blocks(u,
-                           tangent,
-                           increment,
-                           groups.are_there_several() ? groups.mask(is_meant)
+                           Tangent::none,
+                           nullptr,
+                           groups.are_there_several() ? groups.watched(is_meant)
                                                       : std::vector<bool>());
   }
 
@@ -166,6 +161,7 @@ namespace NMM
     // the first one is of all that is not held
     if (blocks.empty() || scale == 0.)
       scale = system->force_scale();
+    groups.note_residual(blocks);
     double norm = 0.;
     if (blocks.empty())
     {
@@ -190,7 +186,7 @@ namespace NMM
   }
 
 
-  /// Of what is active and of what it presses on, with residual and groups. What is
+  /// Of what is corrected and of what it presses on, with residual and groups. What is
   /// pressed on may press on something else: each time only the rows of what is
   /// new are assembled.
   Deformation
@@ -198,41 +194,39 @@ namespace NMM
   {
     const unsigned int k      = report->iterations.size();
     unsigned int       before = invalid_index;
-    for (const unsigned int root : groups.active_roots())
-      groups[root].has_tangent = false;
-    touched.clear();
-    while (true)
+    groups.choose(residual, parameters.residual_tolerance * scale);
+    groups.lose_tangents();
+    do
     {
+      const std::vector<bool> blocks = groups.are_there_several()
+                                         ? groups.without_tangent()
+                                         : std::vector<bool>();
+      touched.clear();
       const Deformation state =
-        assemble(u,
-                 k > parameters.n_robust_iterations ? Tangent::consistent
-                                                    : Tangent::robust,
-                 use_increment ? increment : nullptr,
-                 [](const Group &group) { return !group.has_tangent; });
+        assemble_blocks(u,
+                        k > parameters.n_robust_iterations ? Tangent::consistent
+                                                           : Tangent::robust,
+                        use_increment ? increment : nullptr,
+                        blocks);
       if (state != Deformation::admissible)
         return state;
       // a matrix of another pattern has lost what was assembled before
       const unsigned int version = system->pattern_version();
-      const bool         is_kept = before == invalid_index || version == before;
-      before                     = version;
-      for (const unsigned int root : groups.active_roots())
-        groups[root].has_tangent = is_kept || !groups[root].has_tangent;
+      if (before != invalid_index && version != before)
+        groups.lose_tangents();
+      before = version;
       groups.wake(touched);
-      touched.clear();
-      if (std::all_of(groups.active_roots().begin(),
-                      groups.active_roots().end(),
-                      [this](const unsigned int root) {
-                        return groups[root].has_tangent;
-                      }))
-        return state;
-    }
+      groups.unite(blocks, system->tangent());
+    } while (!groups.have_tangents());
+    touched.clear();
+    return Deformation::admissible;
   }
 
 
   void
   NewtonSolver::Data::note_increment()
   {
-    if (groups.unknowns().all())
+    if (groups.corrected().all())
     {
       Vector change(owned);
       change -= before;
@@ -240,7 +234,7 @@ namespace NMM
       return;
     }
     const auto to = last_increment.begin();
-    for (const unsigned int i : groups.unknowns().chosen())
+    for (const unsigned int i : groups.corrected().chosen())
       to[i] =
         std::as_const(owned).begin()[i] - std::as_const(before).begin()[i];
   }
@@ -262,7 +256,7 @@ namespace NMM
                      : internal::DirectSolver::Symmetry::unsymmetric,
         groups.are_there_several());
     }
-    direct_solver->factorize(system->tangent(), groups.unknowns().chosen());
+    direct_solver->factorize(system->tangent(), groups.corrected().chosen());
     report->factorization_time += timer.wall_time();
   }
 
@@ -281,7 +275,7 @@ namespace NMM
   void
   NewtonSolver::Data::distribute(Vector &u)
   {
-    if (groups.unknowns().all() || constraints->n_constraints() > 0)
+    if (groups.corrected().all() || constraints->n_constraints() > 0)
     {
       constraints->distribute(owned);
       u = owned;
@@ -290,7 +284,7 @@ namespace NMM
     // one rank: both have the same unknowns
     const auto from = owned.begin();
     const auto to   = u.begin();
-    for (const unsigned int i : groups.unknowns().chosen())
+    for (const unsigned int i : groups.corrected().chosen())
       to[i] = from[i];
   }
 
@@ -356,17 +350,17 @@ namespace NMM
     const auto         x = owned.begin(), a = before.begin();
     const auto         c = std::as_const(correction).begin();
     const unsigned int n = owned.locally_owned_size();
-    groups.unknowns().for_each(n, [&](const unsigned int i) { a[i] = x[i]; });
+    groups.corrected().for_each(n, [&](const unsigned int i) { a[i] = x[i]; });
     Deformation state   = Deformation::admissible;
     bool        goes_on = true;
     while (goes_on)
     {
-      groups.unknowns().for_each(n, [&](const unsigned int i) {
+      groups.corrected().for_each(n, [&](const unsigned int i) {
         x[i] = a[i] - groups.of_unknown(i).search.share() * c[i];
       });
       distribute(u);
       touched.clear();
-      state = assemble(u, Tangent::none, nullptr, is_open);
+      state = assemble_residual(u, is_open);
       if (state == Deformation::admissible)
         groups.sum(residual, correction);
       goes_on = false;
@@ -397,10 +391,8 @@ namespace NMM
         "turned inside out)";
       return false;
     }
-    if (groups.are_there_several())
-      groups.unite(system->tangent());
     iteration.relative_residual = report->relative_residual;
-    iteration.active_share      = groups.active_share();
+    iteration.active_share      = groups.corrected_share();
     try
     {
       factorize();
@@ -463,15 +455,14 @@ namespace NMM
       solve(residual, correction);
       const auto x = owned.begin();
       const auto c = std::as_const(correction).begin();
-      groups.unknowns().for_each(owned.locally_owned_size(),
-                                 [&](const unsigned int j) {
-                                   if (is_new(groups.of_unknown(j)))
-                                     x[j] -= c[j];
-                                 });
+      groups.corrected().for_each(owned.locally_owned_size(),
+                                  [&](const unsigned int j) {
+                                    if (is_new(groups.of_unknown(j)))
+                                      x[j] -= c[j];
+                                  });
       distribute(u);
       touched.clear();
-      if (assemble(u, Tangent::none, nullptr, is_new) !=
-          Deformation::admissible)
+      if (assemble_residual(u, is_new) != Deformation::admissible)
       {
         report->reason = "the deformation is not admissible";
         return false;
@@ -494,10 +485,9 @@ namespace NMM
     }
     if (is_any_new && !refine(u))
       return false;
+    // before, since what stays in place in active groups is pressed on all the time
+    groups.wake(touched);
     groups.let_go();
-    // the next tangent tells what those press on that go on
-    if (is_any_new)
-      groups.wake(touched);
     if (groups.is_any_active())
       return false;
     if (!groups.are_there_several())
@@ -517,7 +507,7 @@ namespace NMM
       if (groups[root].square * groups.n_unknowns() >
           allowed * allowed * groups[root].n_unknowns)
         touched.push_back(root);
-    groups.wake(touched);
+    groups.wake(touched, /* is_known = */ true);
     return !groups.is_any_active();
   }
 

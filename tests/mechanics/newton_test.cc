@@ -375,7 +375,11 @@ namespace
         ++version;
         matrix = 0.;
       }
-      return CubicSprings::assemble(u, tangent, v);
+      const Deformation state = CubicSprings::assemble(u, tangent, v);
+      // what is pressed on is noticed with the tangent alone
+      if (tangent == Tangent::none)
+        take_touched_blocks();
+      return state;
     }
 
     unsigned int

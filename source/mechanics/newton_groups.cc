@@ -82,7 +82,8 @@ namespace NMM
             all_active_roots.push_back(b);
         }
         else
-          all_blocks[b].is_loud = all_blocks[b].is_corrected = false;
+          all_blocks[b].is_loud        = all_blocks[b].is_watched =
+            all_blocks[b].is_corrected = false;
       if (!block_of.empty())
         active_unknowns.select(active_blocks.size() == groups.size()
                                  ? std::vector<bool>()
@@ -91,7 +92,9 @@ namespace NMM
 
 
     void
-    NewtonGroups::choose(const Vector &residual, const double allowed)
+    NewtonGroups::choose(const Vector &residual,
+                         const double  scale,
+                         const double  allowed)
     {
       // of the part of a tolerance
       constexpr double quiet = 0.1;
@@ -102,6 +105,7 @@ namespace NMM
         active_unknowns.for_each(n_all, [&](const unsigned int i) {
           squares[block_of[i]] += r[i] * r[i];
         });
+      widen(squares, scale);
       std::vector<bool> is_any_loud(groups.size(), false);
       for (const unsigned int b : active_blocks)
       {
@@ -109,7 +113,6 @@ namespace NMM
         const double part  = double(block.n_unknowns) / n_all;
         block.is_loud      = !block.residual_is_known ||
                         squares[b] > quiet * quiet * allowed * allowed * part;
-        block.is_corrected = false;
         if (block.is_loud)
           is_any_loud[root_of[b]] = true;
       }
@@ -120,20 +123,47 @@ namespace NMM
     }
 
 
-    std::vector<unsigned int>
-    NewtonGroups::with_neighbours(const std::vector<unsigned int> &chosen) const
+    void
+    NewtonGroups::widen(const std::vector<double> &squares, const double scale)
     {
-      std::vector<bool>         is_in(groups.size(), false);
-      std::vector<unsigned int> result = chosen;
-      for (const unsigned int b : chosen)
-        is_in[b] = true;
-      for (const unsigned int b : chosen)
-        for (const unsigned int other : all_blocks[b].neighbours)
-          if (!is_in[other] && states[root_of[other]] == State::active)
-          {
-            is_in[other] = true;
-            result.push_back(other);
-          }
+      constexpr double much = 0.1;
+
+      std::vector<double> felt(groups.size(), 0.);
+      for (const unsigned int b : active_blocks)
+        if (all_blocks[b].is_watched && !all_blocks[b].is_corrected)
+          felt[root_of[b]] += squares[b];
+      for (const unsigned int root : all_active_roots)
+      {
+        Group &group = groups[root];
+        if (!group.squares.empty() &&
+            felt[root] > much * much * scale * scale * group.squares.back())
+          group.n_rings *= 2;
+      }
+    }
+
+
+    std::vector<std::pair<unsigned int, unsigned int>>
+    NewtonGroups::near_loud() const
+    {
+      std::vector<bool> is_in(groups.size(), false);
+      std::vector<std::pair<unsigned int, unsigned int>> result;
+      for (const unsigned int b : active_blocks)
+        if (all_blocks[b].is_loud)
+        {
+          is_in[b] = true;
+          result.emplace_back(b, 0);
+        }
+      for (unsigned int i = 0; i < result.size(); ++i)
+      {
+        const auto [b, ring] = result[i];
+        if (ring <= groups[root_of[b]].n_rings)
+          for (const unsigned int other : all_blocks[b].neighbours)
+            if (!is_in[other] && states[root_of[other]] == State::active)
+            {
+              is_in[other] = true;
+              result.emplace_back(other, ring + 1);
+            }
+      }
       return result;
     }
 
@@ -141,18 +171,23 @@ namespace NMM
     void
     NewtonGroups::extend()
     {
-      std::vector<unsigned int> chosen;
       for (const unsigned int b : active_blocks)
-        if (all_blocks[b].is_loud)
-          chosen.push_back(b);
-      chosen         = with_neighbours(with_neighbours(chosen));
-      watched_blocks = with_neighbours(chosen);
+        all_blocks[b].is_watched = all_blocks[b].is_corrected = false;
       std::vector<bool> is_chosen(groups.size(), false);
-      for (const unsigned int b : chosen)
+      unsigned int      n_chosen = 0;
+      watched_blocks.clear();
+      for (const auto &[b, ring] : near_loud())
+      {
+        all_blocks[b].is_watched = true;
+        watched_blocks.push_back(b);
+        if (ring > groups[root_of[b]].n_rings)
+          continue;
         all_blocks[b].is_corrected = is_chosen[b] = true;
+        ++n_chosen;
+      }
       if (!block_of.empty())
         corrected_unknowns.select(
-          chosen.size() == groups.size() ? std::vector<bool>() : is_chosen);
+          n_chosen == groups.size() ? std::vector<bool>() : is_chosen);
     }
 
 

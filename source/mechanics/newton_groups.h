@@ -7,6 +7,7 @@
 #include <base/disjoint_sets.h>
 #include <mechanics/active_items.h>
 #include <mechanics/share_search.h>
+#include <utility>
 #include <vector>
 
 namespace NMM
@@ -33,6 +34,8 @@ namespace NMM
         /// In the last iteration.
         bool         has_converged = false;
         unsigned int n_unknowns    = 0;
+        /// What touches at so many hands what is far from equilibrium is corrected.
+        unsigned int n_rings = 2;
         /// Of the iterations since it was made, joined another one or was woken:
         /// |r|^2 over the square of the force scale, and |r . du|.
         std::vector<double> squares, energies;
@@ -52,10 +55,12 @@ namespace NMM
 
       /// What is corrected from now on: in each active group blocks the residual of which
       /// is not known, or above a tenth of their part of @p allowed, and what touches
-      /// those at second hand; all if there are none. Blocks that are left out feel
-      /// corrections as forces: see watch().
+      /// those at second hand; all if there are none. What is left out feels
+      /// corrections as forces, see watched(): where those are above a tenth of the
+      /// residual of the group, equilibrium is a matter of more than neighbours (a tower
+      /// at rest), and from then on twice as many hands count. @p scale: of forces.
       void
-      choose(const Vector &residual, const double allowed);
+      choose(const Vector &residual, double scale, double allowed);
 
       /// Blocks that are to be corrected and have no tangent yet.
       std::vector<bool>
@@ -203,7 +208,7 @@ namespace NMM
       struct Block
       {
         bool residual_is_known = false, is_loud = false, is_corrected = false,
-             has_tangent        = false;
+             is_watched = false, has_tangent = false;
         unsigned int n_unknowns = 0;
         /// With which its rows were coupled when they were assembled last.
         std::vector<unsigned int> neighbours;
@@ -216,9 +221,14 @@ namespace NMM
       void
       list_active();
 
-      /// @p chosen and the blocks of active groups that touch them.
-      std::vector<unsigned int>
-      with_neighbours(const std::vector<unsigned int> &chosen) const;
+      /// Groups that need more rings have them.
+      void
+      widen(const std::vector<double> &squares, double scale);
+
+      /// What is loud (not known to be in equilibrium) and what is near that, each with
+      /// its distance: 0, 1, ... rings, one more than are corrected.
+      std::vector<std::pair<unsigned int, unsigned int>>
+      near_loud() const;
 
       /// What is loud and what is near is corrected.
       void

@@ -194,7 +194,7 @@ namespace NMM
   {
     const unsigned int k      = report->iterations.size();
     unsigned int       before = invalid_index;
-    groups.choose(residual, parameters.residual_tolerance * scale);
+    groups.choose(residual, scale, parameters.residual_tolerance * scale);
     groups.lose_tangents();
     do
     {

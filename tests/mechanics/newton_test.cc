@@ -411,6 +411,191 @@ namespace
   }
 
 
+  /**
+   * Blocks in a row, each tied to the next one by a spring c and to its place by a
+   * spring k, and the first one by a cubic spring, too:
+   * k u_i + c (2 u_i - u_{i-1} - u_{i+1}) (+ u_0^3) = f_0. Without k what the first one
+   * does all others do: a tower on soft ground; with k >> c, it is felt nearby, as in a
+   * time step.
+   */
+  class Row : public MatrixAndForces
+  {
+  public:
+    Row(const unsigned int n,
+        const double       k,
+        const double       c,
+        const double       f,
+        const bool         are_told_apart)
+      : k(k)
+      , c(c)
+      , f(f)
+    {
+      dealii::DynamicSparsityPattern pattern(n);
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        for (unsigned int j = i == 0 ? 0 : i - 1; j < std::min(n, i + 2); ++j)
+          pattern.add(i, j);
+        if (are_told_apart)
+          blocks.push_back(i);
+      }
+      const dealii::IndexSet all = dealii::complete_index_set(n);
+      matrix.reinit(all, pattern, MPI_COMM_SELF);
+      forces.reinit(all, MPI_COMM_SELF);
+    }
+
+    Deformation
+    assemble(const Vector &u, const Tangent tangent, const Vector *) override
+    {
+      const unsigned int n = forces.size();
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        // what is not asked for is not right
+        forces(i) = 1e10;
+        if (!active.empty() && !active[i])
+          continue;
+        ++n_rows;
+        double force = k * u(i), stiffness = k;
+        if (i == 0)
+        {
+          force += u(0) + u(0) * u(0) * u(0) - f;
+          stiffness += 1. + 3. * u(0) * u(0);
+        }
+        for (const unsigned int j : {i - 1, i + 1})
+          if (j < n)
+          {
+            force += c * (u(i) - u(j));
+            stiffness += c;
+            if (tangent != Tangent::none)
+              matrix.set(i, j, -c);
+          }
+        forces(i) = force;
+        if (tangent != Tangent::none)
+          matrix.set(i, i, stiffness);
+      }
+      forces.compress(dealii::VectorOperation::insert);
+      matrix.compress(dealii::VectorOperation::insert);
+      return Deformation::admissible;
+    }
+
+    bool
+    tangent_is_symmetric() const override
+    {
+      return false;
+    }
+
+    double
+    force_scale() const override
+    {
+      return 1.;
+    }
+
+    const std::vector<unsigned int> &
+    blocks_of_unknowns() const override
+    {
+      return blocks;
+    }
+
+    void
+    set_active_blocks(const std::vector<bool> &is_active) override
+    {
+      active = is_active;
+    }
+
+    unsigned int n_rows = 0;
+
+  private:
+    double                    k, c, f;
+    std::vector<unsigned int> blocks;
+    std::vector<bool>         active;
+  };
+
+
+  struct RowResult
+  {
+    NewtonReport        report;
+    unsigned int        n_rows = 0;
+    std::vector<double> u;
+  };
+
+
+  RowResult
+  solve_row(const double k,
+            const double c,
+            const bool   are_told_apart,
+            const double residual_tolerance = 1e-9)
+  {
+    constexpr unsigned int  n = 64;
+    Row                     system(n, k, c, 1010., are_told_apart);
+    NonlinearSystem::Vector u(dealii::complete_index_set(n), MPI_COMM_SELF);
+    dealii::AffineConstraints<double> constraints;
+    constraints.close();
+    NewtonParameters parameters;
+    parameters.n_robust_iterations = 0;
+    parameters.max_iterations      = 40;
+    parameters.residual_tolerance  = residual_tolerance;
+    u(0)                           = 20.;
+    RowResult result;
+    result.report = NewtonSolver(parameters).solve(system, constraints, u);
+    result.n_rows = system.n_rows;
+    result.u.assign(u.begin(), u.end());
+    return result;
+  }
+
+
+  // One group: what the cubic spring does is felt by 1/32 of it from each block to the
+  // next, k / c being 30, so 1e13 of it (1e3 N to a tenth of the tolerance of 1e-9 / 8)
+  // after nine, and the rest is left alone after the first iteration, two rings and
+  // the last look apart.
+  TEST(Newton, WhatIsInEquilibriumIsLeftAlone)
+  {
+    const RowResult apart = solve_row(300., 10., true),
+                    whole = solve_row(300., 10., false);
+    ASSERT_TRUE(apart.report.converged) << apart.report.reason;
+    ASSERT_TRUE(whole.report.converged) << whole.report.reason;
+    for (unsigned int i = 0; i < apart.u.size(); ++i)
+      EXPECT_NEAR(apart.u[i], whole.u[i], 1e-11) << i;
+    const unsigned int n = apart.report.iterations.size();
+    EXPECT_LE(n, whole.report.iterations.size() + 2);
+    for (unsigned int i = 1; i < n; ++i)
+      EXPECT_LE(apart.report.iterations[i].active_share, 12. / 64.) << i;
+    // tangent, residual and last look of 64 rows; then 12 rows, and for the residual
+    // one more
+    EXPECT_LE(apart.n_rows,
+              3 * 64 + (n - 1) * 25 + 13 * apart.report.n_line_search_cuts);
+  }
+
+
+  // Forces are small enough from the begin, but not what they would do.
+  TEST(Newton, WhatIsQuietIsCorrectedUntilItsEnergyIs)
+  {
+    const RowResult loose = solve_row(300., 10., true, 1e6);
+    ASSERT_TRUE(loose.report.converged) << loose.report.reason;
+    const RowResult whole = solve_row(300., 10., false);
+    // r . du after a correction du grows as its cube, so du is below 1e-4 of the way of
+    // 17 when that is below 1e-12 of the first one, and du^2 is what is left
+    for (unsigned int i = 0; i < loose.u.size(); ++i)
+      EXPECT_NEAR(loose.u[i], whole.u[i], 3e-6) << i;
+  }
+
+
+  // All move with the first one: two rings are too few, and doubled five times they are
+  // enough.
+  TEST(Newton, WhatIsFeltFarAwayIsCorrectedFarAway)
+  {
+    const RowResult apart = solve_row(0., 1e4, true),
+                    whole = solve_row(0., 1e4, false);
+    ASSERT_TRUE(apart.report.converged) << apart.report.reason;
+    ASSERT_TRUE(whole.report.converged) << whole.report.reason;
+    for (unsigned int i = 0; i < apart.u.size(); ++i)
+    {
+      EXPECT_NEAR(apart.u[i], 10., 1e-10) << i;
+      EXPECT_NEAR(whole.u[i], 10., 1e-10) << i;
+    }
+    EXPECT_LE(apart.report.iterations.size(),
+              whole.report.iterations.size() + 6);
+  }
+
+
   // It does not move, and is felt: u^3 + u + 100 (u - 5) = 1010.
   TEST(Newton, WhatIsHeldStays)
   {

@@ -26,7 +26,9 @@ namespace NMM
         for (int i = to_rows.begins[r]; i < to_rows.begins[r + 1]; ++i)
           row.emplace_back(to_columns[to_rows.columns[i]],
                            i - to_rows.begins[r]);
-        std::sort(row.begin(), row.end());
+        // as they are on one rank
+        if (!std::is_sorted(row.begin(), row.end()))
+          std::sort(row.begin(), row.end());
         for (int i = from_rows.begins[r]; i < from_rows.begins[r + 1]; ++i)
         {
           const int  column = from_columns[from_rows.columns[i]];

@@ -116,8 +116,9 @@ namespace NMM
         if (block.is_loud)
           is_any_loud[root_of[b]] = true;
       }
+      // |r| of a whole group goes down along the correction of the whole group only
       for (const unsigned int b : active_blocks)
-        if (!is_any_loud[root_of[b]])
+        if (!is_any_loud[root_of[b]] || groups[root_of[b]].goes_round)
           all_blocks[b].is_loud = true;
       extend();
     }

@@ -423,13 +423,38 @@ namespace NMM
     }
     const auto entrance =
       entrances.find(place_key(points[q].edge, fixed.corner));
-    return search.project_corner(slave,
-                                 admitted.is_bound() ? normal_of_other_edge(q)
-                                                     : Tensor<1, 2>(),
-                                 masters,
-                                 entrance == entrances.end() ? invalid_index
-                                                             : entrance->second,
-                                 admitted);
+    const auto project_on =
+      [&](const dealii::ArrayView<const unsigned int> faces) {
+        return search.project_corner(
+          slave,
+          admitted.is_bound() ? normal_of_other_edge(q) : Tensor<1, 2>(),
+          faces,
+          entrance == entrances.end() ? invalid_index : entrance->second,
+          admitted);
+      };
+    const ContactProjection result = project_on(masters);
+    const unsigned int      beyond = face_beyond_concave_end(result);
+    if (beyond == invalid_index ||
+        std::find(masters.begin(), masters.end(), beyond) == masters.end() ||
+        share(q, slave.normal(), result.normal) > 0.)
+      return result;
+    const ContactProjection other =
+      project_on(dealii::ArrayView<const unsigned int>(&beyond, 1));
+    return other.master != invalid_index && other.gap < 0. ? other : result;
+  }
+
+
+  unsigned int
+  Contact::Data::face_beyond_concave_end(
+    const ContactProjection &projection) const
+  {
+    constexpr auto concave = ContactSurface::Corner::concave;
+    if (projection.master == invalid_index)
+      return invalid_index;
+    const ContactSurface::Edge &face = surface->edges()[projection.master];
+    return projection.t > 1. && face.at_end == concave     ? face.next
+           : projection.t < 0. && face.at_start == concave ? face.previous
+                                                           : invalid_index;
   }
 
 

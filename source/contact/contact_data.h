@@ -164,6 +164,13 @@ namespace NMM
     internal::ContactProjection
     project(unsigned int q, const ContactSurface::Place &slave);
 
+    /// Where a face ends in a concave corner and a corner of a body is beyond that: the face
+    /// that begins there. If the body lies along the first one, its corner has no share
+    /// in that, and all of it in the second one, however steep its face is on that.
+    unsigned int
+    face_beyond_concave_end(
+      const internal::ContactProjection &projection) const;
+
     /// A corner that is in contact at one end of a step only is so by the face of that
     /// end: at a corner of the master, which face is nearer in the middle jumps, and
     /// with it the force.

@@ -207,4 +207,54 @@ namespace
       EXPECT_LE(largest_jump, 0.02 * largest) << direction;
     }
   }
+
+
+  // The corner of a block that lies along a slope, turned by ten degrees, passes the foot
+  // of it: along the slope the corner has no share, on the ground its face is too steep to
+  // lie along that, and so all of the corner's spring is for the ground.
+  TEST(ContactSteps, CornerPassesAFoot)
+  {
+    constexpr double reach = 0.1, h = 0.01, stiffness = 1e8;
+    constexpr double slope = dealii::numbers::PI / 6., pi = dealii::numbers::PI;
+    for (const double turn : {8., 10., 15.})
+    {
+      const double       angle = slope + pi * turn / 180.;
+      const Tensor<1, 2> e({std::cos(angle), std::sin(angle)}),
+        f({-std::sin(angle), std::cos(angle)});
+      const Point<2> corner(2e-4, 2e-4);
+      Geometry       geometry;
+      geometry.add_polygon({corner, corner + e, corner + e + f, corner + f},
+                           "block");
+      Bodies::Options options = one_triangle_each();
+      options.obstacles       = {
+        obstacle("slope",
+                 {{4., 4. * std::tan(slope)}, {0., 0.}, {-4., 0.}})};
+      Bodies bodies(std::move(geometry), options);
+      bodies.start(contact_parameters(stiffness, reach));
+      const auto moved_by = [&](const double way) {
+        return bodies.interpolate([&](const Point<2> &, unsigned int) {
+          return Point<2>(-way, -way * std::tan(slope));
+        });
+      };
+      // beyond the foot from one step to the next, and further
+      double depth = 0.;
+      for (const double way : {0., 1e-3, 3e-3, 6e-3})
+      {
+        const Vector begin = moved_by(way), end = moved_by(way + 1e-3);
+        bodies.contact->detect(begin, reach);
+        bodies.contact->begin_step(begin, 0.);
+        bodies.contact->set_time(h);
+        bodies.contact->assemble_between(end, h, false);
+        depth = corner[1] - way * std::tan(slope);
+        if (depth >= 0.)
+          continue;
+        double up = 0.;
+        for (const ContactPoint &point : bodies.contact->points())
+          if (point.normal[1] > 0.99)
+            up += point.weight * point.pressure;
+        EXPECT_GT(up, 0.) << turn << ' ' << way;
+        bodies.contact->accept();
+      }
+    }
+  }
 } // namespace

@@ -221,14 +221,14 @@ namespace
       const double       angle = slope + pi * turn / 180.;
       const Tensor<1, 2> e({std::cos(angle), std::sin(angle)}),
         f({-std::sin(angle), std::cos(angle)});
-      const Point<2> corner(2e-4, 2e-4);
+      // in the slope as far as its spring gives way
+      const Point<2> corner(2e-4, 2e-4 * std::tan(slope) - 1e-5);
       Geometry       geometry;
       geometry.add_polygon({corner, corner + e, corner + e + f, corner + f},
                            "block");
       Bodies::Options options = one_triangle_each();
       options.obstacles       = {
-        obstacle("slope",
-                 {{4., 4. * std::tan(slope)}, {0., 0.}, {-4., 0.}})};
+              obstacle("slope", {{4., 4. * std::tan(slope)}, {0., 0.}, {-4., 0.}})};
       Bodies bodies(std::move(geometry), options);
       bodies.start(contact_parameters(stiffness, reach));
       const auto moved_by = [&](const double way) {
@@ -237,7 +237,6 @@ namespace
         });
       };
       // beyond the foot from one step to the next, and further
-      double depth = 0.;
       for (const double way : {0., 1e-3, 3e-3, 6e-3})
       {
         const Vector begin = moved_by(way), end = moved_by(way + 1e-3);
@@ -245,8 +244,8 @@ namespace
         bodies.contact->begin_step(begin, 0.);
         bodies.contact->set_time(h);
         bodies.contact->assemble_between(end, h, false);
-        depth = corner[1] - way * std::tan(slope);
-        if (depth >= 0.)
+        const double height = corner[1] - way * std::tan(slope);
+        if (height >= 0.)
           continue;
         double up = 0.;
         for (const ContactPoint &point : bodies.contact->points())

@@ -55,7 +55,7 @@ namespace NMM
 
       /// What is corrected from now on: in each active group blocks the residual of which
       /// is not known, or above a tenth of their part of @p allowed, and what touches
-      /// those at second hand; all if there are none. What is left out feels
+      /// those at second hand; all if there are none, or if it goes round. What is left out feels
       /// corrections as forces, see watched(): where those are above a tenth of the
       /// residual of the group, equilibrium is a matter of more than neighbours (a tower
       /// at rest), and from then on twice as many hands count. @p scale: of forces.

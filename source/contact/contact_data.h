@@ -100,6 +100,13 @@ namespace NMM
       bool was_clear = false;
     };
 
+    /// What more is asked for where that is not enough to tell.
+    struct ClearancePlace
+    {
+      double       s = 0., slack = 0.;
+      unsigned int home = invalid_index;
+    };
+
     void
     make_points();
 
@@ -130,6 +137,10 @@ namespace NMM
     void
     set_step_states(const Vector &end);
 
+    /// Faces of active bodies are where the state's displacements put them.
+    void
+    update_faces(ContactSurface::State &state);
+
     /// Of the places of an edge, or of a corner.
     unsigned int
     place_key(const unsigned int edge, const unsigned int corner) const
@@ -149,7 +160,17 @@ namespace NMM
     void
     couple_all();
 
-    /// At least points that touch in the step are in the pattern.
+    /// Faces of active bodies are where Contact::expect() says.
+    void
+    move_as_expected();
+
+    /// What may touch in the step comes into the pattern, faces being where its first
+    /// assembly, or Contact::expect(), has them at its end: that depends on the state at the
+    /// step's begin alone, so that a continuation has the same pattern.
+    void
+    couple_expected();
+
+    /// At least points that touch in the step are in the pattern, from then on. On one rank.
     void
     couple_near();
 
@@ -213,9 +234,19 @@ namespace NMM
     void
     find_clearances();
 
-    /// A point that was open when the step began cannot have come to touch.
+    /// A point that was open when the step began cannot have come to touch, by how far
+    /// faces have moved, were that (1 + margin) times as far.
     bool
-    is_clear(const Clearance &clearance);
+    is_clear(const Clearance &clearance, double margin = 0.);
+
+    /// It does not touch where faces are now, at the end of the step. Takes longer, but less
+    /// long than to find its master.
+    bool
+    is_clear_now(unsigned int q) const;
+
+    /// It touches neither at the end of the step nor at the begin.
+    void
+    note_clear(unsigned int q);
 
     /// @name One point in an assembly
     /// @{
@@ -403,8 +434,9 @@ namespace NMM
     unsigned int                           pattern_version = 0;
     /// See append_couplings(): of all positions now, and when the pattern was begun.
     std::vector<unsigned int> candidates, coupled_candidates;
-    /// By position in ContactSearch::slaves(): is it in the pattern of the matrix?
-    std::vector<bool> is_coupled;
+    /// By position in ContactSearch::slaves(): is it to be in the pattern of the matrix,
+    /// was it when that was made?
+    std::vector<bool> is_coupled, is_in_pattern;
     bool              has_pattern = false, is_pattern_of_step = false;
 
     /// Augmented Lagrangian only.
@@ -458,11 +490,13 @@ namespace NMM
     /// Of a time step: how far points are at its begin from touching, and by how much the
     /// candidates at each position of ContactSearch::slaves() have moved against each
     /// other, and at which assembly.
-    internal::ContactMotion   motion;
-    std::vector<Clearance>    clearances;
-    std::vector<double>       position_motion;
-    std::vector<unsigned int> position_assembly;
-    unsigned int              n_assemblies = 0;
+    internal::ContactMotion motion;
+    std::vector<Clearance>  clearances;
+    /// By point, as clearances are.
+    std::vector<ClearancePlace> clearance_places;
+    std::vector<double>         position_motion;
+    std::vector<unsigned int>   position_assembly;
+    unsigned int                n_assemblies = 0;
     /// Active points that touch at the begin or the end of the step.
     std::vector<unsigned int> near_points;
 
@@ -471,8 +505,10 @@ namespace NMM
     std::vector<double>               nodal_begin;
     ContactSurface::State             end_state, middle_state;
     std::vector<dealii::Tensor<1, 2>> obstacle_changes;
-    double                            time = 0., time_begin = 0., step = 0.;
-    bool                              is_between = false;
+    /// See Contact::expect(); empty: nothing is.
+    std::vector<double> nodal_expected;
+    double              time = 0., time_begin = 0., step = 0.;
+    bool                is_between = false;
   };
 } // namespace NMM
 

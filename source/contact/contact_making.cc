@@ -296,34 +296,27 @@ namespace NMM
   }
 
 
-  /// In the first assembly of a step what it is that may touch depends on the state at its
-  /// begin alone, so that a continuation has the same pattern; from then on what touches
-  /// nevertheless is added. On one rank.
+  void
+  Contact::Data::couple_expected()
+  {
+    // times the motion that is expected: how much more there may be
+    constexpr double margin = 1.;
+
+    std::fill(is_coupled.begin(), is_coupled.end(), false);
+    for_each_active_point([&](const unsigned int q) {
+      if (!is_clear(clearances[q], margin))
+        is_coupled[point_data[q].slave] = true;
+    });
+    is_pattern_of_step = true;
+  }
+
+
   void
   Contact::Data::couple_near()
   {
-    // times the motion that was predicted
-    constexpr double margin = 2.;
-
-    const std::vector<bool> before = is_coupled;
-    const auto              couple = [&](const unsigned int q) {
-      is_coupled[point_data[q].slave] = true;
-    };
-    if (!is_pattern_of_step)
-    {
-      std::fill(is_coupled.begin(), is_coupled.end(), false);
-      for_each_active_point([&](const unsigned int q) {
-        const unsigned int position = point_data[q].slave;
-        const double       distance = clearances[q].distance;
-        if (distance == 0. || (position_assembly[position] == n_assemblies &&
-                               distance < margin * position_motion[position]))
-          couple(q);
-      });
-    }
     for (const unsigned int q : near_points)
-      couple(q);
-    is_pattern_of_step = true;
-    if (!has_pattern || is_coupled != before)
+      is_coupled[point_data[q].slave] = true;
+    if (!has_pattern || is_coupled != is_in_pattern)
       make_pattern();
   }
 
@@ -331,7 +324,8 @@ namespace NMM
   void
   Contact::Data::make_pattern()
   {
-    has_pattern = true;
+    has_pattern   = true;
+    is_in_pattern = is_coupled;
     block_system =
       std::make_unique<BlockSystem>(surface->cover_system(), *constraints);
     std::vector<unsigned int> couplings;

@@ -28,6 +28,9 @@ namespace NMM
       constexpr double smooth_extension = 0.1, concave_extension = 0.5;
       /// The same at convex corners, for points where a piece of a slave ends.
       constexpr double largest_slack = 0.1;
+      /// Cosine of 37 degrees: faces that are less parallel do not touch along their
+      /// length.
+      constexpr double least_along = 0.8;
 
 
       /// Part of an edge beyond a corner that is as good as the edge itself.
@@ -123,10 +126,11 @@ namespace NMM
     double
     ContactSearch::along_face(const double facing)
     {
-      // cosines of 37 and 18 degrees
-      constexpr double none = 0.8, all = 0.95;
+      // cosine of 18 degrees
+      constexpr double all = 0.95;
       const double     x =
-        std::min(1., std::max(0., (facing - none) / (all - none)));
+        std::min(1.,
+                 std::max(0., (facing - least_along) / (all - least_along)));
       return x * x * (3. - 2. * x);
     }
 
@@ -450,7 +454,7 @@ namespace NMM
       // part of the reach that is rounding
       constexpr double same = 1e-9;
       // faces at nearly a right angle, or that look the same way, do not touch
-      constexpr double least_facing = 0.01;
+      const double least_facing = admitted.least_facing;
 
       const Tensor<1, 2>              slave_normal = slave_place.normal();
       std::vector<ContactProjection> &near         = near_faces;
@@ -566,13 +570,15 @@ namespace NMM
       constexpr double near = 1e-3, far = 2.;
       const Place      place =
         surface->place(slave_edges[position], s + near * (s_inside - s));
-      master = project_within(place,
+      AdmittedContact admitted;
+      admitted.least_facing = least_along;
+      master                = project_within(place,
                               masters(position),
                               0.,
                               invalid_index,
                               invalid_index,
                               far * reach,
-                              AdmittedContact())
+                              admitted)
                  .master;
       return master == invalid_index ? -largest_slack : largest_slack;
     }
@@ -641,8 +647,6 @@ namespace NMM
     {
       // gaps that differ by less than this part of the reach are equal
       constexpr double same = 1e-9;
-      // faces at nearly a right angle do not touch
-      constexpr double least_facing = 0.01;
       // faces that look the same way
       constexpr double facing_away = -0.5;
 
@@ -678,8 +682,9 @@ namespace NMM
         if (facing < facing_away && now.t >= -smooth_extension &&
             now.t <= 1. + smooth_extension)
           outside.emplace_back(master, now.gap);
-        if (facing <= least_facing || std::abs(now.gap) > largest_gap ||
-            !admitted.holds(now) || now.t < -before || now.t > 1. + after)
+        if (facing <= admitted.least_facing ||
+            std::abs(now.gap) > largest_gap || !admitted.holds(now) ||
+            now.t < -before || now.t > 1. + after)
           continue;
         // how far beyond the edge's ends [m]
         const double overshoot =

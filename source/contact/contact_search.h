@@ -34,6 +34,9 @@ namespace NMM
       dealii::ArrayView<const unsigned int> touching;
       /// Faces that the point is beside, see ContactSearch::append_faces_beside().
       dealii::ArrayView<const unsigned int> beside;
+      /// Faces that are less parallel do not touch: minus the product of both unit
+      /// normals.
+      double least_facing = 0.01;
 
       /// What is found far inside of a body may have got there.
       bool
@@ -245,7 +248,9 @@ namespace NMM
        * where a master's corner lies, and rounding and small motions must not
        * decide whether it has a master. The piece does: if there is a master
        * next to the end of the piece, which goes on to @p s_inside, the result is
-       * positive, else negative. @p master: that one.
+       * positive, else negative. @p master: that one. Faces so steep on the slave
+       * that they bear nothing along it, see along_face(), are none: where corners of two
+       * bodies are side by side, one may be nearer than the face that goes on above the piece.
        */
       double
       end_slack(unsigned int    position,

@@ -145,8 +145,9 @@ namespace NMM
     Data &d              = *data;
     d.is_between         = false;
     d.is_pattern_of_step = false;
-    d.is_moving          = true;
-    d.time_begin         = time;
+    d.nodal_expected.clear();
+    d.is_moving  = true;
+    d.time_begin = time;
     set_time(time);
     // what lies between the last step and this one opens nothing
     d.slip_is_frozen = true;
@@ -178,66 +179,6 @@ namespace NMM
           point.shear / (d.point_data[q].law->shear_stiffness * length);
     }
     d.find_clearances();
-  }
-
-
-  void
-  Contact::Data::find_clearances()
-  {
-    clearances.assign(points.size(), Clearance());
-    position_motion.resize(search.slaves().size());
-    position_assembly.assign(search.slaves().size(), 0);
-    n_assemblies = 0;
-    // what slides apart may open faces that are in contact
-    if (laws.has_dilation())
-      return;
-    motion.begin(*surface);
-    for (unsigned int q = 0; q < points.size(); ++q)
-    {
-      const ContactPoint &point     = points[q];
-      const PointData    &fixed     = point_data[q];
-      const bool          is_corner = fixed.corner < Kind::along;
-      Clearance          &clearance = clearances[q];
-      clearance.position            = fixed.slave;
-      clearance.edge                = point.edge;
-      // a corner of the master has a single candidate; others of a position the same ones
-      clearance.is_master_end = fixed.corner > Kind::along;
-      if (fixed.gap_begin >= fixed.offset && !point.is_bonded &&
-          surface->edges()[point.edge].radius == 0.)
-        clearance.distance =
-          search.clearance(surface->place(point.edge, point.s).x,
-                           masters_of(q),
-                           is_corner ? ContactSearch::rounding_slack
-                                     : fixed.slack,
-                           is_corner ? ContactSearch::any_edge : fixed.home);
-    }
-  }
-
-
-  bool
-  Contact::Data::is_clear(const Clearance &clearance)
-  {
-    constexpr double rounding = 1e-6;
-
-    if (clearance.distance == 0.)
-      return false;
-    const unsigned int position = clearance.position;
-    const auto         bound    = [&](const unsigned int master) {
-      return motion.bound(*surface, clearance.edge, master, reach);
-    };
-    double moved = 0.;
-    if (clearance.is_master_end)
-      moved = bound(search.slaves()[position]);
-    else if (position_assembly[position] == n_assemblies)
-      moved = position_motion[position];
-    else
-    {
-      for (const unsigned int master : search.masters(position))
-        moved = std::max(moved, bound(master));
-      position_motion[position]   = moved;
-      position_assembly[position] = n_assemblies;
-    }
-    return clearance.distance > moved + rounding * reach;
   }
 
 
@@ -493,14 +434,18 @@ namespace NMM
   {
     Clearance &clearance = clearances[q];
     const bool was_clear = clearance.was_clear;
-    clearance.was_clear  = is_clear(clearance);
-    if (was_clear && clearance.was_clear)
+    clearance.was_clear  = is_clear(clearance) || is_clear_now(q);
+    if (clearance.was_clear)
+    {
+      if (!was_clear)
+        note_clear(q);
       return false;
+    }
     ContactPoint &point = points[q];
     PointData    &fixed = point_data[q];
     fixed.dilation      = Dilation();
     fixed.new_slip      = 0.;
-    if (clearance.was_clear || (fixed.has_angle && point.weight == 0.))
+    if (fixed.has_angle && point.weight == 0.)
     {
       fixed.master_end = invalid_index;
       fixed.gap_end    = reach;
@@ -592,10 +537,38 @@ namespace NMM
       for (const unsigned int i : {2 * k, 2 * k + 1})
         middle_state.nodal[i] = 0.5 * (nodal_begin[i] + at_end[i]);
     });
-    for (ContactSurface::State *state : {&end_state, &middle_state})
-      active_edges.for_each(surface->edges().size(), [&](const unsigned int e) {
-        surface->update(*state, e);
-      });
+    update_faces(end_state);
+    update_faces(middle_state);
+  }
+
+
+  void
+  Contact::Data::update_faces(ContactSurface::State &state)
+  {
+    active_edges.for_each(surface->edges().size(), [&](const unsigned int e) {
+      surface->update(state, e);
+    });
+  }
+
+
+  std::vector<bool>
+  Contact::pressed_bodies() const
+  {
+    const Data       &d     = *data;
+    const auto       &edges = d.surface->edges();
+    std::vector<bool> result(d.surface->n_bodies(), false);
+    for (const ContactPoint &point : d.points)
+      if (point.pressure > 0.)
+        result[edges[point.edge].body] = result[edges[point.master].body] =
+          true;
+    return result;
+  }
+
+
+  void
+  Contact::expect(const Vector &u)
+  {
+    read_nodal_values(data->surface->cover_system(), u, data->nodal_expected);
   }
 
 
@@ -617,7 +590,14 @@ namespace NMM
     d.surface->set_time(time);
     for (unsigned int i = 0; i < n_obstacles; ++i)
       d.obstacle_changes[i] = d.surface->obstacle_displacement(i);
-    d.step = time - d.time_begin;
+    d.step                 = time - d.time_begin;
+    const bool on_one_rank = Parallel::n_mpi_processes(d.communicator) == 1;
+    const bool is_first = with_tangent && on_one_rank && !d.is_pattern_of_step;
+    if (is_first && !d.nodal_expected.empty())
+    {
+      d.move_as_expected();
+      d.couple_expected();
+    }
     d.set_step_states(end);
     d.surface->set_state(d.end_state);
     d.is_conserving = true;
@@ -629,6 +609,8 @@ namespace NMM
       if (d.find_end(q))
         d.near_points.push_back(q);
     });
+    if (is_first && d.nodal_expected.empty())
+      d.couple_expected();
 
     d.surface->set_time(d.time_begin);
     for (unsigned int i = 0; i < n_obstacles; ++i)
@@ -636,10 +618,10 @@ namespace NMM
     d.surface->set_time(d.time_begin, time);
     d.surface->set_state(d.middle_state);
     d.is_between = true;
-    if (with_tangent && Parallel::n_mpi_processes(d.communicator) > 1)
-      d.couple_all();
-    else if (with_tangent)
+    if (with_tangent && on_one_rank)
       d.couple_near();
+    else if (with_tangent)
+      d.couple_all();
     d.block_system->reset(with_tangent);
     for (const unsigned int q : d.near_points)
       d.add_point_between(q, with_tangent);

@@ -287,7 +287,10 @@ namespace NMM
     d.contact->detect(placed(begin), margin * (2. * largest + obstacles));
     d.is_detected = true;
     if (!d.contact->is_idle())
+    {
       d.contact->begin_step(placed(begin), t);
+      d.contact->expect(placed(predicted));
+    }
     d.contact->set_time(t + h);
   }
 
@@ -396,6 +399,18 @@ namespace NMM
   ContactModel::absent_unknowns() const
   {
     return data->model->absent_unknowns();
+  }
+
+
+  std::vector<bool>
+  ContactModel::pressed_blocks() const
+  {
+    if (blocks_of_unknowns().empty() || data->contact->is_idle())
+      return {};
+    std::vector<bool> result = data->contact->pressed_bodies();
+    // obstacles come last
+    result.resize(n_blocks());
+    return result;
   }
 
 

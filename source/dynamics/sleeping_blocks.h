@@ -5,7 +5,9 @@
 #include <nmm/dynamics/time_integrator.h>
 
 #include <array>
+#include <dynamics/block_inertia.h>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace NMM
@@ -63,19 +65,12 @@ namespace NMM
       set_zero(Vector &vector) const;
 
     private:
-      /// Forces and moments, three per block.
-      void
-      sum_forces(const Vector &forces, const Vector &u);
-
-      const MechanicalModel           *model;
       SleepParameters                  parameters;
       const std::vector<unsigned int> *block_of;
       std::vector<bool>                is_asleep;
-      /// By block [kg/m], [kg m].
-      std::vector<double> mass, inertia;
-      /// Mass that an unknown moves in a translation.
-      Vector              nodal_mass;
-      std::vector<double> sums, kinetic;
+      std::optional<BlockInertia>      inertia;
+      /// By block [J/m].
+      std::vector<double> kinetic;
     };
   } // namespace internal
 } // namespace NMM

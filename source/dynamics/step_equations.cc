@@ -249,6 +249,26 @@ namespace NMM
     model->constraints().distribute(u_1);
     u_end = u_1;
     model->begin_step(u_begin, u_end, state.time, h);
+    if (scheme.is_conserving)
+      predict_blocks();
+  }
+
+
+  void
+  TimeIntegrator::Data::predict_blocks()
+  {
+    std::vector<bool> is_flying = model->pressed_blocks();
+    if (is_flying.empty())
+      return;
+    is_flying.flip();
+    if (inertia == nullptr)
+      inertia = std::make_unique<internal::BlockInertia>(*model);
+    model->mass().vmult(forces, state.v);
+    model->constraints().set_zero(forces);
+    u_1 = state.u;
+    inertia->fly(forces, state.u, h, is_flying, u_1);
+    model->constraints().distribute(u_1);
+    u_end = u_1;
   }
 
 

@@ -120,6 +120,14 @@ namespace NMM
     void
     predict();
 
+    /// Of a step that conserves energy: start Newton's method where blocks touch from the
+    /// state at the begin, and with all others as stiff as they are, see
+    /// BlockInertia::fly(). Velocities of a stiff block are mostly vibrations, which a step
+    /// does not resolve: u + h v deforms it many times as much as it will be, and
+    /// contacts with it.
+    void
+    predict_blocks();
+
     void
     solve_linear();
 
@@ -170,6 +178,9 @@ namespace NMM
 
     /// Null: nobody may.
     std::unique_ptr<internal::SleepingBlocks> sleeping;
+
+    /// Null until blocks are told apart.
+    std::unique_ptr<internal::BlockInertia> inertia;
 
     DynamicState state;
     Account      account;

@@ -17,6 +17,9 @@ namespace NMM
       Data()
       {
         klu_defaults(&common);
+        // forces over displacements everywhere: rows need no scaling, and neither does what
+        // we put together need checking
+        common.scale = -1;
       }
 
       ~Data()

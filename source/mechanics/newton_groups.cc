@@ -116,9 +116,8 @@ namespace NMM
         if (block.is_loud)
           is_any_loud[root_of[b]] = true;
       }
-      // |r| of a whole group goes down along the correction of the whole group only
       for (const unsigned int b : active_blocks)
-        if (!is_any_loud[root_of[b]] || groups[root_of[b]].goes_round)
+        if (!is_any_loud[root_of[b]])
           all_blocks[b].is_loud = true;
       extend();
     }
@@ -136,9 +135,11 @@ namespace NMM
       for (const unsigned int root : all_active_roots)
       {
         Group &group = groups[root];
-        if (!group.squares.empty() &&
-            felt[root] > much * much * scale * scale * group.squares.back())
-          group.n_rings *= 2;
+        if (group.goes_round ||
+            (!group.squares.empty() &&
+             felt[root] > much * much * scale * scale * group.squares.back()))
+          group.n_rings =
+            std::min<unsigned int>(2 * group.n_rings, groups.size());
       }
     }
 
@@ -255,10 +256,15 @@ namespace NMM
         if (!blocks.empty() && !blocks[b])
           return;
         auto &neighbours = all_blocks[b].neighbours;
+        // columns of a block are next to each other
+        unsigned int last = b;
         for (int i = entries.begins[row]; i < entries.begins[row + 1]; ++i)
         {
           const unsigned int other = block_of[entries.columns[i]];
-          if (other != b && entries.values[i] != 0. &&
+          if (other == last || entries.values[i] == 0.)
+            continue;
+          last = other;
+          if (other != b &&
               std::find(neighbours.begin(), neighbours.end(), other) ==
                 neighbours.end())
             neighbours.push_back(other);

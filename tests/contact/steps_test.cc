@@ -1,6 +1,7 @@
 // Contact in steps: what is coupled, and that forces do not jump.
 
 #include <contact/contact_model.h>
+#include <set>
 
 using namespace NMM;
 using namespace NMM::Test;
@@ -124,6 +125,30 @@ namespace
     begin_step();
     contact.assemble_between(sunk_by(1e-4), h, true);
     EXPECT_EQ(contact.tangent().n_nonzero_elements(), n_none);
+  }
+
+
+  // Where a solution starts from the begin of the step, what may touch in it is coupled
+  // nevertheless if the motion is known beforehand.
+  TEST_F(TwoAndOne, PatternHasWhatIsExpected)
+  {
+    Contact     &contact = *bodies->contact;
+    const Vector deep    = sunk_by(1.2 * gap);
+    for (const bool is_expected : {false, true})
+    {
+      begin_step();
+      if (is_expected)
+        contact.expect(deep);
+      contact.assemble_between(sunk_by(0.), h, true);
+      EXPECT_EQ(n_touching(), 0U);
+      const unsigned int first = contact.pattern_version();
+      // three blocks of twelve unknowns each with itself, and two with each other
+      EXPECT_EQ(contact.tangent().n_nonzero_elements(),
+                (is_expected ? 5U : 3U) * 12U * 12U);
+      contact.assemble_between(deep, h, true);
+      EXPECT_GT(n_touching(), 0U);
+      EXPECT_EQ(contact.pattern_version(), is_expected ? first : first + 1);
+    }
   }
 
 
@@ -255,5 +280,82 @@ namespace
         bodies.contact->accept();
       }
     }
+  }
+
+
+  // A block stands on a face with a corner, and another one that leans over the face by
+  // five degrees comes down with its corner just there: what the first one looks at
+  // the face with is too steep to bear anything, and must not stand before the second.
+  TEST(ContactSteps, CornerLandsBesideAnother)
+  {
+    constexpr double reach = 0.3, h = 0.01, stiffness = 1e8, depth = 0.03;
+    constexpr double lift = 2., degree = dealii::numbers::PI / 180.;
+    const auto       along = [&](const double angle) {
+      return Tensor<1, 2>({std::cos(angle * degree), std::sin(angle * degree)});
+    };
+    for (const unsigned int rank_below : {0U, 3U})
+      for (const double beside : {-2e-3, -1e-4, 1e-4, 2e-3})
+      {
+        const Point<2> standing(0., lift), leaning(-lift + beside, lift);
+        Geometry       geometry;
+        geometry.add_polygon({{-1.2, -1.}, {1., -1.}, {1., 0.}, {-1.2, 0.}},
+                             "below");
+        geometry.add_polygon({standing,
+                              standing + along(20.),
+                              standing + along(20.) + along(110.),
+                              standing + along(110.)},
+                             "standing");
+        geometry.add_polygon({leaning,
+                              leaning + 0.4 * along(110.),
+                              leaning + along(175.) + 0.4 * along(110.),
+                              leaning + 2.3 * along(175.)},
+                             "leaning");
+        Bodies     bodies(std::move(geometry), one_triangle_each());
+        const auto block_at = [&](const Point<2> &x) {
+          return bodies.mesh.block(bodies.mesh.find_element(x));
+        };
+        const unsigned int is_below    = block_at({-0.5, -0.5}),
+                           is_standing = block_at(standing + 0.5 * along(65.)),
+                           is_leaning  = block_at(leaning + 0.2 * along(140.));
+        ContactParameters parameters   = contact_parameters(stiffness, reach);
+        parameters.body_ranks.assign(3, 1);
+        parameters.body_ranks[is_below] = rank_below;
+        bodies.start(parameters);
+        const auto sunk_by = [&](const double way, const bool is_there) {
+          return bodies.interpolate(
+            [&](const Point<2> &, const unsigned int block) -> Tensor<1, 2> {
+              if (block == is_standing)
+                return Point<2>(0., is_there ? -lift - 3e-3 : 0.);
+              return block == is_leaning ? Point<2>(lift, -lift - way)
+                                         : Point<2>();
+            });
+        };
+        const auto &edges           = bodies.surface.edges();
+        const auto  is_between_them = [&](const ContactPoint &point) {
+          const std::set<unsigned int> pair = {edges[point.edge].body,
+                                               edges[point.master].body};
+          return pair == std::set<unsigned int>({is_below, is_leaning});
+        };
+        // with and without the one that stands
+        double force[2];
+        for (const bool is_there : {false, true})
+        {
+          const Vector begin = sunk_by(1e-3, is_there),
+                       end   = sunk_by(depth, is_there);
+          bodies.contact->detect(begin, reach);
+          bodies.contact->begin_step(begin, 0.);
+          bodies.contact->set_time(h);
+          bodies.contact->assemble_between(end, h, false);
+          force[is_there] = 0.;
+          for (const ContactPoint &point : bodies.contact->points())
+            if (point.pressure > 0. && is_between_them(point))
+              force[is_there] += point.weight * point.pressure;
+        }
+        EXPECT_GT(force[0], 0.);
+        // the piece of the face may begin 2 mm beside the corner that lands, where that one
+        // is 1.1 % less deep; point and weight of the rest change by less
+        EXPECT_NEAR(force[1], force[0], 0.03 * force[0])
+          << rank_below << ' ' << beside;
+      }
   }
 } // namespace

@@ -313,6 +313,16 @@ namespace NMM
     void
     begin_step(const Vector &u, double time);
 
+    /// By body: does anything press on it in the last assembly? On the points of this rank.
+    std::vector<bool>
+    pressed_bodies() const;
+
+    /// The step that has begun goes to about @p u: what may touch on the way there will be
+    /// in the pattern of the tangent, so that it need not be made anew in the course of
+    /// the step. Without this, what may touch until the first assembly with a tangent.
+    void
+    expect(const Vector &u);
+
     /// Largest way of a point of a face between two displacements [m].
     double
     largest_motion(const Vector &from, const Vector &to);

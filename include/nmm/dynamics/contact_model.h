@@ -157,6 +157,9 @@ namespace NMM
     dealii::IndexSet
     absent_unknowns() const override;
 
+    std::vector<bool>
+    pressed_blocks() const override;
+
     const std::vector<unsigned int> &
     blocks_of_unknowns() const override;
 

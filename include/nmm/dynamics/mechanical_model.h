@@ -189,6 +189,14 @@ namespace NMM
     {
     }
 
+    /// By block: does anything press on it where the step begins? Empty: nothing does, or
+    /// blocks are not told apart.
+    virtual std::vector<bool>
+    pressed_blocks() const
+    {
+      return {};
+    }
+
     /// Why the step to @p end must not be accepted; empty: it may.
     virtual std::string
     find_fault(const Vector & /*end*/)

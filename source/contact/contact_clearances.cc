@@ -1,0 +1,135 @@
+// What cannot touch in a time step, and need not be looked at.
+#include <nmm/contact/contact.h>
+
+#include <algorithm>
+#include <contact/contact_data.h>
+#include <limits>
+
+namespace NMM
+{
+  using namespace internal;
+
+  namespace
+  {
+    /// What is further away than this part of the reach is clear, whatever is rounded.
+    constexpr double clear_by = 1e-6;
+  } // namespace
+
+
+  void
+  Contact::Data::find_clearances()
+  {
+    clearances.assign(points.size(), Clearance());
+    clearance_places.resize(points.size());
+    position_motion.resize(search.slaves().size());
+    position_assembly.assign(search.slaves().size(), 0);
+    n_assemblies = 0;
+    // what slides apart may open faces that are in contact
+    if (laws.has_dilation())
+      return;
+    motion.begin(*surface);
+    for (unsigned int q = 0; q < points.size(); ++q)
+    {
+      const ContactPoint &point     = points[q];
+      const PointData    &fixed     = point_data[q];
+      const bool          is_corner = fixed.corner < Kind::along;
+      Clearance          &clearance = clearances[q];
+      clearance.position            = fixed.slave;
+      clearance.edge                = point.edge;
+      // a corner of the master has a single candidate; others of a position the same ones
+      clearance.is_master_end = fixed.corner > Kind::along;
+      if (fixed.gap_begin < fixed.offset || point.is_bonded ||
+          surface->edges()[point.edge].radius != 0.)
+        continue;
+      ClearancePlace &place = clearance_places[q];
+      place                 = {point.s,
+               is_corner ? ContactSearch::rounding_slack : fixed.slack,
+               is_corner ? ContactSearch::any_edge : fixed.home};
+      // it has no share until points are made anew
+      clearance.distance =
+        fixed.has_angle && point.weight == 0.
+          ? std::numeric_limits<double>::max()
+          : search.clearance(surface->place(point.edge, point.s).x,
+                             masters_of(q),
+                             place.slack,
+                             place.home);
+      clearance.was_clear = clearance.distance > 0.;
+      if (clearance.was_clear)
+        note_clear(q);
+    }
+  }
+
+
+  bool
+  Contact::Data::is_clear(const Clearance &clearance, const double margin)
+  {
+    if (clearance.distance == 0.)
+      return false;
+    const unsigned int position = clearance.position;
+    const auto         bound    = [&](const unsigned int master) {
+      return motion.bound(*surface, clearance.edge, master, reach);
+    };
+    double moved = 0.;
+    if (clearance.is_master_end)
+      moved = bound(search.slaves()[position]);
+    else if (position_assembly[position] == n_assemblies)
+      moved = position_motion[position];
+    else
+    {
+      for (const unsigned int master : search.masters(position))
+        moved = std::max(moved, bound(master));
+      position_motion[position]   = moved;
+      position_assembly[position] = n_assemblies;
+    }
+    return clearance.distance > (1. + margin) * moved + clear_by * reach;
+  }
+
+
+  bool
+  Contact::Data::is_clear_now(const unsigned int q) const
+  {
+    const Clearance &clearance = clearances[q];
+    if (clearance.distance == 0.)
+      return false;
+    const ClearancePlace &place   = clearance_places[q];
+    const auto            masters = clearance.is_master_end
+                                      ? dealii::ArrayView<const unsigned int>(
+                               &search.slaves()[clearance.position], 1)
+                                      : search.masters(clearance.position);
+    return search.clearance(surface->place(clearance.edge, place.s).x,
+                            masters,
+                            place.slack,
+                            place.home) > clear_by * reach;
+  }
+
+
+  void
+  Contact::Data::note_clear(const unsigned int q)
+  {
+    PointData &fixed = point_data[q];
+    fixed.dilation   = Dilation();
+    fixed.new_slip = fixed.shear_work = fixed.normal_loss = fixed.offset_end =
+      0.;
+    fixed.master_end    = invalid_index;
+    fixed.gap_end       = reach;
+    ContactPoint &point = points[q];
+    report.n_changes += point.state != ContactState::open;
+    point.pressure = point.shear = 0.;
+    point.state                  = ContactState::open;
+  }
+
+
+  void
+  Contact::Data::move_as_expected()
+  {
+    active_covers.for_each(nodal_expected.size() / 2,
+                           [&](const unsigned int k) {
+                             for (const unsigned int i : {2 * k, 2 * k + 1})
+                               end_state.nodal[i] = nodal_expected[i];
+                           });
+    update_faces(end_state);
+    surface->set_state(end_state);
+    motion.move();
+    ++n_assemblies;
+  }
+} // namespace NMM

@@ -4,7 +4,7 @@
 #
 #   ./setup.sh run    the thick ring, with the driver
 #   ./setup.sh test   all tests, Debug and Release
-#   ./setup.sh bench  speed against error: doc/performance.md anew
+#   ./setup.sh bench  speed against error: doc/performance.md anew; or heaps of blocks
 #
 # Safe to repeat. Environment variables, all optional:
 #   NMM_JOBS=N                    compile and test with N jobs at a time
@@ -49,10 +49,11 @@ usage()
   cat <<'USAGE'
 Usage: ./setup.sh run    set up, build, and run the thick ring
        ./setup.sh test   set up, build Debug and Release, and run every test
-       ./setup.sh bench [quick|full]
+       ./setup.sh bench [quick|full|heaps]
                          set up, build, measure speed against error, and write
                          doc/performance.md anew: in minutes, or all of it in
-                         half an hour
+                         half an hour; or measure heaps of blocks, for
+                         tests/performance/heap.csv
 USAGE
 }
 
@@ -288,6 +289,62 @@ command_bench()
 }
 
 
+# Heaps of blocks, those that are compared by turns: what else the machine does is then
+# the same for both.
+command_bench_heaps()
+{
+  local table=tests/performance/heap.csv
+  local program=build/release/bin/nmm-heap
+
+  configure_and_build release program_nmm-heap
+
+  say "Measuring heaps (10 to 15 minutes)"
+  local lines round blocks
+  lines="$(mktemp -d)/heap.csv"
+  heap()
+  {
+    say "nmm-heap $*"
+    "$program" "$1" "$2" "$3" "$lines" "${@:4}" >/dev/null ||
+      die "nmm-heap failed (its message is above); $table is as it was."
+  }
+  for round in 1 2 3; do
+    for blocks in 200 2000; do
+      heap "$blocks" 0 1 0 0 8
+    done
+  done
+  for blocks in 20 200 2000; do
+    heap "$blocks" 0 0.3
+  done
+  heap 20 0 1
+  heap 20 4 0.3
+  heap 200 4 0.3
+  heap 20 0 6 0 0.001
+  heap 20 0 6 0.05 0.001
+  {
+    echo "# $(awk -F': ' '/^model name/ {print $2; exit}' /proc/cpuinfo)," \
+         "$(nproc) cores, one used, processor time; $(date +%F);" \
+         "made by ./setup.sh bench heaps"
+    cat "$lines"
+  } >"$table"
+  rm -r "$(dirname "$lines")"
+
+  say "Done. From 200 to 2,000 equally deep blocks, the fastest run of each:"
+  awk -F, '$1 == "blocks" {for (i = 1; i <= NF; ++i) c[$i] = i}
+           $c["rows"] == 8 {
+             key = $c["phase"] " " $1; t = $c["us_per_block_and_step"] + 0
+             if (!(key in best) || t < best[key]) best[key] = t
+           }
+           END {
+             for (phase = 1; phase <= 2; ++phase) {
+               p = phase == 1 ? "falls" : "lies"
+               printf "   %-5s  %4.0f to %4.0f us per block and step, %.2f times\n", p,
+                      best[p " 200"], best[p " 2000"], best[p " 2000"] / best[p " 200"]
+             }
+           }' "$table"
+  printf '   table  %s\n' "$PWD/$table"
+}
+
+
 main()
 {
   case "${1:-}" in
@@ -302,13 +359,17 @@ main()
       ;;
     bench)
       local size="${2:-quick}"
-      if [[ $# -gt 2 || ! "$size" =~ ^(quick|full)$ ]]; then
+      if [[ $# -gt 2 || ! "$size" =~ ^(quick|full|heaps)$ ]]; then
         usage >&2
-        die "'bench' takes one argument at most, 'quick' or 'full'."
+        die "'bench' takes one argument at most, 'quick', 'full' or 'heaps'."
       fi
       install_packages
       check_versions
-      command_bench "$size"
+      if [[ "$size" == heaps ]]; then
+        command_bench_heaps
+      else
+        command_bench "$size"
+      fi
       ;;
     help | -h | --help)
       usage

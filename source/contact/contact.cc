@@ -347,12 +347,13 @@ namespace NMM
       entrances.find(place_key(points[q].edge, fixed.corner));
     const auto project_on =
       [&](const dealii::ArrayView<const unsigned int> faces) {
-        return search.project_corner(
-          slave,
-          admitted.is_bound() ? normal_of_other_edge(q) : Tensor<1, 2>(),
-          faces,
-          entrance == entrances.end() ? invalid_index : entrance->second,
-          admitted);
+        return search.project_corner(slave,
+                                     normal_of_other_edge(q),
+                                     faces,
+                                     entrance == entrances.end()
+                                       ? invalid_index
+                                       : entrance->second,
+                                     admitted);
       };
     const ContactProjection result = project_on(masters);
     const unsigned int      beyond = face_beyond_concave_end(result);
@@ -452,7 +453,7 @@ namespace NMM
       return;
     const ContactProjection there =
       search.project_corner(slave,
-                            Tensor<1, 2>(),
+                            normal_of_other_edge(q),
                             dealii::ArrayView<const unsigned int>(&face, 1),
                             invalid_index,
                             find_admitted(q));
@@ -493,8 +494,8 @@ namespace NMM
     }
     // where points are made anew in a concave corner in the course of a motion, they
     // stay on the face that they were on: each change loses or finds what its spring
-    // holds
-    if (is_moving && fixed.corner >= Kind::along &&
+    // holds. Within a step the face is the one that the step ends at, find_end()
+    if (is_moving && !is_between && fixed.corner >= Kind::along &&
         point.master == invalid_index && point.stick_edge != invalid_index &&
         projection.master != invalid_index && projection.gap < 0. &&
         point.stick_edge != projection.master)

@@ -13,8 +13,10 @@ namespace NMM
     using Place = ContactSurface::Place;
 
     double
-    ContactSearch::gap_beyond_corner(const unsigned int edge,
-                                     const Point<2>    &x) const
+    ContactSearch::gap_beyond_corner(const unsigned int  edge,
+                                     const Point<2>     &x,
+                                     const Tensor<1, 2> &normal,
+                                     const Tensor<1, 2> &other_normal) const
     {
       const auto &at     = surface->edges()[edge];
       double      result = -std::numeric_limits<double>::max();
@@ -28,7 +30,7 @@ namespace NMM
             !find_nearest(neighbor, x, t, place))
           continue;
         const double gap = (x - place.x) * place.normal();
-        if (gap >= 0.)
+        if (gap >= 0. && can_separate(place.normal(), normal, other_normal))
           result = std::max(result, gap);
       }
       return result;

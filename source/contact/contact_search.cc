@@ -486,10 +486,12 @@ namespace NMM
           continue;
         if (now.gap < 0. && now.master == entrance)
           return now;
-        now.gap =
-          std::max(now.gap,
-                   now.gap < 0. ? gap_beyond_corner(now.master, slave_place.x)
-                                : now.gap);
+        now.gap = std::max(now.gap,
+                           now.gap < 0. ? gap_beyond_corner(now.master,
+                                                            slave_place.x,
+                                                            slave_normal,
+                                                            other_normal)
+                                        : now.gap);
         // it came in through a face that only the other edge of the corner faces, or
         // touches that one
         bool is_of_other_edge = false;
@@ -506,6 +508,7 @@ namespace NMM
         // outside of the corner's other face
         for (unsigned int j = 0; j < n && now.gap < 0.; ++j)
           if (near[j].gap >= 0. &&
+              can_separate(near[j].normal, slave_normal, other_normal) &&
               meet_in_convex_corner(now.master, near[j].master))
             now.gap = near[j].gap;
         const bool is_inside = now.gap < 0., best_is_inside = best.gap < 0.;

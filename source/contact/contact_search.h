@@ -24,6 +24,28 @@ namespace NMM
     };
 
 
+    /// Is a convex corner, between edges with these unit normals, the furthest place of its
+    /// body against the normal of a face? @p other_normal: zero if it is not known.
+    inline bool
+    can_separate(const dealii::Tensor<1, 2> &face_normal,
+                 const dealii::Tensor<1, 2> &normal,
+                 const dealii::Tensor<1, 2> &other_normal)
+    {
+      // sine of half a degree: faces that lie on each other are on the border
+      constexpr double border = 0.01;
+
+      const auto cross = [](const auto &a, const auto &b) {
+        return a[0] * b[1] - a[1] * b[0];
+      };
+      const double turn = cross(normal, other_normal);
+      if (turn == 0.)
+        return true;
+      const double sign = turn > 0. ? 1. : -1.;
+      return sign * cross(face_normal, normal) >= -border &&
+             sign * cross(other_normal, face_normal) >= -border;
+    }
+
+
     /// What a point may be in contact with.
     struct AdmittedContact
     {
@@ -219,9 +241,13 @@ namespace NMM
        * two faces that meet in a convex corner behind both. It is then pushed out
        * through the face by which it came in, @p entrance, as long as it is behind
        * that one; at first through the one that it is least behind (Shi's entrance
-       * edge), at equal depths through the one with the lower number. Where that is a face
+       * edge), at equal depths through the one with the lower number. A face keeps the corner
+       * out only if nothing of the corner's own body reaches further against that face's normal, that
+       * is, if the reversed normal is between those of both edges that meet in the corner (the
+       * faces of the Minkowski sum of one convex body and the mirrored other one): the tip of a wedge
+       * that is beside a corner is in front of one of its faces, and yet the wedge is in it. Where that is a face
        * that only the corner's other edge faces, whose unit normal is @p other_normal
-       * (zero: there is none), the point of that other edge is pushed out. A corner that is
+       * (zero: none is known), the point of that other edge is pushed out. A corner that is
        * in no body has the nearest face for master.
        */
       ContactProjection
@@ -321,10 +347,14 @@ namespace NMM
       double
       largest_distance(const std::vector<dealii::Point<2>> &positions) const;
 
-      /// How far @p x, behind a face, is outside of the body because of a face
-      /// that meets this one in a convex corner [m]; negative: it is not.
+      /// How far a corner at @p x, behind a face, is outside of the body because of a face
+      /// that meets this one in a convex corner [m]; negative: it is not. Both normals are
+      /// those of the corner's edges, see can_separate().
       double
-      gap_beyond_corner(unsigned int edge, const dealii::Point<2> &x) const;
+      gap_beyond_corner(unsigned int                edge,
+                        const dealii::Point<2>     &x,
+                        const dealii::Tensor<1, 2> &normal,
+                        const dealii::Tensor<1, 2> &other_normal) const;
 
       bool
       meet_in_convex_corner(unsigned int edge, unsigned int other) const;

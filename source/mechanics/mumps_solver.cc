@@ -325,11 +325,13 @@ namespace NMM
       if (dealii::Utilities::MPI::n_mpi_processes(
             matrix.get_mpi_communicator()) > 1)
         return false;
-      const bool is_small = klu.is_suitable(matrix, rows);
-      if (!is_small && (!has_blocks || is_analyzed))
+      if (has_blocks && !is_analyzed)
+        return klu.analyze(matrix, rows) <= max_work_per_unknown ||
+               klu.is_suitable(matrix, rows);
+      if (!klu.is_suitable(matrix, rows))
         return false;
-      const double work = klu.analyze(matrix, rows);
-      return is_small || work <= max_work_per_unknown;
+      klu.analyze(matrix, rows);
+      return true;
     }
 
 

@@ -358,4 +358,109 @@ namespace
           << rank_below << ' ' << beside;
       }
   }
+
+
+  // The tip of a wedge has slid along the top of a block to its end and goes down beside the
+  // block: it is in front of the side, and the block's corner is in front of the wedge's far
+  // side, and yet the wedge cuts the corner off. The corner is pushed out by the side of the wedge
+  // that lies over it.
+  TEST(ContactSteps, WedgeBesideACorner)
+  {
+    constexpr double reach = 0.1, h = 0.01, stiffness = 1e8, lift = 1.;
+    constexpr double degree = dealii::numbers::PI / 180.;
+    const auto       along  = [&](const double angle) {
+      return Tensor<1, 2>({std::cos(angle * degree), std::sin(angle * degree)});
+    };
+    const Point<2> tip(0., lift);
+    Geometry       geometry;
+    geometry.add_polygon({{0., -1.}, {1., -1.}, {1., 0.}, {0., 0.}}, "block");
+    geometry.add_polygon({tip, tip + along(40.), tip + along(70.)}, "wedge");
+    Bodies bodies(std::move(geometry), one_triangle_each());
+    bodies.start(contact_parameters(stiffness, reach));
+    const unsigned int wedge =
+      bodies.mesh.block(bodies.mesh.find_element(tip + 0.5 * along(55.)));
+    const auto tip_at = [&](const Point<2> &x) {
+      return bodies.interpolate(
+        [&](const Point<2> &, const unsigned int block) -> Tensor<1, 2> {
+          return block == wedge ? x - tip : Tensor<1, 2>();
+        });
+    };
+    const Point<2>     before(-8e-4, 1.5e-3), after(-5e-4, -5.6e-3);
+    const Tensor<1, 2> normal(
+      {std::sin(40. * degree), -std::cos(40. * degree)});
+    const Vector begin = tip_at(before), end = tip_at(after);
+    bodies.contact->detect(begin, reach);
+    bodies.contact->begin_step(begin, 0.);
+    bodies.contact->set_time(h);
+    bodies.contact->assemble_between(end, h, false);
+    // of a spring that is met on the way: the energy at the end over the way
+    const double gap_before = -(before * normal), gap_after = -(after * normal);
+    ASSERT_GT(gap_before, 0.);
+    ASSERT_LT(gap_after, 0.);
+    const double pressure =
+      0.5 * stiffness * gap_after * gap_after / (gap_before - gap_after);
+    unsigned int n = 0;
+    for (const ContactPoint &point : bodies.contact->points())
+      if (point.weight > 0. && point.pressure > 0.)
+      {
+        ++n;
+        // the corner of the block at both of its edges
+        EXPECT_NEAR((point.normal - normal).norm(), 0., 1e-6);
+        EXPECT_NEAR(point.pressure, pressure, 1e-6 * pressure);
+      }
+    EXPECT_EQ(n, 2U);
+  }
+
+  // A keel that stuck to a block with its right side comes, in one step, from where the block is beyond
+  // its end, and its edge, which is in the block then, is nearer to the left side: what is found there by
+  // the step's end brings no energy with it, and neither does it where the state is accepted,
+  // which takes the same side.
+  TEST(ContactSteps, FoundOnTheOtherSideOfAKeel)
+  {
+    constexpr double reach = 6., h = 0.01, stiffness = 1e8, lift = 1.,
+                     slope = 0.466;
+    Geometry geometry;
+    // the larger one's are the points along faces
+    geometry.add_polygon({{-2., -2.}, {2., -2.}, {2., 0.}, {-2., 0.}},
+                         "ground");
+    geometry.add_polygon({{0., lift},
+                          {0.75, lift + 0.75 * slope},
+                          {0.75, lift + 1.},
+                          {-0.5, lift + 1.},
+                          {-0.5, lift + 0.25 * slope}},
+                         "keel");
+    Bodies bodies(std::move(geometry), one_triangle_each());
+    auto   parameters   = contact_parameters(stiffness, reach);
+    parameters.friction = 0.5;
+    bodies.start(parameters);
+    const unsigned int keel =
+      bodies.mesh.block(bodies.mesh.find_element({0., lift + 0.5}));
+    const auto edge_at = [&](const double x, const double y) {
+      return bodies.interpolate(
+        [&](const Point<2> &, const unsigned int b) -> Tensor<1, 2> {
+          return b == keel ? Point<2>(x, y - lift) : Point<2>();
+        });
+    };
+    Contact   &contact = *bodies.contact;
+    const auto step    = [&](const Vector &begin, const Vector &end) {
+      contact.detect(begin, reach);
+      contact.begin_step(begin, 0.);
+      contact.set_time(h);
+      contact.assemble_between(end, h, false);
+      contact.assemble(end, false);
+    };
+    step(edge_at(0.6, 0.), edge_at(0.6, -0.2));
+    EXPECT_GT(contact.report().n_stick + contact.report().n_slip, 0U);
+    contact.accept();
+
+    step(edge_at(-4., 0.3), edge_at(0.95, -0.34));
+    unsigned int n_behind = 0;
+    for (const ContactPoint &point : contact.points())
+      if (point.master != invalid_index && point.weight > 0.)
+      {
+        n_behind += point.gap < -0.1;
+        EXPECT_LE(point.pressure, 1e-9 * stiffness) << point.x;
+      }
+    EXPECT_GT(n_behind, 0U);
+  }
 } // namespace

@@ -167,8 +167,9 @@ namespace NMM
                 {"bottom", "right", "top", "left"},
                 {});
       result.notices = model.meshes.notices;
+      // it takes longer than all the rest
       Measure what;
-      what.condition = std::getenv("K") != nullptr;
+      what.condition = false;
       result.solved  = measure(model, *field, "network", stabilization, what);
       return result;
     }

@@ -24,8 +24,13 @@ namespace NMM
     };
 
 
-    /// Is a convex corner, between edges with these unit normals, the furthest place of its
-    /// body against the normal of a face? @p other_normal: zero if it is not known.
+    /**
+     * Is a convex corner, between edges with these unit normals, the furthest place of its
+     * body against the normal n of a face, that is, is -n between both? Only such pairs of a corner
+     * and a face bound the entrance block of two convex bodies, the Minkowski sum of one and the
+     * mirrored other one (Shi, Sci. China Technol. Sci. 58 (2015) 1450), and tell whether they
+     * overlap. @p other_normal: zero if it is not known; then it may.
+     */
     inline bool
     can_separate(const dealii::Tensor<1, 2> &face_normal,
                  const dealii::Tensor<1, 2> &normal,

@@ -325,6 +325,11 @@ namespace NMM
     fixed.normal_loss +=
       point.weight *
       (factor * (spring - point.pressure) * opening - spring * rise);
+    // faces that turn and hardly part or close: what the factor leaves of the spring's energy
+    // is lost, or shows in the account if it is more than there was
+    fixed.normal_loss +=
+      point.weight *
+      std::max(0., spring * (g_1 - g_0 + rise - factor * opening));
     point.pressure *= factor;
     traction.pressure = point.weight * point.pressure;
     traction.pressure_by_slip =

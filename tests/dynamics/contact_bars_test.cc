@@ -161,6 +161,25 @@ namespace NMM
     }
 
 
+    // A corner that presses turns so far in a step at 0.46 s that its gap changes otherwise than it moves:
+    // 1e-4 of the energy of motion went without being counted.
+    TEST(ContactBars, CornerThatTurns)
+    {
+      Measurements measurements;
+      Drops        drops;
+      drops.first_seed = 512;
+      drops.n_drops    = 1;
+      drops.duration   = 0.5;
+      drop_polygons(drops, measurements);
+      expect_holds(measurements);
+      for (const Measurement &measurement : measurements.all())
+        if (measurement.quantity == "worst balance [kinetic]")
+        {
+          EXPECT_LT(measurement.value, 1e-6);
+        }
+    }
+
+
     TEST(ContactBars, WedgeInANotch)
     {
       Measurements measurements;

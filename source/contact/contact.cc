@@ -104,6 +104,7 @@ namespace NMM
     d.make_points();
     d.note_candidates();
     d.active_points.clear();
+    d.point_to_body.clear();
     d.note_activity();
   }
 

@@ -1,6 +1,7 @@
 // Which bodies are being worked on, and what that leaves of points and faces.
 #include <nmm/contact/contact.h>
 
+#include <algorithm>
 #include <contact/contact_data.h>
 #include <utility>
 
@@ -49,17 +50,38 @@ namespace NMM
 
 
   void
+  Contact::Data::list_near_bodies()
+  {
+    const auto &edges = surface->edges();
+    near_bodies.resize(surface->n_bodies());
+    for (auto &near : near_bodies)
+      near.clear();
+    for (unsigned int i = 0; i < search.slaves().size(); ++i)
+    {
+      auto &near = near_bodies[edges[search.slaves()[i]].body];
+      for (const unsigned int master : search.masters(i))
+        if (std::find(near.begin(), near.end(), edges[master].body) ==
+            near.end())
+          near.push_back(edges[master].body);
+    }
+    point_to_body.resize(points.size());
+    for (unsigned int q = 0; q < points.size(); ++q)
+      point_to_body[q] = edges[search.slaves()[point_data[q].slave]].body;
+  }
+
+
+  void
   Contact::Data::list_covers_of_bodies()
   {
     const CoverSystem        &covers = surface->cover_system();
     const ManifoldMesh       &mesh   = covers.manifold_mesh();
-    std::vector<unsigned int> cover_to_block(covers.n_covers()),
-      row_to_block(2 * covers.n_covers());
+    std::vector<unsigned int> row_to_block(2 * covers.n_covers());
+    cover_to_body.resize(covers.n_covers());
     for (unsigned int e = 0; e < mesh.n_elements(); ++e)
       for (const unsigned int k : covers.covers(e))
-        cover_to_block[k] = row_to_block[2 * k] = row_to_block[2 * k + 1] =
+        cover_to_body[k] = row_to_block[2 * k] = row_to_block[2 * k + 1] =
           mesh.block(e);
-    active_covers.reinit(cover_to_block);
+    active_covers.reinit(cover_to_body);
     active_rows.reinit(row_to_block);
     active_edges.reinit(surface->edges().size(), [&](const auto &add) {
       for (unsigned int e = 0; e < surface->edges().size(); ++e)

@@ -1,6 +1,8 @@
 // What cannot touch in a time step, and need not be looked at.
 #include <nmm/contact/contact.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <contact/contact_data.h>
 #include <limits>
@@ -24,6 +26,14 @@ namespace NMM
     position_motion.resize(search.slaves().size());
     position_assembly.assign(search.slaves().size(), 0);
     n_assemblies = 0;
+    moved_at.assign(surface->n_bodies(), 0);
+    found_at.assign(surface->n_bodies(), 0);
+    is_near.resize(points.size());
+    if (point_to_body.empty())
+      list_near_bodies();
+    if (active_covers.empty() &&
+        dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
+      list_covers_of_bodies();
     // what slides apart may open faces that are in contact
     if (laws.has_dilation())
       return;
@@ -120,6 +130,41 @@ namespace NMM
 
 
   void
+  Contact::Data::note_known(const double time)
+  {
+    // obstacles move with time; openings are those of the last law
+    if (time != found_time || laws.has_dilation())
+      std::fill(found_at.begin(), found_at.end(), 0);
+    found_time = time;
+
+    const unsigned int n = surface->n_bodies();
+    is_known.assign(n, false);
+    const auto is_as_found = [this](const unsigned int body) {
+      return found_at[body] > 0 && found_at[body] >= moved_at[body] &&
+             std::all_of(near_bodies[body].begin(),
+                         near_bodies[body].end(),
+                         [&](const unsigned int other) {
+                           return found_at[body] >= moved_at[other];
+                         });
+    };
+    std::vector<bool> is_asked(n, false);
+    const auto        ask = [&](const unsigned int body) {
+      if (!is_asked[body])
+        is_known[body] = is_as_found(body);
+      is_asked[body] = true;
+    };
+    for (unsigned int body = 0; body < n; ++body)
+      if (is_active.empty() || (body < is_active.size() && is_active[body]))
+      {
+        ask(body);
+        found_at[body] = n_assemblies;
+        for (const unsigned int other : near_bodies[body])
+          ask(other);
+      }
+  }
+
+
+  void
   Contact::Data::move_as_expected()
   {
     active_covers.for_each(nodal_expected.size() / 2,
@@ -131,5 +176,6 @@ namespace NMM
     surface->set_state(end_state);
     motion.move();
     ++n_assemblies;
+    std::fill(moved_at.begin(), moved_at.end(), n_assemblies);
   }
 } // namespace NMM

@@ -8,6 +8,7 @@
 #include <contact/contact_points.h>
 #include <contact/contact_search.h>
 #include <contact/contact_terms.h>
+#include <cstdint>
 #include <map>
 #include <mechanics/active_items.h>
 #include <mechanics/block_system.h>
@@ -248,6 +249,12 @@ namespace NMM
     void
     note_clear(unsigned int q);
 
+    /// Where active bodies and what they may touch are where they were when find_end() was
+    /// last asked for their points, it need not be asked again: a tangent follows the residual
+    /// at the same displacements.
+    void
+    note_known(double time);
+
     /// @name One point in an assembly
     /// @{
     void
@@ -260,6 +267,10 @@ namespace NMM
     /// nor at the begin.
     bool
     find_end(unsigned int q);
+
+    /// The same where nothing has moved since.
+    bool
+    find_same_end(unsigned int q);
 
     void
     add_point_between(unsigned int q, bool with_tangent);
@@ -365,6 +376,9 @@ namespace NMM
 
     void
     list_covers_of_bodies();
+
+    void
+    list_near_bodies();
 
     /// A point presses: on something that is not active?
     void
@@ -474,6 +488,9 @@ namespace NMM
     /// Points that active bodies may have part in, and their covers, rows and edges.
     internal::ActiveItems active_points, active_covers, active_rows,
       active_edges;
+    /// Whose cover it is; on whose face a point was made; what a body may touch.
+    std::vector<unsigned int>              cover_to_body, point_to_body;
+    std::vector<std::vector<unsigned int>> near_bodies;
 
     internal::ContactLocalSystem local;
     Matrix                       matrix;
@@ -497,6 +514,13 @@ namespace NMM
     std::vector<double>         position_motion;
     std::vector<unsigned int>   position_assembly;
     unsigned int                n_assemblies = 0;
+    /// By body: when did it move last, when were all points of its faces found, and does
+    /// that hold for the present assembly?
+    std::vector<unsigned int> moved_at, found_at;
+    std::vector<bool>         is_known;
+    double                    found_time = 0.;
+    /// By point: what find_end() said.
+    std::vector<std::uint8_t> is_near;
     /// Active points that touch at the begin or the end of the step.
     std::vector<unsigned int> near_points;
 

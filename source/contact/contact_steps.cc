@@ -484,6 +484,21 @@ namespace NMM
   }
 
 
+  bool
+  Contact::Data::find_same_end(const unsigned int q)
+  {
+    if (!is_near[q])
+      return false;
+    PointData &fixed = point_data[q];
+    // what has found out in the middle of the step that it has no share
+    if (fixed.has_angle && points[q].weight == 0.)
+      return find_end(q);
+    fixed.shear_work = fixed.normal_loss = 0.;
+    fixed.offset_end                     = std::min(0., fixed.gap_end);
+    return true;
+  }
+
+
   /// A point in the mean position.
   void
   Contact::Data::add_point_between(const unsigned int q,
@@ -527,16 +542,21 @@ namespace NMM
   Contact::Data::set_step_states(const Vector &end)
   {
     std::vector<double> &at_end = end_state.nodal;
-    if (active_covers.all())
+    if (Parallel::n_mpi_processes(communicator) > 1)
+    {
       read_nodal_values(surface->cover_system(), end, at_end);
+      std::fill(moved_at.begin(), moved_at.end(), n_assemblies);
+    }
     else
     {
       const auto from = end.begin();
-      for (const unsigned int k : active_covers.chosen())
-      {
-        at_end[2 * k]     = *(from + 2 * k);
-        at_end[2 * k + 1] = *(from + 2 * k + 1);
-      }
+      active_covers.for_each(at_end.size() / 2, [&](const unsigned int k) {
+        double *to = at_end.data() + 2 * k;
+        if (to[0] != from[2 * k] || to[1] != from[2 * k + 1])
+          moved_at[cover_to_body[k]] = n_assemblies;
+        to[0] = from[2 * k];
+        to[1] = from[2 * k + 1];
+      });
     }
     active_covers.for_each(at_end.size() / 2, [&](const unsigned int k) {
       for (const unsigned int i : {2 * k, 2 * k + 1})
@@ -603,15 +623,18 @@ namespace NMM
       d.move_as_expected();
       d.couple_expected();
     }
+    ++d.n_assemblies;
     d.set_step_states(end);
     d.surface->set_state(d.end_state);
     d.is_conserving = true;
     d.set_admitted_depth();
     d.motion.move();
-    ++d.n_assemblies;
+    d.note_known(time);
     d.near_points.clear();
     d.for_each_active_point([&](const unsigned int q) {
-      if (d.find_end(q))
+      d.is_near[q] =
+        d.is_known[d.point_to_body[q]] ? d.find_same_end(q) : d.find_end(q);
+      if (d.is_near[q])
         d.near_points.push_back(q);
     });
     if (is_first && d.nodal_expected.empty())

@@ -1,5 +1,7 @@
-// What is clear of each other in a step does not touch at its end.
+// What is clear of each other in a step does not touch at its end, and what has been found
+// there is found again.
 
+#include <cmath>
 #include <contact/contact_motion.h>
 #include <contact/contact_search.h>
 #include <contact/random_polygons.h>
@@ -160,6 +162,122 @@ namespace
               << std::endl;
     EXPECT_GT(n_clear, n_near / 10);
     EXPECT_GT(n_new, 100U);
+  }
+
+
+  /// Of a step, at several ends of which each moves some blocks on.
+  struct Sequence
+  {
+    std::vector<double>              begin;
+    std::vector<std::vector<double>> ends;
+    std::vector<std::vector<bool>>   active;
+    std::vector<bool>                with_tangent;
+  };
+
+
+  Sequence
+  random_sequence(Bodies &bodies, std::mt19937 &generator)
+  {
+    constexpr double way      = 0.02;
+    const unsigned   n_blocks = bodies.physical_mesh.n_blocks();
+    Sequence         result;
+    result.begin            = move_on(bodies,
+                           move(bodies, random_motions(bodies, generator)),
+                           0.,
+                           0.,
+                           generator);
+    std::vector<double> end = result.begin;
+    for (unsigned int k = 0; k < 20; ++k)
+    {
+      const auto moved = move_on(bodies, result.begin, way, 0., generator);
+      // nothing moves before a tangent, mostly, as in Newton's method
+      result.with_tangent.push_back(k % 2 == 1);
+      std::vector<bool> moves(n_blocks), is_active(n_blocks);
+      for (unsigned int b = 0; b < n_blocks; ++b)
+      {
+        moves[b]     = generator() % (k % 2 == 1 ? 12 : 2) == 0;
+        is_active[b] = moves[b] || generator() % 3 > 0;
+      }
+      for (unsigned int e = 0; e < bodies.mesh.n_elements(); ++e)
+        if (moves[bodies.mesh.block(e)])
+          for (const unsigned int cover : bodies.covers.covers(e))
+            for (unsigned int c = 0; c < 2; ++c)
+              end[2 * cover + c] = moved[2 * cover + c];
+      result.ends.push_back(end);
+      result.active.push_back(k < 2 ? std::vector<bool>() : is_active);
+    }
+    return result;
+  }
+
+
+  /// Forces, and what the tangent makes of a vector, at each of the ends. If @p
+  /// is_found_anew, the time is another one by what is rounded, and nothing is known.
+  std::vector<Vector>
+  forces(Bodies &bodies, const Sequence &sequence, const bool is_found_anew)
+  {
+    constexpr double  h          = 0.01;
+    ContactParameters parameters = contact_parameters(1e8, 0.2);
+    parameters.friction          = 0.3;
+    bodies.start(parameters);
+    Contact   &contact = *bodies.contact;
+    const auto state   = [&](const std::vector<double> &nodal) {
+      Vector owned(contact.residual());
+      for (unsigned int i = 0; i < nodal.size(); ++i)
+        owned.begin()[i] = nodal[i];
+      return bodies.relevant(owned);
+    };
+    const Vector begin = state(sequence.begin);
+    contact.detect(begin, 0.2);
+    contact.begin_step(begin, 0.);
+    contact.set_time(h);
+    std::vector<Vector> result;
+    for (unsigned int k = 0; k < sequence.ends.size(); ++k)
+    {
+      contact.set_active_bodies(sequence.active[k], {});
+      const double time =
+        is_found_anew && k % 2 == 1 ? std::nextafter(h, 1.) : h;
+      contact.assemble_between(state(sequence.ends[k]),
+                               time,
+                               sequence.with_tangent[k]);
+      result.push_back(contact.residual());
+      if (sequence.with_tangent[k])
+      {
+        Vector product(begin);
+        product = contact.residual();
+        contact.tangent().vmult(product, contact.residual());
+        result.push_back(product);
+      }
+    }
+    return result;
+  }
+
+
+  // Only some blocks move from one assembly to the next: forces and tangents are those of all
+  // points looked for again, bit by bit.
+  TEST(ContactMotion, WhatHasNotMovedNeedNotBeFoundAgain)
+  {
+    unsigned int n_that_press = 0;
+    for (unsigned int seed = 0; seed < 40; ++seed)
+    {
+      SCOPED_TRACE("seed " + std::to_string(seed));
+      std::mt19937   generator(seed);
+      std::mt19937   same(generator);
+      const double   cell_size = seed % 4 == 0 ? 0.25 : 1.5;
+      Bodies         bodies    = random_bodies(generator, seed, cell_size);
+      Bodies         others    = random_bodies(same, seed, cell_size);
+      const Sequence sequence  = random_sequence(bodies, generator);
+      const auto     known     = forces(bodies, sequence, false);
+      const auto     anew      = forces(others, sequence, true);
+      ASSERT_EQ(known.size(), anew.size());
+      for (unsigned int i = 0; i < known.size(); ++i)
+      {
+        Vector difference(known[i]);
+        difference -= anew[i];
+        EXPECT_EQ(difference.l2_norm(), 0.) << i;
+        n_that_press += known[i].l2_norm() > 0.;
+      }
+    }
+    EXPECT_GT(n_that_press, 500U);
   }
 
 

@@ -58,11 +58,13 @@ namespace NMM
       near.clear();
     for (unsigned int i = 0; i < search.slaves().size(); ++i)
     {
-      auto &near = near_bodies[edges[search.slaves()[i]].body];
+      const unsigned int slave = edges[search.slaves()[i]].body;
       for (const unsigned int master : search.masters(i))
-        if (std::find(near.begin(), near.end(), edges[master].body) ==
-            near.end())
-          near.push_back(edges[master].body);
+      {
+        auto &near = near_bodies[edges[master].body];
+        if (std::find(near.begin(), near.end(), slave) == near.end())
+          near.push_back(slave);
+      }
     }
     point_to_body.resize(points.size());
     for (unsigned int q = 0; q < points.size(); ++q)

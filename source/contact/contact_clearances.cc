@@ -27,6 +27,7 @@ namespace NMM
     position_assembly.assign(search.slaves().size(), 0);
     n_assemblies = 0;
     moved_at.assign(surface->n_bodies(), 0);
+    changed_at.assign(surface->n_bodies(), 0);
     found_at.assign(surface->n_bodies(), 0);
     is_near.resize(points.size());
     if (point_to_body.empty())
@@ -130,6 +131,17 @@ namespace NMM
 
 
   void
+  Contact::Data::note_motion(const unsigned int body)
+  {
+    if (moved_at[body] == n_assemblies)
+      return;
+    moved_at[body] = changed_at[body] = n_assemblies;
+    for (const unsigned int other : near_bodies[body])
+      changed_at[other] = n_assemblies;
+  }
+
+
+  void
   Contact::Data::note_known(const double time)
   {
     // obstacles move with time; openings are those of the last law
@@ -137,30 +149,13 @@ namespace NMM
       std::fill(found_at.begin(), found_at.end(), 0);
     found_time = time;
 
-    const unsigned int n = surface->n_bodies();
-    is_known.assign(n, false);
-    const auto is_as_found = [this](const unsigned int body) {
-      return found_at[body] > 0 && found_at[body] >= moved_at[body] &&
-             std::all_of(near_bodies[body].begin(),
-                         near_bodies[body].end(),
-                         [&](const unsigned int other) {
-                           return found_at[body] >= moved_at[other];
-                         });
-    };
-    std::vector<bool> is_asked(n, false);
-    const auto        ask = [&](const unsigned int body) {
-      if (!is_asked[body])
-        is_known[body] = is_as_found(body);
-      is_asked[body] = true;
-    };
-    for (unsigned int body = 0; body < n; ++body)
+    is_known.assign(surface->n_bodies(), false);
+    for (unsigned int body = 0; body < is_known.size(); ++body)
+    {
+      is_known[body] = found_at[body] > changed_at[body];
       if (is_active.empty() || (body < is_active.size() && is_active[body]))
-      {
-        ask(body);
-        found_at[body] = n_assemblies;
-        for (const unsigned int other : near_bodies[body])
-          ask(other);
-      }
+        found_at[body] = n_assemblies + 1;
+    }
   }
 
 
@@ -176,6 +171,6 @@ namespace NMM
     surface->set_state(end_state);
     motion.move();
     ++n_assemblies;
-    std::fill(moved_at.begin(), moved_at.end(), n_assemblies);
+    std::fill(changed_at.begin(), changed_at.end(), n_assemblies);
   }
 } // namespace NMM

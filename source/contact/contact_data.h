@@ -249,8 +249,12 @@ namespace NMM
     void
     note_clear(unsigned int q);
 
-    /// Where active bodies and what they may touch are where they were when find_end() was
-    /// last asked for their points, it need not be asked again: a tangent follows the residual
+    /// A body moves from one assembly of a step to the next.
+    void
+    note_motion(unsigned int body);
+
+    /// Where neither a body nor what it may touch has moved since find_end() was asked for
+    /// all points of its faces, it need not be asked again: a tangent follows the residual
     /// at the same displacements.
     void
     note_known(double time);
@@ -488,7 +492,7 @@ namespace NMM
     /// Points that active bodies may have part in, and their covers, rows and edges.
     internal::ActiveItems active_points, active_covers, active_rows,
       active_edges;
-    /// Whose cover it is; on whose face a point was made; what a body may touch.
+    /// Whose cover it is; on whose face a point was made; what may touch a body.
     std::vector<unsigned int>              cover_to_body, point_to_body;
     std::vector<std::vector<unsigned int>> near_bodies;
 
@@ -514,11 +518,12 @@ namespace NMM
     std::vector<double>         position_motion;
     std::vector<unsigned int>   position_assembly;
     unsigned int                n_assemblies = 0;
-    /// By body: when did it move last, when were all points of its faces found, and does
-    /// that hold for the present assembly?
-    std::vector<unsigned int> moved_at, found_at;
-    std::vector<bool>         is_known;
-    double                    found_time = 0.;
+    /// By body, numbers of assemblies: the last one in which it moved, or what it may touch,
+    /// too, and the one after that which found all points of its faces.
+    std::vector<unsigned int> moved_at, changed_at, found_at;
+    /// Are they still what was found?
+    std::vector<bool> is_known;
+    double            found_time = 0.;
     /// By point: what find_end() said.
     std::vector<std::uint8_t> is_near;
     /// Active points that touch at the begin or the end of the step.

@@ -545,7 +545,7 @@ namespace NMM
     if (Parallel::n_mpi_processes(communicator) > 1)
     {
       read_nodal_values(surface->cover_system(), end, at_end);
-      std::fill(moved_at.begin(), moved_at.end(), n_assemblies);
+      std::fill(changed_at.begin(), changed_at.end(), n_assemblies);
     }
     else
     {
@@ -553,7 +553,7 @@ namespace NMM
       active_covers.for_each(at_end.size() / 2, [&](const unsigned int k) {
         double *to = at_end.data() + 2 * k;
         if (to[0] != from[2 * k] || to[1] != from[2 * k + 1])
-          moved_at[cover_to_body[k]] = n_assemblies;
+          note_motion(cover_to_body[k]);
         to[0] = from[2 * k];
         to[1] = from[2 * k + 1];
       });

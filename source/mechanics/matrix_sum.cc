@@ -16,12 +16,11 @@ namespace NMM
       const int              *to_columns   = to.ColMap().MyGlobalElements();
       const MatrixRows        from_rows(from), to_rows(to);
       places.clear();
-      places.reserve(from.NumMyNonzeros());
-      row_begin.clear();
+      places_of_rows.clear();
       std::vector<std::pair<int, int>> row;
       for (int r = 0; r < from.NumMyRows(); ++r)
       {
-        row_begin.push_back(places.size());
+        const std::size_t begin = places.size();
         row.clear();
         for (int i = to_rows.begins[r]; i < to_rows.begins[r + 1]; ++i)
           row.emplace_back(to_columns[to_rows.columns[i]],
@@ -38,6 +37,17 @@ namespace NMM
                       dealii::ExcMessage(
                         "The pattern is not within that of the stiffness."));
           places.push_back(place->second);
+        }
+        // as those of a block with an element of its own are: no places are kept
+        bool are_consecutive = true;
+        for (std::size_t i = begin + 1; i < places.size(); ++i)
+          are_consecutive = are_consecutive && places[i] == places[i - 1] + 1;
+        if (!are_consecutive || places.size() == begin)
+          places_of_rows.push_back({begin, -1});
+        else
+        {
+          places_of_rows.push_back({begin, places[begin]});
+          places.resize(begin);
         }
       }
     }
@@ -59,10 +69,16 @@ namespace NMM
       const MatrixRows from(from_matrix), to(to_matrix);
       rows.for_each(from_matrix.trilinos_matrix().NumMyRows(),
                     [&](const unsigned int r) {
-                      const int *place  = places.data() + row_begin[r];
-                      double    *values = to.values + to.begins[r];
-                      for (int i = from.begins[r]; i < from.begins[r + 1]; ++i)
-                        values[*place++] += factor * from.values[i];
+                      const auto [begin, first] = places_of_rows[r];
+                      double       *values      = to.values + to.begins[r];
+                      const double *source      = from.values + from.begins[r];
+                      const int     n = from.begins[r + 1] - from.begins[r];
+                      if (first >= 0)
+                        for (int i = 0; i < n; ++i)
+                          values[first + i] += factor * source[i];
+                      else
+                        for (int i = 0; i < n; ++i)
+                          values[places[begin + i]] += factor * source[i];
                     });
     }
 

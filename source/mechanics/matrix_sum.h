@@ -32,8 +32,15 @@ namespace NMM
       void
       find_places(const Matrix &from, const Matrix &to);
 
-      /// Per entry, row by row, its place in the other one's row.
-      std::vector<std::size_t> row_begin;
+      /// Where its entries go in the other one's row: one after the other from the first one
+      /// on, or, if that is negative, each to a place of its own.
+      struct PlacesOfRow
+      {
+        std::size_t begin;
+        int         first;
+      };
+
+      std::vector<PlacesOfRow> places_of_rows;
       std::vector<int>         places;
       bool                     is_known      = false;
       unsigned int             known_version = 0;

@@ -79,6 +79,9 @@ namespace NMM
     const ManifoldMesh       &mesh   = covers.manifold_mesh();
     std::vector<unsigned int> row_to_block(2 * covers.n_covers());
     cover_to_body.resize(covers.n_covers());
+    edge_to_body.clear();
+    for (const ContactSurface::Edge &edge : surface->edges())
+      edge_to_body.push_back(edge.body);
     for (unsigned int e = 0; e < mesh.n_elements(); ++e)
       for (const unsigned int k : covers.covers(e))
         cover_to_body[k] = row_to_block[2 * k] = row_to_block[2 * k + 1] =

@@ -78,7 +78,7 @@ namespace NMM
       return false;
     const unsigned int position = clearance.position;
     const auto         bound    = [&](const unsigned int master) {
-      return motion.bound(*surface, clearance.edge, master, reach);
+      return motion.bound(clearance.edge, master, reach);
     };
     double moved = 0.;
     if (clearance.is_master_end)
@@ -167,10 +167,9 @@ namespace NMM
                              for (const unsigned int i : {2 * k, 2 * k + 1})
                                end_state.nodal[i] = nodal_expected[i];
                            });
-    update_faces(end_state);
-    surface->set_state(end_state);
-    motion.move();
     ++n_assemblies;
     std::fill(changed_at.begin(), changed_at.end(), n_assemblies);
+    have_all_moved = true;
+    update_faces();
   }
 } // namespace NMM

@@ -138,9 +138,10 @@ namespace NMM
     void
     set_step_states(const Vector &end);
 
-    /// Faces of active bodies are where the state's displacements put them.
+    /// Faces of active bodies that have moved since the last assembly are where the
+    /// displacements at the step's end and in its middle put them. The surface is at the end.
     void
-    update_faces(ContactSurface::State &state);
+    update_faces();
 
     /// Of the places of an edge, or of a corner.
     unsigned int
@@ -492,8 +493,8 @@ namespace NMM
     /// Points that active bodies may have part in, and their covers, rows and edges.
     internal::ActiveItems active_points, active_covers, active_rows,
       active_edges;
-    /// Whose cover it is; on whose face a point was made; what may touch a body.
-    std::vector<unsigned int>              cover_to_body, point_to_body;
+    /// Whose cover or edge it is; on whose face a point was made; what may touch a body.
+    std::vector<unsigned int> cover_to_body, edge_to_body, point_to_body;
     std::vector<std::vector<unsigned int>> near_bodies;
 
     internal::ContactLocalSystem local;
@@ -521,6 +522,8 @@ namespace NMM
     /// By body, numbers of assemblies: the last one in which it moved, or what it may touch,
     /// too, and the one after that which found all points of its faces.
     std::vector<unsigned int> moved_at, changed_at, found_at;
+    /// Displacements are not those of the last assembly in any of them.
+    bool have_all_moved = false;
     /// Are they still what was found?
     std::vector<bool> is_known;
     double            found_time = 0.;

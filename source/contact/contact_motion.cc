@@ -20,25 +20,38 @@ namespace NMM
       for (unsigned int e = 0; e < n; ++e)
         at_begin[e] = surface.edge_displacement(e);
       motions.resize(n);
-      move();
+      rigid_edges.clear();
+      for (unsigned int e = 0; e < n; ++e)
+      {
+        motions[e] = find_motion(surface, e);
+        if (surface.is_rigid(e))
+          rigid_edges.push_back(e);
+      }
     }
 
 
     void
-    ContactMotion::move()
+    ContactMotion::move(const ContactSurface &surface, const unsigned int edge)
     {
-      ++version;
+      // without begin() nobody asks
+      if (!motions.empty())
+        motions[edge] = find_motion(surface, edge);
     }
 
 
-    const ContactMotion::Motion &
-    ContactMotion::motion(const ContactSurface &surface,
-                          const unsigned int    edge)
+    void
+    ContactMotion::move_obstacles(const ContactSurface &surface)
     {
-      Motion &result = motions[edge];
-      if (result.version == version)
-        return result;
-      result.version = version;
+      for (const unsigned int edge : rigid_edges)
+        move(surface, edge);
+    }
+
+
+    ContactMotion::Motion
+    ContactMotion::find_motion(const ContactSurface &surface,
+                               const unsigned int    edge) const
+    {
+      Motion                                 result;
       const ContactSurface::EdgeDisplacement now =
         surface.edge_displacement(edge);
       const auto        &before = at_begin[edge].d;
@@ -58,15 +71,13 @@ namespace NMM
 
 
     double
-    ContactMotion::bound(const ContactSurface &surface,
-                         const unsigned int    edge,
-                         const unsigned int    master,
-                         const double          depth)
+    ContactMotion::bound(const unsigned int edge,
+                         const unsigned int master,
+                         const double       depth) const
     {
       constexpr double most = 0.5, turn_factor = 1.25;
 
-      const Motion &of_edge   = motion(surface, edge),
-                   &of_master = motion(surface, master);
+      const Motion &of_edge = motions[edge], &of_master = motions[master];
       if (of_master.turn > most)
         return std::numeric_limits<double>::max();
       return (of_edge.center - of_master.center).norm() + of_edge.radius +

@@ -30,32 +30,32 @@ namespace NMM
       void
       begin(const ContactSurface &surface);
 
-      /// The surface has moved.
+      /// An edge of a block has moved to where the surface has it.
       void
-      move();
+      move(const ContactSurface &surface, unsigned int edge);
+
+      /// Edges of obstacles are where the surface has them at its time.
+      void
+      move_obstacles(const ContactSurface &surface);
 
       /// Of a place of @p edge against what is behind @p master by at most @p depth,
       /// since the begin [m].
       double
-      bound(const ContactSurface &surface,
-            unsigned int          edge,
-            unsigned int          master,
-            double                depth);
+      bound(unsigned int edge, unsigned int master, double depth) const;
 
     private:
       struct Motion
       {
-        unsigned int         version = 0;
         dealii::Tensor<1, 2> center;
         double               radius = 0., turn = 0.;
       };
 
-      const Motion &
-      motion(const ContactSurface &surface, unsigned int edge);
+      Motion
+      find_motion(const ContactSurface &surface, unsigned int edge) const;
 
       std::vector<ContactSurface::EdgeDisplacement> at_begin;
       std::vector<Motion>                           motions;
-      unsigned int                                  version = 0;
+      std::vector<unsigned int>                     rigid_edges;
     };
   } // namespace internal
 } // namespace NMM

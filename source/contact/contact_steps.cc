@@ -546,6 +546,7 @@ namespace NMM
     {
       read_nodal_values(surface->cover_system(), end, at_end);
       std::fill(changed_at.begin(), changed_at.end(), n_assemblies);
+      have_all_moved = true;
     }
     else
     {
@@ -562,17 +563,23 @@ namespace NMM
       for (const unsigned int i : {2 * k, 2 * k + 1})
         middle_state.nodal[i] = 0.5 * (nodal_begin[i] + at_end[i]);
     });
-    update_faces(end_state);
-    update_faces(middle_state);
+    update_faces();
+    have_all_moved = false;
   }
 
 
   void
-  Contact::Data::update_faces(ContactSurface::State &state)
+  Contact::Data::update_faces()
   {
+    surface->set_state(end_state);
     active_edges.for_each(surface->edges().size(), [&](const unsigned int e) {
-      surface->update(state, e);
+      if (!have_all_moved && moved_at[edge_to_body[e]] != n_assemblies)
+        return;
+      surface->update(end_state, e);
+      surface->update(middle_state, e);
+      motion.move(*surface, e);
     });
+    motion.move_obstacles(*surface);
   }
 
 
@@ -625,10 +632,8 @@ namespace NMM
     }
     ++d.n_assemblies;
     d.set_step_states(end);
-    d.surface->set_state(d.end_state);
     d.is_conserving = true;
     d.set_admitted_depth();
-    d.motion.move();
     d.note_known(time);
     d.near_points.clear();
     d.for_each_active_point([&](const unsigned int q) {

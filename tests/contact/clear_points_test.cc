@@ -62,6 +62,14 @@ namespace
   };
 
 
+  void
+  move_all(ContactMotion &motion, const ContactSurface &surface)
+  {
+    for (unsigned int e = 0; e < surface.edges().size(); ++e)
+      motion.move(surface, e);
+  }
+
+
   TEST(ContactMotion, WhatIsClearDoesNotTouch)
   {
     constexpr double reach   = 0.2;
@@ -132,14 +140,13 @@ namespace
         for (unsigned int i = 0; i < middle.size(); ++i)
           middle[i] = 0.5 * (begin[i] + end[i]);
         surface.set_displacements(&end);
-        motion.move();
+        move_all(motion, surface);
         std::vector<bool> is_clear;
         for (const Query &q : queries)
         {
           double moved = 0.;
           for (const unsigned int master : search.masters(q.position))
-            moved =
-              std::max(moved, motion.bound(surface, q.edge, master, reach));
+            moved = std::max(moved, motion.bound(q.edge, master, reach));
           is_clear.push_back(q.clearance > moved);
           n_clear += is_clear.back();
           n_near += !is_clear.back();
@@ -211,7 +218,8 @@ namespace
 
 
   /// Forces, and what the tangent makes of a vector, at each of the ends. If @p
-  /// is_found_anew, the time is another one by what is rounded, and nothing is known.
+  /// is_found_anew, the time is another one by what is rounded, and nothing is known; and the
+  /// first tangent is expected to be where it is, where its faces are then already.
   std::vector<Vector>
   forces(Bodies &bodies, const Sequence &sequence, const bool is_found_anew)
   {
@@ -230,6 +238,8 @@ namespace
     contact.detect(begin, 0.2);
     contact.begin_step(begin, 0.);
     contact.set_time(h);
+    if (is_found_anew)
+      contact.expect(state(sequence.ends[1]));
     std::vector<Vector> result;
     for (unsigned int k = 0; k < sequence.ends.size(); ++k)
     {
@@ -324,12 +334,12 @@ namespace
     motions[column].angle  = angle;
     const auto end         = move(bodies, motions);
     surface.set_displacements(&end);
-    motion.move();
+    move_all(motion, surface);
     const ContactProjection found =
       search.project(surface.place(bottom, s), masters, 0., invalid_index);
     ASSERT_EQ(found.master, top);
     EXPECT_LT(found.gap, 0.);
-    EXPECT_GT(motion.bound(surface, bottom, top, reach), clearance);
+    EXPECT_GT(motion.bound(bottom, top, reach), clearance);
   }
 
 

@@ -299,7 +299,7 @@ command_bench_heaps()
 
   configure_and_build release program_nmm-heap
 
-  say "Measuring heaps (10 to 15 minutes)"
+  say "Measuring heaps (20 minutes)"
   local lines round blocks
   lines="$(mktemp -d)/heap.csv"
   heap()
@@ -317,6 +317,7 @@ command_bench_heaps()
     heap "$blocks" 0 0.3
   done
   heap 20 0 1
+  heap 2000 0 1
   heap 20 4 0.3
   heap 200 4 0.3
   heap 20 0 6 0 0.001

@@ -191,9 +191,11 @@ namespace NMM
     if (!laws.has_dilation())
       return 0.;
     double slip = 0.;
-    for (const auto &[key, places] : stick_places)
-      for (const StickPlace &place : places)
-        slip = std::max(slip, place.slip);
+    stick_places.for_each(
+      [&](unsigned int, const std::vector<StickPlace> &places) {
+        for (const StickPlace &place : places)
+          slip = std::max(slip, place.slip);
+      });
     slip           = Parallel::max(slip, communicator);
     double opening = parameters.opening(slip);
     for (const ContactPair &pair : parameters.pairs)

@@ -141,19 +141,8 @@ namespace NMM
       // points are made anew from these places
       const StickPlace place{
         point.s, point.stick_edge, point.stick_t, false, d.point_data[q].slip};
-      auto &places =
-        d.stick_places[d.place_key(point.edge, d.point_data[q].corner)];
-      const auto at =
-        std::lower_bound(places.begin(),
-                         places.end(),
-                         place,
-                         [](const StickPlace &a, const StickPlace &b) {
-                           return a.s < b.s;
-                         });
-      if (at != places.end() && at->s == place.s)
-        *at = place;
-      else
-        places.insert(at, place);
+      d.stick_places.insert(d.place_key(point.edge, d.point_data[q].corner),
+                            place);
     }
     return Parallel::sum(count, d.communicator);
   }
@@ -211,10 +200,11 @@ namespace NMM
               a.norm() -
             point.shear / eps);
     }
-    auto &places = stick_places[place_key(point.edge, fixed.corner)];
+    const unsigned int key    = place_key(point.edge, fixed.corner);
+    const auto        *places = stick_places.find(key);
     // both pieces that meet at a division have a point there
-    if (places.empty() || places.back().s < point.s)
-      places.push_back(place);
+    if (places == nullptr || places->back().s < point.s)
+      stick_places.append(key, place);
     point.stick_edge = place.edge;
     point.stick_t    = place.t;
     return dissipated;
@@ -342,16 +332,10 @@ namespace NMM
       if (edge_is_gone(edge))
         known.clear();
     }
-    for (auto &[key, places] : d.stick_places)
-      places.erase(std::remove_if(places.begin(),
-                                  places.end(),
-                                  [&](const StickPlace &place) {
-                                    return edge_is_gone(place.edge);
-                                  }),
-                   places.end());
-    erase_if(d.stick_places, [&](const auto &entry) {
-      return entry.second.empty() || edge_is_gone(entry.first);
-    });
+    d.stick_places.remove_if(
+      [&](const unsigned int key, const StickPlace &place) {
+        return edge_is_gone(key) || edge_is_gone(place.edge);
+      });
   }
 
 
@@ -360,15 +344,17 @@ namespace NMM
   {
     const Data         &d = *data;
     std::vector<double> mine;
-    for (const auto &[key, places] : d.stick_places)
-      for (const StickPlace &place : places)
-        for (const double x : {double(key),
-                               place.s,
-                               double(place.edge),
-                               place.t,
-                               double(place.is_bonded),
-                               place.slip})
-          mine.push_back(x);
+    d.stick_places.for_each(
+      [&](const unsigned int key, const std::vector<StickPlace> &places) {
+        for (const StickPlace &place : places)
+          for (const double x : {double(key),
+                                 place.s,
+                                 double(place.edge),
+                                 place.t,
+                                 double(place.is_bonded),
+                                 place.slip})
+            mine.push_back(x);
+      });
     // of the same length: entrances and energies have no edge to stick to;
     // energies are the same on all ranks
     if (Parallel::this_mpi_process(d.communicator) == 0)
@@ -462,18 +448,13 @@ namespace NMM
       if (history[i + 2] < 0.)
         d.entrances[key] = static_cast<unsigned int>(history[i + 3]);
       else
-        d.stick_places[key].push_back(
-          {history[i + 1],
-           static_cast<unsigned int>(history[i + 2]),
-           history[i + 3],
-           history[i + 4] != 0.,
-           history[i + 5]});
+        d.stick_places.append(key,
+                              {history[i + 1],
+                               static_cast<unsigned int>(history[i + 2]),
+                               history[i + 3],
+                               history[i + 4] != 0.,
+                               history[i + 5]});
     }
-    for (auto &[key, places] : d.stick_places)
-      std::sort(places.begin(),
-                places.end(),
-                [](const StickPlace &a, const StickPlace &b) {
-                  return a.s < b.s;
-                });
+    d.stick_places.sort();
   }
 } // namespace NMM

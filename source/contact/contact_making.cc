@@ -59,11 +59,10 @@ namespace NMM
                          PointData         &fixed,
                          const unsigned int slave) const
   {
-    const auto sticking =
+    const auto *sticking =
       stick_places.find(place_key(point.edge, fixed.corner));
     StickPlace stick;
-    if (sticking != stick_places.end() &&
-        find_stick_place(sticking->second, point.s, stick))
+    if (sticking != nullptr && find_stick_place(*sticking, point.s, stick))
     {
       point.stick_edge = stick.edge;
       point.stick_t    = stick.t;
@@ -164,10 +163,9 @@ namespace NMM
                                  PointData         &fixed,
                                  const unsigned int slave) const
   {
-    const auto sticking = stick_places.find(slave);
-    StickPlace stick;
-    if (sticking == stick_places.end() ||
-        !find_stick_place(sticking->second, fixed.s, stick) ||
+    const auto *sticking = stick_places.find(slave);
+    StickPlace  stick;
+    if (sticking == nullptr || !find_stick_place(*sticking, fixed.s, stick) ||
         stick.edge != point.edge)
       return;
     point.stick_edge = slave;
@@ -258,9 +256,8 @@ namespace NMM
         couplings.insert(couplings.end(), covers.begin(), covers.end());
       };
       const auto append_places = [&](const unsigned int key) {
-        const auto sticking = stick_places.find(key);
-        if (sticking != stick_places.end())
-          for (const StickPlace &place : sticking->second)
+        if (const auto *sticking = stick_places.find(key))
+          for (const StickPlace &place : *sticking)
             if (!surface->is_rigid(place.edge))
               append(place.edge);
       };

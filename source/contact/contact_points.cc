@@ -144,6 +144,57 @@ namespace NMM
     }
 
 
+    namespace
+    {
+      bool
+      comes_before(const StickPlace &a, const StickPlace &b)
+      {
+        return a.s < b.s;
+      }
+    } // namespace
+
+
+    std::vector<StickPlace> &
+    StickPlaces::open(const unsigned int key)
+    {
+      if (key >= places_of.size())
+        places_of.resize(key + 1);
+      if (places_of[key].empty())
+        keys.push_back(key);
+      return places_of[key];
+    }
+
+
+    void
+    StickPlaces::insert(const unsigned int key, const StickPlace &place)
+    {
+      auto      &places = open(key);
+      const auto at =
+        std::lower_bound(places.begin(), places.end(), place, comes_before);
+      if (at != places.end() && at->s == place.s)
+        *at = place;
+      else
+        places.insert(at, place);
+    }
+
+
+    void
+    StickPlaces::clear()
+    {
+      for (const unsigned int key : keys)
+        places_of[key].clear();
+      keys.clear();
+    }
+
+
+    void
+    StickPlaces::sort()
+    {
+      for (const unsigned int key : keys)
+        std::sort(places_of[key].begin(), places_of[key].end(), comes_before);
+    }
+
+
     bool
     find_stick_place(const std::vector<StickPlace> &places,
                      const double                   s,

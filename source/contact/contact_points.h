@@ -3,9 +3,9 @@
 
 #include <nmm/contact/contact.h>
 
+#include <algorithm>
 #include <array>
 #include <contact/contact_search.h>
-#include <unordered_map>
 #include <vector>
 
 namespace NMM
@@ -127,8 +127,81 @@ namespace NMM
       double slip = 0.;
     };
 
-    using StickPlaces =
-      std::unordered_map<unsigned int, std::vector<StickPlace>>;
+    /**
+     * Those of all edges and corners, by a number each. They are noted anew in every
+     * step, and so what they need is kept: a table that allots each entry by itself takes
+     * more time for that than for all else.
+     */
+    class StickPlaces
+    {
+    public:
+      /// Null: there are none.
+      const std::vector<StickPlace> *
+      find(const unsigned int key) const
+      {
+        return key < places_of.size() && !places_of[key].empty()
+                 ? &places_of[key]
+                 : nullptr;
+      }
+
+      /// To which @p place is added, after the others.
+      void
+      append(const unsigned int key, const StickPlace &place)
+      {
+        open(key).push_back(place);
+      }
+
+      /// Before what lies behind it, or instead of what lies there.
+      void
+      insert(unsigned int key, const StickPlace &place);
+
+      /// Call action(key, places), in the order in which they came.
+      template <typename Action>
+      void
+      for_each(const Action &action) const
+      {
+        for (const unsigned int key : keys)
+          action(key, places_of[key]);
+      }
+
+      /// Remove those for which is_dropped(key, place) is true.
+      template <typename Predicate>
+      void
+      remove_if(const Predicate &is_dropped)
+      {
+        for (const unsigned int key : keys)
+        {
+          auto &places = places_of[key];
+          places.erase(std::remove_if(places.begin(),
+                                      places.end(),
+                                      [&](const StickPlace &place) {
+                                        return is_dropped(key, place);
+                                      }),
+                       places.end());
+        }
+        keys.erase(std::remove_if(keys.begin(),
+                                  keys.end(),
+                                  [this](const unsigned int key) {
+                                    return places_of[key].empty();
+                                  }),
+                   keys.end());
+      }
+
+      void
+      clear();
+
+      /// Those of each edge or corner ascend in s.
+      void
+      sort();
+
+    private:
+      std::vector<StickPlace> &
+      open(unsigned int key);
+
+      std::vector<std::vector<StickPlace>> places_of;
+      /// Of which there are any.
+      std::vector<unsigned int> keys;
+    };
 
     /// The place for @p s: linear in s on the master of the nearer place that has
     /// two, beyond its last place as well; slip linear between two places; false if

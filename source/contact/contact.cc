@@ -638,7 +638,14 @@ namespace NMM
     const dealii::ArrayView<const unsigned int> covers(local.covers,
                                                        local.n_covers);
     if (with_tangent)
+    {
+      if (is_between)
+        note_coupled(q);
+      if (tangent_factor != 1.)
+        for (unsigned int i = 0; i < 4 * local.n_covers * local.n_covers; ++i)
+          local.matrix[i] *= tangent_factor;
       block_system->add(covers, local.matrix, local.rhs);
+    }
     else
       block_system->add_rhs(covers, local.rhs);
   }
@@ -677,6 +684,7 @@ namespace NMM
       d.residual = 0.;
       return;
     }
+    d.tangent_factor = 1.;
     if (with_tangent)
       d.couple_all();
     d.move_to(u);
@@ -700,15 +708,22 @@ namespace NMM
 
 
   void
-  Contact::add_to_tangent(const Matrix &other)
+  Contact::add_to_tangent(const Matrix &other, const double factor)
   {
     data->adder.add(
-      1., other, data->matrix, data->pattern_version, data->active_rows);
+      factor, other, data->matrix, data->pattern_version, data->active_rows);
   }
 
 
   const Contact::Matrix &
   Contact::tangent() const
+  {
+    return data->matrix;
+  }
+
+
+  Contact::Matrix &
+  Contact::tangent()
   {
     return data->matrix;
   }

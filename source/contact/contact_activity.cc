@@ -105,6 +105,13 @@ namespace NMM
   }
 
 
+  const std::vector<BlockPair> &
+  Contact::coupled_bodies() const
+  {
+    return data->coupled_bodies;
+  }
+
+
   std::vector<unsigned int>
   Contact::take_touched()
   {

@@ -398,6 +398,19 @@ namespace NMM
           touched_bodies.push_back(body);
     }
 
+    /// A point couples the bodies of its faces.
+    void
+    note_coupled(const unsigned int q)
+    {
+      const auto     &edges = surface->edges();
+      const BlockPair pair{edges[points[q].edge].body,
+                           edges[points[q].master].body};
+      if (pair.first != pair.second && !surface->is_rigid(points[q].edge) &&
+          !surface->is_rigid(points[q].master) &&
+          (coupled_bodies.empty() || coupled_bodies.back() != pair))
+        coupled_bodies.push_back(pair);
+    }
+
     void
     reduce_report();
 
@@ -490,6 +503,9 @@ namespace NMM
     /// See Contact::set_active_bodies(); by body.
     std::vector<bool>         is_active, is_held;
     std::vector<unsigned int> touched_bodies;
+    std::vector<BlockPair>    coupled_bodies;
+    /// See assemble_between().
+    double tangent_factor = 1.;
     /// Points that active bodies may have part in, and their covers, rows and edges.
     internal::ActiveItems active_points, active_covers, active_rows,
       active_edges;

@@ -607,11 +607,15 @@ namespace NMM
   void
   Contact::assemble_between(const Vector &end,
                             const double  time,
-                            const bool    with_tangent)
+                            const bool    with_tangent,
+                            const double  tangent_factor)
   {
-    Data &d   = *data;
-    d.report  = ContactReport();
-    d.deepest = 0.;
+    Data &d          = *data;
+    d.report         = ContactReport();
+    d.deepest        = 0.;
+    d.tangent_factor = tangent_factor;
+    if (with_tangent)
+      d.coupled_bodies.clear();
     if (d.is_idle)
     {
       d.residual = 0.;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mechanics/active_items.h>
+#include <mechanics/matrix_rows.h>
 #include <utility>
 
 namespace NMM
@@ -18,7 +19,11 @@ namespace NMM
     Vector                       sum;
     double                       scale       = 0.;
     bool                         is_detected = false;
-    std::vector<bool>            absent_blocks;
+    /// See tangent_to_add_to().
+    double tangent_factor = 1.;
+    /// Couples nothing but contact any blocks? Not known before the first tangent.
+    bool              are_blocks_apart = false, is_apart_known = false;
+    std::vector<bool> absent_blocks;
     /// What takes each absent block to a place of its own, out of everybody's reach
     /// (owned unknowns) [m].
     Vector parking;
@@ -26,7 +31,24 @@ namespace NMM
     Vector parked_owned, parked;
 
     void
-    add_contact(const bool with_tangent)
+    find_out_whether_apart()
+    {
+      const std::vector<unsigned int> &block_of = model->blocks_of_unknowns();
+      is_apart_known                            = true;
+      are_blocks_apart                          = !block_of.empty();
+      if (!are_blocks_apart)
+        return;
+      for (const auto &line : model->constraints().get_lines())
+        are_blocks_apart = are_blocks_apart && line.entries.empty();
+      const internal::MatrixRows rows(model->tangent());
+      for (unsigned int i = 0; i < block_of.size() && are_blocks_apart; ++i)
+        for (int e = rows.begins[i]; e < rows.begins[i + 1]; ++e)
+          are_blocks_apart =
+            are_blocks_apart && block_of[rows.columns[e]] == block_of[i];
+    }
+
+    void
+    add_contact(const bool with_tangent, const double factor = 1.)
     {
       const auto to         = sum.begin();
       const auto of_model   = std::as_const(*model).residual().begin();
@@ -39,7 +61,7 @@ namespace NMM
       square = dealii::Utilities::MPI::sum(square, sum.get_mpi_communicator());
       scale  = std::hypot(model->force_scale(), std::sqrt(square));
       if (with_tangent)
-        contact->add_to_tangent(model->tangent());
+        contact->add_to_tangent(model->tangent(), factor);
     }
   };
 
@@ -182,11 +204,16 @@ namespace NMM
     Data             &d = *data;
     const Deformation state =
       d.model->assemble_between(begin, end, t_0, t_1, tangent);
+    const bool with_tangent = tangent != Tangent::none;
+    if (state == Deformation::admissible && with_tangent && !d.is_apart_known)
+      d.find_out_whether_apart();
     if (state != Deformation::admissible || d.contact->is_idle())
       return state;
-    const bool with_tangent = tangent != Tangent::none;
-    d.contact->assemble_between(placed(end), t_1, with_tangent);
-    d.add_contact(with_tangent);
+    d.contact->assemble_between(placed(end),
+                                t_1,
+                                with_tangent,
+                                d.tangent_factor);
+    d.add_contact(with_tangent, d.tangent_factor);
     return state;
   }
 
@@ -203,6 +230,17 @@ namespace NMM
   {
     return data->contact->is_idle() ? data->model->tangent()
                                     : data->contact->tangent();
+  }
+
+
+  ContactModel::Matrix *
+  ContactModel::tangent_to_add_to(const double factor)
+  {
+    const bool may_be =
+      !data->contact->is_idle() &&
+      dealii::Utilities::MPI::n_mpi_processes(communicator()) == 1;
+    data->tangent_factor = may_be ? factor : 1.;
+    return may_be ? &data->contact->tangent() : nullptr;
   }
 
 
@@ -437,6 +475,16 @@ namespace NMM
   ContactModel::take_touched_blocks()
   {
     return data->contact->take_touched();
+  }
+
+
+  const std::vector<BlockPair> *
+  ContactModel::coupled_blocks() const
+  {
+    if (!data->are_blocks_apart)
+      return nullptr;
+    static const std::vector<BlockPair> none;
+    return data->contact->is_idle() ? &none : &data->contact->coupled_bodies();
   }
 
 

@@ -153,6 +153,8 @@ namespace NMM
                                         const Vector *increment)
   {
     const double t = state.time + (1. - scheme.alpha_f) * h;
+    if (scheme.is_conserving && tangent != Tangent::none)
+      in_place = model->tangent_to_add_to(1. - scheme.alpha_f);
     if (scheme.is_conserving)
       return model->assemble_between(
         u_begin, u, state.time, state.time + h, tangent);
@@ -171,6 +173,21 @@ namespace NMM
     const double k = 1. - scheme.alpha_f;
     const double c = k * scheme.gamma / (scheme.beta * h);
     const double m = (1. - scheme.alpha_m) / (scheme.beta * h * h);
+    if (in_place != nullptr)
+    {
+      mass_adder.add(m + c * damping.mass,
+                     model->mass(),
+                     *in_place,
+                     model->pattern_version(),
+                     active_rows);
+      if (damps_by_stiffness() && c != 0.)
+        damping_adder.add(c * damping.stiffness,
+                          stiffness_at_rest,
+                          *in_place,
+                          model->pattern_version(),
+                          active_rows);
+      return;
+    }
     matrix.assemble(model->tangent(),
                     k,
                     model->mass(),

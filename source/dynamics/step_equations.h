@@ -33,7 +33,7 @@ namespace NMM
     const dealii::TrilinosWrappers::SparseMatrix &
     tangent() const override
     {
-      return matrix();
+      return in_place != nullptr ? *in_place : matrix();
     }
 
     bool
@@ -80,6 +80,12 @@ namespace NMM
     take_touched_blocks() override
     {
       return model->take_touched_blocks();
+    }
+
+    const std::vector<BlockPair> *
+    coupled_blocks() const override
+    {
+      return scheme.is_conserving ? model->coupled_blocks() : nullptr;
     }
     /// @}
 
@@ -167,10 +173,13 @@ namespace NMM
     TimeScheme       scheme;
     RayleighDamping  damping;
     /// The model has the damping by the stiffness in its forces.
-    bool                                    model_damps = false;
-    NewtonSolver                            newton;
-    dealii::TrilinosWrappers::SparseMatrix  stiffness_at_rest;
-    internal::MatrixSum                     matrix;
+    bool                                   model_damps = false;
+    NewtonSolver                           newton;
+    dealii::TrilinosWrappers::SparseMatrix stiffness_at_rest;
+    internal::MatrixSum                    matrix;
+    /// The model's, to which mass and damping are added; null: matrix is for that.
+    dealii::TrilinosWrappers::SparseMatrix *in_place = nullptr;
+    internal::MatrixAdder                   mass_adder, damping_adder;
     internal::ActiveItems                   active_rows;
     std::unique_ptr<internal::DirectSolver> mass_solver, linear_solver;
     /// What linear_solver was factorized for.

@@ -423,7 +423,9 @@ namespace NMM
 
       for (unsigned int a = 0; a < n; ++a)
       {
-        const unsigned int  r      = number[a];
+        const unsigned int r = number[a];
+        if (!is_active_row.empty() && is_active_row[r] == 0)
+          continue;
         const double       *from   = matrix + 4 * n * order[a];
         const unsigned int *row    = columns.data() + row_begin[r];
         const std::size_t   length = row_begin[r + 1] - row_begin[r];
@@ -489,6 +491,9 @@ namespace NMM
         active_rows.reinit(row_to_block);
       }
       active_rows.select(blocks);
+      is_active_row.assign(blocks.empty() ? 0 : n_rows, 0);
+      for (const unsigned int r : active_rows.chosen())
+        is_active_row[r] = 1;
     }
 
 

@@ -9,6 +9,7 @@
 #include <deal.II/lac/trilinos_vector.h>
 
 #include <array>
+#include <cstdint>
 #include <mechanics/active_items.h>
 #include <vector>
 
@@ -89,8 +90,8 @@ namespace NMM
              dealii::TrilinosWrappers::MPI::Vector  &rhs);
 
       /// From now on rows of covers in other blocks (ManifoldMesh::block()) than
-      /// these are neither reset nor handed over: what they hold means nothing. Empty: all
-      /// rows count. One rank.
+      /// these are neither reset nor added to nor handed over: in a matrix that is made
+      /// in place they are as they were. Empty: all rows count. One rank.
       void
       set_active_rows(const std::vector<bool> &blocks);
 
@@ -212,6 +213,8 @@ namespace NMM
       bool    is_made_in_place = false;
       /// Block rows that count.
       ActiveItems active_rows;
+      /// By block row; empty: all are.
+      std::vector<std::uint8_t> is_active_row;
 
       /// Per rank: rows sent and received, each as cover, n, n columns (global).
       std::vector<std::pair<unsigned int, std::vector<unsigned int>>> sent,

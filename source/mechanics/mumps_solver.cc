@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <dmumps_c.h>
+#include <mechanics/block_lu.h>
 #include <mechanics/klu_solver.h>
 #include <mechanics/mumps_solver.h>
 #include <mechanics/nested_dissection.h>
@@ -202,10 +203,17 @@ namespace NMM
       KluSolver klu;
       /// What is solved for; empty: all.
       std::vector<unsigned int> rows;
-      /// The last factorization is KLU's.
-      bool is_klus = false;
+      /// Whose the last factorization is.
+      enum class Owner
+      {
+        mumps,
+        klu,
+        block_lu
+      };
+      Owner owner = Owner::mumps;
       /// See DirectSolver().
-      bool has_blocks = false;
+      bool                     has_blocks = false;
+      std::unique_ptr<BlockLu> block_lu;
       /// See set_points(), and the order made of them, on the first rank.
       bool                          has_points = false;
       std::vector<dealii::Point<2>> points;
@@ -335,15 +343,27 @@ namespace NMM
     }
 
 
-    DirectSolver::DirectSolver(const Symmetry symmetry, const bool has_blocks)
+    DirectSolver::DirectSolver(
+      const Symmetry                   symmetry,
+      const std::vector<unsigned int> &unknown_to_block)
       : data(std::make_unique<Data>())
     {
-      data->has_blocks   = has_blocks;
+      data->has_blocks   = !unknown_to_block.empty();
       data->is_symmetric = symmetry == Symmetry::symmetric;
+      if (BlockLu::is_suitable(unknown_to_block))
+        data->block_lu = std::make_unique<BlockLu>(unknown_to_block);
     }
 
 
     DirectSolver::~DirectSolver() = default;
+
+
+    void
+    DirectSolver::forget_analysis()
+    {
+      data->is_analyzed = false;
+      data->mumps.reset();
+    }
 
 
     void
@@ -416,15 +436,20 @@ namespace NMM
     void
     DirectSolver::factorize(
       const dealii::TrilinosWrappers::SparseMatrix &matrix,
-      const std::vector<unsigned int>              &rows)
+      const std::vector<unsigned int>              &rows,
+      const std::vector<std::vector<unsigned int>> &couplings)
     {
-      data->rows    = rows;
-      data->is_klus = data->may_be_klus(matrix);
-      if (data->is_klus)
-      {
+      using Owner = Data::Owner;
+      data->rows  = rows;
+      data->owner =
+        data->block_lu && data->block_lu->factorize(matrix, rows, couplings)
+          ? Owner::block_lu
+        : data->may_be_klus(matrix) ? Owner::klu
+                                    : Owner::mumps;
+      if (data->owner == Owner::klu)
         data->klu.factorize();
+      if (data->owner != Owner::mumps)
         return;
-      }
       if (!data->is_analyzed)
         analyze(matrix);
       AssertDimension(matrix.m(), data->n);
@@ -443,8 +468,10 @@ namespace NMM
     double
     DirectSolver::n_factor_entries() const
     {
-      if (data->is_klus)
+      if (data->owner == Data::Owner::klu)
         return data->klu.n_factor_entries();
+      if (data->owner == Data::Owner::block_lu)
+        return data->block_lu->n_factor_entries();
       double n = 0.;
       if (data->mumps)
       {
@@ -462,9 +489,14 @@ namespace NMM
     DirectSolver::solve(const dealii::TrilinosWrappers::MPI::Vector &rhs,
                         dealii::TrilinosWrappers::MPI::Vector       &solution)
     {
-      if (data->is_klus)
+      if (data->owner == Data::Owner::klu)
       {
         data->klu.solve(rhs, solution);
+        return;
+      }
+      if (data->owner == Data::Owner::block_lu)
+      {
+        data->block_lu->solve(rhs, solution);
         return;
       }
       // right-hand side and solution are on the host

@@ -30,7 +30,8 @@ namespace NMM
      * n_distributed unknowns are therefore factorized by the first rank alone, which
      * gives the same bits always and takes no longer.
      *
-     * What falls apart into small systems goes to KluSolver instead, on one rank.
+     * Small blocks that touch here and there go to BlockLu instead, and what falls apart
+     * into small systems to KluSolver, on one rank.
      *
      * Rows are consecutive per rank.
      */
@@ -45,11 +46,17 @@ namespace NMM
 
       static constexpr unsigned int n_distributed = 30000;
 
-      /// @p has_blocks: of blocks that touch here and there, and elsewhere the next
-      /// time; KLU is then tried with large groups of them, too.
-      explicit DirectSolver(Symmetry symmetry   = Symmetry::symmetric,
-                            bool     has_blocks = false);
+      /// @p unknown_to_block: if it is of blocks that touch here and there, and elsewhere the
+      /// next time. Small ones are then BlockLu's, and with others KLU is tried with large
+      /// groups, too.
+      explicit DirectSolver(
+        Symmetry                         symmetry         = Symmetry::symmetric,
+        const std::vector<unsigned int> &unknown_to_block = {});
       ~DirectSolver();
+
+      /// The next matrix has another pattern.
+      void
+      forget_analysis();
 
       /// Where this rank's unknowns are, one point for the two of each cover. With these,
       /// large systems are ordered by nested_dissection(), which the first rank does.
@@ -65,10 +72,12 @@ namespace NMM
       /// the one analyzed. @throws NumericalFailure with MUMPS' error code for a
       /// singular matrix or lack of memory.
       /// @p rows: only these rows and columns are solved for, ascending, on one rank;
-      /// solutions mean nothing in the others. Empty: all.
+      /// solutions mean nothing in the others. Empty: all. @p couplings: with which blocks
+      /// each block is coupled by values other than zero, if there are blocks.
       void
       factorize(const dealii::TrilinosWrappers::SparseMatrix &matrix,
-                const std::vector<unsigned int>              &rows = {});
+                const std::vector<unsigned int>              &rows      = {},
+                const std::vector<std::vector<unsigned int>> &couplings = {});
 
       /// @p solution has the layout of @p rhs; may be the same vector.
       void

@@ -30,11 +30,13 @@ namespace NMM
                        : *std::max_element(blocks.begin(), blocks.end()) + 1;
       groups.assign(n, Group());
       all_blocks.resize(n);
+      neighbours.resize(n);
+      for (auto &of_block : neighbours)
+        of_block.clear();
       for (Block &block : all_blocks)
       {
         block.residual_is_known = false;
         block.n_unknowns        = 0;
-        block.neighbours.clear();
       }
       states.assign(n, State::active);
       joined.reinit(n);
@@ -159,7 +161,7 @@ namespace NMM
       {
         const auto [b, ring] = result[i];
         if (ring <= groups[root_of[b]].n_rings)
-          for (const unsigned int other : all_blocks[b].neighbours)
+          for (const unsigned int other : neighbours[b])
             if (!is_in[other] && states[root_of[other]] == State::active)
             {
               is_in[other] = true;
@@ -238,24 +240,15 @@ namespace NMM
 
 
     void
-    NewtonGroups::unite(const std::vector<bool>                      &blocks,
-                        const dealii::TrilinosWrappers::SparseMatrix &matrix)
+    NewtonGroups::find_neighbours(
+      const std::vector<bool>                      &blocks,
+      const dealii::TrilinosWrappers::SparseMatrix &matrix)
     {
-      std::vector<std::vector<unsigned int>> before(all_blocks.size());
-      for (unsigned int b = 0; b < all_blocks.size(); ++b)
-        if (blocks.empty() || blocks[b])
-        {
-          all_blocks[b].has_tangent = true;
-          before[b].swap(all_blocks[b].neighbours);
-        }
-      if (block_of.empty())
-        return;
       const MatrixRows entries(matrix);
       corrected_unknowns.for_each(n_all, [&](const unsigned int row) {
         const unsigned int b = block_of[row];
         if (!blocks.empty() && !blocks[b])
           return;
-        auto &neighbours = all_blocks[b].neighbours;
         // columns of a block are next to each other
         unsigned int last = b;
         for (int i = entries.begins[row]; i < entries.begins[row + 1]; ++i)
@@ -264,17 +257,42 @@ namespace NMM
           if (other == last || entries.values[i] == 0.)
             continue;
           last = other;
-          if (other != b &&
-              std::find(neighbours.begin(), neighbours.end(), other) ==
-                neighbours.end())
-            neighbours.push_back(other);
+          if (other != b)
+            add_neighbour(b, other);
         }
       });
+    }
+
+
+    void
+    NewtonGroups::unite(const std::vector<bool>                      &blocks,
+                        const dealii::TrilinosWrappers::SparseMatrix &matrix,
+                        const std::vector<BlockPair>                 *pairs)
+    {
+      std::vector<std::vector<unsigned int>> before(all_blocks.size());
+      for (unsigned int b = 0; b < all_blocks.size(); ++b)
+        if (blocks.empty() || blocks[b])
+        {
+          all_blocks[b].has_tangent = true;
+          before[b].swap(neighbours[b]);
+        }
+      if (block_of.empty())
+        return;
+      if (pairs == nullptr)
+        find_neighbours(blocks, matrix);
+      else
+        for (const auto &[a, b] : *pairs)
+        {
+          if (blocks.empty() || blocks[a])
+            add_neighbour(a, b);
+          if (blocks.empty() || blocks[b])
+            add_neighbour(b, a);
+        }
 
       bool has_joined = false, is_any_new = false;
       for (const unsigned int b : active_blocks)
         if (blocks.empty() || blocks[b])
-          for (const unsigned int other : all_blocks[b].neighbours)
+          for (const unsigned int other : neighbours[b])
           {
             // what is not active does not feel this row: see NonlinearSystem
             if (states[joined.find(other)] != State::active)

@@ -1,9 +1,12 @@
 #ifndef nmm_source_mechanics_newton_groups_h
 #define nmm_source_mechanics_newton_groups_h
 
+#include <nmm/base/types.h>
+
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
+#include <algorithm>
 #include <base/disjoint_sets.h>
 #include <mechanics/active_items.h>
 #include <mechanics/share_search.h>
@@ -70,12 +73,21 @@ namespace NMM
       bool
       have_tangents() const;
 
-      /// Rows of @p blocks (empty: all) of the tangent @p matrix are new. What values
-      /// other than zero couple is one group from now on; what joins begins its history
-      /// anew. Blocks that were not coupled before are corrected, too.
+      /// Rows of @p blocks (empty: all) of the tangent @p matrix are new. What is coupled in
+      /// them, by @p pairs or, if those are not known (null), by values other than zero,
+      /// is one group from now on; what joins begins its history anew. Blocks that
+      /// were not coupled before are corrected, too.
       void
       unite(const std::vector<bool>                      &blocks,
-            const dealii::TrilinosWrappers::SparseMatrix &matrix);
+            const dealii::TrilinosWrappers::SparseMatrix &matrix,
+            const std::vector<BlockPair>                 *pairs = nullptr);
+
+      /// With which each block was coupled when its rows were new.
+      const std::vector<std::vector<unsigned int>> &
+      couplings() const
+      {
+        return neighbours;
+      }
 
       /// No block has its tangent.
       void
@@ -210,9 +222,20 @@ namespace NMM
         bool residual_is_known = false, is_loud = false, is_corrected = false,
              is_watched = false, has_tangent = false;
         unsigned int n_unknowns = 0;
-        /// With which its rows were coupled when they were assembled last.
-        std::vector<unsigned int> neighbours;
       };
+
+      /// Neighbours of @p blocks by values.
+      void
+      find_neighbours(const std::vector<bool>                      &blocks,
+                      const dealii::TrilinosWrappers::SparseMatrix &matrix);
+
+      void
+      add_neighbour(const unsigned int block, const unsigned int other)
+      {
+        auto &all = neighbours[block];
+        if (std::find(all.begin(), all.end(), other) == all.end())
+          all.push_back(other);
+      }
 
       void
       number_roots();
@@ -243,8 +266,10 @@ namespace NMM
       std::vector<Group> groups;
       std::vector<State> states;
       std::vector<Block> all_blocks;
-      ActiveItems        active_unknowns, corrected_unknowns;
-      unsigned int       n_all = 0;
+      /// See couplings().
+      std::vector<std::vector<unsigned int>> neighbours;
+      ActiveItems  active_unknowns, corrected_unknowns;
+      unsigned int n_all = 0;
     };
   } // namespace internal
 } // namespace NMM

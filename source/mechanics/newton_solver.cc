@@ -216,7 +216,7 @@ namespace NMM
         groups.lose_tangents();
       before = version;
       groups.wake(touched);
-      groups.unite(blocks, system->tangent());
+      groups.unite(blocks, system->tangent(), system->coupled_blocks());
     } while (!groups.have_tangents());
     touched.clear();
     return Deformation::admissible;
@@ -246,17 +246,21 @@ namespace NMM
     dealii::Timer timer;
     if (direct_solver == nullptr ||
         is_symmetric != system->tangent_is_symmetric() ||
-        n != system->tangent().m() || version != system->pattern_version())
+        n != system->tangent().m())
     {
-      version       = system->pattern_version();
       is_symmetric  = system->tangent_is_symmetric();
       n             = system->tangent().m();
       direct_solver = std::make_unique<internal::DirectSolver>(
         is_symmetric ? internal::DirectSolver::Symmetry::symmetric
                      : internal::DirectSolver::Symmetry::unsymmetric,
-        groups.are_there_several());
+        system->blocks_of_unknowns());
     }
-    direct_solver->factorize(system->tangent(), groups.corrected().chosen());
+    else if (version != system->pattern_version())
+      direct_solver->forget_analysis();
+    version = system->pattern_version();
+    direct_solver->factorize(system->tangent(),
+                             groups.corrected().chosen(),
+                             groups.couplings());
     report->factorization_time += timer.wall_time();
   }
 

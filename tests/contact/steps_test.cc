@@ -185,6 +185,52 @@ namespace
   }
 
 
+  // A tangent can be had times a factor, and says which blocks it couples. Where one body
+  // alone is assembled again, rows of the other one stay, with what was added to them.
+  TEST_F(TwoAndOne, RowsThatAreNotActiveStay)
+  {
+    Contact           &contact = *bodies->contact;
+    const Vector       deep    = sunk_by(1.2 * gap);
+    const unsigned int below =
+      bodies->mesh.block(bodies->mesh.find_element({1.5, 0.5}));
+    begin_step();
+    contact.assemble_between(deep, h, true);
+    ASSERT_GT(contact.coupled_bodies().size(), 0U);
+    for (const auto &[a, b] : contact.coupled_bodies())
+      EXPECT_EQ(std::minmax(a, b), std::minmax(above, below));
+    Contact::Matrix all, half;
+    all.reinit(contact.tangent());
+    all.copy_from(contact.tangent());
+
+    contact.assemble_between(deep, h, true, 0.5);
+    half.reinit(contact.tangent());
+    half.copy_from(contact.tangent());
+    std::vector<bool> active(3, false);
+    active[above] = true;
+    contact.set_active_bodies(active, {});
+    contact.assemble_between(deep, h, true);
+    contact.set_active_bodies({}, {});
+    std::set<unsigned int> of_above;
+    for (unsigned int e = 0; e < bodies->mesh.n_elements(); ++e)
+      if (bodies->mesh.block(e) == above)
+        for (const unsigned int k : bodies->covers.covers(e))
+          of_above.insert({2 * k, 2 * k + 1});
+    unsigned int n_of_both[2] = {0, 0};
+    for (const auto &entry : contact.tangent())
+    {
+      const bool is_of_above = of_above.count(entry.row()) > 0;
+      // twice and half are exact
+      EXPECT_EQ(entry.value(),
+                (is_of_above ? all : half).el(entry.row(), entry.column()));
+      EXPECT_EQ(half.el(entry.row(), entry.column()),
+                0.5 * all.el(entry.row(), entry.column()));
+      n_of_both[is_of_above] += entry.value() != 0.;
+    }
+    EXPECT_GT(n_of_both[0], 0U);
+    EXPECT_GT(n_of_both[1], 0U);
+  }
+
+
   // A corner comes into a face just beside the end of that one: it is in front of the
   // face at the begin of a step and behind it at the end, and what it does in the middle,
   // where the other face of the corner is as near, does not matter.

@@ -4,6 +4,8 @@
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/types.h>
 
+#include <utility>
+
 /**
  * The second-order numerical manifold method on deal.II.
  *
@@ -14,6 +16,9 @@ namespace NMM
 {
   /// "No such thing": an index that no object has.
   constexpr unsigned int invalid_index = dealii::numbers::invalid_unsigned_int;
+
+  /// Two blocks, by number.
+  using BlockPair = std::pair<unsigned int, unsigned int>;
 } // namespace NMM
 
 #endif

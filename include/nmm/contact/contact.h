@@ -257,10 +257,14 @@ namespace NMM
     const Matrix &
     tangent() const;
 
-    /// Until the next assembly tangent() is that plus @p matrix, whose pattern lies
-    /// within its own, in the rows of active bodies: that of what is in contact.
+    /// Who adds to it finds that gone from a row once that is assembled again.
+    Matrix &
+    tangent();
+
+    /// Until the next assembly tangent() is that plus @p factor times @p matrix, whose pattern
+    /// lies within its own, in the rows of active bodies: that of what is in contact.
     void
-    add_to_tangent(const Matrix &matrix);
+    add_to_tangent(const Matrix &matrix, double factor = 1.);
 
     /// Grows whenever the pattern of tangent() changes.
     unsigned int
@@ -344,15 +348,19 @@ namespace NMM
      * tangent() is the derivative by the mean displacement at given begin: of forces
      * in the mean position and gaps at the end, so it is not symmetric.
      * Multipliers are not used.
+     * @p tangent_factor: tangent() is that many times the derivative.
      */
     void
-    assemble_between(const Vector &end, double time, bool with_tangent);
+    assemble_between(const Vector &end,
+                     double        time,
+                     bool          with_tangent,
+                     double        tangent_factor = 1.);
 
     /// @name Blocks that are not moved for a while
     /// @{
 
     /// From now on assemblies leave points between bodies none of which
-    /// is active as the last one found them, and are wrong in the rows of others.
+    /// is active as the last one found them, and leave the rows of others alone, or wrong.
     /// Those that are held do not count as touched(). By block; empty: all are
     /// active, none is held.
     void
@@ -363,6 +371,11 @@ namespace NMM
     /// assembly since the last call.
     std::vector<unsigned int>
     take_touched();
+
+    /// Of bodies with unknowns: what the last assemble_between() with a tangent has coupled
+    /// in rows of active ones, some perhaps several times. One rank.
+    const std::vector<BlockPair> &
+    coupled_bodies() const;
     /// @}
 
     /// Work that moving obstacles do [J/m] with the forces of the last assembly

@@ -105,6 +105,9 @@ namespace NMM
     const Matrix &
     tangent() const override;
 
+    Matrix *
+    tangent_to_add_to(double factor) override;
+
     unsigned int
     pattern_version() const override;
 
@@ -169,6 +172,9 @@ namespace NMM
 
     std::vector<unsigned int>
     take_touched_blocks() override;
+
+    const std::vector<BlockPair> *
+    coupled_blocks() const override;
 
     std::vector<double>
     events() const override;

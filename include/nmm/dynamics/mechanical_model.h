@@ -2,6 +2,7 @@
 #define nmm_dynamics_mechanical_model_h
 
 #include <nmm/base/exceptions.h>
+#include <nmm/base/types.h>
 #include <nmm/mechanics/hyperelasticity.h>
 
 #include <deal.II/base/index_set.h>
@@ -120,6 +121,18 @@ namespace NMM
 
     virtual const Matrix &
     tangent() const = 0;
+
+    /**
+     * From now on tangents of assemble_between() are multiplied by @p factor, and may be
+     * added to: what was added is gone once a row is assembled again, and stays if
+     * another one is. Null, and the factor 1, if tangent() is not to be changed. Saves its
+     * caller a matrix of the same size. To be called before each assembly.
+     */
+    virtual Matrix *
+    tangent_to_add_to(double /*factor*/)
+    {
+      return nullptr;
+    }
 
     /// Another number whenever tangent() has another pattern.
     virtual unsigned int
@@ -276,6 +289,13 @@ namespace NMM
     take_touched_blocks()
     {
       return {};
+    }
+
+    /// See NonlinearSystem, for assemble_between().
+    virtual const std::vector<BlockPair> *
+    coupled_blocks() const
+    {
+      return nullptr;
     }
 
     /// Owned unknowns of absent blocks.

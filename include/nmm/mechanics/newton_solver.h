@@ -1,6 +1,7 @@
 #ifndef nmm_mechanics_newton_solver_h
 #define nmm_mechanics_newton_solver_h
 
+#include <nmm/base/types.h>
 #include <nmm/mechanics/hyperelasticity.h>
 
 #include <deal.II/lac/affine_constraints.h>
@@ -78,6 +79,14 @@ namespace NMM
     take_touched_blocks()
     {
       return {};
+    }
+
+    /// Which blocks the last assembly of tangent() has coupled in rows of active ones,
+    /// some perhaps several times; null: values other than zero tell.
+    virtual const std::vector<BlockPair> *
+    coupled_blocks() const
+    {
+      return nullptr;
     }
     /// @}
   };

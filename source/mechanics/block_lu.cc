@@ -1,0 +1,496 @@
+#include <nmm/base/types.h>
+
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCore>
+#include <Epetra_BLAS.h>
+#include <Epetra_LAPACK.h>
+#include <algorithm>
+#include <cmath>
+#include <mechanics/block_lu.h>
+#include <mechanics/matrix_rows.h>
+#include <numeric>
+#include <utility>
+
+namespace NMM
+{
+  namespace internal
+  {
+    struct BlockLu::Data
+    {
+      /// A block that is eliminated: A_jj, then A_ij of all later blocks i that it is
+      /// coupled with, in one panel (m x n), then A_jj^-1 A_ji, (n x m); all by columns.
+      struct Column
+      {
+        unsigned int block = 0, n = 0, m = 0;
+        /// Of later, values, and where its unknowns begin in vectors.
+        std::size_t  later_begin = 0, later_end = 0, diagonal = 0;
+        unsigned int unknowns = 0;
+
+        std::size_t
+        lower() const
+        {
+          return diagonal + std::size_t(n) * n;
+        }
+
+        std::size_t
+        upper() const
+        {
+          return lower() + std::size_t(n) * m;
+        }
+      };
+
+      /// A block that is coupled with an earlier one, and where its rows begin in the
+      /// panel of that one.
+      struct Later
+      {
+        unsigned int column = 0, offset = 0;
+      };
+
+      using Pairs = std::vector<std::pair<unsigned int, unsigned int>>;
+
+      void
+      choose_blocks(const std::vector<unsigned int> &rows);
+
+      /// Both ways, between chosen blocks, by position in chosen.
+      Pairs
+      find_pairs(const Couplings &couplings) const;
+
+      /// Positions in chosen as they are eliminated.
+      std::vector<unsigned int>
+      order(const Pairs &pairs) const;
+
+      void
+      make_columns(const Pairs &pairs, const std::vector<unsigned int> &order);
+
+      unsigned int
+      size(const unsigned int block) const
+      {
+        return block_begins[block + 1] - block_begins[block];
+      }
+
+      void
+      read_values(const MatrixRows &entries, const Pairs &pairs);
+
+      /// The part of the columns of @p other in the rows of a block that is eliminated.
+      void
+      read_block(const MatrixRows &entries, unsigned int j, unsigned int other);
+
+      /// Of the block in row @p i and column @p k, its first entry and how far
+      /// apart its columns are; @p from: where to look among the later ones.
+      std::pair<double *, unsigned int>
+      place(unsigned int i, unsigned int k);
+
+      bool
+      eliminate(const Column &column);
+
+      void
+      subtract_products(const Column &column);
+
+      /// Of all unknowns, and the first unknown of each block.
+      std::vector<unsigned int> unknown_to_block, block_begins;
+
+      /// Blocks that are solved for, and the position of each block among them.
+      std::vector<unsigned int> chosen, block_to_position;
+      std::vector<Column>       columns;
+      /// By position in chosen.
+      std::vector<unsigned int> position_to_column;
+      std::vector<Later>        later;
+      std::vector<double>       values;
+      std::vector<int>          pivots;
+      /// Scratch: products, and vectors.
+      std::vector<double> products, x, gathered;
+      Epetra_BLAS         blas;
+      Epetra_LAPACK       lapack;
+    };
+
+
+    BlockLu::BlockLu(const std::vector<unsigned int> &unknown_to_block)
+      : data(std::make_unique<Data>())
+    {
+      Data &d              = *data;
+      d.unknown_to_block   = unknown_to_block;
+      const unsigned int n = unknown_to_block.empty()
+                               ? 0
+                               : *std::max_element(unknown_to_block.begin(),
+                                                   unknown_to_block.end()) +
+                                   1;
+      d.block_begins.assign(n + 1, 0);
+      for (const unsigned int block : unknown_to_block)
+        ++d.block_begins[block + 1];
+      std::partial_sum(d.block_begins.begin(),
+                       d.block_begins.end(),
+                       d.block_begins.begin());
+      d.block_to_position.assign(n, invalid_index);
+    }
+
+
+    BlockLu::~BlockLu() = default;
+
+
+    bool
+    BlockLu::is_suitable(const std::vector<unsigned int> &unknown_to_block)
+    {
+      unsigned int first = 0;
+      for (unsigned int i = 0; i < unknown_to_block.size(); ++i)
+      {
+        if (unknown_to_block[i] != unknown_to_block[first])
+        {
+          if (unknown_to_block[i] != unknown_to_block[first] + 1)
+            return false;
+          first = i;
+        }
+        if (i - first >= max_block)
+          return false;
+      }
+      return !unknown_to_block.empty() && unknown_to_block[0] == 0;
+    }
+
+
+    void
+    BlockLu::Data::choose_blocks(const std::vector<unsigned int> &rows)
+    {
+      for (const unsigned int block : chosen)
+        block_to_position[block] = invalid_index;
+      chosen.clear();
+      const auto choose = [this](const unsigned int block) {
+        block_to_position[block] = chosen.size();
+        chosen.push_back(block);
+      };
+      if (rows.empty())
+        for (unsigned int block = 0; block + 1 < block_begins.size(); ++block)
+          choose(block);
+      for (std::size_t i = 0; i < rows.size();
+           i += size(unknown_to_block[rows[i]]))
+        choose(unknown_to_block[rows[i]]);
+    }
+
+
+    BlockLu::Data::Pairs
+    BlockLu::Data::find_pairs(const Couplings &couplings) const
+    {
+      Pairs result;
+      for (unsigned int p = 0; p < chosen.size(); ++p)
+        for (const unsigned int block : couplings[chosen[p]])
+        {
+          const unsigned int other = block_to_position[block];
+          if (other == invalid_index || other == p)
+            continue;
+          result.emplace_back(p, other);
+          result.emplace_back(other, p);
+        }
+      std::sort(result.begin(), result.end());
+      result.erase(std::unique(result.begin(), result.end()), result.end());
+      return result;
+    }
+
+
+    std::vector<unsigned int>
+    BlockLu::Data::order(const Pairs &pairs) const
+    {
+      const unsigned int                 n = chosen.size();
+      std::vector<Eigen::Triplet<float>> triplets;
+      triplets.reserve(pairs.size() + n);
+      for (unsigned int p = 0; p < n; ++p)
+        triplets.emplace_back(p, p, 1.f);
+      for (const auto &[p, other] : pairs)
+        triplets.emplace_back(p, other, 1.f);
+      Eigen::SparseMatrix<float> graph(n, n);
+      graph.setFromTriplets(triplets.begin(), triplets.end());
+      Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> result(n);
+      Eigen::AMDOrdering<int>()(graph, result);
+      return {result.indices().data(), result.indices().data() + n};
+    }
+
+
+    void
+    BlockLu::Data::make_columns(const Pairs                     &pairs,
+                                const std::vector<unsigned int> &order)
+    {
+      const unsigned int n = chosen.size();
+      columns.assign(n, Column());
+      position_to_column.resize(n);
+      for (unsigned int j = 0; j < n; ++j)
+        position_to_column[order[j]] = j;
+      std::vector<unsigned int> begins(n + 1, 0);
+      for (const auto &[p, other] : pairs)
+        ++begins[p + 1];
+      std::partial_sum(begins.begin(), begins.end(), begins.begin());
+
+      // what an eliminated block couples is coupled from then on: the first of those
+      // takes over the others
+      std::vector<std::vector<unsigned int>> children(n);
+      std::vector<unsigned int>              met(n, invalid_index), found;
+      later.clear();
+      std::size_t  n_values   = 0;
+      unsigned int n_unknowns = 0;
+      for (unsigned int j = 0; j < n; ++j)
+      {
+        Column &column  = columns[j];
+        column.block    = chosen[order[j]];
+        column.n        = size(column.block);
+        column.unknowns = n_unknowns;
+        n_unknowns += column.n;
+        found.clear();
+        met[j]         = j;
+        const auto add = [&](const unsigned int i) {
+          if (i > j && met[i] != j)
+          {
+            met[i] = j;
+            found.push_back(i);
+          }
+        };
+        for (unsigned int i = begins[order[j]]; i < begins[order[j] + 1]; ++i)
+          add(position_to_column[pairs[i].second]);
+        for (const unsigned int child : children[j])
+          for (std::size_t i = columns[child].later_begin;
+               i < columns[child].later_end;
+               ++i)
+            add(later[i].column);
+        std::sort(found.begin(), found.end());
+        column.later_begin = later.size();
+        for (const unsigned int i : found)
+        {
+          later.push_back({i, column.m});
+          column.m += size(chosen[order[i]]);
+        }
+        column.later_end = later.size();
+        if (!found.empty())
+          children[found.front()].push_back(j);
+        column.diagonal = n_values;
+        n_values += std::size_t(column.n) * (column.n + 2 * column.m);
+      }
+      values.assign(n_values, 0.);
+      pivots.resize(n_unknowns);
+      x.resize(n_unknowns);
+    }
+
+
+    std::pair<double *, unsigned int>
+    BlockLu::Data::place(const unsigned int i, const unsigned int k)
+    {
+      const Column &column = columns[std::min(i, k)];
+      if (i == k)
+        return {values.data() + column.diagonal, column.n};
+      const auto found =
+        std::lower_bound(later.begin() + column.later_begin,
+                         later.begin() + column.later_end,
+                         std::max(i, k),
+                         [](const Later &entry, const unsigned int j) {
+                           return entry.column < j;
+                         });
+      Assert(found->column == std::max(i, k), dealii::ExcInternalError());
+      if (i > k)
+        return {values.data() + column.lower() + found->offset, column.m};
+      return {values.data() + column.upper() +
+                std::size_t(found->offset) * column.n,
+              column.n};
+    }
+
+
+    void
+    BlockLu::Data::read_values(const MatrixRows &entries, const Pairs &pairs)
+    {
+      for (unsigned int j = 0; j < columns.size(); ++j)
+        read_block(entries, j, columns[j].block);
+      for (const auto &[p, other] : pairs)
+        read_block(entries, position_to_column[p], chosen[other]);
+    }
+
+
+    void
+    BlockLu::Data::read_block(const MatrixRows  &entries,
+                              const unsigned int j,
+                              const unsigned int other)
+    {
+      const auto [to, distance] =
+        place(j, position_to_column[block_to_position[other]]);
+      const int first = block_begins[other], last = block_begins[other + 1];
+      // most rows of a block have the same columns
+      int place_of_first = 0;
+      for (unsigned int r = 0; r < columns[j].n; ++r)
+      {
+        const unsigned int row = block_begins[columns[j].block] + r;
+        const int          end = entries.begins[row + 1];
+        int                e   = entries.begins[row] + place_of_first;
+        if (r == 0 || e >= end || entries.columns[e] != first)
+          e = std::lower_bound(entries.columns + entries.begins[row],
+                               entries.columns + end,
+                               first) -
+              entries.columns;
+        place_of_first = e - entries.begins[row];
+        for (; e < end && entries.columns[e] < last; ++e)
+          to[r + std::size_t(distance) * (entries.columns[e] - first)] =
+            entries.values[e];
+      }
+    }
+
+
+    bool
+    BlockLu::Data::eliminate(const Column &column)
+    {
+      // of the largest entry of the block
+      constexpr double least_pivot = 1e-14;
+
+      const int n = column.n, m = column.m;
+      double   *diagonal = values.data() + column.diagonal;
+      int      *pivot    = pivots.data() + column.unknowns;
+      double    largest  = 0.;
+      for (int i = 0; i < n * n; ++i)
+        largest = std::max(largest, std::abs(diagonal[i]));
+      int info = 0;
+      lapack.GETRF(n, n, diagonal, n, pivot, &info);
+      if (info != 0)
+        return false;
+      for (int i = 0; i < n; ++i)
+        if (!(std::abs(diagonal[i * (n + 1)]) > least_pivot * largest))
+          return false;
+      if (m == 0)
+        return true;
+      lapack.GETRS('N',
+                   n,
+                   m,
+                   diagonal,
+                   n,
+                   pivot,
+                   values.data() + column.upper(),
+                   n,
+                   &info);
+      subtract_products(column);
+      return true;
+    }
+
+
+    void
+    BlockLu::Data::subtract_products(const Column &column)
+    {
+      const int n = column.n, m = column.m;
+      products.resize(std::size_t(m) * m);
+      blas.GEMM('N',
+                'N',
+                m,
+                m,
+                n,
+                1.,
+                values.data() + column.lower(),
+                m,
+                values.data() + column.upper(),
+                n,
+                0.,
+                products.data(),
+                m);
+      const auto begin = later.begin() + column.later_begin,
+                 end   = later.begin() + column.later_end;
+      for (auto k = begin; k != end; ++k)
+        for (auto i = begin; i != end; ++i)
+        {
+          const auto [to, distance] = place(i->column, k->column);
+          const unsigned int n_i    = columns[i->column].n;
+          const unsigned int n_k    = columns[k->column].n;
+          const double      *from =
+            products.data() + std::size_t(k->offset) * m + i->offset;
+          for (unsigned int c = 0; c < n_k; ++c)
+            for (unsigned int r = 0; r < n_i; ++r)
+              to[std::size_t(c) * distance + r] -= from[std::size_t(c) * m + r];
+        }
+    }
+
+
+    bool
+    BlockLu::factorize(const dealii::TrilinosWrappers::SparseMatrix &matrix,
+                       const std::vector<unsigned int>              &rows,
+                       const Couplings                              &couplings)
+    {
+      Data            &d = *data;
+      const MatrixRows entries(matrix);
+      d.choose_blocks(rows);
+      const Data::Pairs pairs = d.find_pairs(couplings);
+      d.make_columns(pairs, d.order(pairs));
+      d.read_values(entries, pairs);
+      for (const Data::Column &column : d.columns)
+        if (!d.eliminate(column))
+          return false;
+      return true;
+    }
+
+
+    double
+    BlockLu::n_factor_entries() const
+    {
+      return data->values.size();
+    }
+
+
+    void
+    BlockLu::solve(const dealii::TrilinosWrappers::MPI::Vector &rhs,
+                   dealii::TrilinosWrappers::MPI::Vector       &solution)
+    {
+      Data         &d      = *data;
+      const double *values = d.values.data();
+      const auto    from   = rhs.begin();
+      const auto    to     = solution.begin();
+      for (const Data::Column &column : d.columns)
+        std::copy_n(from + d.block_begins[column.block],
+                    column.n,
+                    d.x.begin() + column.unknowns);
+
+      for (const Data::Column &column : d.columns)
+      {
+        double *x    = d.x.data() + column.unknowns;
+        int     info = 0;
+        d.lapack.GETRS('N',
+                       column.n,
+                       1,
+                       values + column.diagonal,
+                       column.n,
+                       d.pivots.data() + column.unknowns,
+                       x,
+                       column.n,
+                       &info);
+        if (column.m == 0)
+          continue;
+        d.gathered.resize(column.m);
+        d.blas.GEMV('N',
+                    column.m,
+                    column.n,
+                    1.,
+                    values + column.lower(),
+                    column.m,
+                    x,
+                    0.,
+                    d.gathered.data());
+        for (std::size_t i = column.later_begin; i < column.later_end; ++i)
+        {
+          const Data::Column &other = d.columns[d.later[i].column];
+          for (unsigned int r = 0; r < other.n; ++r)
+            d.x[other.unknowns + r] -= d.gathered[d.later[i].offset + r];
+        }
+      }
+      for (auto column = d.columns.rbegin(); column != d.columns.rend();
+           ++column)
+      {
+        double *x = d.x.data() + column->unknowns;
+        if (column->m > 0)
+        {
+          d.gathered.resize(column->m);
+          for (std::size_t i = column->later_begin; i < column->later_end; ++i)
+          {
+            const Data::Column &other = d.columns[d.later[i].column];
+            std::copy_n(d.x.data() + other.unknowns,
+                        other.n,
+                        d.gathered.data() + d.later[i].offset);
+          }
+          d.blas.GEMV('N',
+                      column->n,
+                      column->m,
+                      -1.,
+                      values + column->upper(),
+                      column->n,
+                      d.gathered.data(),
+                      1.,
+                      x);
+        }
+        std::copy_n(x, column->n, to + d.block_begins[column->block]);
+      }
+    }
+  } // namespace internal
+} // namespace NMM

@@ -1,0 +1,233 @@
+// Elimination of whole blocks, against dense LU.
+#include <deal.II/base/index_set.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <mechanics/block_lu.h>
+#include <mechanics/mumps_solver.h>
+#include <numeric>
+#include <random>
+
+using namespace NMM;
+using internal::BlockLu;
+
+namespace
+{
+  using Matrix = dealii::TrilinosWrappers::SparseMatrix;
+  using Vector = dealii::TrilinosWrappers::MPI::Vector;
+
+
+  /// Blocks, an unsymmetric matrix of them with places of zero value between all, and the
+  /// same as a dense one.
+  struct Blocks
+  {
+    explicit Blocks(const std::vector<unsigned int> &sizes)
+      : couplings(sizes.size())
+    {
+      begins.push_back(0);
+      for (unsigned int b = 0; b < sizes.size(); ++b)
+      {
+        unknown_to_block.insert(unknown_to_block.end(), sizes[b], b);
+        begins.push_back(unknown_to_block.size());
+      }
+      const unsigned int n = unknown_to_block.size();
+      dense.setZero(n, n);
+    }
+
+    unsigned int
+    n() const
+    {
+      return unknown_to_block.size();
+    }
+
+    void
+    couple(const unsigned int a, const unsigned int b)
+    {
+      couplings[a].push_back(b);
+      for (unsigned int i = begins[a]; i < begins[a + 1]; ++i)
+        for (unsigned int j = begins[b]; j < begins[b + 1]; ++j)
+        {
+          dense(i, j) = random(generator);
+          // one way, if it is not the other one's turn as well
+          if (dense(j, i) == 0.)
+            dense(j, i) = random(generator);
+        }
+    }
+
+    /// A block's own matrix: rows need to change places.
+    void
+    fill(const unsigned int b, const double size)
+    {
+      const unsigned int m = begins[b + 1] - begins[b];
+      for (unsigned int i = 0; i < m; ++i)
+        for (unsigned int j = 0; j < m; ++j)
+          dense(begins[b] + i, begins[b] + j) =
+            random(generator) + ((i + 1) % m == j ? size : 0.);
+    }
+
+    Matrix
+    sparse() const
+    {
+      dealii::DynamicSparsityPattern pattern(n());
+      for (unsigned int i = 0; i < n(); ++i)
+        for (unsigned int j = 0; j < n(); ++j)
+          pattern.add(i, j);
+      Matrix result;
+      result.reinit(dealii::complete_index_set(n()), pattern, MPI_COMM_SELF);
+      for (unsigned int i = 0; i < n(); ++i)
+        for (unsigned int j = 0; j < n(); ++j)
+          result.set(i, j, dense(i, j));
+      result.compress(dealii::VectorOperation::insert);
+      return result;
+    }
+
+    std::mt19937                           generator{7};
+    std::uniform_real_distribution<double> random{-1., 1.};
+    std::vector<unsigned int>              unknown_to_block, begins;
+    BlockLu::Couplings                     couplings;
+    Eigen::MatrixXd                        dense;
+  };
+
+
+  Vector
+  counted(const unsigned int n)
+  {
+    Vector result(dealii::complete_index_set(n), MPI_COMM_SELF);
+    for (unsigned int i = 0; i < n; ++i)
+      result(i) = std::cos(1. + i);
+    result.compress(dealii::VectorOperation::insert);
+    return result;
+  }
+
+
+  // Random graphs of blocks of different sizes, some of which are left out: the solution
+  // is that of the dense system of the others, in place or not.
+  TEST(BlockLu, SolvesWhatDenseLuSolves)
+  {
+    std::mt19937 generator(11);
+    SCOPED_TRACE("seed 11");
+    for (unsigned int sample = 0; sample < 20; ++sample)
+    {
+      const unsigned int        n_blocks = 2 + generator() % 12;
+      std::vector<unsigned int> sizes;
+      for (unsigned int b = 0; b < n_blocks; ++b)
+        sizes.push_back(1 + generator() % 13);
+      Blocks blocks(sizes);
+      for (unsigned int b = 0; b < n_blocks; ++b)
+        blocks.fill(b, 40.);
+      for (unsigned int i = 0; i < 2 * n_blocks; ++i)
+      {
+        const unsigned int a = generator() % n_blocks;
+        const unsigned int b = generator() % n_blocks;
+        if (a != b)
+          blocks.couple(a, b);
+      }
+      std::vector<unsigned int> rows;
+      for (unsigned int i = 0; i < blocks.n(); ++i)
+        if (sample % 2 == 0 || blocks.unknown_to_block[i] % 3 != 1)
+          rows.push_back(i);
+      ASSERT_TRUE(BlockLu::is_suitable(blocks.unknown_to_block));
+      BlockLu lu(blocks.unknown_to_block);
+      ASSERT_TRUE(
+        lu.factorize(blocks.sparse(),
+                     sample % 2 == 0 ? std::vector<unsigned int>() : rows,
+                     blocks.couplings));
+      const Vector rhs      = counted(blocks.n());
+      Vector       solution = rhs;
+      lu.solve(solution, solution);
+
+      Eigen::MatrixXd some(rows.size(), rows.size());
+      Eigen::VectorXd right(rows.size());
+      for (unsigned int i = 0; i < rows.size(); ++i)
+      {
+        right(i) = rhs(rows[i]);
+        for (unsigned int j = 0; j < rows.size(); ++j)
+          some(i, j) = blocks.dense(rows[i], rows[j]);
+      }
+      const Eigen::VectorXd expected = some.partialPivLu().solve(right);
+      // rounding, with conditions of some 10
+      for (unsigned int i = 0; i < rows.size(); ++i)
+        EXPECT_NEAR(solution(rows[i]), expected(i), 1e-13) << sample;
+      for (unsigned int i = 0; i < blocks.n(); ++i)
+        if (std::find(rows.begin(), rows.end(), i) == rows.end())
+        {
+          EXPECT_EQ(solution(i), rhs(i)) << sample;
+        }
+    }
+  }
+
+
+  // A chain of blocks, numbered at random, has no fill, and neither has a star: what
+  // is in the middle is eliminated last.
+  TEST(BlockLu, OrdersSoThatLittleIsFilled)
+  {
+    constexpr unsigned int    n_blocks = 40, size = 3;
+    std::mt19937              generator(3);
+    std::vector<unsigned int> number(n_blocks);
+    std::iota(number.begin(), number.end(), 0U);
+    std::shuffle(number.begin(), number.end(), generator);
+    for (const bool is_star : {false, true})
+    {
+      Blocks blocks(std::vector<unsigned int>(n_blocks, size));
+      for (unsigned int b = 0; b < n_blocks; ++b)
+        blocks.fill(b, 100.);
+      for (unsigned int b = 0; b + 1 < n_blocks; ++b)
+        blocks.couple(number[is_star ? n_blocks - 1 : b + 1], number[b]);
+      BlockLu lu(blocks.unknown_to_block);
+      ASSERT_TRUE(lu.factorize(blocks.sparse(), {}, blocks.couplings));
+      EXPECT_EQ(lu.n_factor_entries(),
+                size * size * (n_blocks + 2 * (n_blocks - 1)))
+        << is_star;
+    }
+  }
+
+
+  // A block without a pivot is no block to begin with: the direct solver then has
+  // others do it.
+  TEST(BlockLu, SaysIfABlockIsSingular)
+  {
+    for (const double little : {0., 1e-16})
+    {
+      Blocks blocks({2, 2});
+      blocks.dense << little, 0., 1., 0., //
+        0., little, 0., 1.,               //
+        1., 0., 1., 0.,                   //
+        0., -1., 0., -1.;
+      blocks.dense(0, 1) = blocks.dense(1, 0) = little == 0. ? 0. : 1.;
+      blocks.dense(0, 0)                      = little == 0. ? 0. : 1. + little;
+      blocks.dense(1, 1)                      = little == 0. ? 0. : 1.;
+      blocks.couplings[0]                     = {1};
+      const Matrix matrix                     = blocks.sparse();
+      BlockLu      lu(blocks.unknown_to_block);
+      EXPECT_FALSE(lu.factorize(matrix, {}, blocks.couplings));
+
+      internal::DirectSolver solver(
+        internal::DirectSolver::Symmetry::unsymmetric, blocks.unknown_to_block);
+      solver.factorize(matrix, {}, blocks.couplings);
+      const Vector rhs      = counted(4);
+      Vector       solution = rhs, residual = rhs;
+      solver.solve(rhs, solution);
+      matrix.vmult(residual, solution);
+      residual -= rhs;
+      EXPECT_LE(residual.l2_norm(), 1e-13);
+    }
+  }
+
+
+  // Blocks that are large, or whose unknowns are scattered, are for others.
+  TEST(BlockLu, IsForSmallBlocksInOrder)
+  {
+    std::vector<unsigned int> blocks(BlockLu::max_block, 0);
+    EXPECT_TRUE(BlockLu::is_suitable(blocks));
+    blocks.push_back(1);
+    EXPECT_TRUE(BlockLu::is_suitable(blocks));
+    blocks.push_back(0);
+    EXPECT_FALSE(BlockLu::is_suitable(blocks));
+    EXPECT_FALSE(BlockLu::is_suitable(
+      std::vector<unsigned int>(BlockLu::max_block + 1, 0)));
+    EXPECT_FALSE(BlockLu::is_suitable({}));
+  }
+} // namespace

@@ -46,7 +46,7 @@ namespace NMM
         unsigned int column = 0, offset = 0;
       };
 
-      using Pairs = std::vector<std::pair<unsigned int, unsigned int>>;
+      using Pairs = std::vector<BlockPair>;
 
       void
       choose_blocks(const std::vector<unsigned int> &rows);
@@ -75,8 +75,8 @@ namespace NMM
       void
       read_block(const MatrixRows &entries, unsigned int j, unsigned int other);
 
-      /// Of the block in row @p i and column @p k, its first entry and how far
-      /// apart its columns are; @p from: where to look among the later ones.
+      /// Of the block in row @p i and column @p k, in the order of elimination: its first
+      /// entry, and how far apart its columns are.
       std::pair<double *, unsigned int>
       place(unsigned int i, unsigned int k);
 

@@ -2,8 +2,8 @@
 #define nmm_source_mechanics_block_lu_h
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
-#include <deal.II/lac/trilinos_vector.h>
 
+#include <mechanics/factors.h>
 #include <memory>
 #include <vector>
 
@@ -33,7 +33,7 @@ namespace NMM
      *
      * One rank.
      */
-    class BlockLu
+    class BlockLu : public Factors
     {
     public:
       /// Unknowns of a block: larger ones have zeros inside of which others know more.
@@ -44,9 +44,10 @@ namespace NMM
 
       /// @p unknown_to_block: from 0 on, of each unknown of the matrices to come.
       explicit BlockLu(const std::vector<unsigned int> &unknown_to_block);
-      ~BlockLu();
+      ~BlockLu() override;
 
-      /// Has no block more than max_block unknowns, and are those of each next to each other?
+      /// Has no block more than max_block unknowns, and do they follow each other, block by
+      /// block in the order of their numbers?
       static bool
       is_suitable(const std::vector<unsigned int> &unknown_to_block);
 
@@ -57,15 +58,12 @@ namespace NMM
                 const std::vector<unsigned int>              &rows,
                 const Couplings                              &couplings);
 
-      /// Of both factors.
       double
-      n_factor_entries() const;
+      n_factor_entries() const override;
 
-      /// Leaves rows alone that were left out. @p solution may be the same vector as
-      /// @p rhs.
       void
       solve(const dealii::TrilinosWrappers::MPI::Vector &rhs,
-            dealii::TrilinosWrappers::MPI::Vector       &solution);
+            dealii::TrilinosWrappers::MPI::Vector       &solution) override;
 
     private:
       struct Data;

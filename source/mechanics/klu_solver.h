@@ -2,8 +2,8 @@
 #define nmm_source_mechanics_klu_solver_h
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
-#include <deal.II/lac/trilinos_vector.h>
 
+#include <mechanics/factors.h>
 #include <memory>
 #include <vector>
 
@@ -26,7 +26,7 @@ namespace NMM
      *
      * One rank.
      */
-    class KluSolver
+    class KluSolver : public Factors
     {
     public:
       /// Of a system that hangs together: about larger ones one has to ask
@@ -34,7 +34,7 @@ namespace NMM
       static constexpr unsigned int max_group = 360;
 
       KluSolver();
-      ~KluSolver();
+      ~KluSolver() override;
 
       /// Does no group of unknowns that are coupled by values other than zero have more
       /// than max_group? Looks no further than to the first that has.
@@ -54,15 +54,12 @@ namespace NMM
       void
       factorize();
 
-      /// Of both factors.
       double
-      n_factor_entries() const;
+      n_factor_entries() const override;
 
-      /// Leaves rows alone that were left out. @p solution may be the same vector as
-      /// @p rhs.
       void
       solve(const dealii::TrilinosWrappers::MPI::Vector &rhs,
-            dealii::TrilinosWrappers::MPI::Vector       &solution);
+            dealii::TrilinosWrappers::MPI::Vector       &solution) override;
 
     private:
       struct Data;

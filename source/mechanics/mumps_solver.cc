@@ -203,14 +203,8 @@ namespace NMM
       KluSolver klu;
       /// What is solved for; empty: all.
       std::vector<unsigned int> rows;
-      /// Whose the last factorization is.
-      enum class Owner
-      {
-        mumps,
-        klu,
-        block_lu
-      };
-      Owner owner = Owner::mumps;
+      /// Of the last factorization; null: MUMPS has them.
+      Factors *factors = nullptr;
       /// See DirectSolver().
       bool                     has_blocks = false;
       std::unique_ptr<BlockLu> block_lu;
@@ -439,17 +433,19 @@ namespace NMM
       const std::vector<unsigned int>              &rows,
       const std::vector<std::vector<unsigned int>> &couplings)
     {
-      using Owner = Data::Owner;
-      data->rows  = rows;
-      data->owner =
-        data->block_lu && data->block_lu->factorize(matrix, rows, couplings)
-          ? Owner::block_lu
-        : data->may_be_klus(matrix) ? Owner::klu
-                                    : Owner::mumps;
-      if (data->owner == Owner::klu)
-        data->klu.factorize();
-      if (data->owner != Owner::mumps)
+      data->rows    = rows;
+      data->factors = nullptr;
+      if (data->block_lu && data->block_lu->factorize(matrix, rows, couplings))
+      {
+        data->factors = data->block_lu.get();
         return;
+      }
+      if (data->may_be_klus(matrix))
+      {
+        data->klu.factorize();
+        data->factors = &data->klu;
+        return;
+      }
       if (!data->is_analyzed)
         analyze(matrix);
       AssertDimension(matrix.m(), data->n);
@@ -468,10 +464,8 @@ namespace NMM
     double
     DirectSolver::n_factor_entries() const
     {
-      if (data->owner == Data::Owner::klu)
-        return data->klu.n_factor_entries();
-      if (data->owner == Data::Owner::block_lu)
-        return data->block_lu->n_factor_entries();
+      if (data->factors != nullptr)
+        return data->factors->n_factor_entries();
       double n = 0.;
       if (data->mumps)
       {
@@ -489,14 +483,9 @@ namespace NMM
     DirectSolver::solve(const dealii::TrilinosWrappers::MPI::Vector &rhs,
                         dealii::TrilinosWrappers::MPI::Vector       &solution)
     {
-      if (data->owner == Data::Owner::klu)
+      if (data->factors != nullptr)
       {
-        data->klu.solve(rhs, solution);
-        return;
-      }
-      if (data->owner == Data::Owner::block_lu)
-      {
-        data->block_lu->solve(rhs, solution);
+        data->factors->solve(rhs, solution);
         return;
       }
       // right-hand side and solution are on the host

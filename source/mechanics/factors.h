@@ -1,0 +1,29 @@
+#ifndef nmm_source_mechanics_factors_h
+#define nmm_source_mechanics_factors_h
+
+#include <deal.II/lac/trilinos_vector.h>
+
+namespace NMM
+{
+  namespace internal
+  {
+    /// Factors of some rows and columns of a matrix, on one rank.
+    class Factors
+    {
+    public:
+      virtual ~Factors() = default;
+
+      /// Of both factors.
+      virtual double
+      n_factor_entries() const = 0;
+
+      /// Leaves rows alone that were left out. @p solution may be the same vector as
+      /// @p rhs.
+      virtual void
+      solve(const dealii::TrilinosWrappers::MPI::Vector &rhs,
+            dealii::TrilinosWrappers::MPI::Vector       &solution) = 0;
+    };
+  } // namespace internal
+} // namespace NMM
+
+#endif

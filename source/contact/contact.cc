@@ -52,6 +52,13 @@ namespace NMM
     }
     residual.reinit(surface.cover_system().locally_owned_dofs(2), communicator);
     nodal.assign(2 * surface.cover_system().n_covers(), 0.);
+    if (constraints.n_constraints() > 0 &&
+        Parallel::n_mpi_processes(communicator) == 1)
+    {
+      is_prescribed.resize(nodal.size());
+      for (const auto &line : constraints.get_lines())
+        is_prescribed[line.index] = true;
+    }
     surface.set_displacements(&nodal);
   }
 
@@ -613,7 +620,8 @@ namespace NMM
     local.n_covers = 0;
     local.append(surface->covers(point.edge));
     local.append(surface->covers(projection.master));
-    if (with_friction)
+    // in a step the slip is that since its begin
+    if (traction.shear_stiffness != 0. || traction.pressure_by_slip != 0.)
     {
       surface->weights(point.stick_edge, point.stick_t, stick);
       local.append(surface->covers(point.stick_edge));
@@ -635,19 +643,34 @@ namespace NMM
                       with_friction ? &stick : nullptr,
                       with_tangent,
                       local);
+    if (with_tangent && is_between)
+      note_coupled(q);
+    add_local(with_tangent);
+  }
+
+
+  void
+  Contact::Data::add_local(const bool with_tangent)
+  {
+    const unsigned int                          n = 2 * local.n_covers;
     const dealii::ArrayView<const unsigned int> covers(local.covers,
                                                        local.n_covers);
-    if (with_tangent)
+    for (unsigned int i = 0; with_tangent && tangent_factor != 1. && i < n * n;
+         ++i)
+      local.matrix[i] *= tangent_factor;
+    if (with_tangent && by_blocks == nullptr)
     {
-      if (is_between)
-        note_coupled(q);
-      if (tangent_factor != 1.)
-        for (unsigned int i = 0; i < 4 * local.n_covers * local.n_covers; ++i)
-          local.matrix[i] *= tangent_factor;
       block_system->add(covers, local.matrix, local.rhs);
+      return;
     }
-    else
-      block_system->add_rhs(covers, local.rhs);
+    block_system->add_rhs(covers, local.rhs);
+    if (!with_tangent)
+      return;
+    for (unsigned int i = 0; !is_prescribed.empty() && i < n; ++i)
+      if (is_prescribed[2 * covers[i / 2] + i % 2])
+        for (unsigned int j = 0; j < n; ++j)
+          local.matrix[n * i + j] = local.matrix[n * j + i] = 0.;
+    by_blocks->add(covers, local.matrix);
   }
 
 
@@ -685,6 +708,7 @@ namespace NMM
       return;
     }
     d.tangent_factor = 1.;
+    d.by_blocks      = nullptr;
     if (with_tangent)
       d.couple_all();
     d.move_to(u);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <contact/contact_data.h>
+#include <numeric>
 #include <utility>
 
 namespace NMM
@@ -52,20 +53,34 @@ namespace NMM
   void
   Contact::Data::list_near_bodies()
   {
-    const auto &edges = surface->edges();
-    near_bodies.resize(surface->n_bodies());
-    for (auto &near : near_bodies)
-      near.clear();
+    const auto            &edges = surface->edges();
+    std::vector<BlockPair> pairs;
     for (unsigned int i = 0; i < search.slaves().size(); ++i)
     {
       const unsigned int slave = edges[search.slaves()[i]].body;
       for (const unsigned int master : search.masters(i))
-      {
-        auto &near = near_bodies[edges[master].body];
-        if (std::find(near.begin(), near.end(), slave) == near.end())
-          near.push_back(slave);
-      }
+        if (pairs.empty() ||
+            pairs.back() != BlockPair(slave, edges[master].body))
+          pairs.emplace_back(slave, edges[master].body);
     }
+    const auto make_lists = [&](BodyLists &lists) {
+      std::sort(pairs.begin(), pairs.end());
+      pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+      lists.begins.assign(surface->n_bodies() + 1, 0);
+      lists.bodies.clear();
+      for (const auto &[body, other] : pairs)
+      {
+        ++lists.begins[body + 1];
+        lists.bodies.push_back(other);
+      }
+      std::partial_sum(lists.begins.begin(),
+                       lists.begins.end(),
+                       lists.begins.begin());
+    };
+    make_lists(faced_bodies);
+    for (auto &[slave, master] : pairs)
+      std::swap(slave, master);
+    make_lists(near_bodies);
     point_to_body.resize(points.size());
     for (unsigned int q = 0; q < points.size(); ++q)
       point_to_body[q] = edges[search.slaves()[point_data[q].slave]].body;

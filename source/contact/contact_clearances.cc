@@ -15,6 +15,18 @@ namespace NMM
   {
     /// What is further away than this part of the reach is clear, whatever is rounded.
     constexpr double clear_by = 1e-6;
+
+
+    /// Bring something into the cache.
+    template <typename Item>
+    void
+    fetch(const Item &item)
+    {
+      constexpr unsigned int line  = 64;
+      const char            *bytes = reinterpret_cast<const char *>(&item);
+      for (unsigned int b = 0; b < sizeof(Item); b += line)
+        __builtin_prefetch(bytes + b);
+    }
   } // namespace
 
 
@@ -29,7 +41,10 @@ namespace NMM
     moved_at.assign(surface->n_bodies(), 0);
     changed_at.assign(surface->n_bodies(), 0);
     found_at.assign(surface->n_bodies(), 0);
-    is_near.resize(points.size());
+    is_near.assign(points.size(), 0);
+    far_distance.assign(points.size(), 0.);
+    bound_assembly.assign(surface->n_bodies(), 0);
+    motion_bounds.resize(surface->n_bodies());
     if (point_to_body.empty())
       list_near_bodies();
     if (active_covers.empty() &&
@@ -65,9 +80,25 @@ namespace NMM
                              place.slack,
                              place.home);
       clearance.was_clear = clearance.distance > 0.;
+      far_distance[q]     = clearance.distance;
       if (clearance.was_clear)
         note_clear(q);
     }
+  }
+
+
+  double
+  Contact::Data::motion_bound(const unsigned int body)
+  {
+    if (bound_assembly[body] != n_assemblies)
+    {
+      double moved = 0.;
+      for (const unsigned int other : faced_bodies[body])
+        moved = std::max(moved, motion.bound_of_bodies(body, other, reach));
+      motion_bounds[body]  = moved + clear_by * reach;
+      bound_assembly[body] = n_assemblies;
+    }
+    return motion_bounds[body];
   }
 
 
@@ -111,6 +142,47 @@ namespace NMM
                             masters,
                             place.slack,
                             place.home) > clear_by * reach;
+  }
+
+
+  void
+  Contact::Data::find_ends()
+  {
+    asked_points.clear();
+    for_each_active_point([&](const unsigned int q) {
+      if (!is_far(q, point_to_body[q]))
+        asked_points.push_back(q);
+    });
+    near_points.clear();
+    for (unsigned int i = 0; i < asked_points.size(); ++i)
+    {
+      fetch_ahead(asked_points, i);
+      const unsigned int q = asked_points[i];
+      is_near[q] = is_known[point_to_body[q]] ? find_same_end(q) : find_end(q);
+      if (is_near[q])
+        near_points.push_back(q);
+    }
+  }
+
+
+  void
+  Contact::Data::fetch_ahead(const std::vector<unsigned int> &list,
+                             const unsigned int               i) const
+  {
+    constexpr unsigned int far = 12, near = 5;
+    if (i + far < list.size())
+      fetch(clearances[list[i + far]]);
+    if (i + near >= list.size())
+      return;
+    const unsigned int q         = list[i + near];
+    const Clearance   &clearance = clearances[q];
+    // what was clear most likely is so again
+    if (clearance.was_clear)
+      return;
+    fetch(points[q]);
+    fetch(point_data[q]);
+    if (clearance.edge != invalid_index)
+      fetch(surface->edges()[clearance.edge]);
   }
 
 

@@ -41,6 +41,18 @@ namespace NMM
       double opening = 0., by_gap = 1., by_slip = 0.;
     };
 
+    /// Lists of bodies by body, one after the other.
+    struct BodyLists
+    {
+      std::vector<unsigned int> begins, bodies;
+
+      dealii::ArrayView<const unsigned int>
+      operator[](const unsigned int body) const
+      {
+        return {bodies.data() + begins[body], begins[body + 1] - begins[body]};
+      }
+    };
+
     /// What does not change from one assembly to the next.
     struct PointData
     {
@@ -52,8 +64,8 @@ namespace NMM
       /// master.
       double s = 0.;
       /// Of the slave between two divisions [m].
-      double                  piece_length = 0.;
-      ContactSurface::Weights weights;
+      double                       piece_length = 0.;
+      ContactSurface::WeightValues weights;
       /// That of the last master.
       const ContactLaw *law = nullptr;
       /// See ContactSearch::end_slack().
@@ -120,6 +132,9 @@ namespace NMM
     void
     add_corner(unsigned int slave);
 
+    ContactSurface::WeightValues
+    weights_at(const ContactPoint &point) const;
+
     /// History of a point: where it stuck, its multiplier on @p slave.
     void
     restore(ContactPoint &point, PointData &fixed, unsigned int slave) const;
@@ -150,9 +165,14 @@ namespace NMM
       return corner == 2 ? edge : edge + (corner + 1) * surface->edges().size();
     }
 
-    /// What may come to touch, and be coupled; the pattern is kept if that is as before.
+    /// May anything touch? What may be coupled is to be looked at again.
     void
     note_candidates();
+
+    /// What may be coupled; the pattern is kept if that is as before. Not before somebody
+    /// asks for a sparse matrix.
+    void
+    look_at_candidates();
 
     void
     append_couplings(unsigned int               position,
@@ -246,6 +266,19 @@ namespace NMM
     bool
     is_clear_now(unsigned int q) const;
 
+    /// The same of a point that was clear in the last assembly, too, by a bound that is
+    /// found once for all points of a body. Most points end here.
+    bool
+    is_far(const unsigned int q, const unsigned int body)
+    {
+      return far_distance[q] > 0. && far_distance[q] > motion_bound(body);
+    }
+
+    /// By how much any face of a body moves, at most, against those that it may touch, and
+    /// what that is by rounding.
+    double
+    motion_bound(unsigned int body);
+
     /// It touches neither at the end of the step nor at the begin.
     void
     note_clear(unsigned int q);
@@ -262,11 +295,24 @@ namespace NMM
 
     /// @name One point in an assembly
     /// @{
+    /// The matrix of `local`, and its forces.
+    void
+    add_local(bool with_tangent);
+
     void
     hand_over(unsigned int                       q,
               const internal::ContactProjection &projection,
               const internal::ContactTraction   &traction,
               bool                               with_tangent);
+
+    /// Of all active points: which are near.
+    void
+    find_ends();
+
+    /// Points come from all over the memory: those that follow the i-th one in a list
+    /// are asked for before it is their turn.
+    void
+    fetch_ahead(const std::vector<unsigned int> &list, unsigned int i) const;
 
     /// Where a point is at the end of a step; false, and open, if it touches neither there
     /// nor at the begin.
@@ -469,7 +515,8 @@ namespace NMM
     /// By position in ContactSearch::slaves(): is it to be in the pattern of the matrix,
     /// was it when that was made?
     std::vector<bool> is_coupled, is_in_pattern;
-    bool              has_pattern = false, is_pattern_of_step = false;
+    bool              has_pattern = false, is_pattern_of_step = false,
+         are_candidates_known = false;
 
     /// Augmented Lagrangian only.
     std::unique_ptr<internal::MultiplierSpace> multiplier_space;
@@ -505,13 +552,17 @@ namespace NMM
     std::vector<unsigned int> touched_bodies;
     std::vector<BlockPair>    coupled_bodies;
     /// See assemble_between().
-    double tangent_factor = 1.;
+    double       tangent_factor = 1.;
+    BlockMatrix *by_blocks      = nullptr;
+    /// Unknowns that are prescribed; empty: none is.
+    std::vector<bool> is_prescribed;
     /// Points that active bodies may have part in, and their covers, rows and edges.
     internal::ActiveItems active_points, active_covers, active_rows,
       active_edges;
-    /// Whose cover or edge it is; on whose face a point was made; what may touch a body.
+    /// Whose cover or edge it is; on whose face a point was made; whose faces may have a
+    /// body for master, and which masters its own ones may have.
     std::vector<unsigned int> cover_to_body, edge_to_body, point_to_body;
-    std::vector<std::vector<unsigned int>> near_bodies;
+    BodyLists                 near_bodies, faced_bodies;
 
     internal::ContactLocalSystem local;
     Matrix                       matrix;
@@ -532,9 +583,14 @@ namespace NMM
     std::vector<Clearance>  clearances;
     /// By point, as clearances are.
     std::vector<ClearancePlace> clearance_places;
-    std::vector<double>         position_motion;
-    std::vector<unsigned int>   position_assembly;
-    unsigned int                n_assemblies = 0;
+    /// By point: its clearance, as long as it is clear; 0: ask.
+    std::vector<double> far_distance;
+    /// By body: see motion_bound(), and at which assembly.
+    std::vector<double>       motion_bounds;
+    std::vector<unsigned int> bound_assembly;
+    std::vector<double>       position_motion;
+    std::vector<unsigned int> position_assembly;
+    unsigned int              n_assemblies = 0;
     /// By body, numbers of assemblies: the last one in which it moved, or what it may touch,
     /// too, and the one after that which found all points of its faces.
     std::vector<unsigned int> moved_at, changed_at, found_at;
@@ -547,6 +603,8 @@ namespace NMM
     std::vector<std::uint8_t> is_near;
     /// Active points that touch at the begin or the end of the step.
     std::vector<unsigned int> near_points;
+    /// Active points that are not far.
+    std::vector<unsigned int> asked_points;
 
     /// Of a time step: displacements at its begin, faces at its end and in its middle, and
     /// the way of obstacles.

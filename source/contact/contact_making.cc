@@ -74,6 +74,15 @@ namespace NMM
   }
 
 
+  ContactSurface::WeightValues
+  Contact::Data::weights_at(const ContactPoint &point) const
+  {
+    ContactSurface::Weights result;
+    surface->weights(point.edge, point.s, result);
+    return result;
+  }
+
+
   void
   Contact::Data::add_corner(const unsigned int slave)
   {
@@ -84,10 +93,10 @@ namespace NMM
     point.edge   = search.slaves()[slave];
     point.s      = fixed.corner;
     // that of the end of an edge of this length, with four Gauss-Lobatto points
-    point.weight = parameters.integration == ContactIntegration::points
-                     ? 1.
-                     : corner_size[2 * point.edge + fixed.corner] / 12.;
-    surface->weights(point.edge, point.s, fixed.weights);
+    point.weight  = parameters.integration == ContactIntegration::points
+                      ? 1.
+                      : corner_size[2 * point.edge + fixed.corner] / 12.;
+    fixed.weights = weights_at(point);
     restore(point, fixed, point.edge);
     points.push_back(point);
     point_data.push_back(fixed);
@@ -145,7 +154,7 @@ namespace NMM
           if (fixed.home == invalid_index)
             fixed.slack = -fixed.slack;
         }
-        surface->weights(point.edge, point.s, fixed.weights);
+        fixed.weights = weights_at(point);
         restore(point, fixed, edge);
         if (fixed.corner > Kind::along && point.stick_edge == invalid_index)
           take_over_place(point, fixed, edge);
@@ -216,18 +225,35 @@ namespace NMM
       Parallel::max(search.slaves().empty() ? 0U : 1U, communicator) == 0U;
     if (is_idle)
       return;
+    are_candidates_known = false;
+    if (block_system != nullptr)
+      return;
+    if (Parallel::n_mpi_processes(communicator) > 1)
+    {
+      couple_all();
+      return;
+    }
+    // enough for forces
+    is_coupled.assign(search.slaves().size(), false);
+    make_pattern();
+  }
+
+
+  void
+  Contact::Data::look_at_candidates()
+  {
+    if (are_candidates_known)
+      return;
+    are_candidates_known = true;
     candidates.clear();
     for (unsigned int i = 0; i < search.slaves().size(); ++i)
       append_couplings(i, candidates);
-    const bool is_new =
-      block_system == nullptr || candidates != coupled_candidates;
+    const bool is_new = candidates != coupled_candidates;
     if (Parallel::max(is_new ? 1U : 0U, communicator) == 0U)
       return;
     coupled_candidates = candidates;
     is_coupled.assign(search.slaves().size(), false);
     has_pattern = false;
-    if (block_system == nullptr)
-      couple_all();
   }
 
 
@@ -283,6 +309,7 @@ namespace NMM
   void
   Contact::Data::couple_all()
   {
+    look_at_candidates();
     const bool is_missing =
       !has_pattern || std::find(is_coupled.begin(), is_coupled.end(), false) !=
                         is_coupled.end();
@@ -299,6 +326,7 @@ namespace NMM
     // times the motion that is expected: how much more there may be
     constexpr double margin = 1.;
 
+    look_at_candidates();
     std::fill(is_coupled.begin(), is_coupled.end(), false);
     for_each_active_point([&](const unsigned int q) {
       if (!is_clear(clearances[q], margin))
@@ -311,6 +339,7 @@ namespace NMM
   void
   Contact::Data::couple_near()
   {
+    look_at_candidates();
     for (const unsigned int q : near_points)
       is_coupled[point_data[q].slave] = true;
     if (!has_pattern || is_coupled != is_in_pattern)

@@ -4,6 +4,7 @@
 #include <contact/contact_motion.h>
 #include <contact/contact_search.h>
 #include <limits>
+#include <numeric>
 
 namespace NMM
 {
@@ -11,6 +12,13 @@ namespace NMM
   {
     using dealii::Point;
     using dealii::Tensor;
+
+    namespace
+    {
+      /// Of a face [rad], and what it counts by depth.
+      constexpr double most_turn = 0.5, turn_factor = 1.25;
+    } // namespace
+
 
     void
     ContactMotion::begin(const ContactSurface &surface)
@@ -27,6 +35,23 @@ namespace NMM
         if (surface.is_rigid(e))
           rigid_edges.push_back(e);
       }
+      is_body_known.assign(surface.n_bodies(), false);
+      body_motions.resize(surface.n_bodies());
+      if (edge_to_body.size() == n)
+        return;
+      edge_to_body.clear();
+      body_begins.assign(surface.n_bodies() + 2, 0);
+      for (const ContactSurface::Edge &edge : surface.edges())
+      {
+        edge_to_body.push_back(edge.body);
+        ++body_begins[edge.body + 2];
+      }
+      std::partial_sum(body_begins.begin(),
+                       body_begins.end(),
+                       body_begins.begin());
+      edges_of_bodies.resize(n);
+      for (unsigned int e = 0; e < n; ++e)
+        edges_of_bodies[body_begins[edge_to_body[e] + 1]++] = e;
     }
 
 
@@ -34,8 +59,10 @@ namespace NMM
     ContactMotion::move(const ContactSurface &surface, const unsigned int edge)
     {
       // without begin() nobody asks
-      if (!motions.empty())
-        motions[edge] = find_motion(surface, edge);
+      if (motions.empty())
+        return;
+      motions[edge]                     = find_motion(surface, edge);
+      is_body_known[edge_to_body[edge]] = false;
     }
 
 
@@ -75,13 +102,49 @@ namespace NMM
                          const unsigned int master,
                          const double       depth) const
     {
-      constexpr double most = 0.5, turn_factor = 1.25;
-
       const Motion &of_edge = motions[edge], &of_master = motions[master];
-      if (of_master.turn > most)
+      if (of_master.turn > most_turn)
         return std::numeric_limits<double>::max();
       return (of_edge.center - of_master.center).norm() + of_edge.radius +
              of_master.radius + turn_factor * depth * of_master.turn;
+    }
+
+
+    const ContactMotion::Motion &
+    ContactMotion::of_body(const unsigned int body)
+    {
+      Motion &result = body_motions[body];
+      if (is_body_known[body])
+        return result;
+      const auto begin = edges_of_bodies.begin() + body_begins[body],
+                 end   = edges_of_bodies.begin() + body_begins[body + 1];
+      result           = Motion();
+      if (begin != end)
+        result.center = motions[*begin].center;
+      for (auto edge = begin; edge != end; ++edge)
+      {
+        const Motion &of_edge = motions[*edge];
+        result.radius =
+          std::max(result.radius,
+                   (of_edge.center - result.center).norm() + of_edge.radius);
+        result.turn = std::max(result.turn, of_edge.turn);
+      }
+      is_body_known[body] = true;
+      return result;
+    }
+
+
+    double
+    ContactMotion::bound_of_bodies(const unsigned int body,
+                                   const unsigned int other,
+                                   const double       depth)
+    {
+      const Motion &a = of_body(body), &b = of_body(other);
+      // a face may be the other one's master or slave
+      const double turn = std::max(a.turn, b.turn);
+      return turn > most_turn ? std::numeric_limits<double>::max()
+                              : (a.center - b.center).norm() + a.radius +
+                                  b.radius + turn_factor * depth * turn;
     }
 
 

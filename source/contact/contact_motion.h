@@ -43,6 +43,11 @@ namespace NMM
       double
       bound(unsigned int edge, unsigned int master, double depth) const;
 
+      /// Of any edge of one body against any one of the other, at least the largest bound()
+      /// [m]: edges of a body differ in c_0 from the first one's, and that adds to r.
+      double
+      bound_of_bodies(unsigned int body, unsigned int other, double depth);
+
     private:
       struct Motion
       {
@@ -53,9 +58,17 @@ namespace NMM
       Motion
       find_motion(const ContactSurface &surface, unsigned int edge) const;
 
+      /// Of all its edges.
+      const Motion &
+      of_body(unsigned int body);
+
       std::vector<ContactSurface::EdgeDisplacement> at_begin;
       std::vector<Motion>                           motions;
       std::vector<unsigned int>                     rigid_edges;
+      /// Edges of bodies, one body after the other; what is known of these.
+      std::vector<unsigned int> body_begins, edges_of_bodies, edge_to_body;
+      std::vector<Motion>       body_motions;
+      std::vector<bool>         is_body_known;
     };
   } // namespace internal
 } // namespace NMM

@@ -207,9 +207,9 @@ namespace NMM
   {
     const unsigned int n_obstacles = obstacle_changes.size();
     Tensor<1, 2>       motion;
-    const auto         add = [&](const unsigned int             edge,
-                         const ContactSurface::Weights &f,
-                         const double                   sign) {
+    const auto         add = [&](const unsigned int                  edge,
+                         const ContactSurface::WeightValues &f,
+                         const double                        sign) {
       if (surface->is_rigid(edge))
         motion += sign * obstacle_changes[surface->edges()[edge].body -
                                           (surface->n_bodies() - n_obstacles)];
@@ -440,6 +440,7 @@ namespace NMM
     Clearance &clearance = clearances[q];
     const bool was_clear = clearance.was_clear;
     clearance.was_clear  = is_clear(clearance) || is_clear_now(q);
+    far_distance[q]      = clearance.was_clear ? clearance.distance : 0.;
     if (clearance.was_clear)
     {
       if (!was_clear)
@@ -608,9 +609,11 @@ namespace NMM
   Contact::assemble_between(const Vector &end,
                             const double  time,
                             const bool    with_tangent,
-                            const double  tangent_factor)
+                            const double  tangent_factor,
+                            BlockMatrix  *by_blocks)
   {
     Data &d          = *data;
+    d.by_blocks      = by_blocks;
     d.report         = ContactReport();
     d.deepest        = 0.;
     d.tangent_factor = tangent_factor;
@@ -628,7 +631,8 @@ namespace NMM
       d.obstacle_changes[i] = d.surface->obstacle_displacement(i);
     d.step                 = time - d.time_begin;
     const bool on_one_rank = Parallel::n_mpi_processes(d.communicator) == 1;
-    const bool is_first = with_tangent && on_one_rank && !d.is_pattern_of_step;
+    const bool is_sparse   = with_tangent && by_blocks == nullptr;
+    const bool is_first    = is_sparse && on_one_rank && !d.is_pattern_of_step;
     if (is_first && !d.nodal_expected.empty())
     {
       d.move_as_expected();
@@ -639,13 +643,7 @@ namespace NMM
     d.is_conserving = true;
     d.set_admitted_depth();
     d.note_known(time);
-    d.near_points.clear();
-    d.for_each_active_point([&](const unsigned int q) {
-      d.is_near[q] =
-        d.is_known[d.point_to_body[q]] ? d.find_same_end(q) : d.find_end(q);
-      if (d.is_near[q])
-        d.near_points.push_back(q);
-    });
+    d.find_ends();
     if (is_first && d.nodal_expected.empty())
       d.couple_expected();
 
@@ -655,14 +653,17 @@ namespace NMM
     d.surface->set_time(d.time_begin, time);
     d.surface->set_state(d.middle_state);
     d.is_between = true;
-    if (with_tangent && on_one_rank)
+    if (is_sparse && on_one_rank)
       d.couple_near();
-    else if (with_tangent)
+    else if (is_sparse)
       d.couple_all();
-    d.block_system->reset(with_tangent);
-    for (const unsigned int q : d.near_points)
-      d.add_point_between(q, with_tangent);
-    if (with_tangent)
+    d.block_system->reset(is_sparse);
+    for (unsigned int i = 0; i < d.near_points.size(); ++i)
+    {
+      d.fetch_ahead(d.near_points, i);
+      d.add_point_between(d.near_points[i], with_tangent);
+    }
+    if (is_sparse)
       d.block_system->transfer(d.matrix, d.residual);
     else
       d.block_system->transfer_rhs(d.residual);

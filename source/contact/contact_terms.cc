@@ -5,11 +5,12 @@ namespace NMM
 {
   namespace internal
   {
-    ContactKinematics::ContactKinematics(const ContactSurface::Weights &slave,
-                                         const ContactSurface::Weights &master,
-                                         const ContactSurface::Place   &place,
-                                         const double                   gap,
-                                         const bool with_friction)
+    ContactKinematics::ContactKinematics(
+      const ContactSurface::WeightValues &slave,
+      const ContactSurface::Weights      &master,
+      const ContactSurface::Place        &place,
+      const double                        gap,
+      const bool                          with_friction)
       : n_slave(slave.n)
       , n_master(master.n)
       , n(2 * (slave.n + master.n))
@@ -50,12 +51,12 @@ namespace NMM
       /// Add @p factor times the derivative of the distance along tau from where it
       /// sticks to @p row.
       void
-      add_distance(const ContactKinematics       &f,
-                   const ContactTraction         &traction,
-                   const ContactSurface::Weights &slave,
-                   const ContactSurface::Weights &stick,
-                   const double                   factor,
-                   double                        *row)
+      add_distance(const ContactKinematics            &f,
+                   const ContactTraction              &traction,
+                   const ContactSurface::WeightValues &slave,
+                   const ContactSurface::WeightValues &stick,
+                   const double                        factor,
+                   double                             *row)
       {
         for (unsigned int k = 0; k < f.n; ++k)
           row[k] += factor * traction.normal_distance * f.C[k];
@@ -70,12 +71,12 @@ namespace NMM
 
 
     void
-    add_contact_point(const ContactKinematics       &f,
-                      const ContactTraction         &traction,
-                      const ContactSurface::Weights *slave,
-                      const ContactSurface::Weights *stick,
-                      const bool                     with_tangent,
-                      ContactLocalSystem            &local)
+    add_contact_point(const ContactKinematics            &f,
+                      const ContactTraction              &traction,
+                      const ContactSurface::WeightValues *slave,
+                      const ContactSurface::WeightValues *stick,
+                      const bool                          with_tangent,
+                      ContactLocalSystem                 &local)
     {
       const double       p = traction.pressure, q = traction.shear;
       const unsigned int stride          = 2 * local.n_covers;

@@ -54,11 +54,11 @@ namespace NMM
     {
       static constexpr unsigned int max = 2 * ContactLocalSystem::max_covers;
 
-      ContactKinematics(const ContactSurface::Weights &slave,
-                        const ContactSurface::Weights &master,
-                        const ContactSurface::Place   &place,
-                        double                         gap,
-                        bool                           with_friction);
+      ContactKinematics(const ContactSurface::WeightValues &slave,
+                        const ContactSurface::Weights      &master,
+                        const ContactSurface::Place        &place,
+                        double                              gap,
+                        bool                                with_friction);
 
       unsigned int         n_slave, n_master, n;
       dealii::Tensor<1, 2> normal, tangent;
@@ -107,15 +107,16 @@ namespace NMM
      * s being the distance along tau from where it sticks, and
      * @f$ \Delta p = -\epsilon N @f$ unless the traction has another change.
      * @p stick: weights at the place where it sticks, covers after those of
-     * slave and master; null without friction.
+     * slave and master; null without friction, without weights and covers if nothing
+     * depends on that place.
      */
     void
-    add_contact_point(const ContactKinematics       &kinematics,
-                      const ContactTraction         &traction,
-                      const ContactSurface::Weights *slave,
-                      const ContactSurface::Weights *stick,
-                      bool                           with_tangent,
-                      ContactLocalSystem            &local);
+    add_contact_point(const ContactKinematics            &kinematics,
+                      const ContactTraction              &traction,
+                      const ContactSurface::WeightValues *slave,
+                      const ContactSurface::WeightValues *stick,
+                      bool                                with_tangent,
+                      ContactLocalSystem                 &local);
   } // namespace internal
 } // namespace NMM
 

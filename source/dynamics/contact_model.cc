@@ -19,8 +19,14 @@ namespace NMM
     Vector                       sum;
     double                       scale       = 0.;
     bool                         is_detected = false;
-    /// See tangent_to_add_to().
-    double tangent_factor = 1.;
+    /// See tangent_to_add_to(): factor, and whether the caller adds to it.
+    double tangent_factor  = 1.;
+    bool   may_be_added_to = false;
+    /// Null: not needed so far. Is the last tangent there?
+    std::unique_ptr<BlockMatrix> blocks;
+    bool                         is_by_blocks = false;
+    /// See set_active_blocks().
+    std::vector<bool> active;
     /// Couples nothing but contact any blocks? Not known before the first tangent.
     bool              are_blocks_apart = false, is_apart_known = false;
     std::vector<bool> absent_blocks;
@@ -60,8 +66,25 @@ namespace NMM
       });
       square = dealii::Utilities::MPI::sum(square, sum.get_mpi_communicator());
       scale  = std::hypot(model->force_scale(), std::sqrt(square));
-      if (with_tangent)
+      if (with_tangent && is_by_blocks)
+        blocks->add(factor, model->tangent());
+      else if (with_tangent)
         contact->add_to_tangent(model->tangent(), factor);
+    }
+
+    /// For the tangent of contact in a step; null: a sparse one.
+    BlockMatrix *
+    begin_blocks()
+    {
+      is_by_blocks = may_be_added_to && are_blocks_apart &&
+                     (blocks != nullptr ||
+                      BlockMatrix::is_suitable(model->blocks_of_unknowns()));
+      if (!is_by_blocks)
+        return nullptr;
+      if (blocks == nullptr)
+        blocks = std::make_unique<BlockMatrix>(model->blocks_of_unknowns());
+      blocks->begin_rows(active);
+      return blocks.get();
     }
   };
 
@@ -207,12 +230,15 @@ namespace NMM
     const bool with_tangent = tangent != Tangent::none;
     if (state == Deformation::admissible && with_tangent && !d.is_apart_known)
       d.find_out_whether_apart();
+    if (with_tangent)
+      d.is_by_blocks = false;
     if (state != Deformation::admissible || d.contact->is_idle())
       return state;
     d.contact->assemble_between(placed(end),
                                 t_1,
                                 with_tangent,
-                                d.tangent_factor);
+                                d.tangent_factor,
+                                with_tangent ? d.begin_blocks() : nullptr);
     d.add_contact(with_tangent, d.tangent_factor);
     return state;
   }
@@ -239,8 +265,25 @@ namespace NMM
     const bool may_be =
       !data->contact->is_idle() &&
       dealii::Utilities::MPI::n_mpi_processes(communicator()) == 1;
-    data->tangent_factor = may_be ? factor : 1.;
+    data->tangent_factor  = may_be ? factor : 1.;
+    data->may_be_added_to = may_be;
     return may_be ? &data->contact->tangent() : nullptr;
+  }
+
+
+  BlockMatrix *
+  ContactModel::block_tangent()
+  {
+    return data->is_by_blocks ? data->blocks.get() : nullptr;
+  }
+
+
+  void
+  ContactModel::forget_tangent()
+  {
+    data->model->forget_tangent();
+    if (data->blocks)
+      data->blocks->clear();
   }
 
 
@@ -465,6 +508,7 @@ namespace NMM
   {
     data->model->set_active_blocks(is_active, is_held);
     data->contact->set_active_bodies(is_active, is_held);
+    data->active = is_active;
     if (!is_active.empty() && data->active_rows.empty())
       data->active_rows.reinit(blocks_of_unknowns());
     data->active_rows.select(is_active);

@@ -87,6 +87,18 @@ namespace NMM
     {
       return scheme.is_conserving ? model->coupled_blocks() : nullptr;
     }
+
+    void
+    forget_tangent() override
+    {
+      model->forget_tangent();
+    }
+
+    const BlockMatrix *
+    block_tangent() const override
+    {
+      return by_blocks;
+    }
     /// @}
 
     Vector
@@ -179,6 +191,8 @@ namespace NMM
     internal::MatrixSum                    matrix;
     /// The model's, to which mass and damping are added; null: matrix is for that.
     dealii::TrilinosWrappers::SparseMatrix *in_place = nullptr;
+    /// The same if the model's is a matrix of blocks.
+    BlockMatrix                            *by_blocks = nullptr;
     internal::MatrixAdder                   mass_adder, damping_adder;
     internal::ActiveItems                   active_rows;
     std::unique_ptr<internal::DirectSolver> mass_solver, linear_solver;

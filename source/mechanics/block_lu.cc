@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <mechanics/block_lu.h>
-#include <mechanics/matrix_rows.h>
 #include <numeric>
 #include <utility>
 
@@ -25,6 +24,8 @@ namespace NMM
         /// Of later, values, and where its unknowns begin in vectors.
         std::size_t  later_begin = 0, later_end = 0, diagonal = 0;
         unsigned int unknowns = 0;
+        /// In vectors of all unknowns.
+        unsigned int first_unknown = 0;
 
         std::size_t
         lower() const
@@ -49,31 +50,24 @@ namespace NMM
       using Pairs = std::vector<BlockPair>;
 
       void
-      choose_blocks(const std::vector<unsigned int> &rows);
+      choose_blocks(const BlockMatrix               &matrix,
+                    const std::vector<unsigned int> &rows);
 
       /// Both ways, between chosen blocks, by position in chosen.
       Pairs
-      find_pairs(const Couplings &couplings) const;
+      find_pairs(const BlockMatrix &matrix) const;
 
       /// Positions in chosen as they are eliminated.
       std::vector<unsigned int>
       order(const Pairs &pairs) const;
 
       void
-      make_columns(const Pairs &pairs, const std::vector<unsigned int> &order);
-
-      unsigned int
-      size(const unsigned int block) const
-      {
-        return block_begins[block + 1] - block_begins[block];
-      }
+      make_columns(const BlockMatrix               &matrix,
+                   const Pairs                     &pairs,
+                   const std::vector<unsigned int> &order);
 
       void
-      read_values(const MatrixRows &entries, const Pairs &pairs);
-
-      /// The part of the columns of @p other in the rows of a block that is eliminated.
-      void
-      read_block(const MatrixRows &entries, unsigned int j, unsigned int other);
+      read_values(const BlockMatrix &matrix);
 
       /// Of the block in row @p i and column @p k, in the order of elimination: its first
       /// entry, and how far apart its columns are.
@@ -85,9 +79,6 @@ namespace NMM
 
       void
       subtract_products(const Column &column);
-
-      /// Of all unknowns, and the first unknown of each block.
-      std::vector<unsigned int> unknown_to_block, block_begins;
 
       /// Blocks that are solved for, and the position of each block among them.
       std::vector<unsigned int> chosen, block_to_position;
@@ -104,51 +95,20 @@ namespace NMM
     };
 
 
-    BlockLu::BlockLu(const std::vector<unsigned int> &unknown_to_block)
+    BlockLu::BlockLu()
       : data(std::make_unique<Data>())
     {
-      Data &d              = *data;
-      d.unknown_to_block   = unknown_to_block;
-      const unsigned int n = unknown_to_block.empty()
-                               ? 0
-                               : *std::max_element(unknown_to_block.begin(),
-                                                   unknown_to_block.end()) +
-                                   1;
-      d.block_begins.assign(n + 1, 0);
-      for (const unsigned int block : unknown_to_block)
-        ++d.block_begins[block + 1];
-      std::partial_sum(d.block_begins.begin(),
-                       d.block_begins.end(),
-                       d.block_begins.begin());
-      d.block_to_position.assign(n, invalid_index);
     }
 
 
     BlockLu::~BlockLu() = default;
 
 
-    bool
-    BlockLu::is_suitable(const std::vector<unsigned int> &unknown_to_block)
-    {
-      unsigned int first = 0;
-      for (unsigned int i = 0; i < unknown_to_block.size(); ++i)
-      {
-        if (unknown_to_block[i] != unknown_to_block[first])
-        {
-          if (unknown_to_block[i] != unknown_to_block[first] + 1)
-            return false;
-          first = i;
-        }
-        if (i - first >= max_block)
-          return false;
-      }
-      return !unknown_to_block.empty() && unknown_to_block[0] == 0;
-    }
-
-
     void
-    BlockLu::Data::choose_blocks(const std::vector<unsigned int> &rows)
+    BlockLu::Data::choose_blocks(const BlockMatrix               &matrix,
+                                 const std::vector<unsigned int> &rows)
     {
+      block_to_position.resize(matrix.n_blocks(), invalid_index);
       for (const unsigned int block : chosen)
         block_to_position[block] = invalid_index;
       chosen.clear();
@@ -157,27 +117,28 @@ namespace NMM
         chosen.push_back(block);
       };
       if (rows.empty())
-        for (unsigned int block = 0; block + 1 < block_begins.size(); ++block)
+        for (unsigned int block = 0; block < matrix.n_blocks(); ++block)
           choose(block);
       for (std::size_t i = 0; i < rows.size();
-           i += size(unknown_to_block[rows[i]]))
-        choose(unknown_to_block[rows[i]]);
+           i += matrix.size(matrix.block_of(rows[i])))
+        choose(matrix.block_of(rows[i]));
     }
 
 
     BlockLu::Data::Pairs
-    BlockLu::Data::find_pairs(const Couplings &couplings) const
+    BlockLu::Data::find_pairs(const BlockMatrix &matrix) const
     {
       Pairs result;
       for (unsigned int p = 0; p < chosen.size(); ++p)
-        for (const unsigned int block : couplings[chosen[p]])
-        {
-          const unsigned int other = block_to_position[block];
-          if (other == invalid_index || other == p)
-            continue;
-          result.emplace_back(p, other);
-          result.emplace_back(other, p);
-        }
+        matrix.for_each_in_row(chosen[p],
+                               [&](const unsigned int block, const double *) {
+                                 const unsigned int other =
+                                   block_to_position[block];
+                                 if (other == invalid_index || other == p)
+                                   return;
+                                 result.emplace_back(p, other);
+                                 result.emplace_back(other, p);
+                               });
       std::sort(result.begin(), result.end());
       result.erase(std::unique(result.begin(), result.end()), result.end());
       return result;
@@ -203,7 +164,8 @@ namespace NMM
 
 
     void
-    BlockLu::Data::make_columns(const Pairs                     &pairs,
+    BlockLu::Data::make_columns(const BlockMatrix               &matrix,
+                                const Pairs                     &pairs,
                                 const std::vector<unsigned int> &order)
     {
       const unsigned int n = chosen.size();
@@ -225,10 +187,11 @@ namespace NMM
       unsigned int n_unknowns = 0;
       for (unsigned int j = 0; j < n; ++j)
       {
-        Column &column  = columns[j];
-        column.block    = chosen[order[j]];
-        column.n        = size(column.block);
-        column.unknowns = n_unknowns;
+        Column &column       = columns[j];
+        column.block         = chosen[order[j]];
+        column.n             = matrix.size(column.block);
+        column.first_unknown = matrix.begin(column.block);
+        column.unknowns      = n_unknowns;
         n_unknowns += column.n;
         found.clear();
         met[j]         = j;
@@ -251,7 +214,7 @@ namespace NMM
         for (const unsigned int i : found)
         {
           later.push_back({i, column.m});
-          column.m += size(chosen[order[i]]);
+          column.m += matrix.size(chosen[order[i]]);
         }
         column.later_end = later.size();
         if (!found.empty())
@@ -288,40 +251,21 @@ namespace NMM
 
 
     void
-    BlockLu::Data::read_values(const MatrixRows &entries, const Pairs &pairs)
+    BlockLu::Data::read_values(const BlockMatrix &matrix)
     {
       for (unsigned int j = 0; j < columns.size(); ++j)
-        read_block(entries, j, columns[j].block);
-      for (const auto &[p, other] : pairs)
-        read_block(entries, position_to_column[p], chosen[other]);
-    }
-
-
-    void
-    BlockLu::Data::read_block(const MatrixRows  &entries,
-                              const unsigned int j,
-                              const unsigned int other)
-    {
-      const auto [to, distance] =
-        place(j, position_to_column[block_to_position[other]]);
-      const int first = block_begins[other], last = block_begins[other + 1];
-      // most rows of a block have the same columns
-      int place_of_first = 0;
-      for (unsigned int r = 0; r < columns[j].n; ++r)
-      {
-        const unsigned int row = block_begins[columns[j].block] + r;
-        const int          end = entries.begins[row + 1];
-        int                e   = entries.begins[row] + place_of_first;
-        if (r == 0 || e >= end || entries.columns[e] != first)
-          e = std::lower_bound(entries.columns + entries.begins[row],
-                               entries.columns + end,
-                               first) -
-              entries.columns;
-        place_of_first = e - entries.begins[row];
-        for (; e < end && entries.columns[e] < last; ++e)
-          to[r + std::size_t(distance) * (entries.columns[e] - first)] =
-            entries.values[e];
-      }
+        matrix.for_each_in_row(
+          columns[j].block, [&](const unsigned int other, const double *from) {
+            const unsigned int p = block_to_position[other];
+            if (p == invalid_index)
+              return;
+            const unsigned int k      = position_to_column[p];
+            const auto [to, distance] = place(j, k);
+            for (unsigned int c = 0; c < columns[k].n; ++c)
+              std::copy_n(from + std::size_t(c) * columns[j].n,
+                          columns[j].n,
+                          to + std::size_t(c) * distance);
+          });
     }
 
 
@@ -396,16 +340,14 @@ namespace NMM
 
 
     bool
-    BlockLu::factorize(const dealii::TrilinosWrappers::SparseMatrix &matrix,
-                       const std::vector<unsigned int>              &rows,
-                       const Couplings                              &couplings)
+    BlockLu::factorize(const BlockMatrix               &matrix,
+                       const std::vector<unsigned int> &rows)
     {
-      Data            &d = *data;
-      const MatrixRows entries(matrix);
-      d.choose_blocks(rows);
-      const Data::Pairs pairs = d.find_pairs(couplings);
-      d.make_columns(pairs, d.order(pairs));
-      d.read_values(entries, pairs);
+      Data &d = *data;
+      d.choose_blocks(matrix, rows);
+      const Data::Pairs pairs = d.find_pairs(matrix);
+      d.make_columns(matrix, pairs, d.order(pairs));
+      d.read_values(matrix);
       for (const Data::Column &column : d.columns)
         if (!d.eliminate(column))
           return false;
@@ -429,7 +371,7 @@ namespace NMM
       const auto    from   = rhs.begin();
       const auto    to     = solution.begin();
       for (const Data::Column &column : d.columns)
-        std::copy_n(from + d.block_begins[column.block],
+        std::copy_n(from + column.first_unknown,
                     column.n,
                     d.x.begin() + column.unknowns);
 
@@ -489,7 +431,7 @@ namespace NMM
                       1.,
                       x);
         }
-        std::copy_n(x, column->n, to + d.block_begins[column->block]);
+        std::copy_n(x, column->n, to + column->first_unknown);
       }
     }
   } // namespace internal

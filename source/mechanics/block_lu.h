@@ -1,7 +1,7 @@
 #ifndef nmm_source_mechanics_block_lu_h
 #define nmm_source_mechanics_block_lu_h
 
-#include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <nmm/mechanics/block_matrix.h>
 
 #include <mechanics/factors.h>
 #include <memory>
@@ -18,8 +18,7 @@ namespace NMM
      * @f[ A_{ik} \leftarrow A_{ik} - A_{ij} A_{jj}^{-1} A_{jk}, \qquad i, k > j, @f]
      * in the order of Eigen's approximate minimum degree of the graph of blocks, with
      * LAPACK's LU (and pivots) of @f$A_{jj}@f$ and one BLAS product for all
-     * @f$(i, k)@f$ of a @f$j@f$. Which blocks are coupled is said by who calls: places
-     * that are kept for contact that may come are not even read.
+     * @f$(i, k)@f$ of a @f$j@f$.
      * Reference: Duff, Erisman & Reid, Direct Methods for Sparse Matrices, 2nd ed.,
      * section 2.7 (block elimination) and chapter 11.
      *
@@ -36,27 +35,14 @@ namespace NMM
     class BlockLu : public Factors
     {
     public:
-      /// Unknowns of a block: larger ones have zeros inside of which others know more.
-      static constexpr unsigned int max_block = 64;
-
-      /// With which blocks each block is coupled, one way at least.
-      using Couplings = std::vector<std::vector<unsigned int>>;
-
-      /// @p unknown_to_block: from 0 on, of each unknown of the matrices to come.
-      explicit BlockLu(const std::vector<unsigned int> &unknown_to_block);
+      BlockLu();
       ~BlockLu() override;
-
-      /// Has no block more than max_block unknowns, and do they follow each other, block by
-      /// block in the order of their numbers?
-      static bool
-      is_suitable(const std::vector<unsigned int> &unknown_to_block);
 
       /// Of @p rows and columns, ascending, all or none of a block (empty: all). False if a
       /// pivot is zero, or so small that the solution would mean nothing.
       [[nodiscard]] bool
-      factorize(const dealii::TrilinosWrappers::SparseMatrix &matrix,
-                const std::vector<unsigned int>              &rows,
-                const Couplings                              &couplings);
+      factorize(const BlockMatrix               &matrix,
+                const std::vector<unsigned int> &rows);
 
       double
       n_factor_entries() const override;

@@ -206,8 +206,12 @@ namespace NMM
       /// Of the last factorization; null: MUMPS has them.
       Factors *factors = nullptr;
       /// See DirectSolver().
-      bool                     has_blocks = false;
-      std::unique_ptr<BlockLu> block_lu;
+      bool    has_blocks = false;
+      BlockLu block_lu;
+      /// What is read of a sparse matrix; null: blocks are not for it. And what was
+      /// written to one.
+      std::unique_ptr<BlockMatrix>                            blocks;
+      std::unique_ptr<dealii::TrilinosWrappers::SparseMatrix> of_blocks;
       /// See set_points(), and the order made of them, on the first rank.
       bool                          has_points = false;
       std::vector<dealii::Point<2>> points;
@@ -344,8 +348,8 @@ namespace NMM
     {
       data->has_blocks   = !unknown_to_block.empty();
       data->is_symmetric = symmetry == Symmetry::symmetric;
-      if (BlockLu::is_suitable(unknown_to_block))
-        data->block_lu = std::make_unique<BlockLu>(unknown_to_block);
+      if (BlockMatrix::is_suitable(unknown_to_block))
+        data->blocks = std::make_unique<BlockMatrix>(unknown_to_block);
     }
 
 
@@ -433,13 +437,47 @@ namespace NMM
       const std::vector<unsigned int>              &rows,
       const std::vector<std::vector<unsigned int>> &couplings)
     {
-      data->rows    = rows;
-      data->factors = nullptr;
-      if (data->block_lu && data->block_lu->factorize(matrix, rows, couplings))
+      data->rows = rows;
+      if (data->blocks && !couplings.empty())
       {
-        data->factors = data->block_lu.get();
+        std::vector<bool> is_chosen(rows.empty() ? 0
+                                                 : data->blocks->n_blocks());
+        for (const unsigned int row : rows)
+          is_chosen[data->blocks->block_of(row)] = true;
+        data->blocks->read(matrix, is_chosen, couplings);
+        if (data->block_lu.factorize(*data->blocks, rows))
+        {
+          data->factors = &data->block_lu;
+          return;
+        }
+      }
+      factorize_entries(matrix);
+    }
+
+
+    void
+    DirectSolver::factorize(const BlockMatrix               &matrix,
+                            const std::vector<unsigned int> &rows)
+    {
+      data->rows = rows;
+      if (data->block_lu.factorize(matrix, rows))
+      {
+        data->factors = &data->block_lu;
         return;
       }
+      forget_analysis();
+      data->of_blocks =
+        std::make_unique<dealii::TrilinosWrappers::SparseMatrix>(
+          matrix.sparse());
+      factorize_entries(*data->of_blocks);
+    }
+
+
+    void
+    DirectSolver::factorize_entries(
+      const dealii::TrilinosWrappers::SparseMatrix &matrix)
+    {
+      data->factors = nullptr;
       if (data->may_be_klus(matrix))
       {
         data->klu.factorize();
@@ -450,8 +488,8 @@ namespace NMM
         analyze(matrix);
       AssertDimension(matrix.m(), data->n);
       data->triplets.set_values(matrix.trilinos_matrix(), data->is_symmetric);
-      if (!rows.empty())
-        data->triplets.keep(rows, data->n);
+      if (!data->rows.empty())
+        data->triplets.keep(data->rows, data->n);
       if (data->is_serial)
         gather(data->triplets.values,
                MPI_DOUBLE,

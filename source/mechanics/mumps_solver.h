@@ -1,6 +1,8 @@
 #ifndef nmm_source_mechanics_mumps_solver_h
 #define nmm_source_mechanics_mumps_solver_h
 
+#include <nmm/mechanics/block_matrix.h>
+
 #include <deal.II/base/point.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
@@ -79,6 +81,11 @@ namespace NMM
                 const std::vector<unsigned int>              &rows      = {},
                 const std::vector<std::vector<unsigned int>> &couplings = {});
 
+      /// The same of a matrix of small blocks; of a sparse matrix if a block is singular.
+      void
+      factorize(const BlockMatrix               &matrix,
+                const std::vector<unsigned int> &rows);
+
       /// @p solution has the layout of @p rhs; may be the same vector.
       void
       solve(const dealii::TrilinosWrappers::MPI::Vector &rhs,
@@ -93,6 +100,10 @@ namespace NMM
       n_factor_entries() const;
 
     private:
+      /// By KLU or MUMPS.
+      void
+      factorize_entries(const dealii::TrilinosWrappers::SparseMatrix &matrix);
+
       void
       set_controls(const dealii::TrilinosWrappers::SparseMatrix &matrix);
 

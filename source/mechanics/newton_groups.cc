@@ -269,13 +269,7 @@ namespace NMM
                         const dealii::TrilinosWrappers::SparseMatrix &matrix,
                         const std::vector<BlockPair>                 *pairs)
     {
-      std::vector<std::vector<unsigned int>> before(all_blocks.size());
-      for (unsigned int b = 0; b < all_blocks.size(); ++b)
-        if (blocks.empty() || blocks[b])
-        {
-          all_blocks[b].has_tangent = true;
-          before[b].swap(neighbours[b]);
-        }
+      const Neighbours before = take_neighbours(blocks);
       if (block_of.empty())
         return;
       if (pairs == nullptr)
@@ -288,7 +282,44 @@ namespace NMM
           if (blocks.empty() || blocks[b])
             add_neighbour(b, a);
         }
+      unite_neighbours(blocks, before);
+    }
 
+
+    void
+    NewtonGroups::unite(const std::vector<bool> &blocks,
+                        const BlockMatrix       &matrix)
+    {
+      const Neighbours before = take_neighbours(blocks);
+      for (unsigned int b = 0; b < all_blocks.size(); ++b)
+        if (blocks.empty() || blocks[b])
+          matrix.for_each_in_row(b,
+                                 [&](const unsigned int other, const double *) {
+                                   if (other != b)
+                                     neighbours[b].push_back(other);
+                                 });
+      unite_neighbours(blocks, before);
+    }
+
+
+    NewtonGroups::Neighbours
+    NewtonGroups::take_neighbours(const std::vector<bool> &blocks)
+    {
+      Neighbours before(all_blocks.size());
+      for (unsigned int b = 0; b < all_blocks.size(); ++b)
+        if (blocks.empty() || blocks[b])
+        {
+          all_blocks[b].has_tangent = true;
+          before[b].swap(neighbours[b]);
+        }
+      return before;
+    }
+
+
+    void
+    NewtonGroups::unite_neighbours(const std::vector<bool> &blocks,
+                                   const Neighbours        &before)
+    {
       bool has_joined = false, is_any_new = false;
       for (const unsigned int b : active_blocks)
         if (blocks.empty() || blocks[b])

@@ -2,6 +2,7 @@
 #define nmm_source_mechanics_newton_groups_h
 
 #include <nmm/base/types.h>
+#include <nmm/mechanics/block_matrix.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
@@ -81,6 +82,10 @@ namespace NMM
       unite(const std::vector<bool>                      &blocks,
             const dealii::TrilinosWrappers::SparseMatrix &matrix,
             const std::vector<BlockPair>                 *pairs = nullptr);
+
+      /// The same of a matrix that has no other blocks.
+      void
+      unite(const std::vector<bool> &blocks, const BlockMatrix &matrix);
 
       /// With which each block was coupled when its rows were new.
       const std::vector<std::vector<unsigned int>> &
@@ -223,6 +228,16 @@ namespace NMM
              is_watched = false, has_tangent = false;
         unsigned int n_unknowns = 0;
       };
+
+      /// What was coupled with @p blocks before their rows were new; nothing is, then.
+      using Neighbours = std::vector<std::vector<unsigned int>>;
+      Neighbours
+      take_neighbours(const std::vector<bool> &blocks);
+
+      /// Blocks that are coupled now are one group.
+      void
+      unite_neighbours(const std::vector<bool> &blocks,
+                       const Neighbours        &before);
 
       /// Neighbours of @p blocks by values.
       void

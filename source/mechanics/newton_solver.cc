@@ -196,6 +196,7 @@ namespace NMM
     unsigned int       before = invalid_index;
     groups.choose(residual, scale, parameters.residual_tolerance * scale);
     groups.lose_tangents();
+    system->forget_tangent();
     do
     {
       const std::vector<bool> blocks = groups.are_there_several()
@@ -216,7 +217,10 @@ namespace NMM
         groups.lose_tangents();
       before = version;
       groups.wake(touched);
-      groups.unite(blocks, system->tangent(), system->coupled_blocks());
+      if (const BlockMatrix *by_blocks = system->block_tangent())
+        groups.unite(blocks, *by_blocks);
+      else
+        groups.unite(blocks, system->tangent(), system->coupled_blocks());
     } while (!groups.have_tangents());
     touched.clear();
     return Deformation::admissible;
@@ -245,11 +249,10 @@ namespace NMM
   {
     dealii::Timer timer;
     if (direct_solver == nullptr ||
-        is_symmetric != system->tangent_is_symmetric() ||
-        n != system->tangent().m())
+        is_symmetric != system->tangent_is_symmetric() || n != owned.size())
     {
       is_symmetric  = system->tangent_is_symmetric();
-      n             = system->tangent().m();
+      n             = owned.size();
       direct_solver = std::make_unique<internal::DirectSolver>(
         is_symmetric ? internal::DirectSolver::Symmetry::symmetric
                      : internal::DirectSolver::Symmetry::unsymmetric,
@@ -258,9 +261,12 @@ namespace NMM
     else if (version != system->pattern_version())
       direct_solver->forget_analysis();
     version = system->pattern_version();
-    direct_solver->factorize(system->tangent(),
-                             groups.corrected().chosen(),
-                             groups.couplings());
+    if (const BlockMatrix *by_blocks = system->block_tangent())
+      direct_solver->factorize(*by_blocks, groups.corrected().chosen());
+    else
+      direct_solver->factorize(system->tangent(),
+                               groups.corrected().chosen(),
+                               groups.couplings());
     report->factorization_time += timer.wall_time();
   }
 

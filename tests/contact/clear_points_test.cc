@@ -146,7 +146,18 @@ namespace
         {
           double moved = 0.;
           for (const unsigned int master : search.masters(q.position))
-            moved = std::max(moved, motion.bound(q.edge, master, reach));
+          {
+            const double bound = motion.bound(q.edge, master, reach);
+            moved              = std::max(moved, bound);
+            // that of the bodies is no less, either way round, but for rounding
+            const double of_bodies =
+              motion.bound_of_bodies(surface.edges()[q.edge].body,
+                                     surface.edges()[master].body,
+                                     reach) *
+              (1. + 1e-12);
+            EXPECT_GE(of_bodies, bound);
+            EXPECT_GE(of_bodies, motion.bound(master, q.edge, reach));
+          }
           is_clear.push_back(q.clearance > moved);
           n_clear += is_clear.back();
           n_near += !is_clear.back();

@@ -128,6 +128,80 @@ namespace
   }
 
 
+  // With friction, and with slip that opens faces: what sticks and what slides, against
+  // differences, as the tangent is and times a factor.
+  TEST(ContactSteps, TangentWithFrictionAgainstDifferences)
+  {
+    constexpr double gap = 0.01, reach = 0.1, h = 0.01, depth = 1.2 * gap;
+    for (const double dilation : {0., 0.2})
+      for (const double slide : {1e-4, 0.03})
+        for (const double factor : {1., 0.5})
+        {
+          SCOPED_TRACE("dilation " + std::to_string(dilation) + ", slide " +
+                       std::to_string(slide));
+          Geometry geometry;
+          geometry.add_polygon({{0., 0.}, {3., 0.}, {3., 1.}, {0., 1.}},
+                               "below");
+          geometry.add_polygon(
+            {{1., 1. + gap}, {2., 1. + gap}, {2., 2.}, {1., 2.}}, "above");
+          Bodies bodies(std::move(geometry), one_triangle_each());
+          auto   parameters          = contact_parameters(1e8, reach);
+          parameters.shear_stiffness = 3e7;
+          parameters.friction        = 0.3;
+          parameters.dilation        = dilation;
+          parameters.normal_damping = parameters.shear_damping = 1e4;
+          bodies.start(parameters);
+          const unsigned int above =
+            bodies.mesh.block(bodies.mesh.find_element({1.5, 1.5}));
+          const auto moved_by = [&](const double down, const double along) {
+            return bodies.interpolate([&](const Point<2>    &X,
+                                          const unsigned int block) {
+              return block == above ? Point<2>(along, -down * (1. + 0.1 * X[0]))
+                                    : Point<2>();
+            });
+          };
+          Contact   &contact = *bodies.contact;
+          const auto begin   = [&](const Vector &u) {
+            contact.detect(u, reach);
+            contact.begin_step(u, 0.);
+            contact.set_time(h);
+          };
+          // in contact from the first step's end on
+          begin(moved_by(0., 0.));
+          contact.assemble_between(moved_by(depth, 0.), h, false);
+          contact.assemble(moved_by(depth, 0.), false);
+          contact.accept();
+          begin(moved_by(depth, 0.));
+          const Vector end = moved_by(1.05 * depth, slide);
+          contact.assemble_between(end, h, false);
+          contact.assemble_between(end, h, true, factor);
+          ASSERT_GT(contact.report().n_stick + contact.report().n_slip, 2U);
+          EXPECT_EQ(contact.report().n_stick > 0, slide < 0.01);
+
+          Vector owned(contact.residual()), direction(owned), product(owned);
+          direction =
+            bodies.interpolate([&](const Point<2> &X, const unsigned int b) {
+              return b == above ? Point<2>(1. - X[1], 1. + X[0])
+                                : Point<2>(0.3 * X[1] * X[0], -X[0]);
+            });
+          contact.tangent().vmult(product, direction);
+          constexpr double step = 1e-8;
+          owned                 = end;
+          owned.add(step, direction);
+          contact.assemble_between(bodies.relevant(owned), h, false);
+          Vector difference(contact.residual());
+          owned.add(-2. * step, direction);
+          contact.assemble_between(bodies.relevant(owned), h, false);
+          difference -= contact.residual();
+          // by displacements in the middle of the step
+          difference *= 2. * factor * 0.5 / step;
+          difference -= product;
+          // rounding of differences of 1e-8 m
+          EXPECT_LE(difference.l2_norm(), 1e-6 * product.l2_norm());
+        }
+  }
+
+
   // Where a solution starts from the begin of the step, what may touch in it is coupled
   // nevertheless if the motion is known beforehand.
   TEST_F(TwoAndOne, PatternHasWhatIsExpected)
@@ -228,6 +302,71 @@ namespace
     }
     EXPECT_GT(n_of_both[0], 0U);
     EXPECT_GT(n_of_both[1], 0U);
+  }
+
+
+  // The same tangent as a matrix of blocks: only those are there that touch, and where
+  // unknowns are prescribed nothing is.
+  TEST_F(TwoAndOne, TangentByBlocks)
+  {
+    std::vector<unsigned int> unknown_to_block(2 * bodies->covers.n_covers());
+    for (unsigned int e = 0; e < bodies->mesh.n_elements(); ++e)
+      for (const unsigned int k : bodies->covers.covers(e))
+        unknown_to_block[2 * k] = unknown_to_block[2 * k + 1] =
+          bodies->mesh.block(e);
+    ASSERT_TRUE(BlockMatrix::is_suitable(unknown_to_block));
+    const unsigned int below =
+      bodies->mesh.block(bodies->mesh.find_element({1.5, 0.5}));
+    ContactParameters parameters = contact_parameters(1e8, reach);
+    parameters.friction          = 0.3;
+    for (const bool is_held : {false, true})
+    {
+      dealii::AffineConstraints<double> held;
+      for (unsigned int i = 0; is_held && i < unknown_to_block.size(); i += 5)
+        if (unknown_to_block[i] == below)
+          held.add_line(i);
+      held.close();
+      Contact      contact(bodies->surface, held, parameters);
+      BlockMatrix  blocks(unknown_to_block);
+      const Vector deep = sunk_by(1.2 * gap);
+      const auto   step = [&](BlockMatrix *by_blocks) {
+        contact.detect(sunk_by(0.), reach);
+        contact.begin_step(sunk_by(0.), 0.);
+        contact.set_time(h);
+        contact.assemble_between(deep, h, true, 0.5, by_blocks);
+      };
+      step(nullptr);
+      Contact::Matrix sparse;
+      sparse.reinit(contact.tangent());
+      sparse.copy_from(contact.tangent());
+      const Vector       forces  = contact.residual();
+      const unsigned int version = contact.pattern_version();
+
+      blocks.begin_rows({});
+      step(&blocks);
+      EXPECT_EQ(contact.pattern_version(), version);
+      Vector difference(forces);
+      difference -= contact.residual();
+      EXPECT_EQ(difference.l2_norm(), 0.);
+      const Contact::Matrix found = blocks.sparse();
+      unsigned int          n     = 0;
+      for (const auto &entry : found)
+      {
+        EXPECT_EQ(entry.value(), sparse.el(entry.row(), entry.column()));
+        n += entry.value() != 0.;
+      }
+      // nothing is missing
+      EXPECT_DOUBLE_EQ(found.frobenius_norm(), sparse.frobenius_norm());
+      EXPECT_GT(n, 100U);
+      for (unsigned int b = 0; b < 3; ++b)
+      {
+        unsigned int n_columns = 0;
+        blocks.for_each_in_row(b, [&](unsigned int, const double *) {
+          ++n_columns;
+        });
+        EXPECT_EQ(n_columns, b == above || b == below ? 2U : 1U);
+      }
+    }
   }
 
 

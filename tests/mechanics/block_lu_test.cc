@@ -84,10 +84,19 @@ namespace
       return result;
     }
 
+    /// As far as it is coupled, in rows of the blocks of @p some (empty: all).
+    BlockMatrix
+    by_blocks(const std::vector<bool> &some = {}) const
+    {
+      BlockMatrix result(unknown_to_block);
+      result.read(sparse(), some, couplings);
+      return result;
+    }
+
     std::mt19937                           generator{7};
     std::uniform_real_distribution<double> random{-1., 1.};
     std::vector<unsigned int>              unknown_to_block, begins;
-    BlockLu::Couplings                     couplings;
+    BlockMatrix::Couplings                 couplings;
     Eigen::MatrixXd                        dense;
   };
 
@@ -129,12 +138,14 @@ namespace
       for (unsigned int i = 0; i < blocks.n(); ++i)
         if (sample % 2 == 0 || blocks.unknown_to_block[i] % 3 != 1)
           rows.push_back(i);
-      ASSERT_TRUE(BlockLu::is_suitable(blocks.unknown_to_block));
-      BlockLu lu(blocks.unknown_to_block);
+      std::vector<bool> some(sample % 2 == 0 ? 0 : n_blocks);
+      for (const unsigned int row : rows)
+        if (!some.empty())
+          some[blocks.unknown_to_block[row]] = true;
+      BlockLu lu;
       ASSERT_TRUE(
-        lu.factorize(blocks.sparse(),
-                     sample % 2 == 0 ? std::vector<unsigned int>() : rows,
-                     blocks.couplings));
+        lu.factorize(blocks.by_blocks(some),
+                     sample % 2 == 0 ? std::vector<unsigned int>() : rows));
       const Vector rhs      = counted(blocks.n());
       Vector       solution = rhs;
       lu.solve(solution, solution);
@@ -176,8 +187,8 @@ namespace
         blocks.fill(b, 100.);
       for (unsigned int b = 0; b + 1 < n_blocks; ++b)
         blocks.couple(number[is_star ? n_blocks - 1 : b + 1], number[b]);
-      BlockLu lu(blocks.unknown_to_block);
-      ASSERT_TRUE(lu.factorize(blocks.sparse(), {}, blocks.couplings));
+      BlockLu lu;
+      ASSERT_TRUE(lu.factorize(blocks.by_blocks(), {}));
       EXPECT_EQ(lu.n_factor_entries(),
                 size * size * (n_blocks + 2 * (n_blocks - 1)))
         << is_star;
@@ -201,33 +212,25 @@ namespace
       blocks.dense(1, 1)                      = little == 0. ? 0. : 1.;
       blocks.couplings[0]                     = {1};
       const Matrix matrix                     = blocks.sparse();
-      BlockLu      lu(blocks.unknown_to_block);
-      EXPECT_FALSE(lu.factorize(matrix, {}, blocks.couplings));
+      BlockLu      lu;
+      EXPECT_FALSE(lu.factorize(blocks.by_blocks(), {}));
 
-      internal::DirectSolver solver(
-        internal::DirectSolver::Symmetry::unsymmetric, blocks.unknown_to_block);
-      solver.factorize(matrix, {}, blocks.couplings);
-      const Vector rhs      = counted(4);
-      Vector       solution = rhs, residual = rhs;
-      solver.solve(rhs, solution);
-      matrix.vmult(residual, solution);
-      residual -= rhs;
-      EXPECT_LE(residual.l2_norm(), 1e-13);
+      for (const bool is_sparse : {true, false})
+      {
+        internal::DirectSolver solver(
+          internal::DirectSolver::Symmetry::unsymmetric,
+          blocks.unknown_to_block);
+        if (is_sparse)
+          solver.factorize(matrix, {}, blocks.couplings);
+        else
+          solver.factorize(blocks.by_blocks(), {});
+        const Vector rhs      = counted(4);
+        Vector       solution = rhs, residual = rhs;
+        solver.solve(rhs, solution);
+        matrix.vmult(residual, solution);
+        residual -= rhs;
+        EXPECT_LE(residual.l2_norm(), 1e-13);
+      }
     }
-  }
-
-
-  // Blocks that are large, or whose unknowns are scattered, are for others.
-  TEST(BlockLu, IsForSmallBlocksInOrder)
-  {
-    std::vector<unsigned int> blocks(BlockLu::max_block, 0);
-    EXPECT_TRUE(BlockLu::is_suitable(blocks));
-    blocks.push_back(1);
-    EXPECT_TRUE(BlockLu::is_suitable(blocks));
-    blocks.push_back(0);
-    EXPECT_FALSE(BlockLu::is_suitable(blocks));
-    EXPECT_FALSE(BlockLu::is_suitable(
-      std::vector<unsigned int>(BlockLu::max_block + 1, 0)));
-    EXPECT_FALSE(BlockLu::is_suitable({}));
   }
 } // namespace

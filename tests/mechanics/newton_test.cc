@@ -342,6 +342,58 @@ namespace
   }
 
 
+  /// Says which blocks the tangent couples.
+  class SpringsThatTell : public CubicSprings
+  {
+  public:
+    using CubicSprings::CubicSprings;
+
+    Deformation
+    assemble(const Vector &u, const Tangent tangent, const Vector *v) override
+    {
+      if (tangent != Tangent::none)
+      {
+        pairs.clear();
+        if (u(0) - u(1) > gap && (active.empty() || active[0] || active[1]))
+          pairs.assign(2, BlockPair(0, 1));
+      }
+      return CubicSprings::assemble(u, tangent, v);
+    }
+
+    const std::vector<BlockPair> *
+    coupled_blocks() const override
+    {
+      return &pairs;
+    }
+
+  private:
+    std::vector<BlockPair> pairs;
+  };
+
+
+  // Pairs that a system tells by itself make the same groups, and the same corrections,
+  // as the values of its tangent do.
+  TEST(Newton, PairsThatAreTold)
+  {
+    const std::vector<double> f = {1010., 0., 1e5};
+    CubicSprings              searched(f, 5.);
+    SpringsThatTell           told(f, 5.);
+    NonlinearSystem::Vector   u(dealii::complete_index_set(3), MPI_COMM_SELF),
+      v(u);
+    const NewtonReport by_values = solve(searched, u),
+                       by_pairs  = solve(told, v);
+    ASSERT_TRUE(by_pairs.converged) << by_pairs.reason;
+    EXPECT_GT(100. * (v(0) - v(1) - 5.), 10.);
+    ASSERT_EQ(by_pairs.iterations.size(), by_values.iterations.size());
+    for (unsigned int i = 0; i < by_values.iterations.size(); ++i)
+      EXPECT_EQ(by_pairs.iterations[i].active_share,
+                by_values.iterations[i].active_share);
+    EXPECT_EQ(told.n_rows, searched.n_rows);
+    for (unsigned int i = 0; i < 3; ++i)
+      EXPECT_EQ(v(i), u(i));
+  }
+
+
   // From -30 over 4 the fifth correction goes to 21, through the second spring's place,
   // which is done by then; but only a share of it is taken.
   TEST(Newton, WhatIsTouchedInVainIsLeftAlone)

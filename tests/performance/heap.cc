@@ -1,12 +1,16 @@
 // Blocks that fall into a box and form a heap: time per block and step, where it goes,
-// and memory. Argument 1: number of blocks, argument 2: cells across a block, 0 for a
-// triangle of its own for each, argument 3: duration [s], argument 4: the file that two
-// lines are added to, one for the first half of the time, while blocks fall, and one for
-// the second, when they lie on each other; argument 5: speed below which blocks may
-// sleep [m/s], 0: none does; argument 6: damping in proportion to the stiffness [s];
-// argument 7: rows on each other, however many blocks there are, 0: as many as
-// keep the shape of the heap. One run per process, since the largest memory is that of
-// the process.
+// and memory. Argument 1: number of blocks, or several, such as 200,2000, argument 2: cells
+// across a block, 0 for a triangle of its own for each, argument 3: duration [s], argument 4:
+// the file that two lines are added to, one for the first half of the time, while blocks
+// fall, and one for the second, when they lie on each other; argument 5: speed below which
+// blocks may sleep [m/s], 0: none does; argument 6: damping in proportion to the stiffness
+// [s]; argument 7: rows on each other, however many blocks there are, 0: as many as
+// keep the shape of the heap.
+//
+// A shared machine is up to 1.5 times as fast at one time as at another, and stays so for
+// some seconds or minutes. Several heaps are therefore taken forward by turns of a few
+// steps each, so that they meet the same times, and what is to be read is the ratio of
+// theirs. The largest memory is that of the process: it is told of single heaps.
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
@@ -17,6 +21,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <random>
 #include <set>
 #include <sstream>
@@ -213,18 +218,21 @@ namespace
          double       stiffness_damping,
          unsigned int n_rows);
 
-    /// Steps until @p end.
-    Phase
-    run(const std::string &name, double end);
-
+    /// Steps until @p end, which are added to @p phase.
     void
-    write(const Phase &phase, std::ostream &csv) const;
+    run(Phase &phase, double end);
+
+    /// @p memory: of the process, per block [kB]; @p n_heaps: by turns.
+    void
+    write(const Phase  &phase,
+          double        memory,
+          std::size_t   n_heaps,
+          std::ostream &csv) const;
 
     unsigned int                  n_blocks, n_rows;
     double                        n_cells, sleep_speed, stiffness_damping;
     Stages                        stages;
     std::unique_ptr<MovingBodies> bodies;
-    double                        memory_before;
     double energy = 0., last = 0., gain = 0., largest_kinetic = 0.;
   };
 
@@ -239,7 +247,6 @@ namespace
     , n_cells(n_cells)
     , sleep_speed(sleep_speed)
     , stiffness_damping(stiffness_damping)
-    , memory_before(peak_memory())
   {
     double                width, height;
     Geometry              geometry = blocks(n_blocks, n_rows, width, height);
@@ -277,21 +284,19 @@ namespace
   }
 
 
-  Phase
-  Heap::run(const std::string &name, const double end)
+  void
+  Heap::run(Phase &phase, const double end)
   {
     // overlaps are those of all against all
     constexpr unsigned int steps_between = 25;
 
-    Phase phase;
-    phase.name = name;
-    phase.end  = end;
+    phase.end = end;
     StepControlParameters control;
     control.initial_step = time_step;
     control.min_step     = 1e-4 * time_step;
     StepRecord   record;
     unsigned int version = bodies->contact->pattern_version();
-    stages               = Stages();
+    stages               = phase.stages;
     bool goes_on         = true;
     while (goes_on)
     {
@@ -336,9 +341,7 @@ namespace
         phase.overlap =
           std::max(phase.overlap, bodies->surface.largest_overlap());
     }
-    phase.overlap = std::max(phase.overlap, bodies->surface.largest_overlap());
-    phase.stages  = stages;
-    return phase;
+    phase.stages = stages;
   }
 
 
@@ -351,11 +354,14 @@ namespace
     "block,"
     "us_per_touching_point_and_step,memory_kB_per_block,largest_overlap_m,"
     "energy_gained,kinetic_energy,sleep_speed_m_per_s,"
-    "stiffness_damping_s,share_asleep,rows\n";
+    "stiffness_damping_s,share_asleep,rows,heaps\n";
 
 
   void
-  Heap::write(const Phase &phase, std::ostream &csv) const
+  Heap::write(const Phase      &phase,
+              const double      memory,
+              const std::size_t n_heaps,
+              std::ostream     &csv) const
   {
     const double  n            = n_blocks;
     const double  microseconds = 1e6 / (n * phase.n_steps);
@@ -380,12 +386,13 @@ namespace
       csv << ',' << microseconds * seconds;
     csv << ',' << phase.n_points / (n * phase.n_steps) << ','
         << phase.n_pairs / (n * phase.n_steps) << ','
-        << 1e6 * phase.seconds / phase.n_points << ','
-        << (peak_memory() - memory_before) / n << ',' << phase.overlap << ','
+        << 1e6 * phase.seconds / phase.n_points << ',' << memory << ','
+        << std::max(phase.overlap, bodies->surface.largest_overlap()) << ','
         << gain / largest_kinetic << ','
         << bodies->integrator->account().kinetic / largest_kinetic << ','
         << sleep_speed << ',' << stiffness_damping << ','
-        << phase.n_asleep / (n * phase.n_steps) << ',' << n_rows << '\n';
+        << phase.n_asleep / (n * phase.n_steps) << ',' << n_rows << ','
+        << n_heaps << '\n';
   }
 } // namespace
 
@@ -393,23 +400,47 @@ namespace
 int
 main(int argc, char **argv)
 {
+  constexpr unsigned int steps_of_turn = 5;
+
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const unsigned int n_blocks = argc > 1 ? std::stoi(argv[1]) : 20;
-  const double       n_cells  = argc > 2 ? std::stod(argv[2]) : 0.;
-  const double       duration = argc > 3 ? std::stod(argv[3]) : 2.;
-
-  const double sleep_speed = argc > 5 ? std::stod(argv[5]) : 0.;
-
-  const double damping = argc > 6 ? std::stod(argv[6]) : 0.;
-
+  const auto argument = [&](const int i, const double otherwise) {
+    return argc > i ? std::stod(argv[i]) : otherwise;
+  };
+  const std::vector<int> n_blocks = dealii::Utilities::string_to_int(
+    dealii::Utilities::split_string_list(argc > 1 ? argv[1] : "20"));
+  const double n_cells = argument(2, 0.), duration = argument(3, 2.),
+               sleep_speed = argument(5, 0.), damping = argument(6, 0.);
   const unsigned int n_rows = argc > 7 ? std::stoi(argv[7]) : 0;
 
-  Heap               heap(n_blocks, n_cells, sleep_speed, damping, n_rows);
+  const double                       memory_before = peak_memory();
+  std::vector<std::unique_ptr<Heap>> heaps;
+  for (const int n : n_blocks)
+    heaps.push_back(
+      std::make_unique<Heap>(n, n_cells, sleep_speed, damping, n_rows));
   std::ostringstream lines;
+  double             time = 0.;
   for (const auto &[name, end] : {std::make_pair("falls", 0.5 * duration),
                                   std::make_pair("lies", duration)})
   {
-    heap.write(heap.run(name, end), lines);
+    std::vector<Phase> phases(heaps.size());
+    while (time < end)
+    {
+      time += steps_of_turn * time_step;
+      if (heaps.size() == 1 || time > end - time_step)
+        time = end;
+      for (unsigned int i = 0; i < heaps.size(); ++i)
+        heaps[i]->run(phases[i], time);
+    }
+    for (unsigned int i = 0; i < heaps.size(); ++i)
+    {
+      phases[i].name = name;
+      heaps[i]->write(phases[i],
+                      heaps.size() == 1
+                        ? (peak_memory() - memory_before) / n_blocks[0]
+                        : std::numeric_limits<double>::quiet_NaN(),
+                      heaps.size(),
+                      lines);
+    }
     std::cout << name << " done" << std::endl;
   }
   std::cout << head << lines.str();

@@ -3,6 +3,7 @@
 
 #include <nmm/contact/contact_integration.h>
 #include <nmm/contact/contact_surface.h>
+#include <nmm/mechanics/block_matrix.h>
 
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
@@ -348,13 +349,16 @@ namespace NMM
      * tangent() is the derivative by the mean displacement at given begin: of forces
      * in the mean position and gaps at the end, so it is not symmetric.
      * Multipliers are not used.
-     * @p tangent_factor: tangent() is that many times the derivative.
+     * @p tangent_factor: tangent() is that many times the derivative. @p by_blocks: to
+     * which the tangent is added instead, and tangent() means nothing. On one rank, if
+     * constraints couple no unknowns; its blocks are the blocks of the mesh.
      */
     void
     assemble_between(const Vector &end,
                      double        time,
                      bool          with_tangent,
-                     double        tangent_factor = 1.);
+                     double        tangent_factor = 1.,
+                     BlockMatrix  *by_blocks      = nullptr);
 
     /// @name Blocks that are not moved for a while
     /// @{

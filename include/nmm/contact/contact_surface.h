@@ -96,13 +96,18 @@ namespace NMM
       }
     };
 
-    /// Weight functions of the element, and derivatives by t.
-    struct Weights
+    /// Weight functions of the element at a place.
+    struct WeightValues
     {
       unsigned int n = 0;
       double       w[WeightFunctions::max_per_cell];
-      double       dw[WeightFunctions::max_per_cell];
-      double       ddw[WeightFunctions::max_per_cell];
+    };
+
+    /// And derivatives by t.
+    struct Weights : public WeightValues
+    {
+      double dw[WeightFunctions::max_per_cell];
+      double ddw[WeightFunctions::max_per_cell];
     };
 
     /// Along straight edges displacements are polynomials d[0] + d[1] t + d[2] t^2 [m].

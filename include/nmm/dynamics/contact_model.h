@@ -108,6 +108,13 @@ namespace NMM
     Matrix *
     tangent_to_add_to(double factor) override;
 
+    /// If blocks are small, and nothing but contact couples them.
+    BlockMatrix *
+    block_tangent() override;
+
+    void
+    forget_tangent() override;
+
     unsigned int
     pattern_version() const override;
 

@@ -3,6 +3,7 @@
 
 #include <nmm/base/exceptions.h>
 #include <nmm/base/types.h>
+#include <nmm/mechanics/block_matrix.h>
 #include <nmm/mechanics/hyperelasticity.h>
 
 #include <deal.II/base/index_set.h>
@@ -132,6 +133,23 @@ namespace NMM
     tangent_to_add_to(double /*factor*/)
     {
       return nullptr;
+    }
+
+    /**
+     * The tangent of the last assemble_between() for a caller who was to add to it, as
+     * said above, if that is a matrix of blocks, and tangent() is not made; otherwise
+     * null.
+     */
+    virtual BlockMatrix *
+    block_tangent()
+    {
+      return nullptr;
+    }
+
+    /// Rows that have been assembled so far need not be kept.
+    virtual void
+    forget_tangent()
+    {
     }
 
     /// Another number whenever tangent() has another pattern.

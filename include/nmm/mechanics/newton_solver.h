@@ -2,6 +2,7 @@
 #define nmm_mechanics_newton_solver_h
 
 #include <nmm/base/types.h>
+#include <nmm/mechanics/block_matrix.h>
 #include <nmm/mechanics/hyperelasticity.h>
 
 #include <deal.II/lac/affine_constraints.h>
@@ -85,6 +86,21 @@ namespace NMM
     /// some perhaps several times; null: values other than zero tell.
     virtual const std::vector<BlockPair> *
     coupled_blocks() const
+    {
+      return nullptr;
+    }
+
+    /// Tangents to come are of another state: rows that have been assembled before need
+    /// not be kept.
+    virtual void
+    forget_tangent()
+    {
+    }
+
+    /// The last tangent as a matrix of blocks, those of blocks_of_unknowns(): what is not
+    /// coupled is not in it. tangent() is not asked for then. Null: it is tangent().
+    virtual const BlockMatrix *
+    block_tangent() const
     {
       return nullptr;
     }

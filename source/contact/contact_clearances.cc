@@ -4,6 +4,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <base/fetch.h>
 #include <contact/contact_data.h>
 #include <limits>
 
@@ -17,15 +18,11 @@ namespace NMM
     constexpr double clear_by = 1e-6;
 
 
-    /// Bring something into the cache.
     template <typename Item>
     void
     fetch(const Item &item)
     {
-      constexpr unsigned int line  = 64;
-      const char            *bytes = reinterpret_cast<const char *>(&item);
-      for (unsigned int b = 0; b < sizeof(Item); b += line)
-        __builtin_prefetch(bytes + b);
+      internal::fetch(&item, 1);
     }
   } // namespace
 
@@ -181,8 +178,11 @@ namespace NMM
       return;
     fetch(points[q]);
     fetch(point_data[q]);
-    if (clearance.edge != invalid_index)
-      fetch(surface->edges()[clearance.edge]);
+    if (clearance.edge == invalid_index)
+      return;
+    fetch(surface->edges()[clearance.edge]);
+    if (clearance.edge < touching.size())
+      fetch(touching[clearance.edge]);
   }
 
 

@@ -53,8 +53,9 @@ namespace NMM
       }
     };
 
-    /// What does not change from one assembly to the next.
-    struct PointData
+    /// What does not change from one assembly to the next. Points come from all over the
+    /// memory: each as few lines of the cache as can be.
+    struct alignas(64) PointData
     {
       /// Position in ContactSearch::slaves().
       unsigned int slave;

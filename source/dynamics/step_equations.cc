@@ -127,9 +127,17 @@ namespace NMM
     const auto y       = out.begin();
     for (const unsigned int row : active_rows.chosen())
     {
-      double sum = 0.;
-      for (int i = entries.begins[row]; i < entries.begins[row + 1]; ++i)
-        sum += entries.values[i] * x[columns[entries.columns[i]]];
+      double    sum   = 0.;
+      const int begin = entries.begins[row], end = entries.begins[row + 1];
+      const int first = begin < end ? columns[entries.columns[begin]] : 0;
+      const int last  = begin < end ? columns[entries.columns[end - 1]] : 0;
+      // as those of a small block are: columns need not be read
+      if (last - first == end - begin - 1)
+        for (int i = begin; i < end; ++i)
+          sum += entries.values[i] * x[first + i - begin];
+      else
+        for (int i = begin; i < end; ++i)
+          sum += entries.values[i] * x[columns[entries.columns[i]]];
       y[row] += factor * sum;
     }
   }

@@ -5,6 +5,7 @@
 #include <Epetra_BLAS.h>
 #include <Epetra_LAPACK.h>
 #include <algorithm>
+#include <base/fetch.h>
 #include <cmath>
 #include <mechanics/block_lu.h>
 #include <numeric>
@@ -254,6 +255,13 @@ namespace NMM
     BlockLu::Data::read_values(const BlockMatrix &matrix)
     {
       for (unsigned int j = 0; j < columns.size(); ++j)
+      {
+        if (j + 1 < columns.size())
+          matrix.for_each_in_row(
+            columns[j + 1].block,
+            [&](const unsigned int other, const double *from) {
+              fetch(from, std::size_t(columns[j + 1].n) * matrix.size(other));
+            });
         matrix.for_each_in_row(
           columns[j].block, [&](const unsigned int other, const double *from) {
             const unsigned int p = block_to_position[other];
@@ -266,6 +274,7 @@ namespace NMM
                           columns[j].n,
                           to + std::size_t(c) * distance);
           });
+      }
     }
 
 
@@ -411,6 +420,8 @@ namespace NMM
            ++column)
       {
         double *x = d.x.data() + column->unknowns;
+        if (const auto next = column + 1; next != d.columns.rend())
+          fetch(values + next->upper(), std::size_t(next->n) * next->m);
         if (column->m > 0)
         {
           d.gathered.resize(column->m);

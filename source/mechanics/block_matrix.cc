@@ -4,6 +4,7 @@
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
 #include <algorithm>
+#include <base/fetch.h>
 #include <mechanics/matrix_rows.h>
 #include <numeric>
 
@@ -136,10 +137,20 @@ namespace NMM
   BlockMatrix::add(const double factor, const Matrix &matrix)
   {
     const MatrixRows from(matrix);
-    for (unsigned int b = 0; b < n_blocks(); ++b)
+    const auto       next_active = [this](unsigned int b) {
+      while (b < n_blocks() && !is_active(b))
+        ++b;
+      return b;
+    };
+    for (unsigned int b = next_active(0), next; b < n_blocks(); b = next)
     {
-      if (!is_active(b))
-        continue;
+      next = next_active(b + 1);
+      if (next < n_blocks())
+      {
+        const int first = from.begins[begin(next)];
+        internal::fetch(from.values + first,
+                        from.begins[begin(next + 1)] - first);
+      }
       const unsigned int n  = size(b);
       double            *to = block(b, b);
       for (unsigned int r = 0; r < n; ++r)

@@ -400,7 +400,7 @@ namespace
 int
 main(int argc, char **argv)
 {
-  constexpr unsigned int steps_of_turn = 5;
+  constexpr unsigned int steps_of_turn = 20;
 
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const auto argument = [&](const int i, const double otherwise) {

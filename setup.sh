@@ -334,13 +334,18 @@ command_bench_heaps()
   say "Done. From 200 to 2,000 blocks, us per block and step, and ratio:"
   awk -F, '
     $1 == "blocks" {for (i = 1; i <= NF; ++i) c[$i] = i}
-    $c["heaps"] == 2 && $1 == 200 {
-      first = $c["us_per_block_and_step"]
-    }
-    $c["heaps"] == 2 && $1 == 2000 {
-      now = $c["us_per_block_and_step"]
-      print ($c["rows"] == 8 ? "equally deep" : "same shape"), $c["phase"],
+    # both halves have the same number of steps
+    function show(phase, first, now) {
+      print ($c["rows"] == 8 ? "equally deep," : "same shape,"), phase,
             "until", $c["end_s"], "s:", first, now, now / first
+    }
+    $c["heaps"] != 2 {next}
+    $1 == 200 {first = $c["us_per_block_and_step"]}
+    $1 == 2000 {
+      now = $c["us_per_block_and_step"]
+      show($c["phase"], first, now)
+      if ($c["phase"] == "falls") {first_half = first; half = now}
+      else show("both", (first_half + first) / 2, (half + now) / 2)
     }' "$table"
 }
 

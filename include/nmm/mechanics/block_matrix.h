@@ -13,7 +13,7 @@ namespace NMM
    * to: the tangent of many small bodies, of which each touches few others, and others
    * in the next iteration. A sparse matrix has to know beforehand what may touch, and has
    * places for it that are cleared, read and kept in memory for nothing: in a heap of
-   * 2,000 bodies of 12 unknowns three of four.
+   * 2,000 bodies of 12 unknowns two of three.
    *
    * Unknowns of a block follow each other, block by block. One rank.
    */

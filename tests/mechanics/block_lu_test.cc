@@ -138,13 +138,13 @@ namespace
       for (unsigned int i = 0; i < blocks.n(); ++i)
         if (sample % 2 == 0 || blocks.unknown_to_block[i] % 3 != 1)
           rows.push_back(i);
-      std::vector<bool> some(sample % 2 == 0 ? 0 : n_blocks);
+      std::vector<bool> chosen(sample % 2 == 0 ? 0 : n_blocks);
       for (const unsigned int row : rows)
-        if (!some.empty())
-          some[blocks.unknown_to_block[row]] = true;
+        if (!chosen.empty())
+          chosen[blocks.unknown_to_block[row]] = true;
       BlockLu lu;
       ASSERT_TRUE(
-        lu.factorize(blocks.by_blocks(some),
+        lu.factorize(blocks.by_blocks(chosen),
                      sample % 2 == 0 ? std::vector<unsigned int>() : rows));
       const Vector rhs      = counted(blocks.n());
       Vector       solution = rhs;

@@ -312,7 +312,9 @@ namespace NMM
       factor * (derivative * gap_by_opening - (begin_moves ? by_begin : 0.));
     if (factor == 1. + more && !begin_moves)
     {
-      fixed.pressure_by_gap += point.pressure * gap_by_gap * opening / square;
+      // what slip opens takes as much from the gap as from the motion
+      if (!is_followed)
+        fixed.pressure_by_gap += point.pressure * opening / square;
       fixed.pressure_by_opening +=
         point.pressure *
         ((gap_by_opening - 1.) * opening / square +

@@ -620,7 +620,8 @@ namespace NMM
     local.n_covers = 0;
     local.append(surface->covers(point.edge));
     local.append(surface->covers(projection.master));
-    // in a step the slip is that since its begin
+    // does anything depend on how far it is from where it sticks? In a step only what slip
+    // opens does
     if (traction.shear_stiffness != 0. || traction.pressure_by_slip != 0.)
     {
       surface->weights(point.stick_edge, point.stick_t, stick);

@@ -101,7 +101,7 @@ namespace NMM
         action(entries[i].column, values.data() + entries[i].begin);
     }
 
-    /// The same, and zeros on the diagonal of rows that are not there.
+    /// As a sparse matrix, with zeros on the diagonal of rows that are not there.
     Matrix
     sparse() const;
 

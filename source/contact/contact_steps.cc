@@ -336,6 +336,7 @@ namespace NMM
     traction.pressure = point.weight * point.pressure;
     traction.pressure_by_slip =
       2. * point.weight * derivative * fixed.dilation.by_slip;
+    traction.normal_distance = fixed.gap_end + fixed.dilation.opening;
   }
 
 

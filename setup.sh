@@ -10,6 +10,8 @@
 #   NMM_JOBS=N                    compile and test with N jobs at a time
 #   NMM_SKIP_PACKAGES=1           neither look for packages nor install any
 #   NMM_WARNINGS_AS_ERRORS=ON     treat warnings in this project's code as errors
+#   NMM_UNITY_BUILD=OFF           compile each source by itself: faster after small
+#                                 changes, twice as slow for all of it
 #   OPENBLAS_NUM_THREADS=N        threads of the linear algebra library (1)
 
 set -euo pipefail
@@ -179,6 +181,7 @@ configure_and_build()
   say "Configuring build/$preset"
   if ! cmake --preset "$preset" \
          -DNMM_WARNINGS_AS_ERRORS="${NMM_WARNINGS_AS_ERRORS:-OFF}" \
+         -DCMAKE_UNITY_BUILD="${NMM_UNITY_BUILD:-ON}" \
          >"$log" 2>&1; then
     cat "$log" >&2
     die "CMake could not configure the project (its message is above). If it" \

@@ -126,7 +126,7 @@ namespace StepNMM1
       const FEValuesExtractors::Vector     displacement(0);
       const unsigned int                   n = fe.n_dofs_per_cell();
       FullMatrix<double>                   local(n, n);
-      Vector<double>                       local_rhs(n);
+      dealii::Vector<double>               local_rhs(n);
       std::vector<types::global_dof_index> dofs(n);
       std::vector<SymmetricTensor<2, 2>>   strain(n);
       for (const auto &cell : dof_handler.active_cell_iterators())
@@ -168,11 +168,11 @@ namespace StepNMM1
 
 
     void
-    measure_errors(const DoFHandler<2>  &dof_handler,
-                   const Mapping<2>     &mapping,
-                   const Parameters     &parameters,
-                   const Vector<double> &solution,
-                   Measurement          &result)
+    measure_errors(const DoFHandler<2>          &dof_handler,
+                   const Mapping<2>             &mapping,
+                   const Parameters             &parameters,
+                   const dealii::Vector<double> &solution,
+                   Measurement                  &result)
     {
       const NMM::Material         material = parameters.material();
       const NMM::ThickRing        exact(parameters.inner_radius,
@@ -282,8 +282,11 @@ namespace StepNMM1
     result.n_elements = triangulation.n_active_cells();
     result.n_unknowns = dof_handler.n_dofs();
     result.n_nonzeros = matrix.n_nonzero_elements();
-    measure_errors(
-      dof_handler, mapping, parameters, Vector<double>(solution), result);
+    measure_errors(dof_handler,
+                   mapping,
+                   parameters,
+                   dealii::Vector<double>(solution),
+                   result);
     return result;
   }
 } // namespace StepNMM1

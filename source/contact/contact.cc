@@ -101,6 +101,7 @@ namespace NMM
     const double reach = d.reach + d.largest_opening();
     if (d.search.update(reach))
     {
+      d.forget_near_bodies();
       d.searched_nodal = d.nodal;
       d.searched_time  = d.time;
       d.searched_reach = reach;

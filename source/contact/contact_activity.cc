@@ -81,6 +81,13 @@ namespace NMM
     for (auto &[slave, master] : pairs)
       std::swap(slave, master);
     make_lists(near_bodies);
+  }
+
+
+  void
+  Contact::Data::list_bodies_of_points()
+  {
+    const auto &edges = surface->edges();
     point_to_body.resize(points.size());
     for (unsigned int q = 0; q < points.size(); ++q)
       point_to_body[q] = edges[search.slaves()[point_data[q].slave]].body;

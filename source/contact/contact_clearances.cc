@@ -31,7 +31,6 @@ namespace NMM
   Contact::Data::find_clearances()
   {
     clearances.assign(points.size(), Clearance());
-    clearance_places.resize(points.size());
     position_motion.resize(search.slaves().size());
     position_assembly.assign(search.slaves().size(), 0);
     n_assemblies = 0;
@@ -43,6 +42,8 @@ namespace NMM
     bound_assembly.assign(surface->n_bodies(), 0);
     motion_bounds.resize(surface->n_bodies());
     if (point_to_body.empty())
+      list_bodies_of_points();
+    if (faced_bodies.begins.empty())
       list_near_bodies();
     if (active_covers.empty() &&
         dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
@@ -64,18 +65,17 @@ namespace NMM
       if (fixed.gap_begin < fixed.offset || point.is_bonded ||
           surface->edges()[point.edge].radius != 0.)
         continue;
-      ClearancePlace &place = clearance_places[q];
-      place                 = {point.s,
-               is_corner ? ContactSearch::rounding_slack : fixed.slack,
-               is_corner ? ContactSearch::any_edge : fixed.home};
+      clearance.s     = point.s;
+      clearance.slack = is_corner ? ContactSearch::rounding_slack : fixed.slack;
+      clearance.home  = is_corner ? ContactSearch::any_edge : fixed.home;
       // it has no share until points are made anew
       clearance.distance =
         fixed.has_angle && point.weight == 0.
           ? std::numeric_limits<double>::max()
           : search.clearance(surface->place(point.edge, point.s).x,
                              masters_of(q),
-                             place.slack,
-                             place.home);
+                             clearance.slack,
+                             clearance.home);
       clearance.was_clear = clearance.distance > 0.;
       far_distance[q]     = clearance.distance;
       if (clearance.was_clear)
@@ -130,15 +130,14 @@ namespace NMM
     const Clearance &clearance = clearances[q];
     if (clearance.distance == 0.)
       return false;
-    const ClearancePlace &place   = clearance_places[q];
-    const auto            masters = clearance.is_master_end
-                                      ? dealii::ArrayView<const unsigned int>(
+    const auto masters = clearance.is_master_end
+                           ? dealii::ArrayView<const unsigned int>(
                                &search.slaves()[clearance.position], 1)
-                                      : search.masters(clearance.position);
-    return search.clearance(surface->place(clearance.edge, place.s).x,
+                           : search.masters(clearance.position);
+    return search.clearance(surface->place(clearance.edge, clearance.s).x,
                             masters,
-                            place.slack,
-                            place.home) > clear_by * reach;
+                            clearance.slack,
+                            clearance.home) > clear_by * reach;
   }
 
 

@@ -100,25 +100,21 @@ namespace NMM
       unsigned int beside_begin = 0, beside_end = 0;
     };
 
-    /// All that an assembly asks for of a point that cannot touch: the rest is far more,
-    /// and comes from further away.
-    struct Clearance
+    /// All that an assembly asks for of a point that cannot touch, in one line of the
+    /// cache: the rest is far more, and comes from further away.
+    struct alignas(64) Clearance
     {
       /// At the begin of the step from touching [m]; 0: not known, or it may.
       double distance = 0.;
+      /// Where on the edge, and as ContactSearch::clearance() has them.
+      double       s = 0., slack = 0.;
+      unsigned int home = invalid_index;
       /// In ContactSearch::slaves().
       unsigned int position      = 0;
       unsigned int edge          = invalid_index;
       bool         is_master_end = false;
       /// It was clear in the last assembly, too, and says so.
       bool was_clear = false;
-    };
-
-    /// What more is asked for where that is not enough to tell.
-    struct ClearancePlace
-    {
-      double       s = 0., slack = 0.;
-      unsigned int home = invalid_index;
     };
 
     void
@@ -432,6 +428,16 @@ namespace NMM
     void
     list_near_bodies();
 
+    /// Candidates are others.
+    void
+    forget_near_bodies()
+    {
+      faced_bodies = near_bodies = BodyLists();
+    }
+
+    void
+    list_bodies_of_points();
+
     /// A point presses: on something that is not active?
     void
     note_touched(const unsigned int q)
@@ -582,8 +588,6 @@ namespace NMM
     /// other, and at which assembly.
     internal::ContactMotion motion;
     std::vector<Clearance>  clearances;
-    /// By point, as clearances are.
-    std::vector<ClearancePlace> clearance_places;
     /// By point: its clearance, as long as it is clear; 0: ask.
     std::vector<double> far_distance;
     /// By body: see motion_bound(), and at which assembly.

@@ -179,7 +179,9 @@ namespace NMM
         const double beside = std::max(
           {0., -before * length - along, along - (1. + after) * length});
         const double outside = std::max({0., across, -across - reach});
-        result = std::min(result, std::hypot(beside, outside) - bend);
+        // lengths of bodies: their squares do not overflow, and hypot() takes longer
+        const double distance = std::sqrt(beside * beside + outside * outside);
+        result                = std::min(result, distance - bend);
       }
       return std::max(0., result);
     }

@@ -18,11 +18,11 @@ namespace NMM
 
   namespace
   {
-    namespace bg  = boost::geometry;
-    using Vertex  = bg::model::d2::point_xy<double>;
-    using Polygon = bg::model::polygon<Vertex, /* clockwise = */ false>;
-    using Chain   = bg::model::linestring<Vertex>;
-    using Box     = bg::model::box<Vertex>;
+    namespace bg        = boost::geometry;
+    using PolygonVertex = bg::model::d2::point_xy<double>;
+    using Polygon = bg::model::polygon<PolygonVertex, /* clockwise = */ false>;
+    using Chain   = bg::model::linestring<PolygonVertex>;
+    using BoundingBox = bg::model::box<PolygonVertex>;
 
     /// A closed part of a block's boundary, outer or inner.
     struct Ring
@@ -69,12 +69,12 @@ namespace NMM
   ContactSurface::largest_overlap() const
   {
     const std::vector<Ring> rings = rings_of_blocks(*this);
-    using Entry                   = std::pair<Box, unsigned int>;
+    using Entry                   = std::pair<BoundingBox, unsigned int>;
     std::vector<Entry>                     boxes;
     std::vector<std::vector<unsigned int>> body_to_rings(n_blocks);
     for (unsigned int i = 0; i < rings.size(); ++i)
     {
-      boxes.emplace_back(bg::return_envelope<Box>(rings[i].polygon), i);
+      boxes.emplace_back(bg::return_envelope<BoundingBox>(rings[i].polygon), i);
       body_to_rings[rings[i].body].push_back(i);
     }
     const bg::index::rtree<Entry, bg::index::rstar<16>> tree(boxes);
@@ -83,7 +83,7 @@ namespace NMM
     std::vector<Entry>        found;
     std::vector<unsigned int> around;
     for (const Ring &ring : rings)
-      for (const Vertex &x : ring.polygon.outer())
+      for (const PolygonVertex &x : ring.polygon.outer())
       {
         // bodies around it: in an outer boundary and in no inner one of theirs
         found.clear();

@@ -25,9 +25,11 @@ namespace NMM
       }
 
 
-      /// (b - a) x (x - a)
+      /// (b - a) x (x - a), from differences to twice the digits.
       double
-      twice_the_area(const Point<2> &a, const Point<2> &b, const Point<2> &x)
+      accurate_twice_the_area(const Point<2> &a,
+                              const Point<2> &b,
+                              const Point<2> &x)
       {
         const DoubleDouble area =
           product_of_differences(b[0], a[0], x[1], a[1]) +
@@ -248,10 +250,11 @@ namespace NMM
     {
       // from the lower to the higher vertex, so that both cells of the side find the
       // same doubles
-      const Point<2> &u  = corners[is_forward[side] ? side : (side + 1) % 3],
-                     &v  = corners[is_forward[side] ? (side + 1) % 3 : side];
-      const auto &[p, q] = physical_edges.edges()[e].line;
-      const double a = twice_the_area(p, q, u), b = twice_the_area(p, q, v);
+      const Point<2> &u    = corners[is_forward[side] ? side : (side + 1) % 3],
+                     &v    = corners[is_forward[side] ? (side + 1) % 3 : side];
+      const auto &[p, q]   = physical_edges.edges()[e].line;
+      const double a       = accurate_twice_the_area(p, q, u),
+                   b       = accurate_twice_the_area(p, q, v);
       const double t       = a / (a - b);
       const double largest = size_of(q - p) * (size_of(u - p) + size_of(v - p));
       side_nodes[side].push_back(nodes.size());

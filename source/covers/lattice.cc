@@ -80,7 +80,7 @@ namespace NMM
 
     namespace
     {
-      enum class CellState : unsigned char
+      enum class ParallelogramState : unsigned char
       {
         unknown,
         near_curve,
@@ -90,10 +90,11 @@ namespace NMM
 
 
       /// States of the parallelograms of a box.
-      class States
+      class ParallelogramStates
       {
       public:
-        States(const LatticeBox &box, const CellState initial)
+        ParallelogramStates(const LatticeBox        &box,
+                            const ParallelogramState initial)
           : box(box)
           , states((box.upper[0] - box.lower[0]) *
                      (box.upper[1] - box.lower[1]),
@@ -101,7 +102,7 @@ namespace NMM
         {
         }
 
-        CellState &
+        ParallelogramState &
         operator()(const std::int64_t i, const std::int64_t j)
         {
           return states[(j - box.lower[1]) * (box.upper[0] - box.lower[0]) +
@@ -111,7 +112,7 @@ namespace NMM
         const LatticeBox box;
 
       private:
-        std::vector<CellState> states;
+        std::vector<ParallelogramState> states;
       };
 
 
@@ -122,10 +123,10 @@ namespace NMM
        * parallelogram.
        */
       void
-      mark_near_curves(const PhysicalMesh &physical_mesh,
-                       const Lattice      &lattice,
-                       const double        cell_size,
-                       States             &state)
+      mark_near_curves(const PhysicalMesh  &physical_mesh,
+                       const Lattice       &lattice,
+                       const double         cell_size,
+                       ParallelogramStates &state)
       {
         for (const CurvePiece &piece : physical_mesh.pieces())
           for_each_sample(piece, 0.25 * cell_size, [&](const Point<2> &x) {
@@ -135,7 +136,7 @@ namespace NMM
             for (std::int64_t dj = -1; dj <= 1; ++dj)
               for (std::int64_t di = -1; di <= 1; ++di)
                 if (state.box.contains({{i + di, j + dj}}))
-                  state(i + di, j + dj) = CellState::near_curve;
+                  state(i + di, j + dj) = ParallelogramState::near_curve;
           });
       }
 
@@ -143,22 +144,22 @@ namespace NMM
       /// The unmarked parallelograms form connected sets no curve crosses: one
       /// point decides for each.
       void
-      classify_rest(const PhysicalMesh &physical_mesh,
-                    const Lattice      &lattice,
-                    States             &state)
+      classify_rest(const PhysicalMesh  &physical_mesh,
+                    const Lattice       &lattice,
+                    ParallelogramStates &state)
       {
         std::vector<LatticeNode> stack;
         for (std::int64_t j = state.box.lower[1]; j < state.box.upper[1]; ++j)
           for (std::int64_t i = state.box.lower[0]; i < state.box.upper[0]; ++i)
           {
-            if (state(i, j) != CellState::unknown)
+            if (state(i, j) != ParallelogramState::unknown)
               continue;
             const Point<2> center =
               lattice.node(i, j) + 0.5 * (lattice.a + lattice.b);
-            const CellState result = is_in_solid(physical_mesh, center)
-                                       ? CellState::inside
-                                       : CellState::outside;
-            state(i, j)            = result;
+            const ParallelogramState result = is_in_solid(physical_mesh, center)
+                                                ? ParallelogramState::inside
+                                                : ParallelogramState::outside;
+            state(i, j)                     = result;
             stack.push_back({{i, j}});
             while (!stack.empty())
             {
@@ -169,7 +170,7 @@ namespace NMM
                                               LatticeNode{{k, l - 1}},
                                               LatticeNode{{k, l + 1}}})
                 if (state.box.contains(next) &&
-                    state(next[0], next[1]) == CellState::unknown)
+                    state(next[0], next[1]) == ParallelogramState::unknown)
                 {
                   state(next[0], next[1]) = result;
                   stack.push_back(next);
@@ -186,9 +187,10 @@ namespace NMM
                                const RegularMeshParameters &parameters,
                                const LatticeBox            &box)
     {
-      States state(box,
-                   parameters.whole_box ? CellState::inside
-                                        : CellState::unknown);
+      ParallelogramStates state(box,
+                                parameters.whole_box
+                                  ? ParallelogramState::inside
+                                  : ParallelogramState::unknown);
       if (!parameters.whole_box)
       {
         mark_near_curves(physical_mesh, lattice, parameters.cell_size, state);
@@ -197,7 +199,7 @@ namespace NMM
       std::vector<LatticeNode> needed;
       for (std::int64_t j = box.lower[1]; j < box.upper[1]; ++j)
         for (std::int64_t i = box.lower[0]; i < box.upper[0]; ++i)
-          if (state(i, j) != CellState::outside)
+          if (state(i, j) != ParallelogramState::outside)
             needed.push_back({{i, j}});
       return needed;
     }

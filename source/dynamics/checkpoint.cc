@@ -21,8 +21,9 @@ namespace NMM
     using Vector = DynamicState::Vector;
     using Bytes  = std::vector<char>;
 
-    constexpr char          magic[8] = {'N', 'M', 'M', 'S', 'T', 'A', 'T', 'E'};
-    constexpr std::uint32_t version  = 6;
+    constexpr char checkpoint_magic[8] =
+      {'N', 'M', 'M', 'S', 'T', 'A', 'T', 'E'};
+    constexpr std::uint32_t version = 6;
 
     std::uint64_t
     sum(const char *bytes, const std::size_t n)
@@ -150,13 +151,14 @@ namespace NMM
     find_fault(const Bytes &bytes)
     {
       constexpr std::size_t head =
-        sizeof(magic) + sizeof(version) + sizeof(std::uint64_t);
+        sizeof(checkpoint_magic) + sizeof(version) + sizeof(std::uint64_t);
       if (bytes.empty())
         return "it is missing or empty";
-      if (bytes.size() < head ||
-          std::memcmp(bytes.data(), magic, sizeof(magic)) != 0)
+      if (bytes.size() < head || std::memcmp(bytes.data(),
+                                             checkpoint_magic,
+                                             sizeof(checkpoint_magic)) != 0)
         return "it is no checkpoint";
-      const char *position = bytes.data() + sizeof(magic);
+      const char *position = bytes.data() + sizeof(checkpoint_magic);
       const auto  found    = get<std::uint32_t>(position);
       if (found != version)
         return "it is of version " + std::to_string(found) + ", not " +
@@ -182,7 +184,9 @@ namespace NMM
     const MechanicalModel &model = integrator.model();
     const std::uint64_t    mesh  = model.fingerprint();
     Bytes                  bytes;
-    bytes.insert(bytes.end(), std::begin(magic), std::end(magic));
+    bytes.insert(bytes.end(),
+                 std::begin(checkpoint_magic),
+                 std::end(checkpoint_magic));
     put(bytes, version);
     const std::size_t length_position = bytes.size();
     put(bytes, std::uint64_t());
@@ -238,8 +242,8 @@ namespace NMM
       refuse("The checkpoint cannot be used: " + fault,
              filename,
              "take another one, or start anew");
-    const char *position =
-      bytes.data() + sizeof(magic) + sizeof(version) + sizeof(std::uint64_t);
+    const char *position = bytes.data() + sizeof(checkpoint_magic) +
+                           sizeof(version) + sizeof(std::uint64_t);
     if (get<std::uint64_t>(position) != model.fingerprint())
       refuse(
         "The checkpoint is of another mesh, geometry, material or kinematics",

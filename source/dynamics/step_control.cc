@@ -11,9 +11,6 @@ namespace NMM
     /// Times closer than this share of a step are the same.
     constexpr double time_tolerance = 1e-9;
 
-    /// Share of a bound that the next step aims at.
-    constexpr double safety = 0.9;
-
 
     /// By how much steps may change after one with so many iterations: many cost more
     /// than shorter steps would.
@@ -80,6 +77,9 @@ namespace NMM
                        const double    end,
                        StepRecord     &record) const
   {
+    // share of a bound that the next step aims at
+    constexpr double safety = 0.9;
+
     const DynamicState &state = integrator.state();
     record                    = StepRecord();
     double step =

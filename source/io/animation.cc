@@ -17,10 +17,10 @@ namespace NMM
     using dealii::Point;
     using Vertex = PictureData::Vertex;
 
-    constexpr char         magic[]     = "NMMfram3";
-    constexpr std::size_t  magic_size  = 8;
-    constexpr std::size_t  header_size = magic_size + 2 * 8;
-    constexpr unsigned int max_places  = 12;
+    constexpr char         frame_magic[]     = "NMMfram3";
+    constexpr std::size_t  frame_magic_size  = 8;
+    constexpr std::size_t  frame_header_size = frame_magic_size + 2 * 8;
+    constexpr unsigned int max_places        = 12;
 
 
     /// Numbers one after the other in native byte order.
@@ -284,17 +284,17 @@ namespace NMM
     if (!file.good())
       return;
     const std::streamoff size = file.tellg();
-    std::string          header(header_size, '\0');
-    while (end + static_cast<std::streamoff>(header_size) <= size)
+    std::string          header(frame_header_size, '\0');
+    while (end + static_cast<std::streamoff>(frame_header_size) <= size)
     {
       file.seekg(end);
-      file.read(header.data(), header_size);
-      if (!file.good() || header.compare(0, magic_size, magic) != 0)
+      file.read(header.data(), frame_header_size);
+      if (!file.good() || header.compare(0, frame_magic_size, frame_magic) != 0)
         break;
       Record record;
-      std::memcpy(&record.time, header.data() + magic_size, 8);
-      std::memcpy(&record.n_bytes, header.data() + magic_size + 8, 8);
-      record.position = end + static_cast<std::streamoff>(header_size);
+      std::memcpy(&record.time, header.data() + frame_magic_size, 8);
+      std::memcpy(&record.n_bytes, header.data() + frame_magic_size + 8, 8);
+      record.position = end + static_cast<std::streamoff>(frame_header_size);
       if (!(record.time <= keep_until) ||
           record.n_bytes > static_cast<std::uint64_t>(size - record.position))
         break;
@@ -313,7 +313,7 @@ namespace NMM
                            "add frames in the order of their times"));
     const std::string body = pack(data);
     Packer            header;
-    header.buffer.assign(magic, magic_size);
+    header.buffer.assign(frame_magic, frame_magic_size);
     header.add(time);
     header.add(static_cast<std::uint64_t>(body.size()));
 

@@ -13,7 +13,7 @@ namespace NMM
   namespace
   {
     /// Number of doubles in a FieldSample.
-    constexpr unsigned int n_numbers = 10;
+    constexpr unsigned int n_sample_numbers = 10;
 
     void
     pack(const FieldSample &sample, std::vector<double> &numbers)
@@ -135,7 +135,7 @@ namespace NMM
     for (unsigned int rank = 0; rank < all_indices.size(); ++rank)
       for (unsigned int k = 0; k < all_indices[rank].size(); ++k)
         samples[all_indices[rank][k]] =
-          unpack(all_numbers[rank].data() + n_numbers * k);
+          unpack(all_numbers[rank].data() + n_sample_numbers * k);
     return samples;
   }
 
@@ -160,7 +160,7 @@ namespace NMM
       out << names[entry.probe] << ',' << entry.index << ',' << entry.distance
           << ',' << entry.x[0] << ',' << entry.x[1] << ','
           << (samples[i] ? 1 : 0);
-      for (unsigned int k = 0; k < n_numbers; ++k)
+      for (unsigned int k = 0; k < n_sample_numbers; ++k)
         if (samples[i])
           out << ',' << numbers[k];
         else

@@ -13,9 +13,11 @@ namespace NMM
 
   namespace
   {
-    using Start = SafetyFactorSectionParameters::Start;
-    const std::vector<std::pair<std::string, Start>> starts =
-      {{"unstressed", Start::unstressed}, {"settled", Start::settled}};
+    const std::vector<
+      std::pair<std::string, SafetyFactorSectionParameters::Start>>
+      trial_starts = {
+        {"unstressed", SafetyFactorSectionParameters::Start::unstressed},
+        {"settled", SafetyFactorSectionParameters::Start::settled}};
 
 
     /// Entries that are numbers: key, place and help.
@@ -61,7 +63,7 @@ namespace NMM
                         number.help);
     prm.declare_entry("Start",
                       "unstressed",
-                      selection(starts),
+                      selection(trial_starts),
                       "What each trial starts from. unstressed: blocks without "
                       "displacement are put under load with reduced strength; "
                       "settled: they come to rest with full strength first, "
@@ -74,7 +76,7 @@ namespace NMM
   {
     for (const Number &number : numbers(*this))
       number.value = prm.get_double(number.key);
-    start = get_selection(prm, "Start", starts);
+    start = get_selection(prm, "Start", trial_starts);
   }
 
 

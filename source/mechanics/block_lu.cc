@@ -91,8 +91,13 @@ namespace NMM
       std::vector<int>          pivots;
       /// Scratch: products, and vectors.
       std::vector<double> products, x, gathered;
-      Epetra_BLAS         blas;
-      Epetra_LAPACK       lapack;
+      /// Those that are solved for.
+      std::vector<const Column *> wanted;
+      /// Scratch of make_columns(): columns the first later one of which is j are
+      /// first_child[j] and those that next_child leads to from there.
+      std::vector<unsigned int> first_child, next_child, begins, met, found;
+      Epetra_BLAS               blas;
+      Epetra_LAPACK             lapack;
     };
 
 
@@ -174,15 +179,16 @@ namespace NMM
       position_to_column.resize(n);
       for (unsigned int j = 0; j < n; ++j)
         position_to_column[order[j]] = j;
-      std::vector<unsigned int> begins(n + 1, 0);
+      begins.assign(n + 1, 0);
       for (const auto &[p, other] : pairs)
         ++begins[p + 1];
       std::partial_sum(begins.begin(), begins.end(), begins.begin());
 
       // what an eliminated block couples is coupled from then on: the first of those
       // takes over the others
-      std::vector<std::vector<unsigned int>> children(n);
-      std::vector<unsigned int>              met(n, invalid_index), found;
+      first_child.assign(n, invalid_index);
+      next_child.assign(n, invalid_index);
+      met.assign(n, invalid_index);
       later.clear();
       std::size_t  n_values   = 0;
       unsigned int n_unknowns = 0;
@@ -205,7 +211,8 @@ namespace NMM
         };
         for (unsigned int i = begins[order[j]]; i < begins[order[j] + 1]; ++i)
           add(position_to_column[pairs[i].second]);
-        for (const unsigned int child : children[j])
+        for (unsigned int child = first_child[j]; child != invalid_index;
+             child              = next_child[child])
           for (std::size_t i = columns[child].later_begin;
                i < columns[child].later_end;
                ++i)
@@ -219,7 +226,10 @@ namespace NMM
         }
         column.later_end = later.size();
         if (!found.empty())
-          children[found.front()].push_back(j);
+        {
+          next_child[j]              = first_child[found.front()];
+          first_child[found.front()] = j;
+        }
         column.diagonal = n_values;
         n_values += std::size_t(column.n) * (column.n + 2 * column.m);
       }
@@ -373,21 +383,28 @@ namespace NMM
 
     void
     BlockLu::solve(const dealii::TrilinosWrappers::MPI::Vector &rhs,
-                   dealii::TrilinosWrappers::MPI::Vector       &solution)
+                   dealii::TrilinosWrappers::MPI::Vector       &solution,
+                   const std::vector<bool>                     &blocks)
     {
       Data         &d      = *data;
       const double *values = d.values.data();
       const auto    from   = rhs.begin();
       const auto    to     = solution.begin();
+      d.wanted.clear();
       for (const Data::Column &column : d.columns)
-        std::copy_n(from + column.first_unknown,
-                    column.n,
-                    d.x.begin() + column.unknowns);
+        if (blocks.empty() || blocks[column.block])
+        {
+          d.wanted.push_back(&column);
+          std::copy_n(from + column.first_unknown,
+                      column.n,
+                      d.x.begin() + column.unknowns);
+        }
 
-      for (const Data::Column &column : d.columns)
+      for (const Data::Column *wanted : d.wanted)
       {
-        double *x    = d.x.data() + column.unknowns;
-        int     info = 0;
+        const Data::Column &column = *wanted;
+        double             *x      = d.x.data() + column.unknowns;
+        int                 info   = 0;
         d.lapack.GETRS('N',
                        column.n,
                        1,
@@ -416,21 +433,24 @@ namespace NMM
             d.x[other.unknowns + r] -= d.gathered[d.later[i].offset + r];
         }
       }
-      for (auto column = d.columns.rbegin(); column != d.columns.rend();
-           ++column)
+      for (auto i = d.wanted.size(); i > 0; --i)
       {
-        double *x = d.x.data() + column->unknowns;
-        if (const auto next = column + 1; next != d.columns.rend())
-          fetch(values + next->upper(), std::size_t(next->n) * next->m);
+        const Data::Column *column = d.wanted[i - 1];
+        double             *x      = d.x.data() + column->unknowns;
+        if (i > 1)
+        {
+          const Data::Column &next = *d.wanted[i - 2];
+          fetch(values + next.upper(), std::size_t(next.n) * next.m);
+        }
         if (column->m > 0)
         {
           d.gathered.resize(column->m);
-          for (std::size_t i = column->later_begin; i < column->later_end; ++i)
+          for (std::size_t k = column->later_begin; k < column->later_end; ++k)
           {
-            const Data::Column &other = d.columns[d.later[i].column];
+            const Data::Column &other = d.columns[d.later[k].column];
             std::copy_n(d.x.data() + other.unknowns,
                         other.n,
-                        d.gathered.data() + d.later[i].offset);
+                        d.gathered.data() + d.later[k].offset);
           }
           d.blas.GEMV('N',
                       column->n,

@@ -49,7 +49,8 @@ namespace NMM
 
       void
       solve(const dealii::TrilinosWrappers::MPI::Vector &rhs,
-            dealii::TrilinosWrappers::MPI::Vector       &solution) override;
+            dealii::TrilinosWrappers::MPI::Vector       &solution,
+            const std::vector<bool>                     &blocks) override;
 
     private:
       struct Data;

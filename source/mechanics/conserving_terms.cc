@@ -20,10 +20,10 @@ namespace NMM
       constexpr double weights[3]   = {5. / 18., 8. / 18., 5. / 18.};
 
 
+      /// E = (H + H^T + H^T H) / 2 of H = F - I, which keeps the digits of small strains.
       SymmetricTensor<2, 2>
-      green_strain(const Tensor<2, 2> &F)
+      accurate_green_strain(const Tensor<2, 2> &F)
       {
-        // in terms of H = F - I, which keeps the digits of small strains
         const double h00 = F[0][0] - 1., h11 = F[1][1] - 1.;
         const double h01 = F[0][1], h10 = F[1][0];
 
@@ -106,8 +106,8 @@ namespace NMM
     {
       if (!(dealii::determinant(F_0) > 0.) || !(dealii::determinant(F_1) > 0.))
         return Deformation::inverted;
-      const SymmetricTensor<2, 2> E_0    = green_strain(F_0);
-      const SymmetricTensor<2, 2> change = green_strain(F_1) - E_0;
+      const SymmetricTensor<2, 2> E_0    = accurate_green_strain(F_0);
+      const SymmetricTensor<2, 2> change = accurate_green_strain(F_1) - E_0;
       S                                  = 0.;
       for (auto &row : D)
         std::fill_n(row, 4, 0.);
@@ -208,8 +208,8 @@ namespace NMM
                           const Tensor<2, 2> &F_1,
                           Secant             &result) const
     {
-      result.E_0 = green_strain(F_0);
-      result.E_1 = green_strain(F_1);
+      result.E_0 = accurate_green_strain(F_0);
+      result.E_1 = accurate_green_strain(F_1);
       if (is_neo_hookean)
       {
         if (!(dealii::determinant(F_0) > 0.) ||
@@ -294,7 +294,7 @@ namespace NMM
       else
       {
         const SymmetricTensor<2, 2> E =
-          0.5 * (green_strain(F_0) + green_strain(F_1));
+          0.5 * (accurate_green_strain(F_0) + accurate_green_strain(F_1));
         S                     = initial_stress + 2. * elasticity.mu * E;
         const double pressure = elasticity.lambda * dealii::trace(E);
         S[0][0] += pressure;
@@ -304,7 +304,7 @@ namespace NMM
       if (damping > 0.)
       {
         const SymmetricTensor<2, 2> change =
-          green_strain(F_1) - green_strain(F_0);
+          accurate_green_strain(F_1) - accurate_green_strain(F_0);
         SymmetricTensor<2, 2> viscous = (2. * damping * elasticity.mu) * change;
         const double          pressure =
           damping * elasticity.lambda * dealii::trace(change);

@@ -12,7 +12,7 @@ namespace NMM
       using Type = BoundaryCondition::Type;
 
       /// Coercivity needs more than 1; see EdgeTerms.
-      constexpr double safety = 4.;
+      constexpr double penalty_safety = 4.;
 
       /// B of a condition, and B g at a point with outward normal @p n.
       void
@@ -152,7 +152,7 @@ namespace NMM
         point.condition      = condition;
         point.n_sides        = 1;
         point.weight         = rule.weights[q];
-        point.penalty        = safety * bound;
+        point.penalty        = penalty_safety * bound;
         point.trace_constant = (*trace_constants)(element);
         point.normal         = rule.normals[q];
         evaluate_condition(problem->boundary_conditions[condition],
@@ -230,7 +230,7 @@ namespace NMM
         point.condition      = invalid_index;
         point.n_sides        = 2;
         point.weight         = rule.weights[q];
-        point.penalty        = safety / (1. / bound[0] + 1. / bound[1]);
+        point.penalty        = penalty_safety / (1. / bound[0] + 1. / bound[1]);
         point.trace_constant = std::max((*trace_constants)(elements[0]),
                                         (*trace_constants)(elements[1]));
         point.normal         = rule.normals[q];

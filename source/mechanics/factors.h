@@ -3,6 +3,8 @@
 
 #include <deal.II/lac/trilinos_vector.h>
 
+#include <vector>
+
 namespace NMM
 {
   namespace internal
@@ -18,10 +20,12 @@ namespace NMM
       n_factor_entries() const = 0;
 
       /// Leaves rows alone that were left out. @p solution may be the same vector as
-      /// @p rhs.
+      /// @p rhs. @p blocks, if there are blocks: only theirs is wanted, and they are coupled
+      /// with no others; the rest may be solved for or left as it is. Empty: all.
       virtual void
       solve(const dealii::TrilinosWrappers::MPI::Vector &rhs,
-            dealii::TrilinosWrappers::MPI::Vector       &solution) = 0;
+            dealii::TrilinosWrappers::MPI::Vector       &solution,
+            const std::vector<bool>                     &blocks) = 0;
     };
   } // namespace internal
 } // namespace NMM

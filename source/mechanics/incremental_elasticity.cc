@@ -24,25 +24,6 @@ namespace NMM
 
   namespace
   {
-    /// lambda delta_iJ delta_kL + mu (delta_ik delta_JL + delta_iL delta_kJ)
-    struct Moduli
-    {
-      double A[4][4];
-
-      explicit Moduli(const PlaneElasticity &e)
-        : A()
-      {
-        for (unsigned int i = 0; i < 2; ++i)
-          for (unsigned int J = 0; J < 2; ++J)
-            for (unsigned int k = 0; k < 2; ++k)
-              for (unsigned int L = 0; L < 2; ++L)
-                A[2 * i + J][2 * k + L] = (i == J && k == L ? e.lambda : 0.) +
-                                          (i == k && J == L ? e.mu : 0.) +
-                                          (i == L && k == J ? e.mu : 0.);
-      }
-    };
-
-
     /// R (sigma + C : sym h) R^T, R the rotation of I + h.
     SymmetricTensor<2, 2>
     updated_stress(const SymmetricTensor<2, 2> &stress,
@@ -97,6 +78,24 @@ namespace NMM
          const dealii::AffineConstraints<double> &constraints,
          const ElasticityProblem                 &problem,
          bool                                     may_float);
+
+    /// lambda delta_iJ delta_kL + mu (delta_ik delta_JL + delta_iL delta_kJ)
+    struct Moduli
+    {
+      double A[4][4];
+
+      explicit Moduli(const PlaneElasticity &e)
+        : A()
+      {
+        for (unsigned int i = 0; i < 2; ++i)
+          for (unsigned int J = 0; J < 2; ++J)
+            for (unsigned int k = 0; k < 2; ++k)
+              for (unsigned int L = 0; L < 2; ++L)
+                A[2 * i + J][2 * k + L] = (i == J && k == L ? e.lambda : 0.) +
+                                          (i == k && J == L ? e.mu : 0.) +
+                                          (i == L && k == J ? e.mu : 0.);
+      }
+    };
 
     /// Geometry at a weak point: gradients per side, normal times length ratio.
     struct CurrentPoint

@@ -182,7 +182,8 @@ namespace NMM
 
     void
     KluSolver::solve(const dealii::TrilinosWrappers::MPI::Vector &rhs,
-                     dealii::TrilinosWrappers::MPI::Vector       &solution)
+                     dealii::TrilinosWrappers::MPI::Vector       &solution,
+                     const std::vector<bool> & /*blocks*/)
     {
       Data &d = *data;
       d.scratch.clear();

@@ -37,126 +37,129 @@ namespace NMM
                           "memory: choose the iterative solver or a coarser "
                           "mesh"));
       }
+    } // namespace
 
 
-      /// One MUMPS instance; control parameters by their number in the manual.
-      class Mumps
+    /// One MUMPS instance; control parameters by their number in the manual.
+    class Mumps
+    {
+    public:
+      Mumps(const MPI_Comm communicator, const bool is_symmetric)
+        : data()
       {
-      public:
-        Mumps(const MPI_Comm communicator, const bool is_symmetric)
-          : data()
-        {
-          data.comm_fortran = MPI_Comm_c2f(communicator);
-          data.par          = 1; // the host computes too
-          // Symmetric, not "positive definite": a matrix that is indefinite by
-          // rounding is then reported by its residual instead of an error.
-          data.sym = is_symmetric ? 2 : 0;
-          check(run(-1), "initialization");
-          for (int i = 1; i <= 4; ++i)
-            control(i) = i < 4 ? -1 : 0; // no output
-        }
+        data.comm_fortran = MPI_Comm_c2f(communicator);
+        data.par          = 1; // the host computes too
+        // Symmetric, not "positive definite": a matrix that is indefinite by
+        // rounding is then reported by its residual instead of an error.
+        data.sym = is_symmetric ? 2 : 0;
+        check(run(-1), "initialization");
+        for (int i = 1; i <= 4; ++i)
+          control(i) = i < 4 ? -1 : 0; // no output
+      }
 
-        ~Mumps()
-        {
-          data.job = -2;
-          dmumps_c(&data);
-        }
-
-        Mumps(const Mumps &) = delete;
-        Mumps &
-        operator=(const Mumps &) = delete;
-
-        MUMPS_INT &
-        control(const int i)
-        {
-          return data.icntl[i - 1];
-        }
-
-        /// Error code and what it is about.
-        std::array<int, 2>
-        run(const int job)
-        {
-          data.job = job;
-          dmumps_c(&data);
-          return {{data.infog[0], data.infog[1]}};
-        }
-
-        DMUMPS_STRUC_C data;
-      };
-
-
-      /// Coordinates from 1 and values; of a symmetric matrix the upper
-      /// triangle.
-      struct Triplets
+      ~Mumps()
       {
-        std::vector<MUMPS_INT> rows, columns;
-        std::vector<double>    values;
+        data.job = -2;
+        dmumps_c(&data);
+      }
 
-        /// Call action(row, column, value) for each entry that is kept.
-        template <typename Action>
-        static void
-        for_each_entry(const Epetra_CrsMatrix &matrix,
-                       const bool              upper_only,
-                       const Action           &action)
+      Mumps(const Mumps &) = delete;
+      Mumps &
+      operator=(const Mumps &) = delete;
+
+      MUMPS_INT &
+      control(const int i)
+      {
+        return data.icntl[i - 1];
+      }
+
+      /// Error code and what it is about.
+      std::array<int, 2>
+      run(const int job)
+      {
+        data.job = job;
+        dmumps_c(&data);
+        return {{data.infog[0], data.infog[1]}};
+      }
+
+      DMUMPS_STRUC_C data;
+    };
+
+
+    /// Coordinates from 1 and values; of a symmetric matrix the upper
+    /// triangle.
+    struct Triplets
+    {
+      std::vector<MUMPS_INT> rows, columns;
+      std::vector<double>    values;
+
+      /// Call action(row, column, value) for each entry that is kept.
+      template <typename Action>
+      static void
+      for_each_entry(const Epetra_CrsMatrix &matrix,
+                     const bool              upper_only,
+                     const Action           &action)
+      {
+        const int *column_numbers = matrix.ColMap().MyGlobalElements();
+        for (int r = 0; r < matrix.NumMyRows(); ++r)
         {
-          const int *column_numbers = matrix.ColMap().MyGlobalElements();
-          for (int r = 0; r < matrix.NumMyRows(); ++r)
-          {
-            int       n;
-            double   *row_values;
-            int      *indices;
-            const int row = matrix.RowMap().GID(r);
-            matrix.ExtractMyRowView(r, n, row_values, indices);
-            for (int i = 0; i < n; ++i)
-              if (!upper_only || column_numbers[indices[i]] >= row)
-                action(row, column_numbers[indices[i]], row_values[i]);
-          }
+          int       n;
+          double   *row_values;
+          int      *indices;
+          const int row = matrix.RowMap().GID(r);
+          matrix.ExtractMyRowView(r, n, row_values, indices);
+          for (int i = 0; i < n; ++i)
+            if (!upper_only || column_numbers[indices[i]] >= row)
+              action(row, column_numbers[indices[i]], row_values[i]);
         }
+      }
 
-        void
-        set_pattern(const Epetra_CrsMatrix &matrix, const bool upper_only)
-        {
-          rows.clear();
-          columns.clear();
-          const std::size_t n_expected =
-            upper_only ? matrix.NumMyNonzeros() / 2 + matrix.NumMyRows()
-                       : matrix.NumMyNonzeros();
-          rows.reserve(n_expected);
-          columns.reserve(n_expected);
-          for_each_entry(matrix,
-                         upper_only,
-                         [&](const int row, const int column, double) {
-                           rows.push_back(row + 1);
-                           columns.push_back(column + 1);
-                         });
-          values.resize(rows.size());
-        }
+      void
+      set_pattern(const Epetra_CrsMatrix &matrix, const bool upper_only)
+      {
+        rows.clear();
+        columns.clear();
+        const std::size_t n_expected =
+          upper_only ? matrix.NumMyNonzeros() / 2 + matrix.NumMyRows()
+                     : matrix.NumMyNonzeros();
+        rows.reserve(n_expected);
+        columns.reserve(n_expected);
+        for_each_entry(matrix,
+                       upper_only,
+                       [&](const int row, const int column, double) {
+                         rows.push_back(row + 1);
+                         columns.push_back(column + 1);
+                       });
+        values.resize(rows.size());
+      }
 
-        void
-        set_values(const Epetra_CrsMatrix &matrix, const bool upper_only)
-        {
-          std::size_t i = 0;
-          for_each_entry(matrix, upper_only, [&](int, int, const double value) {
-            Assert(i < values.size(), dealii::ExcInternalError());
-            values[i++] = value;
-          });
-          AssertDimension(i, values.size());
-        }
+      void
+      set_values(const Epetra_CrsMatrix &matrix, const bool upper_only)
+      {
+        std::size_t i = 0;
+        for_each_entry(matrix, upper_only, [&](int, int, const double value) {
+          Assert(i < values.size(), dealii::ExcInternalError());
+          values[i++] = value;
+        });
+        AssertDimension(i, values.size());
+      }
 
-        /// An equation x = f of its own for each of @p n rows that is not of @p some.
-        void
-        keep(const std::vector<unsigned int> &some, const unsigned int n)
-        {
-          std::vector<bool> kept(n, false);
-          for (const unsigned int row : some)
-            kept[row] = true;
-          for (std::size_t i = 0; i < values.size(); ++i)
-            if (!kept[rows[i] - 1] || !kept[columns[i] - 1])
-              values[i] = rows[i] == columns[i] ? 1. : 0.;
-        }
-      };
+      /// An equation x = f of its own for each of @p n rows that is not of @p some.
+      void
+      keep(const std::vector<unsigned int> &some, const unsigned int n)
+      {
+        std::vector<bool> kept(n, false);
+        for (const unsigned int row : some)
+          kept[row] = true;
+        for (std::size_t i = 0; i < values.size(); ++i)
+          if (!kept[rows[i] - 1] || !kept[columns[i] - 1])
+            values[i] = rows[i] == columns[i] ? 1. : 0.;
+      }
+    };
 
 
+    namespace
+    {
       /// Pieces of all ranks in their order, on the first rank.
       template <typename Number>
       void
@@ -519,11 +522,12 @@ namespace NMM
 
     void
     DirectSolver::solve(const dealii::TrilinosWrappers::MPI::Vector &rhs,
-                        dealii::TrilinosWrappers::MPI::Vector       &solution)
+                        dealii::TrilinosWrappers::MPI::Vector       &solution,
+                        const std::vector<bool>                     &blocks)
     {
       if (data->factors != nullptr)
       {
-        data->factors->solve(rhs, solution);
+        data->factors->solve(rhs, solution, blocks);
         return;
       }
       // right-hand side and solution are on the host

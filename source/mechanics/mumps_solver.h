@@ -86,10 +86,12 @@ namespace NMM
       factorize(const BlockMatrix               &matrix,
                 const std::vector<unsigned int> &rows);
 
-      /// @p solution has the layout of @p rhs; may be the same vector.
+      /// @p solution has the layout of @p rhs; may be the same vector. @p blocks: see
+      /// Factors.
       void
       solve(const dealii::TrilinosWrappers::MPI::Vector &rhs,
-            dealii::TrilinosWrappers::MPI::Vector       &solution);
+            dealii::TrilinosWrappers::MPI::Vector       &solution,
+            const std::vector<bool>                     &blocks = {});
 
       /// Wall time of the last analyze() [s].
       double

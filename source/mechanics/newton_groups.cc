@@ -269,7 +269,7 @@ namespace NMM
                         const dealii::TrilinosWrappers::SparseMatrix &matrix,
                         const std::vector<BlockPair>                 *pairs)
     {
-      const Neighbours before = take_neighbours(blocks);
+      take_neighbours(blocks);
       if (block_of.empty())
         return;
       if (pairs == nullptr)
@@ -282,7 +282,7 @@ namespace NMM
           if (blocks.empty() || blocks[b])
             add_neighbour(b, a);
         }
-      unite_neighbours(blocks, before);
+      unite_neighbours(blocks);
     }
 
 
@@ -290,7 +290,7 @@ namespace NMM
     NewtonGroups::unite(const std::vector<bool> &blocks,
                         const BlockMatrix       &matrix)
     {
-      const Neighbours before = take_neighbours(blocks);
+      take_neighbours(blocks);
       for (unsigned int b = 0; b < all_blocks.size(); ++b)
         if (blocks.empty() || blocks[b])
           matrix.for_each_in_row(b,
@@ -298,27 +298,31 @@ namespace NMM
                                    if (other != b)
                                      neighbours[b].push_back(other);
                                  });
-      unite_neighbours(blocks, before);
-    }
-
-
-    NewtonGroups::Neighbours
-    NewtonGroups::take_neighbours(const std::vector<bool> &blocks)
-    {
-      Neighbours before(all_blocks.size());
-      for (unsigned int b = 0; b < all_blocks.size(); ++b)
-        if (blocks.empty() || blocks[b])
-        {
-          all_blocks[b].has_tangent = true;
-          before[b].swap(neighbours[b]);
-        }
-      return before;
+      unite_neighbours(blocks);
     }
 
 
     void
-    NewtonGroups::unite_neighbours(const std::vector<bool> &blocks,
-                                   const Neighbours        &before)
+    NewtonGroups::take_neighbours(const std::vector<bool> &blocks)
+    {
+      neighbours_before.clear();
+      before_of_block.resize(all_blocks.size());
+      for (unsigned int b = 0; b < all_blocks.size(); ++b)
+        if (blocks.empty() || blocks[b])
+        {
+          all_blocks[b].has_tangent = true;
+          before_of_block[b].first  = neighbours_before.size();
+          neighbours_before.insert(neighbours_before.end(),
+                                   neighbours[b].begin(),
+                                   neighbours[b].end());
+          before_of_block[b].second = neighbours_before.size();
+          neighbours[b].clear();
+        }
+    }
+
+
+    void
+    NewtonGroups::unite_neighbours(const std::vector<bool> &blocks)
     {
       bool has_joined = false, is_any_new = false;
       for (const unsigned int b : active_blocks)
@@ -333,9 +337,12 @@ namespace NMM
               join(b, other);
               has_joined = true;
             }
+            const auto before =
+                         neighbours_before.begin() + before_of_block[b].first,
+                       end =
+                         neighbours_before.begin() + before_of_block[b].second;
             if (!all_blocks[other].is_corrected &&
-                std::find(before[b].begin(), before[b].end(), other) ==
-                  before[b].end())
+                std::find(before, end, other) == end)
               all_blocks[other].is_loud = is_any_new = true;
           }
       if (has_joined)

@@ -229,15 +229,14 @@ namespace NMM
         unsigned int n_unknowns = 0;
       };
 
-      /// What was coupled with @p blocks before their rows were new; nothing is, then.
-      using Neighbours = std::vector<std::vector<unsigned int>>;
-      Neighbours
+      /// To neighbours_before what was coupled with @p blocks before their rows were new;
+      /// nothing is, then.
+      void
       take_neighbours(const std::vector<bool> &blocks);
 
       /// Blocks that are coupled now are one group.
       void
-      unite_neighbours(const std::vector<bool> &blocks,
-                       const Neighbours        &before);
+      unite_neighbours(const std::vector<bool> &blocks);
 
       /// Neighbours of @p blocks by values.
       void
@@ -283,8 +282,12 @@ namespace NMM
       std::vector<Block> all_blocks;
       /// See couplings().
       std::vector<std::vector<unsigned int>> neighbours;
-      ActiveItems  active_unknowns, corrected_unknowns;
-      unsigned int n_all = 0;
+      /// See take_neighbours(): of one block after the other, and where those of each
+      /// begin and end; kept, since it is asked for in each iteration.
+      std::vector<unsigned int> neighbours_before;
+      std::vector<BlockPair>    before_of_block;
+      ActiveItems               active_unknowns, corrected_unknowns;
+      unsigned int              n_all = 0;
     };
   } // namespace internal
 } // namespace NMM

@@ -14,7 +14,6 @@ namespace NMM
 {
   using internal::NewtonGroups;
   using internal::ShareSearch;
-  using Group = NewtonGroups::Group;
 
 
   const std::vector<unsigned int> &
@@ -35,6 +34,8 @@ namespace NMM
 
   struct NewtonSolver::Data
   {
+    using Group = NewtonGroups::Group;
+
     NewtonParameters parameters;
 
     /// Made for the first system and kept, with its analysis, for all of the same
@@ -79,8 +80,11 @@ namespace NMM
     void
     factorize();
 
+    /// @p blocks: of whole groups; empty: all.
     void
-    solve(const Vector &rhs, Vector &solution);
+    solve(const Vector            &rhs,
+          Vector                  &solution,
+          const std::vector<bool> &blocks = {});
 
     /// u becomes what owned unknowns of active groups say.
     void
@@ -272,12 +276,14 @@ namespace NMM
 
 
   void
-  NewtonSolver::Data::solve(const Vector &rhs, Vector &solution)
+  NewtonSolver::Data::solve(const Vector            &rhs,
+                            Vector                  &solution,
+                            const std::vector<bool> &blocks)
   {
     dealii::Timer timer;
     if (solution.size() != rhs.size())
       solution.reinit(rhs);
-    direct_solver->solve(rhs, solution);
+    direct_solver->solve(rhs, solution, blocks);
     report->substitution_time += timer.wall_time();
   }
 
@@ -306,20 +312,20 @@ namespace NMM
     /// turns make Newton's method go round three states and more, between which
     /// r . du goes up and down as it should.
     bool
-    is_going_round(const Group &group)
+    is_going_round(const std::vector<double> &squares)
     {
       constexpr unsigned int n_last = 3;
       constexpr double       enough = 0.7, same = 0.01;
-      const auto            &all = group.squares;
       for (const unsigned int n : {2U, 3U})
-        if (all.size() > n + 1 &&
-            std::abs(all.back() - all[all.size() - 1 - n]) < same * all.back())
+        if (squares.size() > n + 1 &&
+            std::abs(squares.back() - squares[squares.size() - 1 - n]) <
+              same * squares.back())
           return true;
-      if (all.size() < 2 * n_last)
+      if (squares.size() < 2 * n_last)
         return false;
-      const auto last = all.end() - n_last;
-      return *std::min_element(last, all.end()) >
-             enough * enough * *std::min_element(all.begin(), last);
+      const auto last = squares.end() - n_last;
+      return *std::min_element(last, squares.end()) >
+             enough * enough * *std::min_element(squares.begin(), last);
     }
   } // namespace
 
@@ -339,7 +345,7 @@ namespace NMM
       const bool is_late =
         k > n_young && group.energies[k - 1] > group.energies[k - 2];
       use_increment    = use_increment && !is_late;
-      group.goes_round = group.goes_round || is_going_round(group);
+      group.goes_round = group.goes_round || is_going_round(group.squares);
       group.search.begin(group.goes_round        ? ShareSearch::Mode::descend
                          : is_late || use_slopes ? ShareSearch::Mode::slope
                                                  : ShareSearch::Mode::none,
@@ -460,9 +466,11 @@ namespace NMM
   NewtonSolver::Data::refine(Vector &u)
   {
     const auto is_new = [](const Group &group) { return group.has_converged; };
+    const std::vector<bool> blocks =
+      groups.are_there_several() ? groups.watched(is_new) : std::vector<bool>();
     for (unsigned int i = 0; i < parameters.n_refinements; ++i)
     {
-      solve(residual, correction);
+      solve(residual, correction, blocks);
       const auto x = owned.begin();
       const auto c = std::as_const(correction).begin();
       groups.corrected().for_each(owned.locally_owned_size(),

@@ -10,8 +10,6 @@ namespace
   using Type = BoundaryCondition::Type;
 
   constexpr double friction = 0.6, dilation = 0.2, eps_n = 1e5, eps_t = 5e4;
-  /// So much stiffer than the springs that the block is rigid to 1e-5.
-  constexpr double young = 1e9;
 
 
   ContactParameters
@@ -43,7 +41,8 @@ namespace
                {{2., 0.}, {1.05, 0.}, {0.93, 0.}, {0.13, 0.}, {-1., 0.}})};
     options.obstacles[0].displacement = motion;
     auto bodies = std::make_unique<Bodies>(std::move(geometry), options);
-    bodies->problem.materials[0].youngs_modulus = young;
+    // so much stiffer than the springs that the block is rigid to 1e-5
+    bodies->problem.materials[0].youngs_modulus = 1e9;
     return bodies;
   }
 

@@ -11,8 +11,7 @@ namespace
 {
   using Type = BoundaryCondition::Type;
 
-  constexpr double pi     = dealii::numbers::PI;
-  constexpr double radius = 1., young = 1e6, poisson = 0.25;
+  constexpr double radius = 1., rubber_modulus = 1e6, poisson = 0.25;
 
 
   /// A line contact of the half-width b, see K. L. Johnson, Contact Mechanics,
@@ -30,13 +29,13 @@ namespace
     double
     force() const
     {
-      return 0.5 * pi * half_width * peak();
+      return 0.5 * dealii::numbers::PI * half_width * peak();
     }
 
     double
     approach() const
     {
-      return 2. * force() / (pi * modulus()) *
+      return 2. * force() / (dealii::numbers::PI * modulus()) *
              (2. * std::log(4. * radius / half_width) - 1.);
     }
 
@@ -50,7 +49,7 @@ namespace
     static double
     modulus()
     {
-      return young / (1. - poisson * poisson);
+      return rubber_modulus / (1. - poisson * poisson);
     }
   };
 
@@ -136,14 +135,14 @@ namespace
     options.graded_mesh = mesh;
     options.obstacles   = {obstacle("plate", {{2., -radius}, {-2., -radius}})};
     Bodies bodies(std::move(geometry), options);
-    bodies.problem.materials           = {material("rubber", young, poisson)};
+    bodies.problem.materials = {material("rubber", rubber_modulus, poisson)};
     bodies.problem.boundary_conditions = {
       condition(Type::normal_displacement, "axis"),
       condition(Type::normal_displacement,
                 "middle",
                 constant(-0.5 * hertz.approach()))};
     ContactParameters parameters =
-      contact_parameters((is_augmented ? 10. : 30.) * young / size);
+      contact_parameters((is_augmented ? 10. : 30.) * rubber_modulus / size);
     if (is_augmented)
       parameters.penetration_tolerance = 1e-4 * hertz.approach();
     bodies.start(parameters);

@@ -13,8 +13,6 @@ namespace
   using internal::ContactSearch;
   using Place = ContactSurface::Place;
 
-  constexpr double pi = dealii::numbers::PI;
-
 
   /// Corners of a straight-sided block in its current position, in order.
   std::vector<Point<2>>
@@ -483,7 +481,7 @@ namespace
   TEST(ContactDetection, CornersThatPassEachOtherOnAFace)
   {
     constexpr double stiffness = 1e8, reach = 0.05, side = 1.2;
-    const double     angle = 7. * pi / 180.;
+    const double     angle = 7. * dealii::numbers::PI / 180.;
     const double     x = side * std::cos(angle), y = side * std::sin(angle);
     const Point<2>   corner(1.5, 1.1), other(1.3, 1.1);
     Geometry         geometry;

@@ -45,20 +45,19 @@ namespace
   }
 
 
-  struct Case
-  {
-    unsigned int degree;
-    double       friction;
-    bool         is_augmented;
-    /// Tangential motion [m]: little sticks, much slips.
-    double slide;
-    /// Tangent of the dilation angle, and slip after which it ends [m].
-    double dilation = 0., dilation_limit = 0.;
-  };
-
-
   TEST(ContactTangent, AgainstDifferences)
   {
+    struct Case
+    {
+      unsigned int degree;
+      double       friction;
+      bool         is_augmented;
+      /// Tangential motion [m]: little sticks, much slips.
+      double slide;
+      /// Tangent of the dilation angle, and slip after which it ends [m].
+      double dilation = 0., dilation_limit = 0.;
+    };
+
     const unsigned int seed = 20261121;
     std::mt19937       generator(seed);
     unsigned int       n_samples = 0, n_stick = 0, n_slip = 0, n_open = 0;

@@ -9,7 +9,7 @@ namespace
 {
   using Type = BoundaryCondition::Type;
 
-  constexpr double young = 1e9, stiffness = 1e5;
+  constexpr double rock_modulus = 1e9, stiffness = 1e5;
 
 
   ContactParameters
@@ -69,8 +69,8 @@ namespace
           options.rotation  = rotation;
           options.obstacles = {level_floor()};
           Bodies bodies(std::move(geometry), options);
-          bodies.problem.materials    = {material("rock", young, 0.2, 10.)};
-          bodies.problem.gravity      = Point<2>(0., -10.);
+          bodies.problem.materials = {material("rock", rock_modulus, 0.2, 10.)};
+          bodies.problem.gravity   = Point<2>(0., -10.);
           bodies.problem.fixed_points = {guide({0.5, 0.5}, true)};
           bodies.start(springs());
           const auto   steps = bodies.statics->run(LoadSteps::equal(1));
@@ -114,7 +114,7 @@ namespace
           return Point<2>(0., down * t);
         };
         Bodies bodies(std::move(geometry), options);
-        bodies.problem.materials    = {material("rock", young, 0.2)};
+        bodies.problem.materials    = {material("rock", rock_modulus, 0.2)};
         bodies.problem.fixed_points = {guide(corners[1], true, true),
                                        guide(corners[2], true, true),
                                        guide(corners[3], true, true)};
@@ -147,7 +147,7 @@ namespace
       return Point<2>(0., 0.01 * t);
     };
     Bodies bodies(std::move(geometry), options);
-    bodies.problem.materials    = {material("rock", young, 0.2)};
+    bodies.problem.materials    = {material("rock", rock_modulus, 0.2)};
     bodies.problem.fixed_points = {guide({0., 0.5}, true, true),
                                    guide({0., 0.7}, true)};
     bodies.start(springs());

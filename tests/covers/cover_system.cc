@@ -35,17 +35,6 @@ namespace
   }
 
 
-  RegularMeshParameters
-  skew(const double cell_size)
-  {
-    RegularMeshParameters parameters;
-    parameters.cell_size = cell_size;
-    parameters.offset    = Tensor<1, 2>({0.0123, 0.0321});
-    parameters.rotation  = 13.;
-    return parameters;
-  }
-
-
   double
   quadratic(const Point<2> &x)
   {
@@ -58,7 +47,7 @@ namespace
 TEST(CoverSystem, NodalValuesOfAQuadraticReproduceIt)
 {
   const PhysicalMesh     physical(disk_with_joint());
-  const MathematicalMesh mesh = make_regular_mesh(physical, skew(0.3), 2);
+  const MathematicalMesh mesh = make_regular_mesh(physical, skew_mesh(0.3), 2);
   const ManifoldMesh     manifold(mesh, physical);
   const CoverSystem      covers(manifold, MPI_COMM_SELF);
   Random                 random(1);
@@ -83,7 +72,7 @@ TEST(CoverSystem, NodalValuesOfAQuadraticReproduceIt)
 TEST(CoverSystem, NumbersAreNearAlongTheMesh)
 {
   const PhysicalMesh     physical(make_box(4., 1.));
-  const MathematicalMesh mesh = make_regular_mesh(physical, skew(0.1), 2);
+  const MathematicalMesh mesh = make_regular_mesh(physical, skew_mesh(0.1), 2);
   const ManifoldMesh     manifold(mesh, physical);
   const CoverSystem      covers(manifold, MPI_COMM_SELF);
   unsigned int           bandwidth = 0;
@@ -103,7 +92,7 @@ TEST(CoverSystem, NumbersAreNearAlongTheMesh)
 TEST(CoverSystemMPI, RanksOwnConsecutiveCoversOfTheirElements)
 {
   const PhysicalMesh     physical(disk_with_joint());
-  const MathematicalMesh mesh = make_regular_mesh(physical, skew(0.1), 2);
+  const MathematicalMesh mesh = make_regular_mesh(physical, skew_mesh(0.1), 2);
   const ManifoldMesh     manifold(mesh, physical);
   CoverSystem            covers(manifold, MPI_COMM_WORLD);
   const auto             owned_elements = covers.locally_owned_elements();
@@ -204,7 +193,7 @@ namespace
                           CurveRole::joint);
     const PhysicalMesh     physical(std::move(geometry));
     const MathematicalMesh mesh =
-      make_regular_mesh(physical, skew(cell_size), 2);
+      make_regular_mesh(physical, skew_mesh(cell_size), 2);
     const ManifoldMesh manifold(mesh, physical);
     CoverSystem        covers(manifold, MPI_COMM_SELF);
     const auto constraints = make_constraints(covers, aggregate(covers), 1);

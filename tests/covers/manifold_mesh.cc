@@ -14,8 +14,6 @@ using namespace NMM::Testing;
 
 namespace
 {
-  constexpr double pi = numbers::PI;
-
   struct Cut
   {
     PhysicalMesh     physical;
@@ -78,16 +76,6 @@ namespace
     return parameters;
   }
 
-  RegularMeshParameters
-  skew(const double cell_size)
-  {
-    RegularMeshParameters parameters;
-    parameters.cell_size = cell_size;
-    parameters.offset    = Tensor<1, 2>({0.0123, 0.0321});
-    parameters.rotation  = 13.;
-    return parameters;
-  }
-
   Geometry
   ring()
   {
@@ -114,8 +102,9 @@ TEST(ManifoldMesh, AreaOfARingWithTrueArcs)
 {
   for (const double h : {0.9, 0.31, 0.1})
   {
-    const Cut cut(ring(), skew(h));
-    EXPECT_NEAR(cut.area(), 3. * pi, 1e-12) << "cell size " << h;
+    const Cut cut(ring(), skew_mesh(h));
+    EXPECT_NEAR(cut.area(), 3. * dealii::numbers::PI, 1e-12)
+      << "cell size " << h;
     EXPECT_EQ(cut.n_connected(), 1u);
   }
 }
@@ -124,7 +113,7 @@ TEST(ManifoldMesh, AreaOfARingWithTrueArcs)
 TEST(ManifoldMesh, BoundariesOfElementsCloseExactly)
 {
   // bit for bit: quadrature sorts corners and must see each only once
-  const Cut cut(ring(), skew(0.05));
+  const Cut cut(ring(), skew_mesh(0.05));
   for (unsigned int e = 0; e < cut.manifold.n_elements(); ++e)
   {
     const auto   edges     = cut.manifold.edges(e);
@@ -197,7 +186,7 @@ TEST(ManifoldMesh, BlocksTouchingInAPointStayApart)
                        "lower");
   geometry.add_polygon({Point<2>(0.5, 0.5), Point<2>(1., 1.), Point<2>(0., 1.)},
                        "upper");
-  const Cut cut(std::move(geometry), skew(0.2));
+  const Cut cut(std::move(geometry), skew_mesh(0.2));
   EXPECT_EQ(cut.physical.n_blocks(), 2u);
   EXPECT_EQ(cut.n_connected(), 2u);
   EXPECT_NEAR(cut.area(), 0.5, 1e-14);
@@ -227,8 +216,8 @@ TEST(ManifoldMesh, TangentCirclesAndHoles)
   Geometry geometry = make_box(2., 2.);
   geometry.add_circle(Point<2>(0.5, 1.), 0.5, "left", CurveRole::hole);
   geometry.add_circle(Point<2>(1.5, 1.), 0.5, "right", CurveRole::hole);
-  const Cut cut(std::move(geometry), skew(0.23));
-  EXPECT_NEAR(cut.area(), 4. - 2. * pi * 0.25, 1e-13);
+  const Cut cut(std::move(geometry), skew_mesh(0.23));
+  EXPECT_NEAR(cut.area(), 4. - 2. * dealii::numbers::PI * 0.25, 1e-13);
   // the holes touch the sides and each other: an upper and a lower part remain
   EXPECT_EQ(cut.n_connected(), 2u);
 }
@@ -256,7 +245,7 @@ TEST(ManifoldMesh, ElementsOfABlockAddUpToIt)
 
 TEST(ManifoldMesh, WholeBoxGivesTheSameElements)
 {
-  RegularMeshParameters parameters = skew(0.17);
+  RegularMeshParameters parameters = skew_mesh(0.17);
   const Cut             sparse(ring(), parameters);
   parameters.whole_box = true;
   const Cut full(ring(), parameters);
@@ -279,7 +268,7 @@ TEST(ManifoldMesh, UsersTriangulationMustCoverTheSolid)
   double                 area = 0.;
   for (unsigned int e = 0; e < manifold.n_elements(); ++e)
     area += manifold.area(e);
-  EXPECT_NEAR(area, 3. * pi, 1e-12);
+  EXPECT_NEAR(area, 3. * dealii::numbers::PI, 1e-12);
 
   for (const double size : {1.9, 0.1})
   {
@@ -307,7 +296,7 @@ TEST(ManifoldMesh, RefinedTriangulationOfTheUser)
   double                 area = 0.;
   for (unsigned int e = 0; e < manifold.n_elements(); ++e)
     area += manifold.area(e);
-  EXPECT_NEAR(area, 3. * pi, 1e-12);
+  EXPECT_NEAR(area, 3. * dealii::numbers::PI, 1e-12);
   for (unsigned int c = 0; c < mesh.n_cells(); ++c)
     EXPECT_EQ(mesh.cell_iterator(c)->active_cell_index(), c);
 }
@@ -315,7 +304,7 @@ TEST(ManifoldMesh, RefinedTriangulationOfTheUser)
 
 TEST(ManifoldMesh, FindElement)
 {
-  const Cut cut(ring(), skew(0.2));
+  const Cut cut(ring(), skew_mesh(0.2));
   EXPECT_EQ(cut.manifold.find_element(Point<2>(0.2, 0.3)), invalid_index);
   EXPECT_EQ(cut.manifold.find_element(Point<2>(2.1, 0.3)), invalid_index);
   for (unsigned int k = 0; k < 50; ++k)
@@ -341,7 +330,7 @@ TEST(ManifoldMesh, FindElementOnTheChordsOfArcs)
   // the chord of both
   Geometry geometry = make_box(1., 1.);
   geometry.add_circle(Point<2>(0.4, 0.6), 0.01, "disk", CurveRole::joint);
-  const Cut  cut(std::move(geometry), skew(0.2));
+  const Cut  cut(std::move(geometry), skew_mesh(0.2));
   const auto region = [&](const double x) {
     return cut.manifold.region(cut.manifold.find_element(Point<2>(x, 0.6)));
   };
@@ -354,7 +343,7 @@ TEST(ManifoldMesh, FindElementOnTheChordsOfArcs)
 
 TEST(Triangulate, CoversTheElementWithCurvedTriangles)
 {
-  const Cut cut(ring(), skew(0.4));
+  const Cut cut(ring(), skew_mesh(0.4));
   double    area = 0.;
   for (unsigned int e = 0; e < cut.manifold.n_elements(); ++e)
     for (const QuadraticTriangle &t : triangulate(cut.manifold, e))
@@ -371,5 +360,5 @@ TEST(Triangulate, CoversTheElementWithCurvedTriangles)
       area += here;
     }
   // parabolas instead of arcs of at most pi/8: relative area error below 1e-4
-  EXPECT_NEAR(area, 3. * pi, 3e-4);
+  EXPECT_NEAR(area, 3. * dealii::numbers::PI, 3e-4);
 }

@@ -14,8 +14,6 @@ using namespace NMM::Testing;
 
 namespace
 {
-  constexpr double pi = numbers::PI;
-
   RegularMeshParameters
   mesh(const double      cell_size,
        const double      rotation = 0.,
@@ -219,11 +217,15 @@ TEST(MeshParts, ArcsHaveTheSameEdgesOnBothSides)
          {std::vector<unsigned int>{0, 1}, std::vector<unsigned int>{1, 0}})
     {
       const ManifoldMesh manifold(cells, physical, region_to_part);
-      EXPECT_NEAR(expect_matching_edges(manifold), 4. * pi * radius, 1e-13);
+      EXPECT_NEAR(expect_matching_edges(manifold),
+                  4. * dealii::numbers::PI * radius,
+                  1e-13);
       const std::vector<double> area = region_areas(manifold);
       for (unsigned int r = 0; r < 2; ++r)
         EXPECT_NEAR(area[r], physical.regions()[r].area, 1e-13);
-      EXPECT_NEAR(std::min(area[0], area[1]), pi * radius * radius, 1e-13);
+      EXPECT_NEAR(std::min(area[0], area[1]),
+                  dealii::numbers::PI * radius * radius,
+                  1e-13);
     }
   }
 }

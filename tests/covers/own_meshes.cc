@@ -17,8 +17,6 @@ using namespace NMM::Testing;
 
 namespace
 {
-  constexpr double pi = numbers::PI;
-
   struct Model
   {
     PhysicalMesh physical;
@@ -83,16 +81,6 @@ namespace
     }
   };
 
-  RegularMeshParameters
-  skew(const double cell_size)
-  {
-    RegularMeshParameters parameters;
-    parameters.cell_size = cell_size;
-    parameters.offset    = Tensor<1, 2>({0.0123, 0.0321});
-    parameters.rotation  = 13.;
-    return parameters;
-  }
-
   void
   add_square(Geometry          &geometry,
              const Point<2>    &center,
@@ -104,7 +92,7 @@ namespace
     std::vector<Point<2>> corners;
     for (unsigned int i = 0; i < 4; ++i)
     {
-      const double a = angle + (0.25 + 0.5 * i) * pi;
+      const double a = angle + (0.25 + 0.5 * i) * dealii::numbers::PI;
       corners.push_back(center + std::sqrt(0.5) * size *
                                    Tensor<1, 2>({std::cos(a), std::sin(a)}));
     }
@@ -121,7 +109,7 @@ TEST(OwnMeshes, NothingHappensWhereNothingIsNeeded)
                         CurveRole::joint);
   const PhysicalMesh physical(std::move(geometry));
   auto               main_mesh = std::make_unique<MathematicalMesh>(
-    make_regular_mesh(physical, skew(0.1), 2));
+    make_regular_mesh(physical, skew_mesh(0.1), 2));
   const MathematicalMesh *address = main_mesh.get();
   const OwnMeshes         own = make_own_meshes(std::move(main_mesh), physical);
   EXPECT_EQ(own.mathematical_mesh.get(), address);
@@ -149,7 +137,7 @@ TEST(OwnMeshes, ThinLayerBetweenTwoJoints)
                              Point<2>(1., y + up + slope)},
                             "upper",
                             CurveRole::joint);
-      const Model model(std::move(geometry), skew(h));
+      const Model model(std::move(geometry), skew_mesh(h));
       ASSERT_EQ(model.own.region_to_part.size(), 3u);
       unsigned int layer = invalid_index;
       for (unsigned int r = 0; r < 3; ++r)
@@ -205,7 +193,7 @@ TEST(OwnMeshes, TinyBlockOfItsOwnOrCutByJoints)
         add_square(
           geometry, center, 1.5 * size * h, 0.3, "hole", CurveRole::hole);
       add_square(geometry, center, size * h, 0.3, "block", role);
-      const Model        model(std::move(geometry), skew(h));
+      const Model        model(std::move(geometry), skew_mesh(h));
       const unsigned int block = model.region_at(center);
       ASSERT_NE(block, invalid_index);
       ASSERT_EQ(model.own.region_to_part.size(), 2u);
@@ -242,18 +230,20 @@ TEST(OwnMeshes, DiskShapedTinyInclusion)
   const double radius   = 0.003;
   Geometry     geometry = make_box(1., 1.);
   geometry.add_circle(Point<2>(0.4, 0.6), radius, "disk", CurveRole::interface);
-  const Model        model(std::move(geometry), skew(0.2));
+  const Model        model(std::move(geometry), skew_mesh(0.2));
   const unsigned int disk = model.region_at(Point<2>(0.4, 0.6));
   EXPECT_EQ(model.n_cells(disk), 1u);
   // an equilateral triangle around a circle is filled to 0.6046, made larger
   // by a factor 1.08 to 0.5184
-  EXPECT_NEAR(model.best_filling(disk), pi / std::sqrt(27.) / 1.1664, 0.005);
+  EXPECT_NEAR(model.best_filling(disk),
+              dealii::numbers::PI / std::sqrt(27.) / 1.1664,
+              0.005);
   EXPECT_NEAR(region_areas(*model.own.manifold_mesh)[disk] /
-                (pi * radius * radius),
+                (dealii::numbers::PI * radius * radius),
               1.,
               1e-12);
   EXPECT_NEAR(expect_matching_edges(*model.own.manifold_mesh),
-              4. * pi * radius,
+              4. * dealii::numbers::PI * radius,
               1e-14);
 }
 
@@ -264,13 +254,13 @@ TEST(OwnMeshes, BentLayerIsHalvedUntilItIsFilled)
   Geometry geometry = make_box(1., 1.);
   geometry.add_circle(Point<2>(0.5, 0.5), 0.3, "inner", CurveRole::interface);
   geometry.add_circle(Point<2>(0.5, 0.5), 0.31, "outer", CurveRole::interface);
-  const Model        model(std::move(geometry), skew(0.1));
+  const Model        model(std::move(geometry), skew_mesh(0.1));
   const unsigned int shell = model.region_at(Point<2>(0.805, 0.5));
   ASSERT_EQ(model.own.region_to_part.size(), 3u);
   EXPECT_NE(model.own.region_to_part[shell], 0u);
   EXPECT_GE(model.best_filling(shell), 0.25);
   EXPECT_NEAR(region_areas(*model.own.manifold_mesh)[shell],
-              pi * (0.31 * 0.31 - 0.09),
+              dealii::numbers::PI * (0.31 * 0.31 - 0.09),
               1e-13);
   // cells inside and outside of the shell are left out
   const auto [first, end] = model.own.mathematical_mesh->part_cells(1);
@@ -318,7 +308,7 @@ TEST(OwnMeshes, ChosenRegionByRegion)
     parameters.regions.resize(4);
     for (unsigned int i = 0; i < 4; ++i)
       parameters.regions[regions[i]] = choices[i];
-    const Model model(geometry, skew(0.5), parameters);
+    const Model model(geometry, skew_mesh(0.5), parameters);
     for (unsigned int i = 0; i < 4; ++i)
     {
       const auto &map = model.own.region_to_part;
@@ -348,9 +338,9 @@ TEST(OwnMeshes, ChosenRegionByRegion)
 
   OwnMeshParameters wrong;
   wrong.regions = {one, one};
-  EXPECT_THROW(Model(geometry, skew(0.5), wrong), InputError);
+  EXPECT_THROW(Model(geometry, skew_mesh(0.5), wrong), InputError);
   wrong.regions = {one, one, {Kind::automatic, 0}, one};
-  EXPECT_THROW(Model(geometry, skew(0.5), wrong), InputError);
+  EXPECT_THROW(Model(geometry, skew_mesh(0.5), wrong), InputError);
 }
 
 
@@ -369,7 +359,9 @@ TEST(OwnMeshes, RegionsAreFound)
   const PhysicalMesh physical(std::move(geometry));
   const unsigned int outside = find_region(physical, {0.1, 0.1});
   const unsigned int inside  = find_region(physical, {0.75, 0.86});
-  EXPECT_NEAR(physical.regions()[inside].area, pi / 64., 1e-12);
+  EXPECT_NEAR(physical.regions()[inside].area,
+              dealii::numbers::PI / 64.,
+              1e-12);
   EXPECT_NE(inside, outside);
   for (const Point<2> &x :
        {Point<2>(0.1, 0.9), Point<2>(0.65, 0.66), Point<2>(0.85, 0.45)})
@@ -385,14 +377,14 @@ TEST(OwnMeshes, SayWhatCannotBeFilled)
                       0.30001,
                       "outer",
                       CurveRole::interface);
-  const Model model(std::move(geometry), skew(0.1));
+  const Model model(std::move(geometry), skew_mesh(0.1));
   ASSERT_EQ(model.own.notices.size(), 1u);
   EXPECT_NE(model.own.notices[0].find("threshold"), std::string::npos)
     << model.own.notices[0];
   EXPECT_NEAR(
     region_areas(
       *model.own.manifold_mesh)[model.region_at(Point<2>(0.800005, 0.5))],
-    pi * (0.30001 * 0.30001 - 0.09),
+    dealii::numbers::PI * (0.30001 * 0.30001 - 0.09),
     1e-13);
 }
 
@@ -437,7 +429,7 @@ TEST(OwnMeshes, AreTheSameOnAllRanksMPI)
   Random   random(7);
   Geometry geometry = make_box(1., 1.);
   add_random_joints(geometry, random, 20, false);
-  const Model model(std::move(geometry), skew(0.3));
+  const Model model(std::move(geometry), skew_mesh(0.3));
   EXPECT_GT(model.own.mathematical_mesh->n_parts(), 5u);
   const CoverSystem covers(*model.own.manifold_mesh, MPI_COMM_WORLD);
   // numbers that change with any coordinate, element or cover
@@ -445,10 +437,11 @@ TEST(OwnMeshes, AreTheSameOnAllRanksMPI)
                                    model.own.manifold_mesh->n_elements()),
                                  static_cast<double>(covers.n_covers())};
   for (const Point<2> &x : model.own.mathematical_mesh->vertices())
-    numbers.push_back(x[0] + pi * x[1]);
+    numbers.push_back(x[0] + dealii::numbers::PI * x[1]);
   for (unsigned int e = 0; e < model.own.manifold_mesh->n_elements(); ++e)
     for (const ElementEdge &edge : model.own.manifold_mesh->edges(e))
-      numbers.push_back(edge.start[0] + pi * edge.start[1] + edge.neighbor);
+      numbers.push_back(edge.start[0] + dealii::numbers::PI * edge.start[1] +
+                        edge.neighbor);
   const auto all = Utilities::MPI::all_gather(MPI_COMM_WORLD, numbers);
   for (const std::vector<double> &others : all)
     EXPECT_EQ(others, numbers);

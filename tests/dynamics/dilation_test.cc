@@ -9,9 +9,6 @@ namespace NMM
   {
     namespace
     {
-      constexpr double density = 2500., youngs_modulus = 1e9;
-
-
       /// A block of 3 x 1 on a floor that gravity is turned for.
       struct Slide
       {
@@ -27,7 +24,7 @@ namespace NMM
       start(MovingBodies &block, const Slide &slide, const bool is_held)
       {
         ContactParameters parameters =
-          contact_parameters(10. * youngs_modulus, 0.02);
+          contact_parameters(10. * rock_modulus, 0.02);
         parameters.friction =
           std::tan(degrees(is_held ? 80. : slide.friction_angle));
         if (!is_held)
@@ -36,7 +33,8 @@ namespace NMM
           parameters.dilation_limit = slide.limit;
         }
         parameters.normal_damping =
-          2. * slide.dashpot * std::sqrt(parameters.normal_stiffness * density);
+          2. * slide.dashpot *
+          std::sqrt(parameters.normal_stiffness * rock_density);
         parameters.shear_damping = parameters.normal_damping;
         block.start(parameters, slide.kinematics);
       }
@@ -57,7 +55,7 @@ namespace NMM
         auto block =
           std::make_unique<MovingBodies>(std::move(geometry), options);
         block->problem.materials = {
-          material("rock", youngs_modulus, 0.2, density)};
+          material("rock", rock_modulus, 0.2, rock_density)};
         const double angle = degrees(slide.angle);
         block->problem.gravity =
           standard_gravity * Tensor<1, 2>({std::sin(angle), -std::cos(angle)});
@@ -96,7 +94,8 @@ namespace NMM
         EXPECT_NEAR(moved[0], way, 1e-5 * way);
         EXPECT_NEAR(moved[1], psi * way, 1e-4 * psi * way);
         const double normal_force =
-          3. * density * (standard_gravity * std::cos(a) + psi * acceleration);
+          3. * rock_density *
+          (standard_gravity * std::cos(a) + psi * acceleration);
         const double heat    = (mu - psi) * normal_force * way;
         const auto  &account = block->integrator->account();
         EXPECT_NEAR(account.dissipated, heat, 1e-3 * heat);

@@ -12,9 +12,6 @@ namespace NMM
       using namespace ContactBars;
       using Vector = MechanicalModel::Vector;
 
-      constexpr double density = 2500., youngs_modulus = 1e9;
-
-
       /// Two quadrilaterals at a distance, and another one below that lies on the floor.
       std::unique_ptr<MovingBodies>
       three_blocks(const double friction_angle)
@@ -30,10 +27,10 @@ namespace NMM
         auto bodies =
           std::make_unique<MovingBodies>(std::move(geometry), options);
         bodies->problem.materials = {
-          material("rock", youngs_modulus, 0.2, density)};
+          material("rock", rock_modulus, 0.2, rock_density)};
         bodies->problem.gravity = Tensor<1, 2>({0., -standard_gravity});
         ContactParameters parameters =
-          contact_parameters(10. * youngs_modulus, 0.05);
+          contact_parameters(10. * rock_modulus, 0.05);
         parameters.friction = std::tan(degrees(friction_angle));
         bodies->start(parameters, ContactBars::Kinematics::finite);
         bodies->integrate(TimeScheme::energy_momentum(), RayleighDamping());
@@ -64,7 +61,9 @@ namespace NMM
           center += c / 6. * (a + Tensor<1, 2>(b));
         }
         center /= area;
-        EXPECT_NEAR(inertia.mass(2), density * area, 1e-9 * density * area);
+        EXPECT_NEAR(inertia.mass(2),
+                    rock_density * area,
+                    1e-9 * rock_density * area);
 
         Vector     u(model.locally_owned(), model.communicator());
         Vector     v(u), p(u), moved(u), expected(u);

@@ -13,7 +13,7 @@ namespace NMM
     {
       using namespace ContactBars;
 
-      constexpr double density = 2500., youngs_modulus = 1e9, h = 0.005;
+      constexpr double h = 0.005;
 
 
       /// Three squares of 1 m: two that lie on each other on the floor, and one that
@@ -37,13 +37,13 @@ namespace NMM
         auto bodies =
           std::make_unique<MovingBodies>(std::move(geometry), options);
         bodies->problem.materials = {
-          material("rock", youngs_modulus, 0.2, density)};
+          material("rock", rock_modulus, 0.2, rock_density)};
         bodies->problem.gravity = Tensor<1, 2>({0., -standard_gravity});
         ContactParameters parameters =
-          contact_parameters(10. * youngs_modulus, 0.05);
+          contact_parameters(10. * rock_modulus, 0.05);
         parameters.friction       = std::tan(degrees(30.));
         parameters.normal_damping = parameters.shear_damping =
-          0.2 * std::sqrt(parameters.normal_stiffness * density * 0.5);
+          0.2 * std::sqrt(parameters.normal_stiffness * rock_density * 0.5);
         bodies->start(parameters, ContactBars::Kinematics::finite);
         // rock that rings for ever would not sleep
         RayleighDamping damping;
@@ -111,7 +111,7 @@ namespace NMM
         // an account of all that was released, m g 0.5 m, with what sleep took
         const Account &account = sleepy->integrator->account();
         EXPECT_EQ(account.kinetic, 0.);
-        EXPECT_NEAR(account.balance / (density * standard_gravity * 0.5),
+        EXPECT_NEAR(account.balance / (rock_density * standard_gravity * 0.5),
                     0.,
                     1e-6);
       }

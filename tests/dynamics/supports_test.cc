@@ -43,7 +43,7 @@ namespace
   }
 
 
-  struct Drift
+  struct DriftAndEnergies
   {
     double energy = 0., angular_momentum = 0., linear_momentum = 0.;
     /// Largest energies of the material and of conditions seen.
@@ -52,12 +52,12 @@ namespace
   };
 
 
-  Drift
+  DriftAndEnergies
   run(TimeIntegrator &integrator, const double h, const unsigned int n)
   {
-    const Account start  = integrator.account();
-    const double  energy = start.kinetic + start.strain + start.conditions;
-    Drift         drift;
+    const Account    start  = integrator.account();
+    const double     energy = start.kinetic + start.strain + start.conditions;
+    DriftAndEnergies drift;
     for (unsigned int i = 0; i < n; ++i)
     {
       const StepReport report = integrator.try_step(h);
@@ -81,7 +81,7 @@ namespace
 
 
   void
-  print(const std::string &name, const Drift &drift)
+  print(const std::string &name, const DriftAndEnergies &drift)
   {
     std::cout << name << ": energy " << drift.energy << ", angular momentum "
               << drift.angular_momentum << ", linear " << drift.linear_momentum
@@ -112,7 +112,7 @@ namespace
       body.make_finite();
       TimeIntegrator integrator(*body.mechanics, TimeScheme::energy_momentum());
       integrator.initialize(body.zero(), body.velocity(spin_and_stretch));
-      const Drift drift = run(integrator, 0.1, n_steps);
+      const DriftAndEnergies drift = run(integrator, 0.1, n_steps);
       print("bonded joint", drift);
       // residuals left by Newton's method, which may add up
       EXPECT_LT(drift.energy, 1e-8);
@@ -150,7 +150,7 @@ namespace
                                   v[1] = 0.6 * (x[0] + 0.5);
                                   return v;
                                 }));
-          const Drift drift = run(integrator, 0.05, 100);
+          const DriftAndEnergies drift = run(integrator, 0.05, 100);
           print(type == Type::displacement ? "clamped" : "rollers", drift);
           EXPECT_LT(drift.energy, 1e-9);
           EXPECT_GT(drift.strain, 0.3);
@@ -180,8 +180,8 @@ namespace
              (pin.point[0] * integrator.account().linear_momentum[1] -
               pin.point[1] * integrator.account().linear_momentum[0]);
     };
-    const double start = moment();
-    const Drift  drift = run(integrator, 0.1, 100);
+    const double           start = moment();
+    const DriftAndEnergies drift = run(integrator, 0.1, 100);
     print("pin", drift);
     EXPECT_LT(drift.energy, 1e-9);
     EXPECT_NEAR(moment(), start, 1e-12 * start);

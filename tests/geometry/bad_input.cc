@@ -6,9 +6,6 @@ using namespace geometry_test;
 
 namespace
 {
-  const std::string square =
-    "boundary name=square POLYGON ((0 0, 1 0, 1 1, 0 1))\n";
-
   /// What building a mesh of @p text complains about.
   void
   expect_error(const std::string &text, const std::vector<std::string> &parts)
@@ -38,7 +35,8 @@ TEST(BadInput, open_boundary)
     "boundary name=a LINESTRING (0 0, 1 0, 1 1, 0 0)\n"
     "boundary name=b LINESTRING (2 2, 3 3, 3 4)\n",
     {"'b'", "(2, 2)", "coincide"});
-  expect_error(square + "hole name=h LINESTRING (0.2 0.2, 0.3 0.3, 0.2 0.3)",
+  expect_error(unit_square +
+                 "hole name=h LINESTRING (0.2 0.2, 0.3 0.3, 0.2 0.3)",
                {"hole 'h'", "open", "(0.2, 0.2)"});
 }
 
@@ -66,29 +64,29 @@ TEST(BadInput, self_intersecting_boundary)
 
 TEST(BadInput, misplaced_domains_and_holes)
 {
-  expect_error(square + "hole name=h CIRCLE (3 0, 1)",
+  expect_error(unit_square + "hole name=h CIRCLE (3 0, 1)",
                {"'h'", "outside", "test.wkt:2", "move it"});
-  expect_error(square + "hole name=h CIRCLE (1 0.5, 0.25)",
+  expect_error(unit_square + "hole name=h CIRCLE (1 0.5, 0.25)",
                {"'h'", "outside", "(1."});
-  expect_error(square +
+  expect_error(unit_square +
                  "hole name=h CIRCLE (0.5 0.5, 0.25)\n"
                  "hole name=i CIRCLE (0.6 0.5, 0.25)",
                {"'h'", "'i'", "overlap", "merge"});
-  expect_error(square + "boundary name=b CIRCLE (0.5 0.5, 0.25)",
+  expect_error(unit_square + "boundary name=b CIRCLE (0.5 0.5, 0.25)",
                {"'square'", "'b'", "overlap", "hole or an interface"});
-  expect_error(square + square, {"overlap"});
+  expect_error(unit_square + unit_square, {"overlap"});
   expect_error("joint LINESTRING (0 0, 1 1)", {"no outer boundary", "add"});
 }
 
 
 TEST(BadInput, lines_outside)
 {
-  expect_error(square + "joint name=j LINESTRING (2 0, 3 0)",
+  expect_error(unit_square + "joint name=j LINESTRING (2 0, 3 0)",
                {"joint 'j'", "wholly outside", "(2, 0)", "test.wkt:2"});
   // touching the solid in a point only
-  expect_error(square + "joint name=j LINESTRING (1 1, 3 0)",
+  expect_error(unit_square + "joint name=j LINESTRING (1 1, 3 0)",
                {"wholly outside"});
-  expect_error(square +
+  expect_error(unit_square +
                  "hole CIRCLE (0.5 0.5, 0.4)\n"
                  "interface name=i CIRCLE (0.5 0.5, 0.1)",
                {"interface 'i'", "wholly outside"});
@@ -99,15 +97,15 @@ TEST(BadInput, degenerate_pieces)
 {
   expect_error("boundary name=b POLYGON ((0 0, 1 0, 1 0, 1 1))",
                {"'b'", "zero length", "(1, 0)", "test.wkt:1", "repeated"});
-  expect_error(square + "joint name=j CIRCULARSTRING (0 0, 0.5 0.5, 1 1)",
+  expect_error(unit_square + "joint name=j CIRCULARSTRING (0 0, 0.5 0.5, 1 1)",
                {"'j'", "straight line", "(0.5, 0.5)", "segment"});
-  expect_error(square + "joint name=j CIRCULARSTRING (0 0, 1 0, 0 0)",
+  expect_error(unit_square + "joint name=j CIRCULARSTRING (0 0, 1 0, 0 0)",
                {"'j'", "coincide", "CIRCLE"});
-  expect_error(square + "hole name=h CIRCLE (0.5 0.5, 0)",
+  expect_error(unit_square + "hole name=h CIRCLE (0.5 0.5, 0)",
                {"'h'", "radius", "0 m", "positive"});
-  expect_error(square + "hole name=h CIRCLE (0.5 0.5, 1e-17)",
+  expect_error(unit_square + "hole name=h CIRCLE (0.5 0.5, 1e-17)",
                {"'h'", "too small"});
-  expect_error(square +
+  expect_error(unit_square +
                  "joint name=j COMPOUNDCURVE ((0 0, 0.5 0.5), "
                  "(0.5 0.25, 1 1))",
                {"piece 2", "'j'", "0.25 m", "(0.5, 0.25)", "exactly"});
@@ -151,12 +149,13 @@ TEST(BadInput, from_calls)
 
 TEST(BadInput, names_and_materials)
 {
-  expect_error(square + "joint name=square LINESTRING (0 0, 1 1)",
+  expect_error(unit_square + "joint name=square LINESTRING (0 0, 1 1)",
                {"'square'", "boundary", "joint", "rename"});
-  expect_error(square + "material name=m POINT (2 2)",
+  expect_error(unit_square + "material name=m POINT (2 2)",
                {"'m'", "outside", "(2, 2)"});
-  expect_error(square + "material name=m POINT (0.5 0)", {"on a curve"});
-  expect_error(square + "interface name=i material=m LINESTRING (0 0, 1 1)",
+  expect_error(unit_square + "material name=m POINT (0.5 0)", {"on a curve"});
+  expect_error(unit_square +
+                 "interface name=i material=m LINESTRING (0 0, 1 1)",
                {"'i'", "'m'", "open", "material point"});
   expect_error(
     "boundary name=a material=m LINESTRING (0 0, 1 0, 1 1)\n"

@@ -8,9 +8,6 @@ using Kind = NMM::CleaningAction::Kind;
 
 namespace
 {
-  const std::string square =
-    "boundary name=square POLYGON ((0 0, 1 0, 1 1, 0 1))\n";
-
   struct Cleaned
   {
     NMM::Geometry                    geometry;
@@ -38,7 +35,7 @@ namespace
 TEST(Cleaning, off_for_zero_tolerance)
 {
   const std::string text =
-    square + "joint LINESTRING (0.001 0.5, 1.001 0.5, 1.002 0.5)";
+    unit_square + "joint LINESTRING (0.001 0.5, 1.001 0.5, 1.002 0.5)";
   const auto before  = NMM::parse_geometry(text, "");
   const auto cleaned = clean(text, 0.);
   EXPECT_TRUE(cleaned.actions.empty());
@@ -78,7 +75,7 @@ TEST(Cleaning, short_ends_and_overshoots_at_segments)
 {
   // A slanted target, on which no rounded point lies exactly
   const std::string text =
-    square + "joint name=target LINESTRING (0 0.1, 1 0.4)\n";
+    unit_square + "joint name=target LINESTRING (0 0.1, 1 0.4)\n";
   const auto extended =
     clean(text + "joint name=j LINESTRING (0.3 0.195, 0.3 1)", 0.01);
   ASSERT_EQ(extended.actions.size(), 1u);
@@ -122,7 +119,7 @@ TEST(Cleaning, short_ends_and_overshoots_at_arcs)
       SCOPED_TRACE(target + " " + std::to_string(start));
       const std::string joint =
         "joint name=j LINESTRING (0.6 " + std::to_string(start) + ", 0.6 1)\n";
-      const auto cleaned = clean(square + target + "\n" + joint +
+      const auto cleaned = clean(unit_square + target + "\n" + joint +
                                    "joint LINESTRING (0.5 0, 0.5 0.199)",
                                  0.05);
       ASSERT_EQ(cleaned.actions.size(), 2u);
@@ -144,14 +141,16 @@ TEST(Cleaning, arcs_end_at_curves)
 {
   // An arc whose end overshoots the lower side
   const auto trimmed =
-    clean(square + "joint name=j CIRCULARSTRING (0.2 -0.001, 0.5 0.3, 0.8 0)",
+    clean(unit_square +
+            "joint name=j CIRCULARSTRING (0.2 -0.001, 0.5 0.3, 0.8 0)",
           0.01);
   ASSERT_EQ(trimmed.actions.size(), 1u);
   EXPECT_EQ(trimmed.actions[0].kind, Kind::trimmed_overshoot);
   EXPECT_EQ(trimmed.n_blocks(), 2u);
   // and one that is short of it
   const auto extended =
-    clean(square + "joint name=j CIRCULARSTRING (0.2 0.001, 0.5 0.3, 0.8 0)",
+    clean(unit_square +
+            "joint name=j CIRCULARSTRING (0.2 0.001, 0.5 0.3, 0.8 0)",
           0.01);
   ASSERT_EQ(extended.actions.size(), 1u);
   EXPECT_EQ(extended.actions[0].kind, Kind::extended_to_curve);
@@ -163,7 +162,7 @@ TEST(Cleaning, ends_near_vertices)
 {
   // three joints that should meet in a point, one end just beside a corner
   const auto cleaned =
-    clean(square +
+    clean(unit_square +
             "joint name=a LINESTRING (0.001 0.001, 0.5 0.5)\n"
             "joint name=b LINESTRING (0.5 0.501, 1 1)\n"
             "joint name=c LINESTRING (0.501 0.5, 1 0)",
@@ -173,15 +172,15 @@ TEST(Cleaning, ends_near_vertices)
     EXPECT_EQ(action.kind, Kind::snapped_to_vertex);
   EXPECT_EQ(cleaned.n_blocks(), 3u);
   // Ends that are exact already stay, even with a vertex nearby.
-  EXPECT_TRUE(
-    clean(square + "joint LINESTRING (0.001 0, 0.5 1)", 0.01).actions.empty());
+  EXPECT_TRUE(clean(unit_square + "joint LINESTRING (0.001 0, 0.5 1)", 0.01)
+                .actions.empty());
 }
 
 
 TEST(Cleaning, short_pieces)
 {
   const auto cleaned =
-    clean(square +
+    clean(unit_square +
             "joint name=a LINESTRING (0 0.5, 0.5 0.5, 0.501 0.5, 1 0.5)\n"
             "joint name=b LINESTRING (0.2 0.2, 0.201 0.2)\n"
             "joint name=c LINESTRING (0 0.7, 0.999 0.7, 1 0.7)",

@@ -12,9 +12,6 @@ using dealii::numbers::PI;
 
 namespace
 {
-  const std::string square =
-    "boundary name=square POLYGON ((0 0, 1 0, 1 1, 0 1))\n";
-
   // Areas sum a handful of products of coordinates of size one.
   constexpr double round_off = 1e-14;
 
@@ -35,29 +32,29 @@ namespace
 TEST(PhysicalMesh, joints_crossing_overshooting_and_ending)
 {
   // a cross of two overshooting joints
-  expect_counts(mesh_of(square + "joint LINESTRING (-1 0.25, 2 0.25)\n"
-                                 "joint LINESTRING (0.5 -1, 0.5 2)"),
+  expect_counts(mesh_of(unit_square + "joint LINESTRING (-1 0.25, 2 0.25)\n"
+                                      "joint LINESTRING (0.5 -1, 0.5 2)"),
                 4,
                 4,
                 1.);
   // a T that ends exactly on another joint
-  expect_counts(mesh_of(square + "joint LINESTRING (0 0.25, 1 0.25)\n"
-                                 "joint LINESTRING (0.5 0.25, 0.5 1)"),
+  expect_counts(mesh_of(unit_square + "joint LINESTRING (0 0.25, 1 0.25)\n"
+                                      "joint LINESTRING (0.5 0.25, 0.5 1)"),
                 3,
                 3,
                 1.);
   // a crack tip does not divide
-  expect_counts(mesh_of(square + "joint LINESTRING (0 0.25, 0.9 0.25)"),
+  expect_counts(mesh_of(unit_square + "joint LINESTRING (0 0.25, 0.9 0.25)"),
                 1,
                 1,
                 1.);
   // a crack wholly inside
-  expect_counts(mesh_of(square + "joint LINESTRING (0.1 0.25, 0.9 0.25)"),
+  expect_counts(mesh_of(unit_square + "joint LINESTRING (0.1 0.25, 0.9 0.25)"),
                 1,
                 1,
                 1.);
   // a bent joint through a corner of the boundary
-  expect_counts(mesh_of(square + "joint LINESTRING (0 0, 0.25 0.5, 0 1)"),
+  expect_counts(mesh_of(unit_square + "joint LINESTRING (0 0, 0.25 0.5, 0 1)"),
                 2,
                 2,
                 1.);
@@ -66,21 +63,21 @@ TEST(PhysicalMesh, joints_crossing_overshooting_and_ending)
 
 TEST(PhysicalMesh, overlapping_joints)
 {
-  const auto twice = mesh_of(square +
+  const auto twice = mesh_of(unit_square +
                              "joint name=a LINESTRING (0 0.25, 1 0.25)\n"
                              "joint name=b LINESTRING (1 0.25, 0 0.25)");
   expect_counts(twice, 2, 2, 1.);
   ASSERT_EQ(twice.notices().size(), 1u);
   expect_parts(twice.notices()[0], {"'a'", "'b'", "coincide over 1 m"});
 
-  const auto partly = mesh_of(square +
+  const auto partly = mesh_of(unit_square +
                               "joint name=a LINESTRING (0 0.25, 0.75 0.25)\n"
                               "joint name=b LINESTRING (0.25 0.25, 1 0.25)");
   expect_counts(partly, 2, 2, 1.);
   expect_parts(partly.notices().at(0), {"coincide over 0.5 m"});
 
-  const auto itself =
-    mesh_of(square + "joint name=a LINESTRING (0 0.25, 0.75 0.25, 0.5 0.25)");
+  const auto itself = mesh_of(
+    unit_square + "joint name=a LINESTRING (0 0.25, 0.75 0.25, 0.5 0.25)");
   expect_counts(itself, 1, 1, 1.);
   expect_parts(itself.notices().at(0), {"'a'", "itself", "0.25 m"});
 
@@ -95,7 +92,7 @@ TEST(PhysicalMesh, overlapping_joints)
 
 TEST(PhysicalMesh, joint_along_boundary)
 {
-  const auto mesh = mesh_of(square +
+  const auto mesh = mesh_of(unit_square +
                             "joint name=j LINESTRING (0 0, 1 0, 1 2)\n"
                             "joint name=k LINESTRING (0 0.5, 1 0.5)");
   expect_counts(mesh, 2, 2, 1.);
@@ -135,14 +132,15 @@ TEST(PhysicalMesh, several_domains)
   const std::string second =
     "boundary name=s2 POLYGON ((1 1, 2 1, 2 2, 1 2))\n";
   // touching in one point
-  expect_counts(mesh_of(square + second), 2, 2, 2.);
+  expect_counts(mesh_of(unit_square + second), 2, 2, 2.);
   // apart
-  expect_counts(mesh_of(square + "boundary POLYGON ((3 1, 4 1, 4 2, 3 2))\n"),
+  expect_counts(mesh_of(unit_square +
+                        "boundary POLYGON ((3 1, 4 1, 4 2, 3 2))\n"),
                 2,
                 2,
                 2.);
   // sharing part of an edge: two blocks
-  expect_counts(mesh_of(square +
+  expect_counts(mesh_of(unit_square +
                         "boundary POLYGON ((1 0.5, 2 0.5, 2 2, 1 2))\n"),
                 2,
                 2,
@@ -177,15 +175,17 @@ TEST(PhysicalMesh, holes_and_islands)
                 2,
                 6. * PI);
   // a notch: the hole shares an edge with the boundary
-  expect_counts(mesh_of(square + "hole POLYGON ((0 0, 0.5 0, 0.5 0.5, 0 0.5))"),
+  expect_counts(mesh_of(unit_square +
+                        "hole POLYGON ((0 0, 0.5 0, 0.5 0.5, 0 0.5))"),
                 1,
                 1,
                 0.75);
   // holes cut the ligaments, and named open sides make a hole
-  expect_counts(mesh_of(square + "hole LINESTRING (0.25 0.25, 0.75 0.25)\n"
-                                 "hole LINESTRING (0.75 0.25, 0.75 0.75, 0.25 "
-                                 "0.75, 0.25 0.25)\n"
-                                 "joint LINESTRING (-1 0.5, 2 0.5)"),
+  expect_counts(mesh_of(unit_square +
+                        "hole LINESTRING (0.25 0.25, 0.75 0.25)\n"
+                        "hole LINESTRING (0.75 0.25, 0.75 0.75, 0.25 "
+                        "0.75, 0.25 0.25)\n"
+                        "joint LINESTRING (-1 0.5, 2 0.5)"),
                 2,
                 2,
                 0.75);
@@ -245,7 +245,7 @@ TEST(PhysicalMesh, circular_segments_to_round_off)
 TEST(PhysicalMesh, tiny_block)
 {
   // a triangle of 1e-18 m^2 in a corner, its area still to round-off
-  const auto mesh = mesh_of(square + "joint LINESTRING (1e-9 0, 0 2e-9)");
+  const auto mesh = mesh_of(unit_square + "joint LINESTRING (1e-9 0, 0 2e-9)");
   ASSERT_EQ(mesh.regions().size(), 2u);
   EXPECT_NEAR(mesh.regions()[0].area, 1e-18, 1e-32);
   EXPECT_EQ(mesh.n_blocks(), 2u);
@@ -285,14 +285,14 @@ TEST(PhysicalMesh, materials)
   EXPECT_EQ(crossing.material_names()[crossing.regions()[1].material], "b");
   EXPECT_EQ(crossing.material_names()[crossing.regions()[2].material], "b");
   // no material given
-  EXPECT_EQ(mesh_of(square).regions()[0].material, NMM::invalid_index);
+  EXPECT_EQ(mesh_of(unit_square).regions()[0].material, NMM::invalid_index);
 }
 
 
 TEST(PhysicalMesh, interface_of_several_pieces_of_one_name)
 {
   const auto mesh =
-    mesh_of(square +
+    mesh_of(unit_square +
             "interface name=i material=m LINESTRING (0.2 0.2, 0.8 "
             "0.2)\n"
             "interface name=i LINESTRING (0.2 0.2, 0.5 0.8, 0.8 0.2)\n"
@@ -311,8 +311,8 @@ TEST(PhysicalMesh, numbering_is_independent_of_the_order_of_curves)
 {
   const std::string a      = "joint name=a LINESTRING (0.1 0, 0.7 1)\n";
   const std::string b      = "joint name=b LINESTRING (0 0.3, 1 0.2)\n";
-  const auto        first  = mesh_of(square + a + b);
-  const auto        second = mesh_of(b + a + square);
+  const auto        first  = mesh_of(unit_square + a + b);
+  const auto        second = mesh_of(b + a + unit_square);
   ASSERT_EQ(first.regions().size(), 4u);
   for (unsigned int r = 0; r < 4; ++r)
   {

@@ -13,6 +13,10 @@ namespace geometry_test
 {
   using Point = dealii::Point<2>;
 
+  const std::string unit_square =
+    "boundary name=square POLYGON ((0 0, 1 0, 1 1, 0 1))\n";
+
+
   inline NMM::PhysicalMesh
   mesh_of(const std::string &text)
   {

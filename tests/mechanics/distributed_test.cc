@@ -13,8 +13,6 @@ using namespace NMM::Test;
 
 namespace
 {
-  constexpr auto normal = BoundaryCondition::Type::normal_displacement;
-
   struct Case
   {
     std::function<Geometry()>                geometry;
@@ -42,13 +40,6 @@ namespace
       communicator);
     c.set_problem(model->problem);
     return model;
-  }
-
-
-  double
-  maximum(const double value)
-  {
-    return dealii::Utilities::MPI::max(value, MPI_COMM_WORLD);
   }
 
 
@@ -106,11 +97,12 @@ namespace
           std::max(stress_difference, (s - of_part.stress(e, xi)).norm());
       }
     }
-    largest = maximum(largest);
+    largest = maximum_over_ranks(largest);
     EXPECT_GT(largest, 0.);
     // the same system in another order of unknowns
-    EXPECT_LT(maximum(difference), 1e-10 * largest);
-    EXPECT_LT(maximum(stress_difference), 1e-9 * maximum(stress));
+    EXPECT_LT(maximum_over_ranks(difference), 1e-10 * largest);
+    EXPECT_LT(maximum_over_ranks(stress_difference),
+              1e-9 * maximum_over_ranks(stress));
     EXPECT_EQ(MPI::sum(of_part.n_direct(), MPI_COMM_WORLD) > 0,
               of_whole.n_direct() > 0);
   }
@@ -125,8 +117,8 @@ namespace
     c.set_problem = [](ElasticityProblem &problem) {
       problem.materials           = {material()};
       problem.boundary_conditions = {
-        condition(normal, "bottom"),
-        condition(normal, "left"),
+        condition(normal_displacement, "bottom"),
+        condition(normal_displacement, "left"),
         condition(BoundaryCondition::Type::pressure, "inner", constant(3.))};
     };
     return c;
@@ -135,7 +127,7 @@ namespace
 
   /// Two materials, a crack, a closed joint that ties, open ones that divide, and points.
   Case
-  jointed_box()
+  jointed_case()
   {
     Case c;
     c.geometry = []() {
@@ -172,7 +164,7 @@ namespace
                   vector_function([](const Point<2> &x) {
                     return Tensor<1, 2>({0.01 * x[0], 0.002 * x[0] * x[0]});
                   })),
-        condition(normal, "left"),
+        condition(normal_displacement, "left"),
         condition(BoundaryCondition::Type::traction,
                   "right",
                   vector_function([](const Point<2> &x) {
@@ -204,13 +196,13 @@ TEST(Distributed, RingWithGhostPenaltyMPI)
 
 TEST(Distributed, JointsAndMaterialsMPI)
 {
-  expect_same(jointed_box(), 2, Stabilization::aggregation);
+  expect_same(jointed_case(), 2, Stabilization::aggregation);
 }
 
 
 TEST(Distributed, JointsAndMaterialsWithGhostPenaltyMPI)
 {
-  expect_same(jointed_box(), 2, Stabilization::ghost_penalty);
+  expect_same(jointed_case(), 2, Stabilization::ghost_penalty);
 }
 
 

@@ -2,6 +2,8 @@
 
 #include <nmm/mechanics/weight_functions.h>
 
+#include <deal.II/fe/fe_simplex_p.h>
+
 #include <gtest/gtest.h>
 #include <mechanics/model.h>
 #include <random>

@@ -12,6 +12,7 @@
 #include <nmm/mechanics/stress_recovery.h>
 
 #include <deal.II/base/function_lib.h>
+#include <deal.II/base/mpi.h>
 
 #include <cmath>
 #include <functional>
@@ -78,6 +79,10 @@ namespace NMM
       m.density        = density;
       return m;
     }
+
+
+    constexpr auto normal_displacement =
+      BoundaryCondition::Type::normal_displacement;
 
 
     inline BoundaryCondition
@@ -321,6 +326,14 @@ namespace NMM
         }
       }
       return field;
+    }
+
+
+    /// The largest of the ranks' values.
+    inline double
+    maximum_over_ranks(const double value)
+    {
+      return dealii::Utilities::MPI::max(value, MPI_COMM_WORLD);
     }
   } // namespace Test
 } // namespace NMM

@@ -11,8 +11,6 @@ using namespace NMM::Test;
 
 namespace
 {
-  constexpr auto normal = BoundaryCondition::Type::normal_displacement;
-
   /// A column between smooth walls.
   Geometry
   column(const double height)
@@ -34,7 +32,8 @@ TEST(Problems, GravityColumnMPI)
   model.problem.materials   = {material("rock", 1e9, 0.25, 2500.)};
   model.problem.gravity     = Tensor<1, 2>({0., -9.81});
   for (const char *side : {"left", "right", "bottom"})
-    model.problem.boundary_conditions.push_back(condition(normal, side));
+    model.problem.boundary_conditions.push_back(
+      condition(normal_displacement, side));
   model.solve();
 
   const double     lambda = 1e9 * 0.25 / (1.25 * 0.5), mu = 1e9 / 2.5;
@@ -68,7 +67,8 @@ TEST(Problems, ClosedJointCarriesWeight)
   model.problem.materials   = {material("rock", 1e9, 0.25, 2500.)};
   model.problem.gravity     = Tensor<1, 2>({0., -9.81});
   for (const char *side : {"left", "right", "bottom"})
-    model.problem.boundary_conditions.push_back(condition(normal, side));
+    model.problem.boundary_conditions.push_back(
+      condition(normal_displacement, side));
   model.solve();
   const double weight = 2500. * 9.81, M = 1e9 * 0.25 / (1.25 * 0.5) + 2e9 / 2.5;
   EXPECT_NEAR(model.displacement({0.4, 1.6})[1] /
@@ -97,8 +97,8 @@ TEST(Problems, InterfaceWithContrast)
       model.problem.materials           = {material("lower", 1000., 0.),
                                            material("upper", 1000. * contrast, 0.)};
       model.problem.boundary_conditions = {
-        condition(normal, "bottom"),
-        condition(normal, "left"),
+        condition(normal_displacement, "bottom"),
+        condition(normal_displacement, "left"),
         condition(BoundaryCondition::Type::traction,
                   "top",
                   vector_function([](const Point<2> &) {
@@ -144,8 +144,8 @@ TEST(Problems, TwoLayerRing)
     model.problem.materials           = {material("inner layer", 1000.),
                                          material("outer layer", 1000. * contrast)};
     model.problem.boundary_conditions = {
-      condition(normal, "bottom"),
-      condition(normal, "left"),
+      condition(normal_displacement, "bottom"),
+      condition(normal_displacement, "left"),
       condition(BoundaryCondition::Type::pressure, "inner", constant(1.))};
     model.solve();
 
@@ -254,8 +254,8 @@ TEST(Problems, InitialStressRelaxes)
   Model model(column(1.), mesh_parameters(0.3, {}, 5.), 1);
   model.problem.materials = {material("rock", 1000., 0.25)};
   model.problem.materials[0].initial_stress[0][0] = -20.;
-  model.problem.boundary_conditions = {condition(normal, "bottom"),
-                                       condition(normal, "left")};
+  model.problem.boundary_conditions = {condition(normal_displacement, "bottom"),
+                                       condition(normal_displacement, "left")};
   model.solve();
   // total stress 0: E eps_xx = 20, eps_yy = -nu eps_xx
   const Tensor<1, 2> u = model.displacement({0.9, 0.7});

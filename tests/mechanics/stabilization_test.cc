@@ -39,8 +39,8 @@ namespace
 
   /// The displacement @p u as a vector of unknowns, constraints kept.
   dealii::TrilinosWrappers::MPI::Vector
-  interpolate(const Model                                         &model,
-              const std::function<Tensor<1, 2>(const Point<2> &)> &u)
+  interpolate_unknowns(const Model &model,
+                       const std::function<Tensor<1, 2>(const Point<2> &)> &u)
   {
     dealii::TrilinosWrappers::MPI::Vector result(
       model.covers.locally_owned_dofs(2), model.covers.communicator());
@@ -82,21 +82,23 @@ TEST(Stabilization, MassOfRigidMotionsMPI)
                          model.ghost_penalty.get(),
                          mass);
     const double m = 2.5 * dealii::numbers::PI;
-    EXPECT_NEAR(quadratic_form(mass,
-                               interpolate(model,
-                                           [](const Point<2> &) {
-                                             return Tensor<1, 2>({1., 0.});
-                                           })),
-                m,
-                1e-12 * m);
+    EXPECT_NEAR(
+      quadratic_form(mass,
+                     interpolate_unknowns(model,
+                                          [](const Point<2> &) {
+                                            return Tensor<1, 2>({1., 0.});
+                                          })),
+      m,
+      1e-12 * m);
     const double inertia = 0.5 * m + m * (0.3 * 0.3 + 0.2 * 0.2);
-    EXPECT_NEAR(quadratic_form(mass,
-                               interpolate(model,
-                                           [](const Point<2> &x) {
-                                             return Tensor<1, 2>({-x[1], x[0]});
-                                           })),
-                inertia,
-                1e-12 * inertia);
+    EXPECT_NEAR(
+      quadratic_form(mass,
+                     interpolate_unknowns(model,
+                                          [](const Point<2> &x) {
+                                            return Tensor<1, 2>({-x[1], x[0]});
+                                          })),
+      inertia,
+      1e-12 * inertia);
   }
 }
 

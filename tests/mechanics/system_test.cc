@@ -8,11 +8,9 @@ using namespace NMM::Test;
 
 namespace
 {
-  constexpr auto normal = BoundaryCondition::Type::normal_displacement;
-
   /// A box with a crack, a closed joint and an interface, two materials.
   std::unique_ptr<Model>
-  jointed_box(const MPI_Comm communicator)
+  loaded_jointed_box(const MPI_Comm communicator)
   {
     Geometry geometry;
     add_box(geometry, {0., 0.}, {2., 1.});
@@ -38,7 +36,7 @@ namespace
     model->problem.gravity   = Tensor<1, 2>({0., -1.});
     model->problem.boundary_conditions = {
       condition(BoundaryCondition::Type::displacement, "bottom"),
-      condition(normal, "left"),
+      condition(normal_displacement, "left"),
       condition(BoundaryCondition::Type::traction,
                 "right",
                 vector_function([](const Point<2> &x) {
@@ -46,19 +44,12 @@ namespace
                 }))};
     return model;
   }
-
-
-  double
-  maximum(const double value)
-  {
-    return dealii::Utilities::MPI::max(value, MPI_COMM_WORLD);
-  }
 } // namespace
 
 
 TEST(System, IsSymmetric)
 {
-  const auto model = jointed_box(MPI_COMM_WORLD);
+  const auto model = loaded_jointed_box(MPI_COMM_WORLD);
   model->solve();
   const auto &matrix  = model->system->system_matrix();
   double      largest = 0., difference = 0.;
@@ -130,8 +121,8 @@ TEST(System, InhomogeneousConstraintMPI)
 
 TEST(System, RanksAgreeMPI)
 {
-  const auto parallel = jointed_box(MPI_COMM_WORLD);
-  const auto serial   = jointed_box(MPI_COMM_SELF);
+  const auto parallel = loaded_jointed_box(MPI_COMM_WORLD);
+  const auto serial   = loaded_jointed_box(MPI_COMM_SELF);
   parallel->solve();
   serial->solve();
 
@@ -182,7 +173,7 @@ TEST(System, RanksAgreeMPI)
 
 TEST(System, DirectAndIterativeAgreeMPI)
 {
-  const auto             model = jointed_box(MPI_COMM_WORLD);
+  const auto             model = loaded_jointed_box(MPI_COMM_WORLD);
   LinearSolverParameters parameters;
   parameters.type                 = LinearSolverParameters::Type::direct;
   const LinearSolverReport direct = model->solve(parameters);
@@ -207,13 +198,13 @@ TEST(System, DirectAndIterativeAgreeMPI)
     ++i;
   }
   // residual 1e-11 times the condition number that is left
-  EXPECT_LT(maximum(difference), 1e-7 * maximum(largest));
+  EXPECT_LT(maximum_over_ranks(difference), 1e-7 * maximum_over_ranks(largest));
 }
 
 
 TEST(System, IterationThatStopsEarlyIsReportedMPI)
 {
-  const auto             model = jointed_box(MPI_COMM_WORLD);
+  const auto             model = loaded_jointed_box(MPI_COMM_WORLD);
   LinearSolverParameters parameters;
   parameters.type           = LinearSolverParameters::Type::iterative;
   parameters.max_iterations = 2;
@@ -304,14 +295,17 @@ TEST(System, FloatingBlocksAreNamedMPI)
                                         JointState::closed),
                        "rotate"));
   // rollers
-  EXPECT_TRUE(contains(
-    floating_message({condition(normal, "bottom")}, {}, JointState::closed),
-    "move along x"));
-  EXPECT_TRUE(contains(floating_message({condition(normal, "left"),
-                                         condition(normal, "right")},
-                                        {},
-                                        JointState::closed),
-                       "move along y"));
+  EXPECT_TRUE(
+    contains(floating_message({condition(normal_displacement, "bottom")},
+                              {},
+                              JointState::closed),
+             "move along x"));
+  EXPECT_TRUE(
+    contains(floating_message({condition(normal_displacement, "left"),
+                               condition(normal_displacement, "right")},
+                              {},
+                              JointState::closed),
+             "move along y"));
 }
 
 
@@ -321,6 +315,6 @@ TEST(System, RollersOnACircleLeaveTheRotation)
   geometry.add_circle({0.3, 0.2}, 1., "rim", CurveRole::boundary);
   Model model(std::move(geometry), mesh_parameters(0.3), 2);
   model.problem.materials           = {material()};
-  model.problem.boundary_conditions = {condition(normal, "rim")};
+  model.problem.boundary_conditions = {condition(normal_displacement, "rim")};
   EXPECT_THROW(model.solve(), NumericalFailure);
 }

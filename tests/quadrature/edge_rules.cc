@@ -11,7 +11,7 @@ using namespace NMM::Testing;
 
 namespace
 {
-  constexpr unsigned int seed = 5;
+  constexpr unsigned int seed_of_edges = 5;
 
   /// Polygon with a disk-shaped hole and one side bulged by an arc.
   std::vector<ElementEdge>
@@ -91,10 +91,10 @@ namespace
 
   TEST(EdgeRules, DivergenceTheorem)
   {
-    RandomElements random(seed);
+    RandomElements random(seed_of_edges);
     for (unsigned int sample = 0; sample < 200; ++sample)
     {
-      SCOPED_TRACE("seed " + std::to_string(seed) + " sample " +
+      SCOPED_TRACE("seed " + std::to_string(seed_of_edges) + " sample " +
                    std::to_string(sample));
       std::vector<ElementEdge> element;
       const dealii::Point<2>   center(random.uniform(-1., 1.),
@@ -151,10 +151,10 @@ namespace
   // deal.II's documented map of an immersed surface to real space.
   TEST(EdgeRules, SurfaceRuleMapsToTheEdgeRule)
   {
-    RandomElements random(seed);
+    RandomElements random(seed_of_edges);
     for (unsigned int sample = 0; sample < 100; ++sample)
     {
-      SCOPED_TRACE("seed " + std::to_string(seed) + " sample " +
+      SCOPED_TRACE("seed " + std::to_string(seed_of_edges) + " sample " +
                    std::to_string(sample));
       CellFrame frame = random.frame(3.);
       // a clockwise cell too

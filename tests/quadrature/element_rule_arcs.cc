@@ -10,7 +10,7 @@ using namespace NMM::Testing;
 
 namespace
 {
-  constexpr unsigned int seed = 77;
+  constexpr unsigned int seed_of_arcs = 77;
 
   using Real = long double;
 
@@ -84,7 +84,7 @@ namespace
   class ElementRuleArcs : public ::testing::TestWithParam<unsigned int>
   {
   protected:
-    RandomElements random{seed};
+    RandomElements random{seed_of_arcs};
     double         worst = 0.;
     unsigned int   n     = 0;
 
@@ -99,7 +99,7 @@ namespace
           const Inside                   &inside)
     {
       const unsigned int degree = GetParam();
-      SCOPED_TRACE("seed " + std::to_string(seed) + ", element " +
+      SCOPED_TRACE("seed " + std::to_string(seed_of_arcs) + ", element " +
                    std::to_string(n));
       CellFrame frame = random.frame(3. * radius);
       frame.origin += center;

@@ -14,7 +14,7 @@ using namespace NMM::Testing;
 
 namespace
 {
-  constexpr unsigned int seed = 20240117;
+  constexpr unsigned int seed_of_polygons = 20240117;
 
   RationalPoint
   exact(const dealii::Point<2> &p)
@@ -175,13 +175,13 @@ namespace
   TEST_P(ElementRulePolygons, EqualsSimplexIntegration)
   {
     const auto [family, degree] = GetParam();
-    RandomElements random(seed + degree);
+    RandomElements random(seed_of_polygons + degree);
     Statistics     statistics;
     for (unsigned int sample = 0; sample < family.n_samples; ++sample)
       for (const RandomElements::Shape shape : shapes)
       {
-        SCOPED_TRACE("seed " + std::to_string(seed + degree) + " sample " +
-                     std::to_string(sample) + " shape " +
+        SCOPED_TRACE("seed " + std::to_string(seed_of_polygons + degree) +
+                     " sample " + std::to_string(sample) + " shape " +
                      std::to_string(static_cast<int>(shape)));
         auto                   element = random.element(shape);
         const double           scale   = std::pow(10., random.uniform(-3., 3.));
@@ -240,8 +240,8 @@ namespace
   /// Cells that lack a corner, of any size: quadrilaterals with a short side.
   TEST(ElementRuleQuadrilaterals, CellsWithoutACorner)
   {
-    std::cout << "    seed " << seed << std::endl;
-    std::mt19937 engine(seed);
+    std::cout << "    seed " << seed_of_polygons << std::endl;
+    std::mt19937 engine(seed_of_polygons);
     const auto   uniform = [&](const double low, const double high) {
       return std::uniform_real_distribution<double>(low, high)(engine);
     };

@@ -1,6 +1,7 @@
 #ifndef nmm_tests_scenes_rejected_input_h
 #define nmm_tests_scenes_rejected_input_h
 
+#include "cases.h"
 #include "run_driver.h"
 #include <filesystem>
 #include <fstream>
@@ -12,7 +13,7 @@
 // is wrong, where and what to do, and no output folder.
 namespace rejected_input
 {
-  const std::string base_scene = NMM_SOURCE_DIR "/tests/scenes/base.prm";
+  const std::string base_scene = cases_dir + "base.prm";
 
   const std::string square =
     "boundary name=square material=rock POLYGON ((0 0, 1 0, 1 1, 0 1))";

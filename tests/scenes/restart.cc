@@ -1,3 +1,4 @@
+#include "cases.h"
 #include "run_driver.h"
 #include <csignal>
 #include <cstdlib>
@@ -20,8 +21,6 @@
 namespace
 {
   namespace fs = std::filesystem;
-
-  const std::string cases_dir = NMM_SOURCE_DIR "/tests/scenes/";
 
   using Arguments = std::vector<std::string>;
 

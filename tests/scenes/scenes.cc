@@ -1,3 +1,4 @@
+#include "cases.h"
 #include "run_driver.h"
 #include <algorithm>
 #include <cmath>
@@ -38,9 +39,6 @@ namespace
   };
 
 
-  const fs::path cases_dir = fs::path(NMM_SOURCE_DIR) / "tests" / "scenes";
-
-
   std::vector<std::string>
   split(const std::string &line, const char separator)
   {
@@ -62,7 +60,7 @@ namespace
   read_case(const std::string &name)
   {
     Case          result;
-    std::ifstream file(cases_dir / name / "expected.csv");
+    std::ifstream file(cases_dir + name + "/expected.csv");
     EXPECT_TRUE(file.good());
     for (std::string line; std::getline(file, line);)
     {
@@ -182,7 +180,7 @@ namespace
     arguments.insert(arguments.end(),
                      {"--output",
                       output,
-                      (cases_dir / GetParam() / test_case.scene).string()});
+                      cases_dir + GetParam() + "/" + test_case.scene});
     const DriverResult result = run_driver(arguments, test_case.n_ranks);
     ASSERT_EQ(result.exit_code, test_case.exit_code) << result.output;
 
@@ -237,9 +235,7 @@ namespace
   {
     const std::string  output = fresh_output_dir("floating");
     const DriverResult result =
-      run_driver({"--output",
-                  output,
-                  (cases_dir / "floating-block" / "scene.prm").string()});
+      run_driver({"--output", output, cases_dir + "floating-block/scene.prm"});
     EXPECT_EQ(result.exit_code, 3) << result.output;
     for (const char *word : {"Block 1", "floats", "rock"})
       EXPECT_NE(result.output.find(word), std::string::npos) << result.output;
@@ -295,7 +291,7 @@ namespace
                     "--set",
                     std::string("Solver/Condition number limit=") +
                       (above ? "100" : "1e5"),
-                    (cases_dir / "thin-layer" / "scene.prm").string()});
+                    cases_dir + "thin-layer/scene.prm"});
       ASSERT_EQ(result.exit_code, 0) << result.output;
       EXPECT_EQ(result.output.find("warning: the condition number") !=
                   std::string::npos,
@@ -432,7 +428,7 @@ namespace
                   output,
                   "--set",
                   "Output/Fields every=1",
-                  (cases_dir / "finite-stretch" / "scene.prm").string()});
+                  cases_dir + "finite-stretch/scene.prm"});
     ASSERT_EQ(result.exit_code, 0) << result.output;
     for (const char *name :
          {"history.csv", "fields-0001.vtu", "fields.vtu", "picture.png"})
@@ -460,7 +456,7 @@ namespace
                   "Output/Fields every=8",
                   "--set",
                   "Output/Picture=true",
-                  (cases_dir / "contact-bond" / "scene.prm").string()});
+                  cases_dir + "contact-bond/scene.prm"});
     ASSERT_EQ(result.exit_code, 0) << result.output;
     for (const char *name : {"contacts-0001.vtp",
                              "contacts-0002.vtp",
@@ -521,7 +517,7 @@ namespace
                   "--set",
                   "Output/Animation quantities=velocity, velocity, stress yy, "
                   "von Mises stress",
-                  (cases_dir / "contact-incline" / "scene.prm").string()});
+                  cases_dir + "contact-incline/scene.prm"});
     ASSERT_EQ(result.exit_code, 0) << result.output;
     const auto read = [&](const char *name) {
       std::ifstream     file(fs::path(output) / name);
@@ -558,7 +554,7 @@ namespace
                   output,
                   "--set",
                   "Obstacles/floor/Shape=LINESTRING (100 -0.1, -100 -0.1)",
-                  (cases_dir / "contact-stack" / "scene.prm").string()});
+                  cases_dir + "contact-stack/scene.prm"});
     EXPECT_EQ(result.exit_code, 3) << result.output;
     for (const char *word : {"Contact alone", "floats", "relaxation"})
       EXPECT_NE(result.output.find(word), std::string::npos) << result.output;
@@ -568,8 +564,7 @@ namespace
   // A floor drawn the wrong way round.
   TEST(Scenes, ObstaclesBehindTheSolidAreTold)
   {
-    const std::string scene =
-      (cases_dir / "contact-stack" / "scene.prm").string();
+    const std::string scene  = cases_dir + "contact-stack/scene.prm";
     const std::string notice = "lies on the left of the obstacle 'floor'";
     EXPECT_EQ(run_driver({"--check", scene}).output.find(notice),
               std::string::npos);

@@ -107,6 +107,18 @@ namespace NMM
       }
       return parameters;
     }
+
+
+    /// A mesh that has nothing in common with round coordinates.
+    inline RegularMeshParameters
+    skew_mesh(const double cell_size)
+    {
+      RegularMeshParameters parameters;
+      parameters.cell_size = cell_size;
+      parameters.offset    = dealii::Tensor<1, 2>({0.0123, 0.0321});
+      parameters.rotation  = 13.;
+      return parameters;
+    }
   } // namespace Testing
 } // namespace NMM
 

@@ -58,27 +58,30 @@ namespace NMM
       end
     };
 
-    struct Edge
+    /// What straight edges are asked for most lies in one line of the cache, and what arcs
+    /// need comes last: edges are met all over the memory.
+    struct alignas(64) Edge
     {
+      /// See ElementEdge [m].
+      dealii::Point<2> start, end;
+      double           radius = 0.;
       /// Manifold element, invalid_index for obstacles.
       unsigned int element = invalid_index;
       /// Block; for obstacle i the number of blocks + i.
       unsigned int body = invalid_index;
-      /// Curve of the physical mesh, invalid_index for obstacles.
-      unsigned int curve = invalid_index;
-      /// See ElementEdge [m].
-      dealii::Point<2> start, end, center;
-      double           radius = 0.;
-      /// Arcs: angles of start and end [rad].
-      double first_angle = 0., last_angle = 0.;
-      /// [m]
-      double length = 0.;
       /// Along the boundary, or invalid_index.
       unsigned int previous = invalid_index, next = invalid_index;
       Corner       at_start = Corner::end, at_end = Corner::end;
       /// Of the element's cell: xi = inverse (X - origin).
       dealii::Point<2>     origin;
       dealii::Tensor<2, 2> inverse;
+      /// [m]
+      double length = 0.;
+      /// Curve of the physical mesh, invalid_index for obstacles.
+      unsigned int curve = invalid_index;
+      /// Arcs: see ElementEdge [m], and angles of start and end [rad].
+      dealii::Point<2> center;
+      double           first_angle = 0., last_angle = 0.;
     };
 
     /// Position [m] and derivatives by t [m].
@@ -111,7 +114,7 @@ namespace NMM
     };
 
     /// Along straight edges displacements are polynomials d[0] + d[1] t + d[2] t^2 [m].
-    struct EdgeDisplacement
+    struct alignas(64) EdgeDisplacement
     {
       dealii::Tensor<1, 2> d[3];
     };

@@ -8,7 +8,7 @@ namespace NMM
   {
     namespace
     {
-      constexpr double density = 2500., youngs_modulus = 1e8;
+      constexpr double soft_rock_modulus = 1e8;
 
       /// A polygon whose mean is @p center, turned by @p angle.
       std::vector<Point<2>>
@@ -80,8 +80,8 @@ namespace NMM
           add_block(geometry, "lower", square({0., -R}, R));
         MovingBodies bodies(std::move(geometry), options);
         bodies.problem.materials = {
-          material("rock", youngs_modulus, 0.2, density)};
-        bodies.start(contact_parameters(10. * youngs_modulus / 0.4, 0.03),
+          material("rock", soft_rock_modulus, 0.2, rock_density)};
+        bodies.start(contact_parameters(10. * soft_rock_modulus / 0.4, 0.03),
                      Kinematics::finite);
         const unsigned int upper =
           is_obstacle ? 0
@@ -181,10 +181,10 @@ namespace NMM
         options.obstacles    = floor;
         MovingBodies body(std::move(geometry), options);
         body.problem.materials = {
-          material("rock", youngs_modulus, 0.2, density)};
+          material("rock", soft_rock_modulus, 0.2, rock_density)};
         body.problem.gravity = Tensor<1, 2>({0., -standard_gravity});
         ContactParameters parameters =
-          contact_parameters(10. * youngs_modulus / 0.4, 0.02);
+          contact_parameters(10. * soft_rock_modulus / 0.4, 0.02);
         body.start(parameters, Kinematics::finite);
         const Vector u      = body.find_rest(0.01);
         parameters.friction = friction;
@@ -306,13 +306,13 @@ namespace NMM
         auto body =
           std::make_unique<MovingBodies>(std::move(geometry), options);
         body->problem.materials = {
-          material("rock", youngs_modulus, 0.2, density)};
+          material("rock", soft_rock_modulus, 0.2, rock_density)};
         body->problem.gravity = Tensor<1, 2>({0., -standard_gravity});
-        body->start(contact_parameters(10. * youngs_modulus / 0.5, 0.03),
+        body->start(contact_parameters(10. * soft_rock_modulus / 0.5, 0.03),
                     Kinematics::finite);
         return body;
       };
-      const double weight = density * standard_gravity * a * depth * depth;
+      const double weight = rock_density * standard_gravity * a * depth * depth;
       {
         const auto        body = make(0.);
         const std::string name = "wedge at rest in a notch";
@@ -388,7 +388,7 @@ namespace NMM
         options.communicator = corners.communicator;
         MovingBodies bodies(std::move(geometry), options);
         bodies.problem.materials = {
-          material("rock", youngs_modulus, 0.2, density)};
+          material("rock", soft_rock_modulus, 0.2, rock_density)};
         constexpr double p                 = 1e5;
         using Type                         = BoundaryCondition::Type;
         bodies.problem.boundary_conditions = {
@@ -397,7 +397,7 @@ namespace NMM
           condition(Type::pressure, "right", constant(p)),
           condition(Type::pressure, "top", constant(p))};
         ContactParameters parameters =
-          contact_parameters(10. * youngs_modulus / 0.5, 0.05);
+          contact_parameters(10. * soft_rock_modulus / 0.5, 0.05);
         parameters.penetration_tolerance = tolerance;
         bodies.start(parameters, Kinematics::small);
         Run           run;
@@ -471,8 +471,8 @@ namespace NMM
       options.communicator = corners.communicator;
       MovingBodies bodies(std::move(geometry), options);
       bodies.problem.materials = {
-        material("rock", youngs_modulus, 0.2, density)};
-      bodies.start(contact_parameters(10. * youngs_modulus / 0.4, 0.03),
+        material("rock", soft_rock_modulus, 0.2, rock_density)};
+      bodies.start(contact_parameters(10. * soft_rock_modulus / 0.4, 0.03),
                    Kinematics::finite);
       std::vector<Tensor<1, 2>> sides(4);
       for (const double x : {-1., 1.})

@@ -6,19 +6,17 @@ namespace NMM
   {
     namespace
     {
-      constexpr double density = 2500., youngs_modulus = 1e9;
-
       void
       start(MovingBodies  &block,
             const Incline &incline,
             const double   friction_angle)
       {
         ContactParameters parameters =
-          contact_parameters(10. * youngs_modulus, 0.02);
+          contact_parameters(10. * rock_modulus, 0.02);
         parameters.friction = std::tan(degrees(friction_angle));
         parameters.normal_damping =
           2. * incline.dashpot *
-          std::sqrt(parameters.normal_stiffness * density);
+          std::sqrt(parameters.normal_stiffness * rock_density);
         parameters.shear_damping = parameters.normal_damping;
         block.start(parameters, Kinematics::small);
       }
@@ -42,7 +40,7 @@ namespace NMM
         auto block =
           std::make_unique<MovingBodies>(std::move(geometry), options);
         block->problem.materials = {
-          material("rock", youngs_modulus, 0.2, density)};
+          material("rock", rock_modulus, 0.2, rock_density)};
         const double angle = degrees(incline.angle);
         block->problem.gravity =
           standard_gravity * Tensor<1, 2>({std::sin(angle), -std::cos(angle)});
@@ -141,9 +139,9 @@ namespace NMM
     stick_to_incline(const Incline &incline, Measurements &measurements)
     {
       const auto   block = make_block(incline);
-      const double give  = density * standard_gravity *
+      const double give  = rock_density * standard_gravity *
                           std::sin(degrees(incline.angle)) /
-                          (10. * youngs_modulus);
+                          (10. * rock_modulus);
       Run run;
       if (incline.begins_at_rest)
       {

@@ -147,6 +147,9 @@ namespace NMM
     }
 
     constexpr double standard_gravity = 9.81;
+
+    /// Of the rock that most bodies are of [kg/m^3], [Pa].
+    constexpr double rock_density = 2500., rock_modulus = 1e9;
   } // namespace ContactBars
 } // namespace NMM
 

@@ -9,9 +9,6 @@ namespace NMM
   {
     namespace
     {
-      constexpr double density = 2500., youngs_modulus = 1e9, gravity = 9.81;
-
-
       Geometry
       pile(const unsigned int n)
       {
@@ -37,13 +34,14 @@ namespace NMM
       options.obstacles = {obstacle("floor", {{10., 0.}, {-10., 0.}})};
       MovingBodies bodies(pile(stack.n_blocks), options);
       bodies.problem.materials = {
-        material("rock", youngs_modulus, 0.2, density)};
-      bodies.problem.gravity = Tensor<1, 2>({0., -gravity});
+        material("rock", rock_modulus, 0.2, rock_density)};
+      bodies.problem.gravity = Tensor<1, 2>({0., -standard_gravity});
       ContactParameters parameters =
-        contact_parameters(10. * youngs_modulus, 0.02);
+        contact_parameters(10. * rock_modulus, 0.02);
       parameters.friction       = std::tan(dealii::numbers::PI / 6.);
       parameters.normal_damping = parameters.shear_damping =
-        2. * stack.dashpot * std::sqrt(parameters.normal_stiffness * density);
+        2. * stack.dashpot *
+        std::sqrt(parameters.normal_stiffness * rock_density);
       Bodies &statics = bodies;
       statics.start(parameters, stack.kinematics == Kinematics::small);
       statics.statics->run(LoadSteps());
@@ -63,7 +61,7 @@ namespace NMM
       bodies.integrate(TimeScheme::energy_momentum(), begin, bodies.zero());
 
       const double weight =
-        density * gravity * static_cast<double>(stack.n_blocks);
+        rock_density * standard_gravity * static_cast<double>(stack.n_blocks);
       double            drift = 0., force_error = 0.;
       const Run         run = bodies.run(stack.step, stack.duration, [&]() {
         Vector change(bodies.integrator->state().u);

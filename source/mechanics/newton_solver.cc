@@ -480,7 +480,8 @@ namespace NMM
                                   });
       distribute(u);
       touched.clear();
-      if (assemble_residual(u, is_new) != Deformation::admissible)
+      if (assemble_blocks(u, Tangent::none, nullptr, blocks) !=
+          Deformation::admissible)
       {
         report->reason = "the deformation is not admissible";
         return false;

@@ -1,5 +1,4 @@
-// The general driver: reads a scene file, solves it and writes tables, fields
-// and a picture. See doc/scene-format.md.
+#include "driver.h"
 
 #include <nmm/base/exceptions.h>
 #include <nmm/io/output_directory.h>
@@ -29,7 +28,6 @@ namespace
   enum ExitCode
   {
     success           = 0,
-    internal_error    = 1,
     input_error       = 2,
     numerical_failure = 3
   };
@@ -270,75 +268,48 @@ namespace
     progress.message("Results are in " + directory.path().string());
     return success;
   }
-
-
-  int
-  run(const int argc, char **argv, const MPI_Comm communicator)
-  {
-    const bool is_first =
-      dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
-    try
-    {
-      const Options options = parse_command_line(argc, argv);
-      if (!options.answer.empty())
-      {
-        if (is_first)
-          std::cout << options.answer;
-        return success;
-      }
-      if (options.print_parameters)
-      {
-        std::ostringstream text;
-        if (options.scene.empty())
-          NMM::Scene::print_defaults(text, options.format);
-        else
-          NMM::Scene(options.scene, options.overrides)
-            .print(text, options.format);
-        if (is_first)
-          std::cout << text.str();
-        return success;
-      }
-      dealii::MultithreadInfo::set_thread_limit(options.n_threads);
-      return run_scene(options, communicator);
-    }
-    catch (const NMM::InputError &error)
-    {
-      if (is_first)
-        std::cerr << "nmm: " << error.message() << std::endl;
-      return input_error;
-    }
-    catch (const NMM::NumericalFailure &error)
-    {
-      if (is_first)
-        std::cerr << "nmm: " << error.message() << std::endl;
-      return numerical_failure;
-    }
-  }
 } // namespace
 
 
 int
-main(int argc, char **argv)
+run_driver(const int argc, char **argv, const MPI_Comm communicator)
 {
+  const bool is_first =
+    dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
   try
   {
-    dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-    try
+    const Options options = parse_command_line(argc, argv);
+    if (!options.answer.empty())
     {
-      return run(argc, argv, MPI_COMM_WORLD);
+      if (is_first)
+        std::cout << options.answer;
+      return success;
     }
-    catch (const std::exception &error)
+    if (options.print_parameters)
     {
-      std::cerr << "nmm: internal error: " << error.what() << std::endl;
-      // Other ranks may wait for this one.
-      if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
-        MPI_Abort(MPI_COMM_WORLD, internal_error);
-      return internal_error;
+      std::ostringstream text;
+      if (options.scene.empty())
+        NMM::Scene::print_defaults(text, options.format);
+      else
+        NMM::Scene(options.scene, options.overrides)
+          .print(text, options.format);
+      if (is_first)
+        std::cout << text.str();
+      return success;
     }
+    dealii::MultithreadInfo::set_thread_limit(options.n_threads);
+    return run_scene(options, communicator);
   }
-  catch (const std::exception &error)
+  catch (const NMM::InputError &error)
   {
-    std::cerr << "nmm: " << error.what() << std::endl;
-    return internal_error;
+    if (is_first)
+      std::cerr << "nmm: " << error.message() << std::endl;
+    return input_error;
+  }
+  catch (const NMM::NumericalFailure &error)
+  {
+    if (is_first)
+      std::cerr << "nmm: " << error.message() << std::endl;
+    return numerical_failure;
   }
 }

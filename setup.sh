@@ -9,7 +9,8 @@
 # Safe to repeat. Environment variables, all optional:
 #   NMM_JOBS=N                    compile and test with N jobs at a time
 #   NMM_SKIP_PACKAGES=1           neither look for packages nor install any
-#   NMM_PRESETS=release           what 'test' builds and tests ("debug release")
+#   NMM_PRESETS=release           what 'test' builds and tests ("debug release"); there is
+#                                 'sanitize' as well
 #   NMM_WARNINGS_AS_ERRORS=ON     treat warnings in this project's code as errors
 #   NMM_UNITY_BUILD=OFF           compile each source by itself: faster after small
 #                                 changes, twice as slow for all of it
@@ -231,8 +232,8 @@ command_test()
   local presets
   read -ra presets <<<"${NMM_PRESETS:-debug release}"
   for preset in "${presets[@]}"; do
-    [[ "$preset" =~ ^(debug|release)$ ]] ||
-      die "NMM_PRESETS names '$preset'; there are 'debug' and 'release'."
+    [[ "$preset" =~ ^(debug|release|sanitize)$ ]] ||
+      die "NMM_PRESETS names '$preset'; there are debug, release and sanitize."
   done
   for preset in "${presets[@]}"; do
     configure_and_build "$preset"

@@ -33,11 +33,6 @@ target_include_directories(
   nmm_cgal SYSTEM
   INTERFACE $<TARGET_PROPERTY:CGAL::CGAL,INTERFACE_INCLUDE_DIRECTORIES>)
 
-# Exact numbers are counted references: atomic counting would cost a quarter of
-# the time of a cut (50 ms against 37 ms for 1,034 cells). So no two threads may
-# cut at once.
-target_compile_definitions(nmm_cgal INTERFACE CGAL_HAS_NO_THREADS)
-
 # For source files that include CGAL: its interval arithmetic switches the
 # rounding mode, which the compiler must be told; and g++ 12 sees uninitialized
 # values in its inlined kernels where there are none.

@@ -48,6 +48,14 @@ target_compile_options(
 target_compile_definitions(
   nmm_options INTERFACE $<$<CONFIG:Debug>:_GLIBCXX_ASSERTIONS>)
 
+# A run ends at the first finding. Only this project's code is instrumented, not the
+# libraries it uses.
+if(NMM_SANITIZE)
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined
+                      -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()
+
 # setup.sh has CMake compile several sources as one (CMAKE_UNITY_BUILD): most of the
 # time of a source goes by with reading deal.II's headers, precompiled or not, and
 # all of it takes half as long. Names in anonymous namespaces are therefore to differ

@@ -4,9 +4,9 @@
 #include <CGAL/config.h>
 
 #if CGAL_VERSION_NR >= CGAL_VERSION_NUMBER(6, 0, 0)
-#  include <variant>
+#include <variant>
 #else
-#  include <boost/variant/get.hpp>
+#include <boost/variant/get.hpp>
 #endif
 
 /**

@@ -324,7 +324,8 @@ namespace NMM
       less);
     for (const auto &[point, location] : located)
     {
-      const auto *face = internal::get_if<Arrangement::Face_const_handle>(location);
+      const auto *face =
+        internal::get_if<Arrangement::Face_const_handle>(location);
       AssertThrow(face != nullptr,
                   InputError("a material point lies on a curve",
                              to_string(internal::to_double(point)),

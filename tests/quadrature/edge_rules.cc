@@ -4,6 +4,7 @@
 #include <nmm/quadrature/element_quadrature.h>
 
 #include "random_elements.h"
+#include "support/n_samples.h"
 #include <gtest/gtest.h>
 
 using namespace NMM;
@@ -92,7 +93,7 @@ namespace
   TEST(EdgeRules, DivergenceTheorem)
   {
     RandomElements random(seed_of_edges);
-    for (unsigned int sample = 0; sample < 200; ++sample)
+    for (unsigned int sample = 0; sample < n_samples(200); ++sample)
     {
       SCOPED_TRACE("seed " + std::to_string(seed_of_edges) + " sample " +
                    std::to_string(sample));
@@ -152,7 +153,7 @@ namespace
   TEST(EdgeRules, SurfaceRuleMapsToTheEdgeRule)
   {
     RandomElements random(seed_of_edges);
-    for (unsigned int sample = 0; sample < 100; ++sample)
+    for (unsigned int sample = 0; sample < n_samples(100); ++sample)
     {
       SCOPED_TRACE("seed " + std::to_string(seed_of_edges) + " sample " +
                    std::to_string(sample));

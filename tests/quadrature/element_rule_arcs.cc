@@ -3,6 +3,7 @@
 #include <nmm/quadrature/element_rule_builder.h>
 
 #include "random_elements.h"
+#include "support/n_samples.h"
 #include <gtest/gtest.h>
 
 using namespace NMM;
@@ -161,7 +162,7 @@ namespace
 
   TEST_P(ElementRuleArcs, Segments)
   {
-    for (unsigned int sample = 0; sample < 200; ++sample)
+    for (unsigned int sample = 0; sample < n_samples(200); ++sample)
     {
       const auto               c   = random_center();
       const double             R   = random.uniform(0.5, 2.);
@@ -188,7 +189,7 @@ namespace
 
   TEST_P(ElementRuleArcs, Sectors)
   {
-    for (unsigned int sample = 0; sample < 200; ++sample)
+    for (unsigned int sample = 0; sample < n_samples(200); ++sample)
     {
       const auto               c = random_center();
       const double             R = random.uniform(0.5, 2.);
@@ -214,7 +215,7 @@ namespace
   // The inner arc is concave to the element.
   TEST_P(ElementRuleArcs, AnnularPieces)
   {
-    for (unsigned int sample = 0; sample < 200; ++sample)
+    for (unsigned int sample = 0; sample < n_samples(200); ++sample)
     {
       const auto               c = random_center();
       const double             R = random.uniform(0.5, 2.);
@@ -244,7 +245,7 @@ namespace
   // Whole disks and annuli: arcs of a half circle and vertical tangents.
   TEST_P(ElementRuleArcs, DisksAndAnnuli)
   {
-    for (unsigned int sample = 0; sample < 100; ++sample)
+    for (unsigned int sample = 0; sample < n_samples(100); ++sample)
     {
       const auto   c      = random_center();
       const double R      = random.uniform(0.5, 2.);

@@ -4,6 +4,7 @@
 #include <nmm/quadrature/element_rule_builder.h>
 
 #include "random_elements.h"
+#include "support/n_samples.h"
 #include <gtest/gtest.h>
 
 using namespace NMM;
@@ -103,7 +104,7 @@ namespace
     constexpr unsigned int seed = 11;
     RandomElements         random(seed);
     ElementRuleBuilder     builder(4);
-    for (unsigned int sample = 0; sample < 3000; ++sample)
+    for (unsigned int sample = 0; sample < n_samples(3000); ++sample)
     {
       SCOPED_TRACE("seed " + std::to_string(seed) + " sample " +
                    std::to_string(sample));

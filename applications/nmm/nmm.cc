@@ -1,7 +1,7 @@
 // The general driver: reads a scene file, solves it and writes tables, fields
 // and a picture. See doc/scene-format.md.
 
-#include <nmm/base/exceptions.h>
+#include <nmm/base/program.h>
 #include <nmm/io/output_directory.h>
 #include <nmm/io/progress.h>
 #include <nmm/io/scene.h>
@@ -14,6 +14,8 @@
 #include "safety_factor_analysis.h"
 #include "static_analysis.h"
 #include <boost/program_options.hpp>
+#include <cerrno>
+#include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -25,14 +27,6 @@
 namespace
 {
   namespace po = boost::program_options;
-
-  enum ExitCode
-  {
-    success           = 0,
-    internal_error    = 1,
-    input_error       = 2,
-    numerical_failure = 3
-  };
 
   struct Options
   {
@@ -234,8 +228,11 @@ namespace
   }
 
 
-  int
-  run_scene(const Options &options, const MPI_Comm communicator)
+  /// @p has_output becomes true when results begin to be written.
+  void
+  run_scene(const Options &options,
+            const MPI_Comm communicator,
+            bool          &has_output)
   {
     // What mpirun collects from several ranks is no place for a moving display.
     const bool is_terminal =
@@ -245,7 +242,7 @@ namespace
     const NMM::Scene           scene(options.scene, options.overrides);
     const NMM::OutputDirectory directory(options.output);
     if (!options.check_only)
-      directory.check();
+      NMM::on_first_rank(communicator, [&]() { directory.check(); });
 
     progress.message(scene.title());
     const auto analysis =
@@ -253,66 +250,86 @@ namespace
     analysis->build();
     analysis->print_report();
     if (options.check_only)
-      return success;
+      return;
 
     analysis->open(directory);
+    has_output = true;
     try
     {
       analysis->solve();
     }
-    catch (const NMM::NumericalFailure &)
+    catch (const NMM::NumericalFailure &failure)
     {
-      analysis->write();
+      const std::string reason = failure.message();
+      try
+      {
+        analysis->write();
+      }
+      catch (const NMM::UserError &error)
+      {
+        AssertThrow(false,
+                    NMM::NumericalFailure(reason + "; and " + error.message(),
+                                          "",
+                                          ""));
+      }
       throw;
     }
     analysis->verify();
     analysis->write();
     progress.message("Results are in " + directory.path().string());
-    return success;
   }
 
 
-  int
-  run(const int argc, char **argv, const MPI_Comm communicator)
+  void
+  print_from_first_rank(const std::string &text, const MPI_Comm communicator)
   {
-    const bool is_first =
-      dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
-    try
+    NMM::on_first_rank(communicator, [&]() {
+      errno = 0;
+      std::cout << text << std::flush;
+      AssertThrow(std::cout.good(), NMM::OutputFailure("standard output"));
+    });
+  }
+
+
+  void
+  run(const int      argc,
+      char         **argv,
+      const MPI_Comm communicator,
+      bool          &has_output)
+  {
+    const Options options = parse_command_line(argc, argv);
+    if (!options.answer.empty())
+      return print_from_first_rank(options.answer, communicator);
+    if (options.print_parameters)
     {
-      const Options options = parse_command_line(argc, argv);
-      if (!options.answer.empty())
-      {
-        if (is_first)
-          std::cout << options.answer;
-        return success;
-      }
-      if (options.print_parameters)
-      {
-        std::ostringstream text;
-        if (options.scene.empty())
-          NMM::Scene::print_defaults(text, options.format);
-        else
-          NMM::Scene(options.scene, options.overrides)
-            .print(text, options.format);
-        if (is_first)
-          std::cout << text.str();
-        return success;
-      }
-      dealii::MultithreadInfo::set_thread_limit(options.n_threads);
-      return run_scene(options, communicator);
+      std::ostringstream text;
+      if (options.scene.empty())
+        NMM::Scene::print_defaults(text, options.format);
+      else
+        NMM::Scene(options.scene, options.overrides)
+          .print(text, options.format);
+      return print_from_first_rank(text.str(), communicator);
     }
-    catch (const NMM::InputError &error)
-    {
-      if (is_first)
-        std::cerr << "nmm: " << error.message() << std::endl;
-      return input_error;
-    }
-    catch (const NMM::NumericalFailure &error)
-    {
-      if (is_first)
-        std::cerr << "nmm: " << error.message() << std::endl;
-      return numerical_failure;
-    }
+    dealii::MultithreadInfo::set_thread_limit(options.n_threads);
+    run_scene(options, communicator, has_output);
+  }
+
+
+  /// In a catch block: say what happened and give the exit code. Not all ranks may
+  /// have failed; those that have not are ended.
+  int
+  fail(const MPI_Comm communicator, const bool has_output)
+  {
+    constexpr double      patience = 5.; // [s]
+    const NMM::ProgramEnd end      = NMM::explain_exception(has_output);
+    const int             code     = static_cast<int>(end.code);
+    const bool have_all_failed = NMM::all_ranks_arrive(communicator, patience);
+    if (!have_all_failed ||
+        dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+      std::cerr << "nmm: " << end.message << std::endl;
+    if (!have_all_failed)
+      MPI_Abort(communicator, code);
+    return code;
   }
 } // namespace
 
@@ -320,25 +337,22 @@ namespace
 int
 main(int argc, char **argv)
 {
+  // A file that becomes too large is an error like that of a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
+  const NMM::MPISession mpi(argv[0]);
+  // Ranks that fail meet here, whatever else they exchange.
+  MPI_Comm failing;
+  MPI_Comm_dup(MPI_COMM_WORLD, &failing);
+  bool has_output = false;
+  int  code       = static_cast<int>(NMM::ExitCode::success);
   try
   {
-    dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-    try
-    {
-      return run(argc, argv, MPI_COMM_WORLD);
-    }
-    catch (const std::exception &error)
-    {
-      std::cerr << "nmm: internal error: " << error.what() << std::endl;
-      // Other ranks may wait for this one.
-      if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
-        MPI_Abort(MPI_COMM_WORLD, internal_error);
-      return internal_error;
-    }
+    run(argc, argv, MPI_COMM_WORLD, has_output);
   }
-  catch (const std::exception &error)
+  catch (...)
   {
-    std::cerr << "nmm: " << error.what() << std::endl;
-    return internal_error;
+    code = fail(failing, has_output);
   }
+  MPI_Comm_free(&failing);
+  return code;
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 #
-# Set up, build and run everything, on Debian 12 or later:
+# Set up, build and run everything, on Debian 12 and 13:
 #
 #   ./setup.sh run    the thick ring, with the driver
 #   ./setup.sh test   all tests, Debug and Release
@@ -9,6 +9,7 @@
 # Safe to repeat. Environment variables, all optional:
 #   NMM_JOBS=N                    compile and test with N jobs at a time
 #   NMM_SKIP_PACKAGES=1           neither look for packages nor install any
+#   NMM_PRESETS=release           what 'test' builds and tests ("debug release")
 #   NMM_WARNINGS_AS_ERRORS=ON     treat warnings in this project's code as errors
 #   NMM_UNITY_BUILD=OFF           compile each source by itself: faster after small
 #                                 changes, twice as slow for all of it
@@ -227,7 +228,13 @@ command_run()
 command_test()
 {
   local preset failed=()
-  for preset in debug release; do
+  local presets
+  read -ra presets <<<"${NMM_PRESETS:-debug release}"
+  for preset in "${presets[@]}"; do
+    [[ "$preset" =~ ^(debug|release)$ ]] ||
+      die "NMM_PRESETS names '$preset'; there are 'debug' and 'release'."
+  done
+  for preset in "${presets[@]}"; do
     configure_and_build "$preset"
     say "Testing build/$preset"
     ctest --preset "$preset" --no-tests=error --parallel "$(n_jobs)" ||
@@ -237,7 +244,7 @@ command_test()
   [[ ${#failed[@]} -eq 0 ]] ||
     die "tests failed in: ${failed[*]} (see above; to repeat them:" \
         "ctest --preset ${failed[0]} --rerun-failed)."
-  say "All tests passed, Debug and Release."
+  say "All tests passed (${presets[*]})."
 }
 
 

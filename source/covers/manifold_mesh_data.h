@@ -7,8 +7,7 @@
 
 #include "cutting.h"
 #include "element_exchange.h"
-#include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/geometries/point.hpp>
+#include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
 #include <memory>
 #include <mutex>

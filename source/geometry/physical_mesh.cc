@@ -3,6 +3,7 @@
 #include <CGAL/Arr_batched_point_location.h>
 
 #include "geometry/arrangement.h"
+#include "geometry/cgal_compat.h"
 #include "geometry/face_labels.h"
 #include "geometry/loops.h"
 #include "geometry/messages.h"
@@ -323,7 +324,7 @@ namespace NMM
       less);
     for (const auto &[point, location] : located)
     {
-      const auto *face = boost::get<Arrangement::Face_const_handle>(&location);
+      const auto *face = internal::get_if<Arrangement::Face_const_handle>(location);
       AssertThrow(face != nullptr,
                   InputError("a material point lies on a curve",
                              to_string(internal::to_double(point)),

@@ -1,5 +1,4 @@
-// The general driver: reads a scene file, solves it and writes tables, fields
-// and a picture. See doc/scene-format.md.
+#include "driver.h"
 
 #include <nmm/base/program.h>
 #include <nmm/io/output_directory.h>
@@ -15,7 +14,6 @@
 #include "static_analysis.h"
 #include <boost/program_options.hpp>
 #include <cerrno>
-#include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -335,19 +333,16 @@ namespace
 
 
 int
-main(int argc, char **argv)
+run_driver(const int argc, char **argv, const MPI_Comm communicator)
 {
-  // A file that becomes too large is an error like that of a full disk.
-  std::signal(SIGXFSZ, SIG_IGN);
-  const NMM::MPISession mpi(argv[0]);
   // Ranks that fail meet here, whatever else they exchange.
   MPI_Comm failing;
-  MPI_Comm_dup(MPI_COMM_WORLD, &failing);
+  MPI_Comm_dup(communicator, &failing);
   bool has_output = false;
   int  code       = static_cast<int>(NMM::ExitCode::success);
   try
   {
-    run(argc, argv, MPI_COMM_WORLD, has_output);
+    run(argc, argv, communicator, has_output);
   }
   catch (...)
   {

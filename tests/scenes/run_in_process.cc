@@ -1,0 +1,64 @@
+#include "run_in_process.h"
+
+#include <deal.II/base/mpi.h>
+
+#include "driver.h"
+#include <exception>
+#include <iostream>
+#include <sstream>
+
+namespace
+{
+  /// Collects what is written to std::cout and std::cerr during its lifetime.
+  class Capture
+  {
+  public:
+    Capture()
+      : cout_buffer(std::cout.rdbuf(text.rdbuf()))
+      , cerr_buffer(std::cerr.rdbuf(text.rdbuf()))
+    {}
+
+    ~Capture()
+    {
+      std::cout.rdbuf(cout_buffer);
+      std::cerr.rdbuf(cerr_buffer);
+    }
+
+    std::ostringstream text;
+
+  private:
+    std::streambuf *cout_buffer;
+    std::streambuf *cerr_buffer;
+  };
+} // namespace
+
+
+DriverResult
+run_in_process(const std::vector<std::string> &arguments)
+{
+  std::vector<std::string> words = {"nmm"};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char *> argv;
+  for (std::string &word : words)
+    argv.push_back(word.data());
+  argv.push_back(nullptr);
+
+  Capture capture;
+  int     exit_code = 1;
+  try
+  {
+    exit_code = run_driver(words.size(), argv.data(), MPI_COMM_WORLD);
+  }
+  catch (const std::exception &error)
+  {
+    std::cerr << error.what();
+  }
+  return {exit_code, capture.text.str()};
+}
+
+
+bool
+is_first_rank()
+{
+  return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+}

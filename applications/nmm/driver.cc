@@ -1,6 +1,6 @@
 #include "driver.h"
 
-#include <nmm/base/exceptions.h>
+#include <nmm/base/program.h>
 #include <nmm/io/output_directory.h>
 #include <nmm/io/progress.h>
 #include <nmm/io/scene.h>
@@ -13,6 +13,7 @@
 #include "safety_factor_analysis.h"
 #include "static_analysis.h"
 #include <boost/program_options.hpp>
+#include <cerrno>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -24,13 +25,6 @@
 namespace
 {
   namespace po = boost::program_options;
-
-  enum ExitCode
-  {
-    success           = 0,
-    input_error       = 2,
-    numerical_failure = 3
-  };
 
   struct Options
   {
@@ -232,8 +226,11 @@ namespace
   }
 
 
-  int
-  run_scene(const Options &options, const MPI_Comm communicator)
+  /// @p has_output becomes true when results begin to be written.
+  void
+  run_scene(const Options &options,
+            const MPI_Comm communicator,
+            bool          &has_output)
   {
     // What mpirun collects from several ranks is no place for a moving display.
     const bool is_terminal =
@@ -243,7 +240,7 @@ namespace
     const NMM::Scene           scene(options.scene, options.overrides);
     const NMM::OutputDirectory directory(options.output);
     if (!options.check_only)
-      directory.check();
+      NMM::on_first_rank(communicator, [&]() { directory.check(); });
 
     progress.message(scene.title());
     const auto analysis =
@@ -251,40 +248,56 @@ namespace
     analysis->build();
     analysis->print_report();
     if (options.check_only)
-      return success;
+      return;
 
     analysis->open(directory);
+    has_output = true;
     try
     {
       analysis->solve();
     }
-    catch (const NMM::NumericalFailure &)
+    catch (const NMM::NumericalFailure &failure)
     {
-      analysis->write();
+      const std::string reason = failure.message();
+      try
+      {
+        analysis->write();
+      }
+      catch (const NMM::UserError &error)
+      {
+        AssertThrow(false,
+                    NMM::NumericalFailure(reason + "; and " + error.message(),
+                                          "",
+                                          ""));
+      }
       throw;
     }
     analysis->verify();
     analysis->write();
     progress.message("Results are in " + directory.path().string());
-    return success;
   }
-} // namespace
 
 
-int
-run_driver(const int argc, char **argv, const MPI_Comm communicator)
-{
-  const bool is_first =
-    dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
-  try
+  void
+  print_from_first_rank(const std::string &text, const MPI_Comm communicator)
+  {
+    NMM::on_first_rank(communicator, [&]() {
+      errno = 0;
+      std::cout << text << std::flush;
+      AssertThrow(std::cout.good(), NMM::OutputFailure("standard output"));
+    });
+  }
+
+
+  void
+  run(const int      argc,
+      char         **argv,
+      const MPI_Comm communicator,
+      bool          &has_output)
   {
     const Options options = parse_command_line(argc, argv);
     if (!options.answer.empty())
-    {
-      if (is_first)
-        std::cout << options.answer;
-      return success;
-    }
+      return print_from_first_rank(options.answer, communicator);
     if (options.print_parameters)
     {
       std::ostringstream text;
@@ -293,23 +306,48 @@ run_driver(const int argc, char **argv, const MPI_Comm communicator)
       else
         NMM::Scene(options.scene, options.overrides)
           .print(text, options.format);
-      if (is_first)
-        std::cout << text.str();
-      return success;
+      return print_from_first_rank(text.str(), communicator);
     }
     dealii::MultithreadInfo::set_thread_limit(options.n_threads);
-    return run_scene(options, communicator);
+    run_scene(options, communicator, has_output);
   }
-  catch (const NMM::InputError &error)
+
+
+  /// In a catch block: say what happened and give the exit code. Not all ranks may
+  /// have failed; those that have not are ended.
+  int
+  fail(const MPI_Comm communicator, const bool has_output)
   {
-    if (is_first)
-      std::cerr << "nmm: " << error.message() << std::endl;
-    return input_error;
+    constexpr double      patience = 5.; // [s]
+    const NMM::ProgramEnd end      = NMM::explain_exception(has_output);
+    const int             code     = static_cast<int>(end.code);
+    const bool have_all_failed = NMM::all_ranks_arrive(communicator, patience);
+    if (!have_all_failed ||
+        dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+      std::cerr << "nmm: " << end.message << std::endl;
+    if (!have_all_failed)
+      MPI_Abort(communicator, code);
+    return code;
   }
-  catch (const NMM::NumericalFailure &error)
+} // namespace
+
+
+int
+run_driver(const int argc, char **argv, const MPI_Comm communicator)
+{
+  // Ranks that fail meet here, whatever else they exchange.
+  MPI_Comm failing;
+  MPI_Comm_dup(communicator, &failing);
+  bool has_output = false;
+  int  code       = static_cast<int>(NMM::ExitCode::success);
+  try
   {
-    if (is_first)
-      std::cerr << "nmm: " << error.message() << std::endl;
-    return numerical_failure;
+    run(argc, argv, communicator, has_output);
   }
+  catch (...)
+  {
+    code = fail(failing, has_output);
+  }
+  MPI_Comm_free(&failing);
+  return code;
 }

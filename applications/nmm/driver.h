@@ -10,9 +10,8 @@
  * first rank of @p communicator only.
  *
  * Returns the exit code of the program: 0 for success, 2 for bad input (nothing is
- * written), 3 if there is no solution (what is known is written). Other exceptions
- * than InputError and NumericalFailure are mistakes in this program and are thrown
- * on.
+ * written), 3 if there is no solution (what is known is written) or results cannot
+ * be written, 1 for mistakes in this program.
  *
  * It may be called repeatedly in one process: tests of bad input do so.
  */

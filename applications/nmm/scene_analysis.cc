@@ -1,6 +1,6 @@
 #include "scene_analysis.h"
 
-#include <nmm/base/exceptions.h>
+#include <nmm/base/program.h>
 #include <nmm/covers/own_meshes.h>
 #include <nmm/covers/rank_cells.h>
 #include <nmm/io/vtu.h>
@@ -291,22 +291,7 @@ SceneAnalysis::small_strain_energy() const
 void
 SceneAnalysis::on_first_rank(const std::function<void()> &action) const
 {
-  std::string        message;
-  std::exception_ptr exception;
-  if (is_first_rank())
-    try
-    {
-      action();
-    }
-    catch (const UserError &error)
-    {
-      message   = error.message();
-      exception = std::current_exception();
-    }
-  message = dealii::Utilities::MPI::broadcast(communicator, message);
-  if (exception)
-    std::rethrow_exception(exception);
-  AssertThrow(message.empty(), InputError(message, "the first rank", ""));
+  NMM::on_first_rank(communicator, action);
 }
 
 

@@ -10,7 +10,7 @@
 // @sect3{Include files}
 
 // From this library: the modules in the order in which data flows through them.
-#include <nmm/base/exceptions.h>
+#include <nmm/base/program.h>
 #include <nmm/covers/aggregation.h>
 #include <nmm/covers/cover_system.h>
 #include <nmm/covers/graded_mesh.h>
@@ -346,8 +346,8 @@ main(int argc, char **argv)
   using namespace StepNMM1;
   try
   {
-    const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-    const Parameters                               parameters =
+    const NMM::MPISession mpi(argv[0]);
+    const Parameters      parameters =
       read_parameters(argc > 1 ? argv[1] : "", argc > 2 ? argv[2] : ".");
 
     std::map<std::string, HoopProfile> profiles;

@@ -9,7 +9,7 @@
 
 // @sect3{Include files}
 
-#include <nmm/base/exceptions.h>
+#include <nmm/base/program.h>
 #include <nmm/covers/aggregation.h>
 #include <nmm/covers/cover_system.h>
 #include <nmm/covers/graded_mesh.h>
@@ -423,7 +423,7 @@ main(int argc, char **argv)
   using namespace StepNMM2;
   try
   {
-    const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+    const NMM::MPISession mpi(argv[0]);
     AssertThrow(dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1,
                 NMM::InputError("The program runs on several ranks",
                                 "step-nmm-2",

@@ -8,7 +8,7 @@
 
 // @sect3{Include files}
 
-#include <nmm/base/exceptions.h>
+#include <nmm/base/program.h>
 #include <nmm/contact/contact_statics.h>
 #include <nmm/covers/aggregation.h>
 #include <nmm/covers/cover_system.h>
@@ -703,7 +703,7 @@ main(int argc, char **argv)
   using namespace StepNMM3;
   try
   {
-    const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+    const NMM::MPISession mpi(argv[0]);
     // All ranks know all results; the first one tells, and its times are its own.
     const bool is_first =
       dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;

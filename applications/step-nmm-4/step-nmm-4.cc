@@ -7,7 +7,7 @@
 
 // @sect3{Include files}
 
-#include <nmm/base/exceptions.h>
+#include <nmm/base/program.h>
 #include <nmm/contact/contact.h>
 #include <nmm/covers/aggregation.h>
 #include <nmm/covers/cover_system.h>
@@ -471,8 +471,8 @@ main(int argc, char **argv)
   using namespace StepNMM4;
   try
   {
-    const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-    const bool                                     is_first =
+    const NMM::MPISession mpi(argv[0]);
+    const bool            is_first =
       dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
     if (!is_first)
       std::cout.setstate(std::ios::failbit);

@@ -1,4 +1,4 @@
-#include <nmm/base/exceptions.h>
+#include <nmm/base/program.h>
 #include <nmm/dynamics/checkpoint.h>
 
 #include <deal.II/base/mpi.h>
@@ -132,9 +132,14 @@ namespace NMM
         written += n;
       }
       // the contents must be on the disk before the name is
-      if (::fsync(file) != 0 || ::close(file) != 0 ||
-          std::rename(temporary.c_str(), filename.c_str()) != 0)
-        return std::strerror(errno);
+      bool is_whole = ::fsync(file) == 0;
+      is_whole      = ::close(file) == 0 && is_whole;
+      if (!is_whole || std::rename(temporary.c_str(), filename.c_str()) != 0)
+      {
+        const std::string reason = std::strerror(errno);
+        ::unlink(temporary.c_str());
+        return reason;
+      }
       std::string path      = filename;
       const int   directory = ::open(::dirname(path.data()), O_RDONLY);
       if (directory >= 0)
@@ -217,10 +222,11 @@ namespace NMM
     if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
       reason = replace_file(filename, bytes);
     reason = dealii::Utilities::MPI::broadcast(communicator, reason);
-    if (!reason.empty())
-      refuse("The checkpoint cannot be written: " + reason,
-             filename,
-             "check folder, rights and space; the last one is still good");
+    AssertThrow(reason.empty(),
+                OutputFailure("The checkpoint cannot be written: " + reason,
+                              filename,
+                              "check folder, rights and space; the last one is "
+                              "still good"));
   }
 
 

@@ -1,4 +1,4 @@
-#include <nmm/base/exceptions.h>
+#include <nmm/base/program.h>
 #include <nmm/dynamics/history.h>
 
 #include <deal.II/base/mpi.h>
@@ -67,10 +67,7 @@ namespace NMM
       if (file && std::rename(temporary.c_str(), filename.c_str()) == 0)
         out.open(filename, std::ios::app);
     }
-    AssertThrow(out.is_open() && out,
-                InputError("The history cannot be written",
-                           filename,
-                           "check folder and rights"));
+    AssertThrow(out.is_open() && out, OutputFailure(filename));
   }
 
 
@@ -102,9 +99,6 @@ namespace NMM
     for (const double value : further_values)
       out << ',' << value;
     out << std::endl;
-    AssertThrow(out,
-                InputError("The history cannot be written",
-                           filename,
-                           "is the disk full?"));
+    AssertThrow(out, OutputFailure(filename));
   }
 } // namespace NMM

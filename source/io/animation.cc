@@ -1,4 +1,4 @@
-#include <nmm/base/exceptions.h>
+#include <nmm/base/program.h>
 #include <nmm/io/animation.h>
 
 #include <algorithm>
@@ -268,10 +268,7 @@ namespace NMM
     find_records(keep_until);
     // makes the file if there is none
     std::ofstream file(file_name, std::ios::binary | std::ios::app);
-    AssertThrow(file.good(),
-                InputError("the file '" + file_name + "' cannot be written",
-                           "the moving picture",
-                           "choose a folder that can be written to"));
+    AssertThrow(file.good(), OutputFailure(file_name));
     file.close();
     std::filesystem::resize_file(file_name, static_cast<std::uintmax_t>(end));
   }
@@ -322,10 +319,7 @@ namespace NMM
                static_cast<std::streamsize>(header.buffer.size()));
     file.write(body.data(), static_cast<std::streamsize>(body.size()));
     file.close();
-    AssertThrow(file.good(),
-                InputError("the file '" + file_name + "' cannot be written",
-                           "the moving picture",
-                           "see whether the disk is full"));
+    AssertThrow(file.good(), OutputFailure(file_name));
     records.push_back({time,
                        end + static_cast<std::streamoff>(header.buffer.size()),
                        body.size()});

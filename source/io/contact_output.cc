@@ -1,4 +1,4 @@
-#include <nmm/base/exceptions.h>
+#include <nmm/base/program.h>
 #include <nmm/io/contact_output.h>
 
 #include <deal.II/base/data_out_base.h>
@@ -321,10 +321,7 @@ namespace NMM
           << to_string(point.state) << ',' << point.weight << ','
           << point.is_bonded << '\n';
     out.close();
-    AssertThrow(out.good(),
-                InputError("the table cannot be written",
-                           name,
-                           "check folder, rights and space"));
+    AssertThrow(out.good(), OutputFailure(name));
   }
 
 

@@ -1,6 +1,8 @@
-#include <nmm/base/exceptions.h>
+#include <nmm/base/program.h>
 #include <nmm/io/output_directory.h>
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <iomanip>
 #include <system_error>
@@ -45,6 +47,59 @@ namespace NMM
                              "' cannot be written to",
                            where,
                            "change its permissions or name another one"));
+    const std::string in_the_way = folder_in_the_way();
+    AssertThrow(
+      in_the_way.empty(),
+      InputError("a folder has the name '" + in_the_way +
+                   "' of a file of results",
+                 where,
+                 "rename or remove it, or name another folder for the "
+                 "results"));
+    // Permissions do not tell whether a name is too long, or the file system
+    // read-only, full or of the kernel's own: a trial does.
+    const std::string fault = try_to_write();
+    AssertThrow(fault.empty(),
+                InputError("files cannot be made there (" + fault + ")",
+                           where,
+                           "name a folder with shorter names, on a file system "
+                           "that can be written to and has space left"));
+  }
+
+
+  std::string
+  OutputDirectory::try_to_write() const
+  {
+    std::vector<fs::path> made;
+    std::error_code       error;
+    std::string           fault;
+    fs::path              parent;
+    for (const fs::path &name : fs::absolute(folder))
+    {
+      parent /= name;
+      if (fs::exists(parent, error))
+        continue;
+      error.clear();
+      if (!fs::create_directory(parent, error) || error)
+      {
+        fault = error ? error.message() : "it is not there after it was made";
+        break;
+      }
+      made.push_back(parent);
+    }
+    if (fault.empty())
+    {
+      const fs::path file = folder / ".nmm-trial.part";
+      errno               = 0;
+      std::ofstream out(file);
+      out << "trial" << std::flush;
+      out.close();
+      if (out.fail())
+        fault = std::strerror(errno);
+      fs::remove(file, error);
+    }
+    for (auto path = made.rbegin(); path != made.rend(); ++path)
+      fs::remove(*path, error);
+    return fault;
   }
 
 
@@ -69,10 +124,11 @@ namespace NMM
         return true;
       if (of_end_only)
         return false;
-      return name == "history.csv" || name == "probes-history.csv" ||
-             name == "checkpoint.nmm" || name == "fields.pvd" ||
-             name == "contacts.csv" || name == "contacts.pvd" ||
-             name == "left-blocks.csv" || name == "animation.frames" ||
+      return name == "history.csv" || name == "safety_factor.csv" ||
+             name == "probes-history.csv" || name == "checkpoint.nmm" ||
+             name == "fields.pvd" || name == "contacts.csv" ||
+             name == "contacts.pvd" || name == "left-blocks.csv" ||
+             name == "animation.frames" ||
              (starts_with(name, "contacts-") && extension == ".vtp") ||
              (starts_with(name, "fields-") &&
               (extension == ".vtu" || extension == ".pvtu")) ||
@@ -95,6 +151,20 @@ namespace NMM
       return name;
     }
   } // namespace
+
+
+  std::string
+  OutputDirectory::folder_in_the_way() const
+  {
+    std::error_code error;
+    for (const auto &entry : fs::directory_iterator(folder, error))
+    {
+      const std::string name = entry.path().filename().string();
+      if (entry.is_directory(error) && is_result(without_part(name), false))
+        return name;
+    }
+    return "";
+  }
 
 
   void
@@ -136,11 +206,14 @@ namespace NMM
     const std::string                              &name,
     const std::function<void(const std::string &)> &write) const
   {
-    const fs::path temporary = folder / ("." + name + ".part");
+    const fs::path  temporary = folder / ("." + name + ".part");
+    std::error_code error;
     try
     {
       write(temporary.string());
-      fs::rename(temporary, folder / name);
+      fs::rename(temporary, folder / name, error);
+      errno = error.value();
+      AssertThrow(!error, OutputFailure((folder / name).string()));
     }
     catch (...)
     {
@@ -157,11 +230,12 @@ namespace NMM
     const std::function<void(std::ostream &)> &write) const
   {
     write_file(name, [&](const std::string &file_name) {
+      errno = 0;
       std::ofstream out(file_name);
-      AssertThrow(out.good(), dealii::ExcFileNotOpen(file_name));
+      AssertThrow(out.good(), OutputFailure(file_name));
       write(out);
       out.close();
-      AssertThrow(!out.fail(), dealii::ExcIO());
+      AssertThrow(!out.fail(), OutputFailure((folder / name).string()));
     });
   }
 

@@ -5,6 +5,8 @@
 #include <boost/property_tree/json_parser.hpp>
 #include <boost/property_tree/ptree.hpp>
 #include <cctype>
+#include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <regex>
@@ -186,6 +188,64 @@ namespace NMM
     }
 
 
+    /// @throws InputError unless the numbers of a value can be computed with.
+    void
+    check_size_of_numbers(const std::string &value, const std::string &where)
+    {
+      // What is computed has squares of products of two numbers at most.
+      constexpr double   smallest = 1e-75, largest = 1e75;
+      std::istringstream words(value);
+      for (std::string word; std::getline(words, word, ',');)
+      {
+        const double size = std::abs(std::strtod(word.c_str(), nullptr));
+        const bool   is_zero =
+          size == 0. &&
+          word.substr(0, word.find_first_of("eE")).find_first_of("123456789") ==
+            std::string::npos;
+        AssertThrow(is_zero || (size >= smallest && size <= largest),
+                    InputError("the number " + trimmed(word) +
+                                 " is too large or too small to compute with",
+                               where,
+                               "give 0 or one from 1e-75 to 1e75 in size, if "
+                               "need be in other units"));
+      }
+    }
+
+
+    /// @throws InputError for values that ParameterHandler takes from a file though
+    /// they do not fit (it does not look at those with braces), and for numbers of
+    /// extreme size.
+    void
+    check_values(const Tree                     &section,
+                 const std::vector<std::string> &path,
+                 const std::string              &file_name)
+    {
+      for (const auto &[key, child] : section)
+      {
+        std::vector<std::string> child_path = path;
+        child_path.push_back(key);
+        if (!is_entry(child))
+        {
+          check_values(child, child_path, file_name);
+          continue;
+        }
+        const auto value = child.get<std::string>("value");
+        if (value == child.get<std::string>("default_value"))
+          continue;
+        const std::string where =
+          "parameter '" + join(child_path, "/") + "' of " + file_name;
+        const auto pattern = child.get<std::string>("pattern_description");
+        AssertThrow(value.find('{') == std::string::npos ||
+                      dealii::Patterns::pattern_factory(pattern)->match(value),
+                    InputError("'" + value + "' is no valid value",
+                               where,
+                               "give: " + pattern_in_words(pattern)));
+        if (pattern.find("[Double") != std::string::npos)
+          check_size_of_numbers(value, where);
+      }
+    }
+
+
     /// Set one value that does not come from a .prm file.
     void
     assign(const ParameterAssignment &assignment,
@@ -266,9 +326,42 @@ namespace NMM
     }
 
 
-    std::vector<ParameterAssignment>
-    read_json_assignments(std::istream &input, const std::string &file_name)
+    /// The parser calls itself for each level, so that text of very many would use
+    /// up the stack.
+    void
+    check_depth(const std::string &text, const std::string &file_name)
     {
+      constexpr unsigned int max_depth = 32;
+      unsigned int           depth = 0, line = 1;
+      bool                   is_quoted = false;
+      for (std::size_t i = 0; i < text.size(); ++i)
+      {
+        const char c = text[i];
+        line += c == '\n';
+        if (is_quoted && c == '\\')
+          ++i;
+        else if (c == '"')
+          is_quoted = !is_quoted;
+        else if (!is_quoted && (c == '{' || c == '['))
+          ++depth;
+        else if (!is_quoted && (c == '}' || c == ']') && depth > 0)
+          --depth;
+        AssertThrow(
+          depth <= max_depth,
+          InputError("the file is nested more than " +
+                       std::to_string(max_depth) + " deep",
+                     file_name + ":" + std::to_string(line),
+                     "close braces and brackets: scenes have sections "
+                     "in sections, and no more"));
+      }
+    }
+
+
+    std::vector<ParameterAssignment>
+    read_json_assignments(std::stringstream &input,
+                          const std::string &file_name)
+    {
+      check_depth(input.str(), file_name);
       Tree tree;
       try
       {
@@ -474,6 +567,8 @@ namespace NMM
     all.insert(all.end(), assignments.begin(), assignments.end());
     for (const ParameterAssignment &assignment : all)
       assign(assignment, tree, skip_undefined, prm);
+    if (!skip_undefined)
+      check_values(declared_tree(prm), {}, file_name);
   }
 
 

@@ -1,3 +1,4 @@
+#include <nmm/base/program.h>
 #include <nmm/io/picture.h>
 
 #include <deal.II/base/exceptions.h>
@@ -629,10 +630,7 @@ namespace NMM
     const Surface        surface = draw(data, parameters, title, frame, 1024);
     const cairo_status_t status =
       cairo_surface_write_to_png(surface.get(), file_name.c_str());
-    AssertThrow(status == CAIRO_STATUS_SUCCESS,
-                dealii::ExcMessage(
-                  "The picture '" + file_name +
-                  "' cannot be written: " + cairo_status_to_string(status)));
+    AssertThrow(status == CAIRO_STATUS_SUCCESS, OutputFailure(file_name));
   }
 
 

@@ -1,4 +1,4 @@
-#include <nmm/base/exceptions.h>
+#include <nmm/base/program.h>
 #include <nmm/io/time_table.h>
 
 #include <cstdio>
@@ -66,15 +66,10 @@ namespace NMM
       file << text << std::flush;
       AssertThrow(file.good() &&
                     std::rename(temporary.c_str(), filename.c_str()) == 0,
-                  InputError("the table cannot be written",
-                             filename,
-                             "check folder, rights and space"));
+                  OutputFailure(filename));
     }
     out.open(filename, std::ios::app);
-    AssertThrow(out.good(),
-                InputError("the table cannot be written",
-                           filename,
-                           "check folder and rights"));
+    AssertThrow(out.good(), OutputFailure(filename));
   }
 
 
@@ -90,9 +85,6 @@ namespace NMM
     for (const double value : values)
       out << ',' << value;
     out << std::endl;
-    AssertThrow(out.good(),
-                InputError("the table cannot be written",
-                           filename,
-                           "is the disk full?"));
+    AssertThrow(out.good(), OutputFailure(filename));
   }
 } // namespace NMM

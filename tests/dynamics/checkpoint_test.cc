@@ -1,12 +1,15 @@
 // Checkpoints: the same bits on continuing, refusal of what does not fit.
 
+#include <nmm/base/program.h>
 #include <nmm/dynamics/checkpoint.h>
 
+#include <csignal>
 #include <cstdio>
 #include <dynamics/dynamic_model.h>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
+#include <sys/resource.h>
 
 using namespace NMM;
 using namespace NMM::Test;
@@ -204,7 +207,28 @@ namespace
     Checkpoint::write(integrator, file);
     EXPECT_FALSE(std::ifstream(file + ".part"));
     EXPECT_THROW(Checkpoint::write(integrator, "no/such/folder/state"),
-                 InputError);
+                 OutputFailure);
+  }
+
+
+  TEST(Checkpoint, FullDiskLeavesTheLastGoodOne)
+  {
+    const std::string file = file_name("full-disk");
+    Body              body = beam(true);
+    TimeIntegrator    integrator(*body.mechanics);
+    Checkpoint::write(integrator, file);
+    rlimit limit;
+    getrlimit(RLIMIT_FSIZE, &limit);
+    const rlim_t unlimited = limit.rlim_cur;
+    const auto   action    = std::signal(SIGXFSZ, SIG_IGN);
+    limit.rlim_cur         = 100;
+    setrlimit(RLIMIT_FSIZE, &limit);
+    EXPECT_THROW(Checkpoint::write(integrator, file), OutputFailure);
+    limit.rlim_cur = unlimited;
+    setrlimit(RLIMIT_FSIZE, &limit);
+    std::signal(SIGXFSZ, action);
+    EXPECT_FALSE(std::ifstream(file + ".part").good());
+    EXPECT_NO_THROW(Checkpoint::read(file, integrator));
   }
 
 

@@ -283,6 +283,71 @@ namespace
   }
 
 
+  std::string
+  message_of_scene(const std::string &name, const Words &overrides = {})
+  {
+    try
+    {
+      const Scene scene(name, overrides);
+    }
+    catch (const InputError &error)
+    {
+      return error.message();
+    }
+    return "";
+  }
+
+
+  TEST(Scene, NumbersThatCannotBeComputedWithAreRefused)
+  {
+    for (const std::string bad : {"1e-308", "1e-400", "1e-150", "1e150"})
+      for (const std::string parameter :
+           {"Model/Thickness", "Materials/rock/Young's modulus"})
+      {
+        const std::string message =
+          message_of_scene(base_scene, {parameter + "=" + bad});
+        EXPECT_NE(message.find(bad), std::string::npos) << message;
+        EXPECT_NE(message.find(parameter), std::string::npos) << message;
+      }
+    EXPECT_NE(
+      message_of_scene(base_scene, {"Model/Gravity=0, 1e99"}).find("1e99"),
+      std::string::npos);
+    EXPECT_EQ(message_of_scene(base_scene, {"Model/Gravity=0e7, -1e30"}), "");
+  }
+
+
+  // ParameterHandler does not look at values with braces.
+  TEST(Scene, BracesAreNoValue)
+  {
+    const std::string name = NMM_TEST_OUTPUT_DIR "/brace.prm";
+    {
+      std::ofstream file(name);
+      file << std::ifstream(base_scene).rdbuf()
+           << "\nsubsection Model\n  set Analysis = {\nend\n";
+    }
+    const std::string message = message_of_scene(name);
+    EXPECT_NE(message.find("'{'"), std::string::npos) << message;
+    EXPECT_NE(message.find("Model/Analysis"), std::string::npos) << message;
+  }
+
+
+  TEST(Scene, DeeplyNestedJsonIsRefused)
+  {
+    const std::string name = NMM_TEST_OUTPUT_DIR "/nested.json";
+    for (const unsigned int n : {40, 20000, 100000})
+      for (const std::string open : {"[", "{\"a\":"})
+      {
+        std::string text;
+        for (unsigned int i = 0; i < n; ++i)
+          text += open;
+        std::ofstream(name) << text;
+        EXPECT_NE(message_of_scene(name).find("nested"), std::string::npos);
+      }
+    std::ofstream(name) << "{\"a\": \"" << std::string(100, '{') << "\"}";
+    EXPECT_EQ(message_of_scene(name).find("nested"), std::string::npos);
+  }
+
+
   TEST(Scene, JsonArraysAreLists)
   {
     const std::string file_name = NMM_TEST_OUTPUT_DIR "/arrays.json";

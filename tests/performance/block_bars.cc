@@ -2,6 +2,8 @@
 // columns, 2: map of a block on an incline, 3: factors of safety, 4: shaken block;
 // 0: all), argument 2: the file for the table.
 
+#include <nmm/base/program.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <fstream>
@@ -14,10 +16,10 @@ using namespace NMM::BlockBars;
 int
 main(int argc, char **argv)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const std::string                        which = argc > 1 ? argv[1] : "0";
-  Measurements                             measurements(&std::cout);
-  const auto is_asked = [&](const std::string &bar) {
+  const NMM::MPISession mpi(argv[0]);
+  const std::string     which = argc > 1 ? argv[1] : "0";
+  Measurements          measurements(&std::cout);
+  const auto            is_asked = [&](const std::string &bar) {
     return which == "0" || which == bar;
   };
   try

@@ -2,6 +2,8 @@
 // group (2: incline, 3: impact, 4: stacks, 5: rocking and rolling, 6: joint wave,
 // 7: corners, 8: random drops, 9: repeated runs; 0: all), argument 2: the file for the table.
 
+#include <nmm/base/program.h>
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
 
@@ -268,9 +270,9 @@ namespace
 int
 main(int argc, char **argv)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const std::string                        which = argc > 1 ? argv[1] : "0";
-  const bool                               is_first =
+  const NMM::MPISession mpi(argv[0]);
+  const std::string     which = argc > 1 ? argv[1] : "0";
+  const bool            is_first =
     dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
   Measurements measurements(is_first ? &std::cout : nullptr);
   const std::pair<std::string, void (*)(Measurements &)> groups[] = {

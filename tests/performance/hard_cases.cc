@@ -2,7 +2,7 @@
 // table. Every number in doc/hard-cases.md comes from this program:
 //   nmm-hard-cases --markdown doc/hard-cases.md --csv tests/performance/hard-cases.csv
 
-#include <nmm/base/exceptions.h>
+#include <nmm/base/program.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -426,7 +426,7 @@ namespace
 int
 main(int argc, char **argv)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const NMM::MPISession mpi(argv[0]);
   try
   {
     run(argc, argv);

@@ -12,6 +12,8 @@
 // steps each, so that they meet the same times, and what is to be read is the ratio of
 // theirs. The largest memory is that of the process: it is told of single heaps.
 
+#include <nmm/base/program.h>
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
 #include <deal.II/base/utilities.h>
@@ -402,8 +404,8 @@ main(int argc, char **argv)
 {
   constexpr unsigned int steps_of_turn = 20;
 
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const auto argument = [&](const int i, const double otherwise) {
+  const NMM::MPISession mpi(argv[0]);
+  const auto            argument = [&](const int i, const double otherwise) {
     return argc > i ? std::stod(argv[i]) : otherwise;
   };
   const std::vector<int> n_blocks = dealii::Utilities::string_to_int(

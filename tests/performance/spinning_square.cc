@@ -3,6 +3,7 @@
 // table and writes it as CSV; argument 1: number of revolutions, argument 2: the
 // file. The mesh is offset and turned against the square.
 
+#include <nmm/base/program.h>
 #include <nmm/dynamics/incremental_dynamics.h>
 
 #include <deal.II/base/mpi.h>
@@ -133,10 +134,10 @@ namespace
 int
 main(int argc, char **argv)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const unsigned int revolutions = argc > 1 ? std::stoi(argv[1]) : 100;
-  const unsigned int n           = revolutions * n_per_revolution;
-  const double       angle       = 2. * dealii::numbers::PI / n_per_revolution;
+  const NMM::MPISession mpi(argv[0]);
+  const unsigned int    revolutions = argc > 1 ? std::stoi(argv[1]) : 100;
+  const unsigned int    n           = revolutions * n_per_revolution;
+  const double          angle = 2. * dealii::numbers::PI / n_per_revolution;
   // midpoint rules turn by 2 atan(omega h / 2) in a step
   const double h_midpoint = 2. * std::tan(0.5 * angle) / omega;
   const double h          = angle / omega;

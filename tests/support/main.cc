@@ -1,3 +1,5 @@
+#include <nmm/base/program.h>
+
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
 
@@ -11,7 +13,7 @@
 int
 main(int argc, char **argv)
 {
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const NMM::MPISession mpi(argv[0]);
   testing::InitGoogleTest(&argc, argv);
   dealii::deal_II_exceptions::disable_abort_on_exception();
   return RUN_ALL_TESTS();

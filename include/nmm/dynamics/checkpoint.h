@@ -20,7 +20,7 @@ namespace NMM
   {
     /// Written beside @p filename, synchronized to disk and renamed: whenever the
     /// program is killed, the file is the last complete one.
-    /// @throws InputError if it cannot be written.
+    /// @throws OutputFailure.
     static void
     write(const TimeIntegrator &integrator, const std::string &filename);
 

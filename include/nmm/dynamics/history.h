@@ -20,7 +20,7 @@ namespace NMM
     /**
      * A new file, or, to continue from a checkpoint, @p filename with the rows after
      * step @p continue_after taken away. @p further_columns come last.
-     * @throws InputError if the file cannot be written or is no history.
+     * @throws OutputFailure, or InputError if the file is no history.
      */
     explicit History(const std::string              &filename,
                      MPI_Comm                        communicator,

@@ -90,7 +90,7 @@ namespace NMM
      * Keeps frames in @p file_name. If there are such already, of times up to
      * @p keep_until, they are the first ones (a run that continues); a frame that
      * was not written to its end and all later ones are dropped.
-     * @throws InputError if the file cannot be written.
+     * @throws OutputFailure.
      */
     explicit Animation(
       std::string file_name,

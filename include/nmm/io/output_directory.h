@@ -22,8 +22,8 @@ namespace NMM
     const std::filesystem::path &
     path() const;
 
-    /// @throws InputError if the folder cannot be made or written to. Creates
-    /// nothing.
+    /// @throws InputError if the folder cannot be made or written to, or folders
+    /// have names of results. What is made to find out is removed again.
     void
     check() const;
 
@@ -36,7 +36,7 @@ namespace NMM
     void
     resume() const;
 
-    /// @p write gets the temporary file's name.
+    /// @p write gets the temporary file's name. @throws OutputFailure.
     void
     write_file(const std::string                              &name,
                const std::function<void(const std::string &)> &write) const;
@@ -48,6 +48,15 @@ namespace NMM
   private:
     void
     remove_results(bool of_end_only) const;
+
+    /// Name of a folder where a file of results belongs; empty: none.
+    std::string
+    folder_in_the_way() const;
+
+    /// Make the folder and a file in it, and remove both; the system's reason if
+    /// that cannot be done.
+    std::string
+    try_to_write() const;
 
     std::filesystem::path folder;
   };

@@ -150,7 +150,7 @@ namespace NMM
    * Draw a PNG: the triangles with smooth shading in a perceptually uniform
    * colour map, lines over them, title and colour bar. Two pictures with the same
    * width and the same view in @p frame have the same size.
-   * @throws ExcFileNotOpen-like deal.II exceptions if the file cannot be written.
+   * @throws OutputFailure.
    */
   void
   draw_picture(const PictureData      &data,

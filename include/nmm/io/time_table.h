@@ -21,7 +21,7 @@ namespace NMM
      * A new file, or, to continue, @p filename with the rows after step
      * @p continue_after taken away, which replaces it in one go. @p columns are
      * those after time and step; @p comment, if not empty, is a first line.
-     * @throws InputError if the file cannot be written or has other columns.
+     * @throws OutputFailure, or InputError if the file has other columns.
      */
     TimeTable(const std::string              &filename,
               const std::string              &comment,
@@ -29,7 +29,7 @@ namespace NMM
               MPI_Comm                        communicator,
               int                             continue_after = -1);
 
-    /// @throws InputError if the disk is full.
+    /// @throws OutputFailure.
     void
     write(double time, unsigned int step, const std::vector<double> &values);
 

@@ -9,7 +9,7 @@
 // On several ranks, `measure` adds the rows of what is shared out among ranks to a table
 // that is there.
 
-#include <nmm/base/exceptions.h>
+#include <nmm/base/program.h>
 
 #include "counts.h"
 #include "measure.h"
@@ -128,7 +128,7 @@ namespace
 int
 main(int argc, char **argv)
 {
-  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const NMM::MPISession mpi(argv[0]);
   try
   {
     run({argv + 1, argv + argc});

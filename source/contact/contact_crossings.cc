@@ -4,6 +4,7 @@
 #include <contact/contact_crossings.h>
 #include <limits>
 #include <sstream>
+#include <tuple>
 
 namespace NMM
 {
@@ -121,9 +122,12 @@ namespace NMM
           e = edges[e].next;
           ++n;
         } while (e != invalid_index && e != first[body] && n <= n_edges[body]);
-        const double tau = std::min(reach_part * reach,
+        const double tau   = std::min(reach_part * reach,
                                     circumference_part * circumference[body]);
-        bodies[body].tau = tau;
+        bodies[body].tau   = tau;
+        bodies[body].width = area[body] > 0. && n == n_edges[body]
+                               ? 2. * area[body] / circumference[body]
+                               : circumference[body];
         // a line that is the boundary of half of the plane
         if (n_edges[body] == 1 && edges[first[body]].next == invalid_index &&
             edges[first[body]].radius == 0.)
@@ -199,58 +203,69 @@ namespace NMM
     }
 
 
-    bool
-    ContactCrossings::is_bent(const unsigned int edge) const
+    unsigned int
+    ContactCrossings::n_chords(const unsigned int edge) const
     {
-      // part of the length that counts
-      constexpr double bend = 1e-3;
-      if (surface->edges()[edge].radius != 0.)
-        return true;
+      // part of the body's width, and the most chords of an edge
+      constexpr double precision = 0.02, most = 64.;
+      const double     tolerance =
+        precision * bodies[surface->edges()[edge].body].width;
+      double sagitta = 0.;
       for (const auto *positions : {&at_begin, &at_end})
       {
-        const Point<2>    *x     = positions->data() + 3 * edge;
-        const Tensor<1, 2> chord = x[2] - x[0];
-        if (std::abs(cross(chord, x[1] - x[0])) > bend * chord.norm_square())
-          return true;
+        const Point<2> *x = positions->data() + 3 * edge;
+        sagitta =
+          std::max(sagitta, 0.5 * ((x[0] - x[1]) + (x[2] - x[1])).norm());
       }
-      return false;
+      return static_cast<unsigned int>(
+        std::clamp(std::ceil(std::sqrt(sagitta / tolerance)), 1., most));
     }
 
 
     Point<2>
     ContactCrossings::position(const unsigned int edge,
-                               const unsigned int i,
-                               const double       share) const
+                               const double       t,
+                               const double       time) const
     {
-      const Point<2> &x_0 = at_begin[3 * edge + i], &x_1 = at_end[3 * edge + i];
-      const Body     &body = bodies[surface->edges()[edge].body];
-      if (body.angle == 0. || share == 0. || share == 1.)
-        return share == 1. ? x_1 : x_0 + share * (x_1 - x_0);
+      const double weights[3] = {(1. - t) * (1. - 2. * t),
+                                 4. * t * (1. - t),
+                                 t * (2. * t - 1.)};
+      Point<2>     x_0, x_1;
+      for (unsigned int i = 0; i < 3; ++i)
+        if (weights[i] != 0.)
+        {
+          x_0 += weights[i] * at_begin[3 * edge + i];
+          x_1 += weights[i] * at_end[3 * edge + i];
+        }
+      if (time == 0. || time == 1.)
+        return time == 0. ? x_0 : x_1;
+      const Body &body = bodies[surface->edges()[edge].body];
+      if (body.angle == 0.)
+        return x_0 + time * (x_1 - x_0);
       const Tensor<1, 2> d_0 = x_0 - body.center;
       const Tensor<1, 2> d_1 =
         rotated(x_1 - body.center - body.motion, -body.angle);
-      return body.center + share * body.motion +
-             rotated(d_0 + share * (d_1 - d_0), share * body.angle);
+      return body.center + time * body.motion +
+             rotated(d_0 + time * (d_1 - d_0), time * body.angle);
     }
 
 
     ContactCrossings::Place
-    ContactCrossings::nearest(const Point<2>              &x,
-                              const std::vector<Chord>    &chords,
-                              const std::vector<Point<2>> &positions,
-                              const double                 bound,
-                              std::vector<Chord>          *near) const
+    ContactCrossings::nearest(const Point<2>           &x,
+                              const std::vector<Chord> &chords,
+                              const double              time,
+                              const double              bound,
+                              std::vector<Chord>       *near) const
     {
       // distances that differ by less than this part of a chord's length are equal
-      constexpr double same = 1e-9;
+      constexpr double same = 1e-12;
 
       Place result;
       result.distance = std::numeric_limits<double>::max();
       for (const Chord &chord : chords)
       {
-        const Point<2> &a         = positions[3 * chord.edge + chord.first],
-                       &b         = positions[3 * chord.edge + chord.last];
-        const Tensor<1, 2> along  = b - a;
+        const Point<2>     a      = position(chord.edge, chord.first, time);
+        const Tensor<1, 2> along  = position(chord.edge, chord.last, time) - a;
         const double       square = along.norm_square();
         if (!(square > 0.))
           continue;
@@ -263,8 +278,8 @@ namespace NMM
         double      gap  = cross(way, along) / length;
         const auto &edge = surface->edges()[chord.edge];
         // beyond the end of what is not closed nothing is inside
-        if ((t == 0. && chord.first == 0 && edge.previous == invalid_index) ||
-            (t == 1. && chord.last == 2 && edge.next == invalid_index))
+        if ((t == 0. && chord.first == 0. && edge.previous == invalid_index) ||
+            (t == 1. && chord.last == 1. && edge.next == invalid_index))
           gap = distance;
         // at a corner the face that sees more of the distance knows
         const bool is_tied =
@@ -272,8 +287,8 @@ namespace NMM
         if (is_tied ? std::abs(gap) > std::abs(result.gap)
                     : distance < result.distance)
         {
-          result.edge = chord.edge;
-          result.t    = 0.5 * (chord.first + t * (chord.last - chord.first));
+          result.edge     = chord.edge;
+          result.t        = chord.first + t * (chord.last - chord.first);
           result.distance = distance;
           result.gap      = gap;
         }
@@ -284,7 +299,7 @@ namespace NMM
 
     void
     ContactCrossings::follow(const unsigned int        edge,
-                             const unsigned int        i,
+                             const double              s,
                              const std::vector<Chord> &chords,
                              Path                     &path) const
     {
@@ -296,8 +311,8 @@ namespace NMM
       for (unsigned int piece = 0; piece < n; ++piece)
       {
         const double   begin = piece / double(n), end = (piece + 1) / double(n);
-        const Point<2> p_0 = position(edge, i, begin),
-                       p_1 = position(edge, i, end);
+        const Point<2> p_0 = position(edge, s, begin),
+                       p_1 = position(edge, s, end);
         for (const Chord &chord : chords)
           meet(p_0,
                p_1,
@@ -306,18 +321,18 @@ namespace NMM
                position(chord.edge, chord.last, begin),
                position(chord.edge, chord.last, end),
                [&](const double time, const double t) {
-                 const double share = begin + time / n;
+                 const double now = begin + time / n;
                  Place        place;
                  place.edge = chord.edge;
-                 place.t = 0.5 * (chord.first + t * (chord.last - chord.first));
-                 if (!path.crosses || share < path.begin)
+                 place.t    = chord.first + t * (chord.last - chord.first);
+                 if (!path.crosses || now < path.begin)
                  {
-                   path.begin = share;
+                   path.begin = now;
                    path.first = place;
                  }
-                 if (!path.crosses || share >= path.end)
+                 if (!path.crosses || now >= path.end)
                  {
-                   path.end  = share;
+                   path.end  = now;
                    path.last = place;
                  }
                  path.crosses = true;
@@ -329,11 +344,9 @@ namespace NMM
     Tensor<1, 2>
     ContactCrossings::normal(const Place &place) const
     {
-      const Point<2>    *x    = at_end.data() + 3 * place.edge;
-      const bool         bent = is_bent(place.edge);
-      const Tensor<1, 2> a    = !bent           ? x[2] - x[0]
-                                : place.t < 0.5 ? x[1] - x[0]
-                                                : x[2] - x[1];
+      const Point<2>    *x = at_end.data() + 3 * place.edge;
+      const Tensor<1, 2> a =
+        (x[2] - x[0]) + (4. * place.t - 2.) * ((x[0] - x[1]) + (x[2] - x[1]));
       return Point<2>(a[1], -a[0]) / a.norm();
     }
 
@@ -347,24 +360,24 @@ namespace NMM
       const Tensor<1, 2> to_normal = normal(to);
       for (const bool forward : {true, false})
       {
-        double       others = 0.;
-        unsigned int e      = from.edge;
-        double length = edges[e].length * (forward ? 1. - from.t : from.t);
+        double others = 0.;
         Place  place  = from;
+        double length =
+          edges[from.edge].length * (forward ? 1. - from.t : from.t);
         // once round
-        for (unsigned int i = 0; i < edges.size(); ++i)
+        do
         {
-          if (e == to.edge)
-            return true;
           if (normal(place) * to_normal < same_way)
             others += length;
-          e = forward ? edges[e].next : edges[e].previous;
-          if (others > tau || e == invalid_index || e == from.edge)
+          place.edge =
+            forward ? edges[place.edge].next : edges[place.edge].previous;
+          if (place.edge == to.edge && others <= tau)
+            return true;
+          if (place.edge == invalid_index)
             break;
-          place.edge = e;
-          place.t    = 0.25;
-          length     = edges[e].length;
-        }
+          place.t = 0.5;
+          length  = edges[place.edge].length;
+        } while (others <= tau && place.edge != from.edge);
       }
       return false;
     }
@@ -377,57 +390,58 @@ namespace NMM
     {
       if (a.edge != b.edge)
         return reaches(a, b, tau) || reaches(b, a, tau);
-      return !is_bent(a.edge) || normal(a) * normal(b) >= same_way ||
+      return normal(a) * normal(b) >= same_way ||
              std::abs(a.t - b.t) * surface->edges()[a.edge].length <= tau;
     }
 
 
     void
     ContactCrossings::examine(const unsigned int        edge,
-                              const unsigned int        i,
+                              const double              s,
                               const std::vector<Chord> &chords,
                               const IsInContact        &is_in_contact,
                               StepFault                &fault) const
     {
+      // arcs are that much longer than their chords, at most
+      constexpr double arc = 2.;
+      // of what the point does inside
+      constexpr double part = 0.25;
+
       const auto        &edges        = surface->edges();
       const Body        &body         = bodies[edges[edge].body];
       const unsigned int other_number = edges[chords[0].edge].body;
       const Body        &other        = bodies[other_number];
-      const unsigned int point        = 3 * edge + i;
-      const Tensor<1, 2> motion       = at_end[point] - at_begin[point];
-      // arcs are that much longer than their chords
-      constexpr double arc = 2.;
-      const double     bound =
-        arc * ((motion - other.motion).norm() + other.radius);
+      const Point<2> x_0 = position(edge, s, 0.), x_1 = position(edge, s, 1.);
+      const double   bound =
+        arc * ((x_1 - x_0 - other.motion).norm() + other.radius);
       near_chords.clear();
-      const Place begin =
-        nearest(at_begin[point], chords, at_begin, bound, &near_chords);
+      const Place begin = nearest(x_0, chords, 0., bound, &near_chords);
       if (near_chords.empty() && begin.gap >= 0.)
         return;
       Path path;
       if (!near_chords.empty())
-        follow(edge, i, near_chords, path);
+        follow(edge, s, near_chords, path);
       if (!path.crosses && begin.gap >= 0.)
         return;
-      const Place  end = nearest(at_end[point], chords, at_end, 0., nullptr);
-      const bool   was_inside = begin.gap < 0., is_inside = end.gap < 0.;
-      const double entered = was_inside ? 0. : path.begin;
-      const double left    = is_inside || !path.crosses ? 1. : path.end;
-      const Place &in      = was_inside ? begin : path.first;
-      const Place &out     = is_inside || !path.crosses ? end : path.last;
 
-      constexpr double part  = 0.25;
-      double           retry = 0.;
-      std::string      what;
-      const double     tau = std::min(body.tau, other.tau);
+      const Place  end        = nearest(x_1, chords, 1., 0., nullptr);
+      const bool   was_inside = begin.gap < 0., is_inside = end.gap < 0.;
+      const bool   ends_inside = is_inside || !path.crosses;
+      const double entered     = was_inside ? 0. : path.begin;
+      const double left        = ends_inside ? 1. : path.end;
+      const Place &in          = was_inside ? begin : path.first;
+      const Place &out         = ends_inside ? end : path.last;
+      const double tau         = std::min(body.tau, other.tau);
+      double       retry       = 0.;
+      std::string  what;
       if (!is_same_side(in, out, other.tau))
       {
         retry = entered + part * (left - entered);
-        what  = is_inside ? "nearer to the far side of" : "through";
+        what  = is_inside ? "beyond the middle of" : "through";
       }
       else if (!was_inside && is_inside && -end.gap > tau &&
                !is_in_contact(edge, other_number) &&
-               !(i == 0 && edges[edge].previous != invalid_index &&
+               !(s == 0. && edges[edge].previous != invalid_index &&
                  is_in_contact(edges[edge].previous, other_number)))
       {
         retry = entered + 0.5 * tau / -end.gap * (1. - entered);
@@ -437,14 +451,12 @@ namespace NMM
         return;
       fault.retry = retry;
       std::ostringstream text;
-      text << "a point of '" << surface->name(edge) << "', at ("
-           << at_begin[point][0] << ", " << at_begin[point][1]
+      text << "a point of '" << surface->name(edge) << "', at (" << x_0
            << ") m when the step begins, that would pass " << what << " '"
            << surface->name(in.edge) << "' without being stopped";
       fault.reason = text.str();
       fault.remedy =
-        "allow smaller steps, make what is hit thicker, or contact "
-        "stiffer";
+        "allow smaller steps, make what is hit thicker, or contact stiffer";
     }
 
 
@@ -474,22 +486,17 @@ namespace NMM
                edges[pairs[k].second].body == body;
              ++k)
         {
-          const unsigned int face = pairs[k].second;
-          if (is_bent(face))
-          {
-            chords.push_back({face, 0, 1});
-            chords.push_back({face, 1, 2});
-          }
-          else
-            chords.push_back({face, 0, 2});
+          const unsigned int face = pairs[k].second, n = n_chords(face);
+          for (unsigned int i = 0; i < n; ++i)
+            chords.push_back({face, i / double(n), (i + 1) / double(n)});
         }
-        // what a concave corner reaches its neighbours reach before
-        if (edges[edge].at_start != Corner::concave)
-          examine(edge, 0, chords, is_in_contact, fault);
-        if (is_bent(edge))
-          examine(edge, 1, chords, is_in_contact, fault);
+        const unsigned int n = n_chords(edge);
+        for (unsigned int i = 0; i < n; ++i)
+          // what a concave corner reaches its neighbours reach before
+          if (i > 0 || edges[edge].at_start != Corner::concave)
+            examine(edge, i / double(n), chords, is_in_contact, fault);
         if (edges[edge].next == invalid_index)
-          examine(edge, 2, chords, is_in_contact, fault);
+          examine(edge, 1., chords, is_in_contact, fault);
       }
       return fault;
     }

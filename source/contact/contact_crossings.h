@@ -18,8 +18,9 @@ namespace NMM
      * has passed through a thin body is in front of it again, and one that is nearer to the far
      * side is pushed out there.
      *
-     * Faces are chords: one for a straight edge, two for an arc or a bent edge. Points are the
-     * ends of all chords, of both bodies: boundaries of two polygons that are apart cannot
+     * Edges are parabolas through their ends and middle, which straight ones that deform are, and
+     * are divided into so many chords that these are within a fiftieth of the body's mean width 2 A/P
+     * of them. Points are the ends of all chords, of both bodies: boundaries of two polygons that are apart cannot
      * overlap before a vertex of one has crossed an edge of the other, so nothing
      * else needs to be looked at. Between begin and end of the step, positions are
      * @f[ x(\lambda) = c(\lambda) + R(\lambda\theta)\,
@@ -92,7 +93,7 @@ namespace NMM
     private:
       struct Body
       {
-        double tau = 0., thickness = 0.;
+        double tau = 0., thickness = 0., width = 0.;
         /// Of the last step: mean position, motion, what its points move otherwise at most, rotation.
         dealii::Point<2>     center;
         dealii::Tensor<1, 2> motion;
@@ -109,9 +110,11 @@ namespace NMM
         double distance = 0., gap = 0.;
       };
 
+      /// Part of an edge.
       struct Chord
       {
-        unsigned int edge = invalid_index, first = 0, last = 2;
+        unsigned int edge  = invalid_index;
+        double       first = 0., last = 1.;
       };
 
       /// Of a point that moves past the faces of a body.
@@ -122,22 +125,24 @@ namespace NMM
         bool   crosses = false;
       };
 
-      bool
-      is_bent(unsigned int edge) const;
+      /// Of an edge.
+      unsigned int
+      n_chords(unsigned int edge) const;
 
+      /// Of a place on an edge at a time of the step, 0 to 1.
       dealii::Point<2>
-      position(unsigned int edge, unsigned int i, double share) const;
+      position(unsigned int edge, double t, double time) const;
 
       Place
-      nearest(const dealii::Point<2>              &x,
-              const std::vector<Chord>            &chords,
-              const std::vector<dealii::Point<2>> &positions,
-              double                               bound,
-              std::vector<Chord>                  *near) const;
+      nearest(const dealii::Point<2>   &x,
+              const std::vector<Chord> &chords,
+              double                    time,
+              double                    bound,
+              std::vector<Chord>       *near) const;
 
       void
       follow(unsigned int              edge,
-             unsigned int              i,
+             double                    t,
              const std::vector<Chord> &chords,
              Path                     &path) const;
 
@@ -153,7 +158,7 @@ namespace NMM
       /// Of one point past one body.
       void
       examine(unsigned int              edge,
-              unsigned int              i,
+              double                    t,
               const std::vector<Chord> &chords,
               const IsInContact        &is_in_contact,
               StepFault                &fault) const;

@@ -38,6 +38,9 @@ namespace NMM
       /// Half of the wall's height: what bounces does not come round its ends [m].
       constexpr double wall_height = 20.;
 
+      /// Of the circle that the block's corners are on [m].
+      constexpr double radius = 0.3;
+
 
       Shot
       make_shot(const unsigned int seed)
@@ -58,7 +61,7 @@ namespace NMM
         shot.direction     = 0.8 * (2. * random(generator) - 1.);
         // half of the shots spin, at most by 2.5 rad in a step, and at most as fast at
         // their corners as they fly
-        constexpr double radius = 0.3, largest_turn = 2.5;
+        constexpr double largest_turn = 2.5;
         if (random(generator) < 0.5)
           shot.spin = (2. * random(generator) - 1.) *
                       std::min(shot.speed / radius, largest_turn / shot.step);
@@ -84,8 +87,8 @@ namespace NMM
       }
 
 
-      /// Deepest place of a corner of the block beyond the middle of the wall [m]: it would be
-      /// pushed out on the other side.
+      /// Deepest place of a corner of the block beyond the middle of the wall, over its thickness [-]:
+      /// 0 there, where it would be pushed out on the other side; 1 where it comes out.
       double
       way_through(const Shot &shot, const ContactSurface &surface)
       {
@@ -124,11 +127,11 @@ namespace NMM
               }
             }
           }
-          // a half of the plane has no far side: as deep as the block is large
-          constexpr double radius = 0.3;
+          // a half of the plane has no far side: the block is half inside
           result =
             std::max(result,
-                     shot.wall == Wall::line ? -gap - radius : near - far);
+                     shot.wall == Wall::line ? -gap / radius
+                                             : (near - far) / shot.thickness);
         }
         return result;
       }
@@ -205,6 +208,7 @@ namespace NMM
     {
       Run                total;
       unsigned int       n_through = 0, n_failed = 0;
+      double             largest = -1.;
       std::ostringstream list;
       for (unsigned int seed = shots.first_seed;
            seed < shots.first_seed + shots.n_shots;
@@ -219,12 +223,13 @@ namespace NMM
                     << shot.speed << " step " << shot.step << " spin "
                     << shot.spin << ": " << run.n_steps << " steps, "
                     << run.n_cuts << " cut, " << run.seconds
-                    << " s, beyond the middle by " << through << " m "
-                    << run.failure << std::endl;
+                    << " s, through by " << through << " " << run.failure
+                    << std::endl;
         n_failed += !run.failure.empty();
         run.failure.clear();
         total += run;
-        if (through > 0.)
+        largest = std::max(largest, through);
+        if (through > 0.5)
         {
           ++n_through;
           list << " " << seed;
@@ -247,6 +252,14 @@ namespace NMM
                        n_failed,
                        0.,
                        shots.n_shots,
+                       0.,
+                       total);
+      measurements.add(10,
+                       name,
+                       "furthest beyond the middle of a wall [thickness]",
+                       largest,
+                       0.,
+                       1.,
                        0.,
                        total);
       measurements.add(

@@ -95,8 +95,10 @@ namespace NMM
   {
     Data &d = *data;
     d.move_to(u);
-    d.reach      = std::max(least_reach, d.parameters.reach);
-    d.is_between = false;
+    d.nodal_begin   = d.nodal;
+    d.time_detected = d.time;
+    d.reach         = std::max(least_reach, d.parameters.reach);
+    d.is_between    = false;
     // faces that have parted by dilation are still in contact
     const double reach = d.reach + d.largest_opening();
     if (d.search.update(reach))

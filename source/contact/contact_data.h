@@ -4,6 +4,7 @@
 #include <nmm/contact/contact.h>
 
 #include <array>
+#include <contact/contact_crossings.h>
 #include <contact/contact_motion.h>
 #include <contact/contact_points.h>
 #include <contact/contact_search.h>
@@ -464,6 +465,11 @@ namespace NMM
         coupled_bodies.push_back(pair);
     }
 
+    /// Does the step that began at detect() take anything through something else to where
+    /// the surface is now?
+    StepFault
+    find_crossing();
+
     void
     reduce_report();
 
@@ -583,6 +589,9 @@ namespace NMM
     std::vector<double> searched_nodal;
     double              searched_time = 0., searched_reach = 0.;
 
+    /// Null: not needed so far.
+    std::unique_ptr<internal::ContactCrossings> crossings;
+
     /// Of a time step: how far points are at its begin from touching, and by how much the
     /// candidates at each position of ContactSearch::slaves() have moved against each
     /// other, and at which assembly.
@@ -611,15 +620,15 @@ namespace NMM
     /// Active points that are not far.
     std::vector<unsigned int> asked_points;
 
-    /// Of a time step: displacements at its begin, faces at its end and in its middle, and
+    /// Of a time step: displacements at its begin, where detect() was called, and when; faces at its end and in its middle, and
     /// the way of obstacles.
     std::vector<double>               nodal_begin;
     ContactSurface::State             end_state, middle_state;
     std::vector<dealii::Tensor<1, 2>> obstacle_changes;
     /// See Contact::expect(); empty: nothing is.
     std::vector<double> nodal_expected;
-    double              time = 0., time_begin = 0., step = 0.;
-    bool                is_between = false;
+    double time = 0., time_begin = 0., time_detected = 0., step = 0.;
+    bool   is_between = false;
   };
 } // namespace NMM
 

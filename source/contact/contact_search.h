@@ -177,6 +177,13 @@ namespace NMM
         return largest_distance(begin_positions);
       }
 
+      /// At update(): start, middle and end of all edges.
+      const std::vector<dealii::Point<2>> &
+      step_begin() const
+      {
+        return begin_positions;
+      }
+
       /// Where a step begins: where faces are now, or in the reference configuration;
       /// unchanged, or here if it is not known.
       enum class Begin

@@ -179,7 +179,8 @@ namespace NMM
         return false;
       step.contact = contact->report();
       // where all has moved far, there may be candidates now
-      if (contact->is_idle() && (i > 0 || contact->find_fault(u).empty()))
+      if (contact->is_idle() &&
+          (i > 0 || contact->find_fault(u).reason.empty()))
         return true;
       if (contact->is_idle())
         continue;

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <contact/contact_data.h>
 #include <mechanics/nodal_values.h>
-#include <sstream>
 
 namespace NMM
 {
@@ -156,7 +155,6 @@ namespace NMM
     if (d.is_virgin)
       d.energies_of_pairs = d.pair_energies();
     d.keep_energies();
-    d.nodal_begin = d.nodal;
     d.end_state = d.middle_state = d.surface->state();
     for (unsigned int q = 0; q < d.points.size(); ++q)
     {
@@ -710,22 +708,5 @@ namespace NMM
                 d.obstacle_changes[d.surface->edges()[edge].body - first];
       }
     return Parallel::sum(work, d.communicator);
-  }
-
-
-  std::string
-  Contact::find_fault(const Vector &end)
-  {
-    Data &d = *data;
-    d.move_to(end);
-    std::ostringstream text;
-    if (!d.is_idle && d.deepest > 0.5 * d.reach)
-      text << "a penetration of " << d.deepest
-           << " m, more than half of the distance of " << d.reach
-           << " m within which faces are looked for";
-    else if (d.search.motion() > d.reach)
-      text << "a point of a face that moved further than the distance of "
-           << d.reach << " m within which faces are looked for";
-    return text.str();
   }
 } // namespace NMM

@@ -17,7 +17,7 @@ namespace NMM
     std::vector<ObstacleRelease> releases;
     internal::ActiveItems        active_rows;
     Vector                       sum;
-    double                       scale       = 0.;
+    double                       scale = 0., step_end = 0.;
     bool                         is_detected = false;
     /// See tangent_to_add_to(): factor, and whether the caller adds to it.
     double tangent_factor  = 1.;
@@ -372,15 +372,20 @@ namespace NMM
       d.contact->begin_step(placed(begin), t);
       d.contact->expect(placed(predicted));
     }
-    d.contact->set_time(t + h);
+    d.step_end = t + h;
+    d.contact->set_time(d.step_end);
   }
 
 
-  std::string
+  StepFault
   ContactModel::find_fault(const Vector &end)
   {
-    const std::string fault = data->model->find_fault(end);
-    return fault.empty() ? data->contact->find_fault(placed(end)) : fault;
+    const StepFault fault = data->model->find_fault(end);
+    if (!fault.reason.empty())
+      return fault;
+    // the last assembly may have been at a time between
+    data->contact->set_time(data->step_end);
+    return data->contact->find_fault(placed(end));
   }
 
 

@@ -23,6 +23,15 @@ namespace NMM
         return 0.7;
       return n_iterations > few_iterations ? 1. : largest;
     }
+
+    /// Share of a step that something passed through another body in, to be tried next.
+    double
+    retry_share(const StepReport &report, const unsigned int n_cuts)
+    {
+      // after so many cuts the path is not what was followed: halve it
+      constexpr unsigned int n_followed = 5;
+      return std::min(report.retry, n_cuts < n_followed ? 0.9 : 0.5);
+    }
   } // namespace
 
 
@@ -145,15 +154,19 @@ namespace NMM
                    " m in a step"
                : "an error of " + std::to_string(report.error) +
                    " m in a step");
-      step = h * std::clamp(safety * factor, 0.1, 0.7);
+      step = h * (!report.converged && report.retry > 0.
+                    ? retry_share(report, record.n_cuts)
+                    : std::clamp(safety * factor, 0.1, 0.7));
       AssertThrow(step >= parameters.min_step,
                   NumericalFailure(
                     "The time step would be " + std::to_string(step) +
                       " s, less than the least one, because of " + reason,
                     "time " + std::to_string(state.time) + " s, step " +
                       std::to_string(state.step + 1),
-                    "allow smaller steps, larger displacements or errors, or "
-                    "look at the last good state for what gives way"));
+                    !report.remedy.empty()
+                      ? report.remedy
+                      : "allow smaller steps, larger displacements or errors, "
+                        "or look at the last good state for what gives way"));
     }
   }
 
@@ -197,16 +210,18 @@ namespace NMM
       {
         ++record.n_cuts;
         record.n_lost_iterations += step.n_iterations;
-        h *= 0.5;
-        AssertThrow(h >= least,
-                    NumericalFailure("Relaxation gave up: " +
-                                       (is_far ? "displacements of " +
-                                                   std::to_string(
-                                                     step.max_displacement) +
-                                                   " m in a step"
-                                               : step.reason),
-                                     "step " + std::to_string(report.n_steps),
-                                     "choose a smaller step"));
+        h *= !step.converged && step.retry > 0.
+               ? retry_share(step, record.n_cuts)
+               : 0.5;
+        AssertThrow(
+          h >= least,
+          NumericalFailure(
+            "Relaxation gave up: " +
+              (is_far ? "displacements of " +
+                          std::to_string(step.max_displacement) + " m in a step"
+                      : step.reason),
+            "step " + std::to_string(report.n_steps),
+            step.remedy.empty() ? "choose a smaller step" : step.remedy));
         continue;
       }
       integrator.accept();

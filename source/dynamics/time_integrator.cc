@@ -161,8 +161,11 @@ namespace NMM
       d.measure(report);
     if (report.converged)
     {
-      report.reason    = d.model->find_fault(d.u_end);
-      report.converged = report.reason.empty();
+      const StepFault fault = d.model->find_fault(d.u_end);
+      report.reason         = fault.reason;
+      report.remedy         = fault.remedy;
+      report.retry          = fault.retry;
+      report.converged      = report.reason.empty();
     }
     d.has_candidate = report.converged;
     return report;

@@ -190,6 +190,17 @@ namespace NMM
     }
 
 
+    // 40 of 1,000.
+    TEST(ContactBars, ShotsDoNotPassThroughWalls)
+    {
+      Measurements measurements;
+      Shots        shots;
+      shots.n_shots = 40;
+      shoot_at_walls(shots, measurements);
+      expect_holds(measurements);
+    }
+
+
     TEST(ContactBars, VertexOnVertex)
     {
       Measurements measurements;

@@ -1,6 +1,7 @@
 // Scenarios of contact in time with known outcome, at full size. Argument 1: which
 // group (2: incline, 3: impact, 4: stacks, 5: rocking and rolling, 6: joint wave,
-// 7: corners, 8: random drops, 9: repeated runs; 0: all), argument 2: the file for the table.
+// 7: corners, 8: random drops, 9: repeated runs, shots: shots at
+// walls; 0: all), argument 2: the file for the table.
 
 #include <nmm/base/program.h>
 
@@ -226,6 +227,13 @@ namespace
   }
 
 
+  void
+  shots(Measurements &measurements)
+  {
+    shoot_at_walls(Shots(), measurements);
+  }
+
+
   /// A repeated run against the first one.
   void
   repeated(Measurements &measurements)
@@ -285,7 +293,8 @@ main(int argc, char **argv)
     {"6", waves},
     {"7", corners},
     {"8", drops},
-    {"9", repeated}};
+    {"9", repeated},
+    {"shots", shots}};
   for (const auto &[name, group] : groups)
     if (which == "0" || name.compare(0, which.size(), which) == 0)
     {

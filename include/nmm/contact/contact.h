@@ -1,6 +1,7 @@
 #ifndef nmm_contact_contact_h
 #define nmm_contact_contact_h
 
+#include <nmm/base/step_fault.h>
 #include <nmm/contact/contact_integration.h>
 #include <nmm/contact/contact_surface.h>
 #include <nmm/mechanics/block_matrix.h>
@@ -388,10 +389,10 @@ namespace NMM
     work_of_obstacles(double time_begin, double time_end);
     /// @}
 
-    /// Why a step to @p end is not to be trusted: points that moved
-    /// further than faces were looked for, or penetrate half as far; else
-    /// empty. The last assembly was that of @p end.
-    std::string
+    /// Why a step from detect() to @p end, at the time that is set, is not to be trusted: points
+    /// that moved further than faces were looked for, penetrate half as far, or have passed
+    /// through a body on the way. The last assembly was that of @p end.
+    StepFault
     find_fault(const Vector &end);
 
     /// Multipliers and places of sticking of all ranks.

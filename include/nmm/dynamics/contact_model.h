@@ -146,7 +146,7 @@ namespace NMM
                double        t,
                double        h) override;
 
-    std::string
+    StepFault
     find_fault(const Vector &end) override;
 
     double

@@ -2,6 +2,7 @@
 #define nmm_dynamics_mechanical_model_h
 
 #include <nmm/base/exceptions.h>
+#include <nmm/base/step_fault.h>
 #include <nmm/base/types.h>
 #include <nmm/mechanics/block_matrix.h>
 #include <nmm/mechanics/hyperelasticity.h>
@@ -228,11 +229,11 @@ namespace NMM
       return {};
     }
 
-    /// Why the step to @p end must not be accepted; empty: it may.
-    virtual std::string
+    /// Why the step to @p end must not be accepted.
+    virtual StepFault
     find_fault(const Vector & /*end*/)
     {
-      return "";
+      return {};
     }
 
     /// The step to @p end at the time @p t is accepted. Returns the energy that

@@ -92,8 +92,10 @@ namespace NMM
   struct StepReport
   {
     bool converged = false;
-    /// Why not, for people.
-    std::string  reason;
+    /// Why not, and what helps, for people; see StepFault.
+    std::string reason, remedy;
+    /// Share of the step that is to be tried next; 0: nothing is known of that.
+    double       retry        = 0.;
     double       step         = 0.;
     unsigned int n_iterations = 0;
     /// The same, each times the share of the unknowns it was for.

@@ -176,7 +176,7 @@ namespace NMM
         model->begin_step(begin, predicted, t, h);
       }
 
-      std::string
+      StepFault
       find_fault(const Vector &end) override
       {
         const Running running(steps);

@@ -216,6 +216,22 @@ namespace NMM
     /// @}
 
 
+    /// Polygons that are thrown at a wall, straight or spinning, with steps in which they fly 0.1 to
+    /// 1,000 times its thickness of 0.001 to 1 m. The wall is rigid, deformable and free, or
+    /// half of the plane. What is random follows from the seed.
+    struct Shots
+    {
+      unsigned int n_shots = 1000, first_seed = 0;
+      /// Print a line for each.
+      bool is_verbose = false;
+    };
+
+    /// None has passed the middle of the wall after any step; a run may end because a step would be too
+    /// short.
+    void
+    shoot_at_walls(const Shots &shots, Measurements &measurements);
+
+
     /// Displacements and velocities in the end of small runs of each kind, for
     /// comparisons between repeated runs and numbers of ranks.
     std::vector<std::pair<std::string, std::vector<double>>>

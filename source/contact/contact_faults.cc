@@ -1,0 +1,133 @@
+// Why a step must not be accepted.
+#include <nmm/contact/contact.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <contact/contact_data.h>
+#include <sstream>
+
+namespace NMM
+{
+  using namespace internal;
+  namespace Parallel = dealii::Utilities::MPI;
+
+  namespace
+  {
+    using EdgePair = ContactCrossings::Pair;
+
+
+    /// Of all ranks.
+    std::vector<EdgePair>
+    all_pairs(const MPI_Comm communicator, std::vector<EdgePair> pairs)
+    {
+      if (Parallel::n_mpi_processes(communicator) == 1)
+        return pairs;
+      std::vector<EdgePair> result;
+      for (const auto &part : Parallel::all_gather(communicator, pairs))
+        result.insert(result.end(), part.begin(), part.end());
+      return result;
+    }
+
+
+    /// Edges that are near each other and can cross, both ways.
+    std::vector<EdgePair>
+    find_near(const ContactSearch    &search,
+              const ContactCrossings &crossings,
+              const double            depth)
+    {
+      std::vector<EdgePair> result;
+      for (unsigned int i = 0; i < search.slaves().size(); ++i)
+      {
+        const unsigned int slave = search.slaves()[i];
+        for (const unsigned int master : search.masters(i))
+          if (crossings.may_cross(slave, master, depth))
+          {
+            result.emplace_back(slave, master);
+            result.emplace_back(master, slave);
+          }
+      }
+      return result;
+    }
+  } // namespace
+
+
+  StepFault
+  Contact::Data::find_crossing()
+  {
+    if (crossings == nullptr)
+      crossings =
+        std::make_unique<ContactCrossings>(*surface, parameters.reach);
+    const double motion = 2. * search.motion();
+    const double depth  = std::max(deepest, report.largest_penetration);
+    if (!crossings->may_cross(motion + depth))
+      return {};
+
+    std::vector<dealii::Point<2>> end(3 * surface->edges().size());
+    for (unsigned int i = 0; i < end.size(); ++i)
+      end[i] = surface->place(i / 3, 0.5 * (i % 3)).x;
+    crossings->set_step(search.step_begin(), std::move(end));
+    std::vector<EdgePair> near;
+    if (motion <= reach)
+      near = find_near(search, *crossings, depth);
+    else
+    {
+      // the step went further than was expected
+      ContactSearch further(*surface,
+                            parameters.body_ranks,
+                            parameters.integration ==
+                              ContactIntegration::points);
+      surface->set_displacements(&nodal_begin);
+      surface->set_time(time_detected);
+      further.search(motion);
+      near = find_near(further, *crossings, depth);
+      surface->set_time(time);
+      surface->set_displacements(&nodal);
+    }
+    near = all_pairs(communicator, std::move(near));
+    if (near.empty())
+      return {};
+
+    // of edges and bodies that touch each other
+    std::vector<EdgePair> in_contact;
+    bool                  is_known = false;
+    return crossings->find(
+      std::move(near), [&](const unsigned int edge, const unsigned int body) {
+        if (!is_known)
+        {
+          const auto &edges = surface->edges();
+          for (const ContactPoint &point : points)
+            if (point.state != ContactState::open)
+            {
+              in_contact.emplace_back(point.edge, edges[point.master].body);
+              in_contact.emplace_back(point.master, edges[point.edge].body);
+            }
+          in_contact = all_pairs(communicator, std::move(in_contact));
+          std::sort(in_contact.begin(), in_contact.end());
+          is_known = true;
+        }
+        return std::binary_search(in_contact.begin(),
+                                  in_contact.end(),
+                                  EdgePair(edge, body));
+      });
+  }
+
+
+  StepFault
+  Contact::find_fault(const Vector &end)
+  {
+    Data &d = *data;
+    d.move_to(end);
+    std::ostringstream text;
+    if (!d.is_idle && d.deepest > 0.5 * d.reach)
+      text << "a penetration of " << d.deepest
+           << " m, more than half of the distance of " << d.reach
+           << " m within which faces are looked for";
+    else if (d.search.motion() > d.reach)
+      text << "a point of a face that moved further than the distance of "
+           << d.reach << " m within which faces are looked for";
+    if (!text.str().empty())
+      return {text.str(), "", 0.};
+    return d.find_crossing();
+  }
+} // namespace NMM

@@ -6,6 +6,7 @@
 #include "static_start.h"
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 // Set-up and course of the run; what is written is in dynamic_output.cc.
 using namespace NMM;
@@ -64,10 +65,12 @@ DynamicAnalysis::make_integrator()
   MechanicalModel *moved = contact_model.get();
   if (!contact)
     moved = model.get();
+  damping =
+    scene.make_damping(*physical_mesh, problem, contact && has_friction());
   integrator = std::make_unique<TimeIntegrator>(
     *moved,
     parameters.time.time_scheme(kind, kinematics, contact != nullptr),
-    parameters.time.damping,
+    damping,
     motion_newton_parameters(scene));
   make_leaving();
   if (parameters.time.sleep.speed > 0.)
@@ -90,6 +93,18 @@ DynamicAnalysis::make_integrator()
     integrator->initialize(rest, initial_velocity());
   }
   start_time = time();
+}
+
+
+bool
+DynamicAnalysis::has_friction() const
+{
+  const ContactParameters &laws = contact->contact().parameters();
+  return laws.friction > 0. || std::any_of(laws.pairs.begin(),
+                                           laws.pairs.end(),
+                                           [](const ContactPair &pair) {
+                                             return pair.law.friction > 0.;
+                                           });
 }
 
 
@@ -212,6 +227,14 @@ DynamicAnalysis::run_start()
 void
 DynamicAnalysis::solve()
 {
+  if (damping.stiffness > 0. && scene.parameters().time.damping.stiffness < 0.)
+  {
+    std::ostringstream line;
+    line << "  damping: " << damping.stiffness
+         << " s times the stiffness, since there is friction (set "
+            "'Time/Stiffness damping' for another)";
+    progress.message(line.str());
+  }
   try
   {
     if (has_start())

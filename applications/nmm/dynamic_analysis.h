@@ -48,6 +48,8 @@ private:
   std::unique_ptr<NMM::ElasticModel>     model;
   std::unique_ptr<AccountedContactModel> contact_model;
   std::unique_ptr<NMM::TimeIntegrator>   integrator;
+  /// As given, or chosen.
+  NMM::RayleighDamping damping;
   /// Null if no block may leave.
   std::unique_ptr<NMM::LeavingBlocks> leaving;
   /// Incremental kinematics.
@@ -82,6 +84,10 @@ private:
 
   void
   make_integrator();
+
+  /// Does any law of contact have a friction angle?
+  bool
+  has_friction() const;
 
   void
   make_incremental();

@@ -232,6 +232,8 @@ DynamicAnalysis::verify()
   summary.add("newton_iterations",
               incremental ? 0 : n_iterations + n_lost_iterations);
   summary.add("cuts", n_cuts);
+  if (damping.stiffness > 0.)
+    summary.add("stiffness_damping", damping.stiffness, "s");
   if (kind == Analysis::relaxation)
   {
     summary.add("relaxation_stops", relaxation.n_stops);

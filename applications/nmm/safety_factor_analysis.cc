@@ -13,6 +13,24 @@ using namespace NMM;
 using Stage = Progress::Stage;
 using Start = SafetyFactorSectionParameters::Start;
 
+namespace
+{
+  const char *
+  verb(const StrengthTrial::Outcome outcome)
+  {
+    switch (outcome)
+    {
+      case StrengthTrial::Outcome::stands:
+        return "stands";
+      case StrengthTrial::Outcome::moves:
+        return "moves";
+      default:
+        return "fails";
+    }
+  }
+} // namespace
+
+
 void
 SafetyFactorAnalysis::make_system()
 {
@@ -84,7 +102,7 @@ SafetyFactorAnalysis::try_factor(const double factor)
   trials.push_back(trial);
   on_first_rank([&]() { write_trials(); });
   std::ostringstream line;
-  line << "  factor " << factor << (trial.stands ? " stands" : " moves") << " ("
+  line << "  factor " << factor << ' ' << verb(trial.outcome) << " ("
        << trial.n_steps << " steps" << (trial.reason.empty() ? "" : ", ")
        << trial.reason << ')';
   progress.message(line.str());
@@ -95,10 +113,12 @@ SafetyFactorAnalysis::try_factor(const double factor)
 bool
 SafetyFactorAnalysis::tells_more(const StrengthTrial &trial) const
 {
-  if (trials.empty() || trial.stands != shown.stands)
-    return trials.empty() || shown.stands;
-  return trial.stands ? trial.factor > shown.factor
-                      : trial.factor < shown.factor;
+  if (trials.empty() || trial.fails())
+    return true;
+  if (trial.outcome != shown.outcome)
+    return shown.stands();
+  return trial.stands() ? trial.factor > shown.factor
+                        : trial.factor < shown.factor;
 }
 
 
@@ -119,13 +139,27 @@ SafetyFactorAnalysis::solve()
   contact->show_state(shown_contact);
   Stage recovery_stage(progress, "stress recovery");
   show();
-  is_solved = result.stands_at > 0. && std::isfinite(result.moves_at);
+  is_solved = result.stands_at > 0. && std::isfinite(result.moves_at) &&
+              !result.has_failed();
   if (!is_solved)
     give_up();
   std::ostringstream line;
   line << "  factor of safety " << result.value() << ": stands at "
        << result.stands_at << ", moves at " << result.moves_at;
   progress.message(line.str());
+}
+
+
+std::string
+SafetyFactorAnalysis::what_is_known() const
+{
+  std::ostringstream text;
+  if (result.stands_at > 0.)
+    text << "they stand at " << result.stands_at;
+  if (std::isfinite(result.moves_at))
+    text << (text.str().empty() ? "they" : " and") << " move at "
+         << result.moves_at;
+  return text.str().empty() ? "nothing is known of other factors" : text.str();
 }
 
 
@@ -137,6 +171,23 @@ SafetyFactorAnalysis::give_up()
   const bool stands = result.stands_at > 0.;
   verify();
   std::ostringstream what;
+  if (result.has_failed())
+  {
+    std::ostringstream where;
+    where << "the factor " << trials.back().factor;
+    what << "The search for the factor of safety has ended, because a trial "
+            "did not converge: it tells neither whether the blocks stand nor "
+            "whether they move ("
+         << what_is_known() << "; " << trials.back().reason << ')';
+    AssertThrow(false,
+                NumericalFailure(what.str(),
+                                 where.str(),
+                                 "look for joints that nearly coincide and "
+                                 "other slivers, or choose another "
+                                 "'Safety factor/First', a smaller "
+                                 "'Relaxation/Step' or softer springs of "
+                                 "contact"));
+  }
   what << "The blocks " << (stands ? "stand" : "move")
        << " at all factors tried, from " << search.first
        << (stands ? " up to " : " down to ")
@@ -156,9 +207,10 @@ SafetyFactorAnalysis::write_trials() const
 {
   directory->write_text("safety_factor.csv", [&](std::ostream &out) {
     out.precision(12);
-    out << "trial,factor,stands,largest_displacement,steps,reason\n";
+    out << "trial,factor,stands,moves,largest_displacement,steps,reason\n";
     for (unsigned int i = 0; i < trials.size(); ++i)
-      out << i + 1 << ',' << trials[i].factor << ',' << trials[i].stands << ','
+      out << i + 1 << ',' << trials[i].factor << ',' << trials[i].stands()
+          << ',' << (trials[i].outcome == StrengthTrial::Outcome::moves) << ','
           << trials[i].displacement << ',' << trials[i].n_steps << ",\""
           << trials[i].reason << "\"\n";
   });
@@ -195,7 +247,7 @@ SafetyFactorAnalysis::verify()
     n_steps += trial.n_steps;
   summary.add("time_steps", n_steps);
   summary.add("shown_factor", shown.factor);
-  summary.add("shown_stands", shown.stands ? 1. : 0.);
+  summary.add("shown_stands", shown.stands() ? 1. : 0.);
   contact->add_to_summary(summary);
 }
 
@@ -211,6 +263,9 @@ std::string
 SafetyFactorAnalysis::unsolved_note() const
 {
   std::ostringstream note;
-  note << (shown.stands ? "stands" : "moves") << " at all factors tried";
+  if (shown.fails())
+    note << "no convergence at the factor " << shown.factor;
+  else
+    note << verb(shown.outcome) << " at all factors tried";
   return note.str();
 }

@@ -14,7 +14,7 @@
  * trials of relaxation, each from the same state, between which the factor is
  * bracketed and bisected. What is shown is how it goes: the displacements of the
  * trial with the smallest factor that moves; if none moves, those at the largest
- * factor.
+ * factor; if a trial fails, which ends the search, its last good state.
  *
  * safety_factor.csv has a row per trial and is complete after each of them.
  */
@@ -64,9 +64,13 @@ private:
   bool
   tells_more(const NMM::StrengthTrial &trial) const;
 
-  /// No bracket was found. @throws NMM::NumericalFailure.
+  /// No bracket was found, or a trial failed. @throws NMM::NumericalFailure.
   void
   give_up();
+
+  /// Of the trials that did not fail, for people.
+  std::string
+  what_is_known() const;
 
   void
   write_trials() const;

@@ -53,6 +53,7 @@ namespace NMM
                const double                                   factor,
                const std::function<void(const StepRecord &)> &after_step)
   {
+    using Outcome = StrengthTrial::Outcome;
     StrengthTrial result;
     result.factor                       = factor;
     const TimeIntegrator::Vector begin  = integrator.state().u;
@@ -64,7 +65,7 @@ namespace NMM
     try
     {
       const RelaxationReport report = relax(integrator, parameters, record);
-      result.stands                 = !report.moves_away;
+      result.outcome = report.moves_away ? Outcome::moves : Outcome::stands;
       if (report.moves_away)
         result.reason = "something moves by more than " +
                         std::to_string(parameters.max_displacement) + " m";
@@ -72,6 +73,8 @@ namespace NMM
     catch (const NumericalFailure &failure)
     {
       result.reason = failure.message();
+      if (result.n_steps < parameters.max_steps)
+        result.outcome = Outcome::fails;
     }
     TimeIntegrator::Vector motion(integrator.state().u);
     motion -= begin;
@@ -106,7 +109,8 @@ namespace NMM
   SafetyFactor::value() const
   {
     if (stands_at == 0.)
-      return moves_at;
+      return std::isfinite(moves_at) ? moves_at
+                                     : std::numeric_limits<double>::quiet_NaN();
     return std::isfinite(moves_at) ? std::sqrt(stands_at * moves_at)
                                    : stands_at;
   }
@@ -124,7 +128,9 @@ namespace NMM
     {
       const StrengthTrial trial = try_factor(factor);
       result.trials.push_back(trial);
-      (trial.stands ? result.stands_at : result.moves_at) = factor;
+      if (trial.fails())
+        return result;
+      (trial.stands() ? result.stands_at : result.moves_at) = factor;
       const bool is_bracketed =
         result.stands_at > 0. && std::isfinite(result.moves_at);
       if (is_bracketed)
@@ -137,8 +143,8 @@ namespace NMM
       const double next =
         std::min(parameters.highest,
                  std::max(parameters.lowest,
-                          trial.stands ? factor * parameters.ratio
-                                       : factor / parameters.ratio));
+                          trial.stands() ? factor * parameters.ratio
+                                         : factor / parameters.ratio));
       if (next == factor)
         return result;
       factor = next;

@@ -274,6 +274,43 @@ namespace NMM
   }
 
 
+  RayleighDamping
+  Scene::make_damping(const PhysicalMesh      &mesh,
+                      const ElasticityProblem &problem,
+                      const bool               has_friction) const
+  {
+    const TimeParameters  &time   = scene_parameters.time;
+    const ModelParameters &model  = scene_parameters.model;
+    RayleighDamping        result = time.damping;
+    if (result.stiffness >= 0.)
+      return result;
+    result.stiffness = 0.;
+    if (!has_friction || model.analysis != Analysis::dynamics ||
+        !time.time_scheme(model.analysis, model.kinematics, true).is_conserving)
+      return result;
+
+    const std::vector<unsigned int> region_to_material =
+      problem.region_to_material(mesh);
+    const std::vector<double> moduli = block_moduli(mesh, problem);
+    std::vector<double>       areas(mesh.n_blocks(), 0.), masses = areas;
+    for (unsigned int r = 0; r < mesh.regions().size(); ++r)
+    {
+      const PhysicalMesh::Region &region = mesh.regions()[r];
+      areas[region.block] += region.area;
+      masses[region.block] +=
+        region.area * problem.materials[region_to_material[r]].density;
+    }
+    // H / c = (A rho / E)^(1/2)
+    std::vector<double> times;
+    for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
+      times.push_back(std::sqrt(masses[b] / moduli[b]));
+    const auto median = times.begin() + (times.size() - 1) / 2;
+    std::nth_element(times.begin(), median, times.end());
+    result.stiffness = 4. / dealii::numbers::PI * *median;
+    return result;
+  }
+
+
   double
   contact_cell_size(const ContactSurface &surface)
   {

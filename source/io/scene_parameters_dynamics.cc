@@ -1,6 +1,7 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/io/scene_parameters.h>
 
+#include <algorithm>
 #include <cmath>
 #include <io/parsing.h>
 
@@ -109,9 +110,13 @@ namespace NMM
          "Rayleigh damping: coefficient of the mass matrix [1/s]."},
         {"Stiffness damping",
          time.damping.stiffness,
-         0.,
+         -none,
          none,
-         "Rayleigh damping: coefficient of the stiffness at rest [s]."}};
+         "Rayleigh damping: coefficient of the stiffness at rest [s]. "
+         "Negative: "
+         "0, but in a dynamic analysis with friction and the scheme energy "
+         "momentum what damps the lowest vibration of a block of median size "
+         "critically."}};
     }
 
 
@@ -290,7 +295,10 @@ namespace NMM
                         const Kinematics kinematics,
                         const bool       has_contact) const
   {
-    TimeParameters    given = *this, defaults;
+    TimeParameters given = *this, defaults;
+    // 0 asks for what these have anyway
+    if (given.damping.stiffness == 0.)
+      given.damping.stiffness = defaults.damping.stiffness;
     const std::string by =
       "a " + to_string(analysis) +
       (analysis == Analysis::relaxation ? "" : " analysis");
@@ -396,8 +404,12 @@ namespace NMM
     const std::string remedy =
       "remove it, or set 'Model/Kinematics' to small or finite";
     expect_default("Time", "Mass damping", damping.mass, 0., by, remedy);
-    expect_default(
-      "Time", "Stiffness damping", damping.stiffness, 0., by, remedy);
+    expect_default("Time",
+                   "Stiffness damping",
+                   std::max(0., damping.stiffness),
+                   0.,
+                   by,
+                   remedy);
   }
 
 

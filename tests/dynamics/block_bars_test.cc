@@ -64,8 +64,9 @@ namespace NMM
         const auto   factor   = find_safety_factor([&](const double tried) {
           ++n_trials;
           StrengthTrial trial;
-          trial.factor = tried;
-          trial.stands = tried <= limit;
+          trial.factor  = tried;
+          trial.outcome = tried <= limit ? StrengthTrial::Outcome::stands
+                                             : StrengthTrial::Outcome::moves;
           return trial;
         });
         EXPECT_LE(factor.stands_at, limit);
@@ -86,7 +87,8 @@ namespace NMM
         const auto             factor = find_safety_factor(
           [&](const double) {
             StrengthTrial trial;
-            trial.stands = stands;
+            trial.outcome = stands ? StrengthTrial::Outcome::stands
+                                               : StrengthTrial::Outcome::moves;
             return trial;
           },
           parameters);
@@ -94,6 +96,27 @@ namespace NMM
                   stands ? parameters.highest : parameters.lowest);
         EXPECT_EQ(factor.stands_at > 0., stands);
         EXPECT_EQ(std::isfinite(factor.moves_at), !stands);
+      }
+    }
+
+
+    // A trial that fails is no trial that moves: it ends the search.
+    TEST(SafetyFactor, FailureIsNoMotion)
+    {
+      for (const double failing : {1., 1.5, 2.25})
+      {
+        const auto factor = find_safety_factor([&](const double tried) {
+          StrengthTrial trial;
+          trial.factor  = tried;
+          trial.outcome = tried == failing ? StrengthTrial::Outcome::fails
+                                           : StrengthTrial::Outcome::stands;
+          return trial;
+        });
+        EXPECT_TRUE(factor.has_failed());
+        EXPECT_EQ(factor.trials.back().factor, failing);
+        EXPECT_FALSE(std::isfinite(factor.moves_at));
+        EXPECT_EQ(factor.stands_at, failing == 1. ? 0. : failing / 1.5);
+        EXPECT_EQ(std::isnan(factor.value()), failing == 1.);
       }
     }
 

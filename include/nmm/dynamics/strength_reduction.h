@@ -25,21 +25,42 @@ namespace NMM
   /// What became of blocks whose strength was reduced.
   struct StrengthTrial
   {
-    double factor = 1.;
-    /// Came to rest before anything moved too far.
-    bool stands = false;
+    enum class Outcome
+    {
+      /// Came to rest before anything moved too far.
+      stands,
+      /// Something moved too far, or there was no rest within the steps allowed.
+      moves,
+      /// A step did not converge: this tells neither.
+      fails
+    };
+
+    double  factor  = 1.;
+    Outcome outcome = Outcome::moves;
     /// Largest displacement of a cover since the begin of the trial [m].
     double       displacement = 0.;
     unsigned int n_steps      = 0;
     /// Why it does not stand, for people.
     std::string reason;
+
+    bool
+    stands() const
+    {
+      return outcome == Outcome::stands;
+    }
+
+    bool
+    fails() const
+    {
+      return outcome == Outcome::fails;
+    }
   };
 
 
   /**
    * Relax, see relax(), until rest or until something has moved by more than
-   * RelaxationParameters::max_displacement. No rest within the steps allowed, or
-   * steps that fail, count as motion, too.
+   * RelaxationParameters::max_displacement. No rest within the steps allowed counts as
+   * motion, too. A step that fails ends the trial, which then fails.
    */
   StrengthTrial
   try_to_stand(TimeIntegrator                                &integrator,
@@ -73,14 +94,23 @@ namespace NMM
     double stands_at = 0., moves_at = std::numeric_limits<double>::infinity();
     std::vector<StrengthTrial> trials;
 
-    /// Their geometric mean; where one of them is missing the other one.
+    /// Their geometric mean; where one of them is missing the other one, and where both
+    /// are not a number.
     double
     value() const;
+
+    /// The last trial failed, which ended the search.
+    bool
+    has_failed() const
+    {
+      return !trials.empty() && trials.back().fails();
+    }
   };
 
 
   /**
-   * Bracket and bisect, in the mean geometric. @p try_factor begins each trial anew.
+   * Bracket and bisect, in the mean geometric. @p try_factor begins each trial anew. A
+   * trial that fails ends the search at once: it is no bound of the factor.
    * Friction makes limits that depend on the way they are reached: blocks that
    * settle under full strength first may stand at a factor at which the same
    * blocks, put together under reduced strength, move.

@@ -112,6 +112,21 @@ namespace NMM
     make_contact_parameters(const ContactSurface    &surface,
                             const ElasticityProblem &problem) const;
 
+    /**
+     * Damping of the motion. What the scene leaves open is 0, but for conserving steps of
+     * blocks that rub on each other (@p has_friction): an elastic block that nothing damps
+     * flutters on a face with friction, and creeps where it must stick. A block of height H
+     * that a face holds has its lowest vibration at @f$\omega = \pi c/(2H)@f$,
+     * @f$c^2 = E/\rho@f$, whose critical damping by the stiffness is
+     * @f[ b = 2/\omega = \frac{4H}{\pi c}, @f]
+     * taken with @f$H@f$ the root of the area, and of blocks the (lower) median: what is
+     * slower is damped less, motion as a rigid body not at all.
+     */
+    RayleighDamping
+    make_damping(const PhysicalMesh      &mesh,
+                 const ElasticityProblem &problem,
+                 bool                     has_friction) const;
+
   private:
     std::string                               file_name;
     SceneNames                                names;

@@ -86,9 +86,10 @@ namespace NMM
     /// StepControlParameters.
     double initial_step = 0., min_step = 0., max_step = 0.,
            max_displacement = 0., max_error = 0.;
-    Scheme          scheme = Scheme::automatic;
-    double          beta = 0.25, gamma = 0.5, spectral_radius = 0.8;
-    RayleighDamping damping;
+    Scheme scheme = Scheme::automatic;
+    double beta = 0.25, gamma = 0.5, spectral_radius = 0.8;
+    /// Stiffness below 0: chosen, see Scene::make_damping().
+    RayleighDamping damping = {0., -1.};
     /// Speed 0: nobody sleeps.
     SleepParameters sleep = {0., 0.25, 1.};
 

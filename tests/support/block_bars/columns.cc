@@ -187,7 +187,7 @@ namespace NMM
                            before = u;
                        });
         run.n_steps += trial.n_steps;
-        if (!trial.stands)
+        if (!trial.stands())
           modes = modes_of(*columns, before);
         return trial;
       };

@@ -109,7 +109,8 @@ namespace NMM
       const unsigned int  cell = mesh.cell(element);
       for (const ElementEdge &edge : mesh.edges(element))
       {
-        const std::vector<unsigned int> &on_edge = conditions->conditions(edge);
+        const std::vector<unsigned int> &on_edge =
+          conditions->conditions(element, edge);
         if (on_edge.empty())
           continue;
         const EdgeRule rule =

@@ -81,7 +81,7 @@ namespace NMM
       for (const ElementEdge &edge : mesh.edges(element))
       {
         const std::vector<unsigned int> &on_edge =
-          curve_conditions.conditions(edge);
+          curve_conditions.conditions(element, edge);
         if (on_edge.empty())
           continue;
         const EdgeRule rule =
@@ -376,7 +376,7 @@ namespace NMM
           for (const ElementEdge &edge : mesh.edges(e))
           {
             const std::vector<unsigned int> &on_edge =
-              conditions.conditions(edge);
+              conditions.conditions(e, edge);
             if (std::find(on_edge.begin(), on_edge.end(), c) == on_edge.end())
               continue;
             const unsigned int cell = mesh.cell(e);

@@ -240,11 +240,11 @@ namespace NMM
         const unsigned int      cell              = mesh.cell(element);
         for (const ElementEdge &edge : mesh.edges(element))
         {
-          if (!conditions.has_displacement(edge))
+          if (!conditions.has_displacement(element, edge))
             continue;
           const EdgeRule rule =
             make_edge_rule(edge, cell_frame(mathematical_mesh, cell), 2);
-          for (const unsigned int c : conditions.conditions(edge))
+          for (const unsigned int c : conditions.conditions(element, edge))
             for (unsigned int q = 0; q < rule.points.size(); ++q)
             {
               const BoundaryCondition &condition =

@@ -101,14 +101,15 @@ namespace NMM
     {
       Measurements measurements;
       Disk         disk;
-      disk.duration = 0.5;
-      roll(disk, measurements);
-      disk.spin = 0.;
 #ifdef DEBUG
-      disk.duration = 1.;
+      constexpr double part = 0.2;
 #else
-      disk.duration = 3.;
+      constexpr double part = 1.;
 #endif
+      disk.duration = 0.5 * part;
+      roll(disk, measurements);
+      disk.spin     = 0.;
+      disk.duration = 3. * part;
       roll(disk, measurements);
       expect_holds(measurements);
     }

@@ -288,6 +288,14 @@ namespace
   };
 
 
+  // Until the pulse has been at the free end twice; in Debug once, as hundreds of steps of
+  // the same kind pass no further assertions.
+#ifdef DEBUG
+  constexpr unsigned int n_arrivals = 1;
+#else
+  constexpr unsigned int n_arrivals = 2;
+#endif
+
   /// A Gaussian pulse that runs from x = 3 to the free end at 10, back to the
   /// rollers at 0 and again to the free end. Returns arrivals and energy drift.
   std::pair<std::array<Arrival, 2>, double>
@@ -311,7 +319,7 @@ namespace
     const auto [element, xi] = body.model->locate({9.999, 0.2});
     std::array<Arrival, 2> arrivals;
     double                 drift = 0.;
-    for (unsigned int i = 0; i * h < 15.5; ++i)
+    for (unsigned int i = 0; i * h < (n_arrivals == 1 ? 5.5 : 15.5); ++i)
     {
       step(integrator, h);
       const Account &account = integrator.account();
@@ -326,8 +334,9 @@ namespace
       arrival.moment += v * h * t;
     }
     // twice the pulse at the free end, width sqrt(2 pi)
-    for (Arrival &arrival : arrivals)
+    for (unsigned int i = 0; i < n_arrivals; ++i)
     {
+      Arrival &arrival = arrivals[i];
       arrival.moment /= arrival.sum;
       arrival.sum /= 2. * strain * width * std::sqrt(2. * dealii::numbers::PI);
     }
@@ -339,14 +348,17 @@ namespace
   check_pulse(const Body &body, const TimeScheme &scheme, const double strain)
   {
     const auto [arrivals, drift] = run_pulse(body, scheme, strain);
-    std::cout << scheme.name << ": arrivals " << arrivals[0].moment / 3.5 - 1.
-              << ", " << arrivals[1].moment / 13.5 - 1. << " off, energy drift "
-              << drift << '\n';
+    std::cout << scheme.name << ": first arrival "
+              << arrivals[0].moment / 3.5 - 1. << " off, energy drift " << drift
+              << '\n';
     EXPECT_NEAR(arrivals[0].moment, 3.5, 0.005 * 3.5);
-    EXPECT_NEAR(arrivals[1].moment, 13.5, 0.005 * 13.5);
     // a free end keeps the sign of the velocity, a fixed one turns it
     EXPECT_NEAR(arrivals[0].sum, 1., 0.01);
-    EXPECT_NEAR(arrivals[1].sum, -1., 0.01);
+    if (n_arrivals == 2)
+    {
+      EXPECT_NEAR(arrivals[1].moment, 13.5, 0.005 * 13.5);
+      EXPECT_NEAR(arrivals[1].sum, -1., 0.01);
+    }
     // rounding of some hundred steps
     EXPECT_LT(drift, 1e-10);
   }

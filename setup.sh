@@ -5,6 +5,7 @@
 #   ./setup.sh run    the thick ring, with the driver
 #   ./setup.sh test   all tests, Debug and Release
 #   ./setup.sh bench  speed against error: doc/performance.md anew; or heaps of blocks
+#   ./setup.sh fuzz N N random inputs of each kind
 #
 # Safe to repeat. Environment variables, all optional:
 #   NMM_JOBS=N                    compile and test with N jobs at a time
@@ -58,6 +59,9 @@ Usage: ./setup.sh run    set up, build, and run the thick ring
                          doc/performance.md anew: in minutes, or all of it in
                          half an hour; or measure heaps of blocks, for
                          tests/performance/heap.csv
+       ./setup.sh fuzz [N [SEED]]
+                         set up, build, and run N (10000) random inputs of each kind;
+                         those that fail are written below output/fuzz
 USAGE
 }
 
@@ -249,6 +253,19 @@ command_test()
 }
 
 
+command_fuzz()
+{
+  local generator failed=()
+  configure_and_build release program_nmm-fuzz
+  for generator in geometry; do
+    say "Random inputs: $generator"
+    build/release/bin/nmm-fuzz "$generator" "$1" "$2" || failed+=("$generator")
+  done
+  [[ ${#failed[@]} -eq 0 ]] ||
+    die "some failed (see above): their scenes are below output/fuzz."
+}
+
+
 command_bench()
 {
   local size="$1"
@@ -387,16 +404,25 @@ main()
         command_bench "$size"
       fi
       ;;
+    fuzz)
+      if [[ $# -gt 3 || ! "${2:-1}${3:-1}" =~ ^[0-9]+$ ]]; then
+        usage >&2
+        die "'fuzz' takes two numbers at most: of cases, and the first seed."
+      fi
+      install_packages
+      check_versions
+      command_fuzz "${2:-10000}" "${3:-1}"
+      ;;
     help | -h | --help)
       usage
       ;;
     '')
       usage >&2
-      die "say what to do: 'run', 'test' or 'bench'."
+      die "say what to do: 'run', 'test', 'bench' or 'fuzz'."
       ;;
     *)
       usage >&2
-      die "there is no command '$1'; there are 'run', 'test' and 'bench'."
+      die "there is no command '$1'; there are 'run', 'test', 'bench' and 'fuzz'."
       ;;
   esac
 }

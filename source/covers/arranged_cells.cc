@@ -405,10 +405,12 @@ namespace NMM
       }
       edge.neighbor  = left_element(halfedge->twin());
       edge.mesh_edge = mesh_edge(halfedge);
-      set_circle(halfedge->curve(),
-                 halfedge->direction() == CGAL::ARR_LEFT_TO_RIGHT,
-                 physical_pieces,
-                 edge);
+      if (origin.physical_edge != invalid_index &&
+          physical_edges.edges()[origin.physical_edge].shape.is_arc())
+        set_circle(halfedge->curve(),
+                   halfedge->direction() == CGAL::ARR_LEFT_TO_RIGHT,
+                   physical_pieces,
+                   edge);
       result.edges.push_back(edge);
       result.origins.push_back(origin);
     }

@@ -104,7 +104,7 @@ namespace NMM
         side_nodes[i].clear();
       }
       for (const unsigned int e : edges)
-        if (physical_edges.edges()[e].shape.is_arc() || !add(e))
+        if (!physical_edges.edges()[e].is_linear || !add(e))
           return Result::not_divided;
       if (chords.empty() && along_sides.empty())
         return Result::whole;

@@ -5,6 +5,7 @@
 
 #include <deal.II/base/numbers.h>
 
+#include "physical_edges.h"
 #include <cmath>
 
 namespace NMM
@@ -128,8 +129,8 @@ namespace NMM
                        const double         cell_size,
                        ParallelogramStates &state)
       {
-        for (const CurvePiece &piece : physical_mesh.pieces())
-          for_each_sample(piece, 0.25 * cell_size, [&](const Point<2> &x) {
+        for (const ElementEdge &edge : internal::solid_edges(physical_mesh))
+          for_each_sample(edge, 0.25 * cell_size, [&](const Point<2> &x) {
             const Tensor<1, 2> s = lattice.coordinates(x);
             const auto         i = static_cast<std::int64_t>(std::floor(s[0])),
                        j         = static_cast<std::int64_t>(std::floor(s[1]));

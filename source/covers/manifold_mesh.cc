@@ -8,6 +8,7 @@
 #include "manifold_mesh_data.h"
 #include "parts_to_cut.h"
 #include <algorithm>
+#include <base/angle_minus_sine.h>
 #include <mutex>
 
 namespace NMM
@@ -178,7 +179,8 @@ namespace NMM
       if (edge.is_arc())
       {
         const double sweep = swept_angle(edge);
-        sum += 0.5 * edge.radius * edge.radius * (sweep - std::sin(sweep));
+        sum +=
+          0.5 * edge.radius * edge.radius * internal::angle_minus_sine(sweep);
       }
     }
     return std::max(sum, 0.);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace NMM
@@ -48,44 +49,6 @@ namespace NMM
 
 
       std::vector<Chunk>
-      make_chunks(const PhysicalMesh &physical_mesh,
-                  const double        spacing,
-                  const double        margin)
-      {
-        std::vector<Chunk> chunks;
-        const auto        &pieces = physical_mesh.pieces();
-        for (unsigned int p = 0; p < pieces.size(); ++p)
-        {
-          const CurvePiece &piece = pieces[p];
-          bool              first = true;
-          Point<2>          previous;
-          for_each_sample(piece, spacing, [&](const Point<2> &x) {
-            if (!first)
-            {
-              // sagitta of a chord of length L: at most L^2 / (4 r) for
-              // arcs up to a half circle
-              const double chord = previous.distance(x);
-              const double sagitta =
-                piece.kind == CurvePiece::Kind::segment
-                  ? 0.
-                  : std::min(0.25 * chord * chord / piece.radius, piece.radius);
-              // a whole tiny circle has coinciding or few samples
-              const double tiny = (piece.kind != CurvePiece::Kind::segment &&
-                                   2. * piece.radius < spacing)
-                                    ? 2. * piece.radius
-                                    : 0.;
-              chunks.push_back(
-                {previous, x, std::max(sagitta, tiny) + margin, p});
-            }
-            first    = false;
-            previous = x;
-          });
-        }
-        return chunks;
-      }
-
-
-      std::vector<Chunk>
       make_chunks(const std::vector<ElementEdge> &edges,
                   const double                    spacing,
                   const double                    margin)
@@ -101,6 +64,9 @@ namespace NMM
             std::max(1., std::ceil(length / spacing)));
           const double sagitta =
             std::abs(edge.radius) * (1. - std::cos(0.5 * sweep / n));
+          // points on an arc, from centre and radius
+          const double rounding = 16. * std::numeric_limits<double>::epsilon() *
+                                  std::abs(edge.radius);
           const double first =
             edge.is_arc() ? angle_about(edge.center, edge.start) : 0.;
           Point<2> previous = edge.start;
@@ -114,7 +80,7 @@ namespace NMM
                 : edge.center + std::abs(edge.radius) *
                                   Tensor<1, 2>({std::cos(first + t * sweep),
                                                 std::sin(first + t * sweep)});
-            chunks.push_back({previous, x, sagitta + margin, e});
+            chunks.push_back({previous, x, sagitta + margin + rounding, e});
             previous = x;
           }
         }
@@ -356,11 +322,12 @@ namespace NMM
           {scale, std::abs(box.lower_bound(d)), std::abs(box.upper_bound(d))});
       const ArrayView<const Triangle> view(triangles.data(), triangles.size());
       const double                    size = typical_size(vertices, view);
-      return to_flags(find_owners_near(
-        vertices,
-        view,
-        make_chunks(physical_mesh, 2. * size, rounding_margin(scale)),
-        size));
+      return to_flags(find_owners_near(vertices,
+                                       view,
+                                       make_chunks(solid_edges(physical_mesh),
+                                                   2. * size,
+                                                   rounding_margin(scale)),
+                                       size));
     }
 
 

@@ -401,7 +401,7 @@ namespace NMM
       group.n_cells += fitted.mesh.cells.size();
       const double filling =
         fitted.mesh.cells.empty() ? fillings[r].best : fitted.filling.best;
-      if (filling < group.worst_filling)
+      if (group.worst == invalid_index || filling < group.worst_filling)
       {
         group.worst         = r;
         group.worst_filling = filling;

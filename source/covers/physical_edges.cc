@@ -37,6 +37,22 @@ namespace NMM
     }
 
 
+    std::vector<ElementEdge>
+    solid_edges(const PhysicalMesh &physical_mesh)
+    {
+      const auto              &edges = physical_mesh.arrangement().solid_edges;
+      std::vector<ElementEdge> result(edges.size());
+      for (std::size_t e = 0; e < edges.size(); ++e)
+      {
+        result[e].start  = edges[e].start;
+        result[e].end    = edges[e].end;
+        result[e].center = edges[e].center;
+        result[e].radius = edges[e].bulge * edges[e].radius;
+      }
+      return result;
+    }
+
+
     PhysicalEdges::PhysicalEdges(const PhysicalMesh &physical_mesh)
       : curves(std::make_unique<ExactCurves>())
     {
@@ -78,9 +94,9 @@ namespace NMM
           continue;
         edge.vertices = {
           {number(halfedge->source()), number(halfedge->target())}};
-        edge.shape.start = all_vertices[edge.vertices[0]];
-        edge.shape.end   = all_vertices[edge.vertices[1]];
-        set_circle(halfedge->curve(), true, physical_mesh.pieces(), edge.shape);
+        edge.shape.start                 = all_vertices[edge.vertices[0]];
+        edge.shape.end                   = all_vertices[edge.vertices[1]];
+        edge.is_linear                   = halfedge->curve().is_linear();
         Traits::X_monotone_curve_2 curve = halfedge->curve();
         curve_set.clear();
         for (const Label label : curve.data())
@@ -90,7 +106,12 @@ namespace NMM
             curve_set.push_back(label);
           }
         const CurvePiece &piece = physical_mesh.pieces()[edge.piece];
-        edge.line               = {{piece.start, piece.end}};
+        if (!is_nearly_straight(edge.shape.start, edge.shape.end, piece.radius))
+          set_circle(halfedge->curve(),
+                     true,
+                     physical_mesh.pieces(),
+                     edge.shape);
+        edge.line = {{piece.start, piece.end}};
         if (std::tie(piece.end[0], piece.end[1]) <
             std::tie(piece.start[0], piece.start[1]))
           std::swap(edge.line[0], edge.line[1]);

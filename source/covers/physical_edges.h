@@ -16,6 +16,12 @@ namespace NMM
     /// The exact curves; see source/covers/exact_curves.h.
     struct ExactCurves;
 
+    /// Edges of the physical mesh with the solid on one side at least, each once and
+    /// without neighbour, mesh edge and curve set: what is left of the curves when what
+    /// reaches outside of the solid is cut off.
+    std::vector<ElementEdge>
+    solid_edges(const PhysicalMesh &physical_mesh);
+
     /**
      * The edges of the physical mesh that bound a region or lie in one, numbered
      * through, and found by region. All cutting starts from them: what is made
@@ -32,7 +38,9 @@ namespace NMM
         std::array<unsigned int, 2> regions;
         /// A piece of the physical mesh that the edge lies on.
         unsigned int piece = invalid_index;
-        /// Of a straight edge: that piece's ends, the left one first. They are what
+        /// Whether it lies on a line exactly.
+        bool is_linear = true;
+        /// If so: that piece's ends, the left one first. They are what
         /// is given, so that the edge lies exactly on the line through them.
         std::array<dealii::Point<2>, 2> line;
         /// Its left and its right end, indices into vertices().
@@ -40,7 +48,8 @@ namespace NMM
         /// All pieces that it lies on, an index into curve_sets().
         unsigned int curve_set = invalid_index;
         /// The edge in doubles, from its left to its right end; without
-        /// neighbour, mesh edge and curve set.
+        /// neighbour, mesh edge and curve set. Straight if it is so up to rounding,
+        /// see is_nearly_straight().
         ElementEdge shape;
       };
 

@@ -13,6 +13,7 @@
 #include <CGAL/Arrangement_2.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 
+#include "geometry/face_measures.h"
 #include <vector>
 
 namespace NMM
@@ -50,6 +51,8 @@ namespace NMM
     struct PhysicalArrangement
     {
       Arrangement arrangement;
+      /// Edges with the solid on one side at least, in doubles.
+      std::vector<DirectedEdge> solid_edges;
     };
 
     /// The exact curve of a piece (its doubles taken as exact rationals).

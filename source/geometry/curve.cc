@@ -3,7 +3,9 @@
 
 #include "geometry/arrangement.h"
 #include "geometry/messages.h"
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace NMM
 {
@@ -87,11 +89,32 @@ namespace NMM
                     is_finite(piece.center) && std::isfinite(piece.radius),
                   InputError("the three points of an arc of " +
                                internal::describe(curve) +
-                               " lie on a straight line",
+                               " lie on a straight line, and the middle one is "
+                               "not between the others",
                              internal::describe_place(curve, piece.through),
-                             "use a straight segment instead"));
+                             "put it between them, or use a straight segment "
+                             "instead"));
     }
   } // namespace
+
+
+  bool
+  is_nearly_straight(const dealii::Point<2> &start,
+                     const dealii::Point<2> &end,
+                     const double            radius)
+  {
+    // the sagitta is h^2 / (R + sqrt(R^2 - h^2)) for half a chord of h
+    const double h     = 0.5 * start.distance(end);
+    const double ratio = h / radius;
+    const double sagitta =
+      h * (ratio / (1. + std::sqrt(std::max(0., 1. - ratio * ratio))));
+    return sagitta <= 4. * std::numeric_limits<double>::epsilon() *
+                        std::max({radius,
+                                  std::abs(start[0]),
+                                  std::abs(start[1]),
+                                  std::abs(end[0]),
+                                  std::abs(end[1])});
+  }
 
 
   CurvePiece
@@ -117,8 +140,24 @@ namespace NMM
     piece.through = through;
     piece.end     = end;
     // Curve::check() reports what has no circle; here it must only not crash.
-    if (is_finite(start) && is_finite(through) && is_finite(end) &&
-        !CGAL::collinear(exact(start), exact(through), exact(end)))
+    if (!is_finite(start) || !is_finite(through) || !is_finite(end))
+      return piece;
+    const auto straightened = [&]() {
+      CurvePiece chord      = segment(start, end);
+      chord.is_straightened = true;
+      return chord;
+    };
+    if (CGAL::collinear(exact(start), exact(through), exact(end)))
+    {
+      const bool is_between =
+        start != through && through != end &&
+        CGAL::collinear_are_ordered_along_line(exact(start),
+                                               exact(through),
+                                               exact(end));
+      if (is_between)
+        return straightened();
+    }
+    else
     {
       const internal::Kernel::Point_2 center =
         CGAL::circumcenter(exact(start), exact(through), exact(end));
@@ -127,6 +166,11 @@ namespace NMM
                           internal::to_double(Coordinate(center.y()))};
       piece.radius     = std::sqrt(internal::to_double(
         Coordinate(CGAL::squared_distance(center, exact(start)))));
+      // seen from a point of it, the chord of a minor arc makes an obtuse angle
+      if (CGAL::angle(exact(start), exact(through), exact(end)) ==
+            CGAL::OBTUSE &&
+          is_nearly_straight(start, end, piece.radius))
+        return straightened();
     }
     return piece;
   }

@@ -240,18 +240,19 @@ namespace NMM
       edge.start = vertex_locations.at(&*halfedge->source());
       edge.end   = vertex_locations.at(&*halfedge->target());
 
-      const auto &curve = halfedge->curve();
-      if (!curve.is_linear())
+      const auto       &curve = halfedge->curve();
+      const CurvePiece &piece = pieces[*curve.data().begin()];
+      if (!curve.is_linear() &&
+          !is_nearly_straight(edge.start, edge.end, piece.radius))
       {
         const bool is_along_curve =
           curve.is_directed_right() ==
           (halfedge->direction() == CGAL::ARR_LEFT_TO_RIGHT);
         const bool is_counterclockwise =
           (curve.orientation() == CGAL::COUNTERCLOCKWISE) == is_along_curve;
-        const CurvePiece &piece = pieces[*curve.data().begin()];
-        edge.bulge              = is_counterclockwise ? 1 : -1;
-        edge.center             = piece.center;
-        edge.radius             = piece.radius;
+        edge.bulge  = is_counterclockwise ? 1 : -1;
+        edge.center = piece.center;
+        edge.radius = piece.radius;
       }
       return edge;
     }

@@ -1,6 +1,7 @@
 #include "geometry/face_measures.h"
 
 #include <algorithm>
+#include <base/angle_minus_sine.h>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -21,23 +22,6 @@ namespace NMM
           edge.start + 0.5 * (edge.end - edge.start);
         return 2. * std::atan2(0.5 * edge.start.distance(edge.end),
                                middle.distance(edge.center));
-      }
-
-      // theta - sin(theta) without cancellation.
-      double
-      angle_minus_sine(const double theta)
-      {
-        if (theta > 1.)
-          return theta - std::sin(theta);
-        const double square = theta * theta;
-        double       term   = theta * square / 6.;
-        double       sum    = 0.;
-        for (unsigned int k = 4; k < 24; k += 2)
-        {
-          sum += term;
-          term *= -square / (k * (k + 1.));
-        }
-        return sum;
       }
 
       double
@@ -72,6 +56,20 @@ namespace NMM
     {
       return edge.bulge == 0 ? edge.start.distance(edge.end)
                              : edge.radius * angle(edge);
+    }
+
+
+    double
+    area_rounding(const std::vector<DirectedEdge> &edges)
+    {
+      double coordinate = 0.;
+      for (const DirectedEdge &edge : edges)
+        coordinate = std::max(
+          {coordinate, std::abs(edge.start[0]), std::abs(edge.start[1])});
+      double sum = 0.;
+      for (const DirectedEdge &edge : edges)
+        sum += length(edge) * std::max(coordinate, edge.radius);
+      return 16. * std::numeric_limits<double>::epsilon() * sum;
     }
 
 

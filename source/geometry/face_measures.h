@@ -2,8 +2,8 @@
 #define nmm_source_geometry_face_measures_h
 
 #include <deal.II/base/bounding_box.h>
+#include <deal.II/base/point.h>
 
-#include "geometry/arrangement.h"
 #include <vector>
 
 namespace NMM
@@ -41,6 +41,18 @@ namespace NMM
      */
     dealii::Point<2>
     inside_point(const std::vector<DirectedEdge> &edges);
+
+    /**
+     * What rounding may change enclosed_area() by [m^2]: each vertex is within
+     * @f$ 8\sqrt2\,\varepsilon M @f$ of its exact place (to_double()), M being the
+     * largest coordinate, so that with some more for the sum
+     * @f[ 16\,\varepsilon \sum_i l_i \max(M, R_i), @f]
+     * l being lengths of edges and R radii of arcs (0 if straight). The boundary of
+     * a face that encloses less is degenerate or runs the wrong way round once its
+     * vertices are rounded, or would with other roundings.
+     */
+    double
+    area_rounding(const std::vector<DirectedEdge> &edges);
 
     /// Smallest box around @p edges [m], which must not be empty.
     dealii::BoundingBox<2>

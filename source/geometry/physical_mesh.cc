@@ -8,6 +8,7 @@
 #include "geometry/loops.h"
 #include "geometry/messages.h"
 #include "geometry/outline.h"
+#include "geometry/tiny_faces.h"
 #include "geometry/trimming.h"
 #include <algorithm>
 #include <map>
@@ -37,9 +38,10 @@ namespace NMM
     take_curves(Geometry &geometry);
     void
     insert_pieces();
-    /// Number the solid faces; region_to_face.
+    /// Number the solid faces, those that are united as one; region_to_face.
     std::vector<unsigned int>
-    make_regions(const internal::LabelledFaces &faces);
+    make_regions(const internal::LabelledFaces &faces,
+                 const internal::TinyFaces     &tiny);
     void
     make_blocks(const internal::LabelledFaces &faces);
     void
@@ -85,8 +87,9 @@ namespace NMM
   void
   PhysicalMesh::Data::take_curves(Geometry &geometry)
   {
-    curves = std::move(geometry.curves());
-    bool                                has_boundary = false;
+    curves                      = std::move(geometry.curves());
+    bool         has_boundary   = false;
+    unsigned int n_straightened = 0, first_straightened = 0;
     std::map<std::string, unsigned int> name_to_curve;
     for (unsigned int c = 0; c < curves.size(); ++c)
     {
@@ -105,7 +108,21 @@ namespace NMM
       {
         pieces.push_back(piece);
         piece_to_curve.push_back(c);
+        if (piece.is_straightened && n_straightened++ == 0)
+          first_straightened = pieces.size() - 1;
       }
+    }
+    if (n_straightened > 0)
+    {
+      const bool   one   = n_straightened == 1;
+      const Curve &curve = curves[piece_to_curve[first_straightened]];
+      notices.push_back(
+        (one ? "an arc of "
+             : std::to_string(n_straightened) + " arcs, the first of ") +
+        internal::describe(curve) + " at " +
+        internal::describe_place(curve, pieces[first_straightened].start) +
+        (one ? ", differs from a segment by less than rounding and is one"
+             : ", differ from segments by less than rounding and are such"));
     }
     AssertThrow(has_boundary,
                 InputError("the geometry has no outer boundary",
@@ -130,12 +147,22 @@ namespace NMM
 
 
   std::vector<unsigned int>
-  PhysicalMesh::Data::make_regions(const internal::LabelledFaces &faces)
+  PhysicalMesh::Data::make_regions(const internal::LabelledFaces &faces,
+                                   const internal::TinyFaces     &tiny)
   {
     std::vector<unsigned int> region_to_face;
     for (unsigned int f = 0; f < faces.faces().size(); ++f)
-      if (faces.is_solid(f))
+      if (faces.is_solid(f) && tiny.owner(f) == f)
         region_to_face.push_back(f);
+    for (const std::string &notice : tiny.notices())
+      notices.push_back(notice);
+    AssertThrow(!region_to_face.empty(),
+                InputError("the whole solid is smaller than coordinates can "
+                           "tell apart",
+                           internal::describe_place(curves[0],
+                                                    curves[0].start()),
+                           "move the origin closer to it, or correct its "
+                           "coordinates"));
 
     // From left to right: independent of the order in which curves are given.
     const auto key = [&](const unsigned int f) {
@@ -156,10 +183,20 @@ namespace NMM
     {
       const auto &face           = faces.faces()[f];
       face.handle->data().region = regions.size();
-      regions.push_back({invalid_index, invalid_index, face.area, face.inside});
+      regions.push_back({invalid_index,
+                         invalid_index,
+                         tiny.area(f),
+                         face.inside,
+                         internal::is_sliver(face)});
       region_to_loops.push_back(face.loops);
       outline.insert(outline.end(), face.boundary.begin(), face.boundary.end());
     }
+    for (unsigned int f = 0; f < faces.faces().size(); ++f)
+      if (faces.is_solid(f) && tiny.owner(f) != f)
+        faces.faces()[f].handle->data().region =
+          tiny.owner(f) == invalid_index
+            ? invalid_index
+            : faces.faces()[tiny.owner(f)].handle->data().region;
     Assert(!outline.empty(), dealii::ExcInternalError());
     bounding_box = internal::bounding_box(outline);
     return region_to_face;
@@ -444,13 +481,25 @@ namespace NMM
       internal::drop_ends(data->curves, *faces, arrangement);
     if (data->dangling_ends.length_dropped > 0.)
       faces = label();
-    const auto region_to_face = data->make_regions(*faces);
+    const internal::TinyFaces tiny(*faces, data->curves);
+    const auto                region_to_face = data->make_regions(*faces, tiny);
     data->make_blocks(*faces);
     data->assign_loop_materials(*faces, loops, region_to_face);
     data->assign_material_regions(geometry.regions(),
                                   geometry.material_regions());
     data->assign_material_points(points);
     data->inspect_lines(*faces);
+    std::vector<unsigned int> slivers;
+    for (unsigned int r = 0; r < region_to_face.size(); ++r)
+      if (data->regions[r].is_sliver)
+        slivers.push_back(region_to_face[r]);
+    if (!slivers.empty())
+      data->notices.push_back(
+        internal::describe_slivers(*faces, slivers, data->curves));
+    for (const auto &edge : faces->edges())
+      if (faces->is_solid(edge.left) || faces->is_solid(edge.right))
+        data->arrangement.solid_edges.push_back(faces->geometry(edge));
+    tiny.remove_edges(arrangement);
   }
 
 

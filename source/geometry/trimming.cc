@@ -13,33 +13,6 @@ namespace NMM
   {
     namespace
     {
-      /// Vertices left where nothing else meets now: both edges become one, so that
-      /// what was taken out leaves no corners behind.
-      void
-      merge_edges(Arrangement &arrangement)
-      {
-        const auto &traits       = *arrangement.geometry_traits();
-        const auto  is_mergeable = traits.are_mergeable_2_object();
-        const auto  merge        = traits.merge_2_object();
-        for (auto v = arrangement.vertices_begin();
-             v != arrangement.vertices_end();)
-        {
-          const auto vertex = v++;
-          if (vertex->is_isolated() || vertex->degree() != 2)
-            continue;
-          auto                               e = vertex->incident_halfedges();
-          const Arrangement::Halfedge_handle first  = e++;
-          const Arrangement::Halfedge_handle second = e;
-          if (first->source() == second->source() ||
-              !is_mergeable(first->curve(), second->curve()))
-            continue;
-          Traits::X_monotone_curve_2 merged;
-          merge(first->curve(), second->curve(), merged);
-          arrangement.merge_edge(first, second->twin(), merged);
-        }
-      }
-
-
       /// Loops that a joint may be confined to, by name.
       std::set<unsigned int>
       loops_called(const std::string        &name,
@@ -85,6 +58,31 @@ namespace NMM
                                  "everywhere"));
       }
     } // namespace
+
+
+    void
+    merge_edges(Arrangement &arrangement)
+    {
+      const auto &traits       = *arrangement.geometry_traits();
+      const auto  is_mergeable = traits.are_mergeable_2_object();
+      const auto  merge        = traits.merge_2_object();
+      for (auto v = arrangement.vertices_begin();
+           v != arrangement.vertices_end();)
+      {
+        const auto vertex = v++;
+        if (vertex->is_isolated() || vertex->degree() != 2)
+          continue;
+        auto                               e     = vertex->incident_halfedges();
+        const Arrangement::Halfedge_handle first = e++;
+        const Arrangement::Halfedge_handle second = e;
+        if (first->source() == second->source() ||
+            !is_mergeable(first->curve(), second->curve()))
+          continue;
+        Traits::X_monotone_curve_2 merged;
+        merge(first->curve(), second->curve(), merged);
+        arrangement.merge_edge(first, second->twin(), merged);
+      }
+    }
 
 
     void

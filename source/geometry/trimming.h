@@ -11,6 +11,11 @@ namespace NMM
 {
   namespace internal
   {
+    /// Vertices left where nothing else meets now: both edges become one, so that what
+    /// was taken out leaves no corners behind.
+    void
+    merge_edges(Arrangement &arrangement);
+
     /**
      * Take what Curve::within says does not count out of the arrangement of
      * @p curves, exactly: the borders of @p regions are inserted, edges outside of

@@ -314,9 +314,18 @@ namespace NMM
   double
   contact_cell_size(const ContactSurface &surface)
   {
+    const ManifoldMesh &mesh    = surface.cover_system().manifold_mesh();
+    const auto         &regions = mesh.physical_mesh().regions();
+    // cells of slivers are as thin as these, unless there is nothing else
+    const bool with_slivers =
+      std::all_of(regions.begin(), regions.end(), [](const auto &region) {
+        return region.is_sliver;
+      });
     std::vector<double> sizes;
     for (unsigned int e = 0; e < surface.edges().size(); ++e)
-      if (!surface.is_rigid(e))
+      if (!surface.is_rigid(e) &&
+          (with_slivers ||
+           !regions[mesh.region(surface.edges()[e].element)].is_sliver))
       {
         // of the equilateral triangle with the same area
         const double twice_area =

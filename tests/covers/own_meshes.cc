@@ -446,3 +446,29 @@ TEST(OwnMeshes, AreTheSameOnAllRanksMPI)
   for (const std::vector<double> &others : all)
     EXPECT_EQ(others, numbers);
 }
+
+
+// Triangles of coordinates near 1e-9: what was nearly nothing had no mesh, and no
+// filling that could be compared.
+TEST(OwnMeshes, TinyCoordinates)
+{
+  Geometry geometry = parse_geometry(
+    "boundary name=b POLYGON ((1e-09 0.0, 1e-09 1e-09, "
+    "-3.5804183894449036e-18 3.7583083411548024e-10))\n"
+    "joint LINESTRING (1.15625e-09 1.234375e-09, "
+    "-1.5625000000000005e-10 -2.3437500000000003e-10)\n"
+    "joint LINESTRING (5.46875e-10 8.125e-10, "
+    "4.53125e-10 1.8750000000000002e-10)\n"
+    "joint LINESTRING (1.234375e-09 -2.0312500000000006e-10, "
+    "-2.3437500000000003e-10 1.2031250000000002e-09)",
+    "test.wkt");
+  RegularMeshParameters parameters;
+  parameters.cell_size = 1.5e-10;
+  parameters.pattern   = MeshPattern::right_angled;
+  const Model model(std::move(geometry), parameters);
+  double      area = 0.;
+  for (unsigned int e = 0; e < model.own.manifold_mesh->n_elements(); ++e)
+    area += model.own.manifold_mesh->area(e);
+  // half of base times height, rounded some hundred times
+  EXPECT_NEAR(area, 0.5e-18, 1e-30);
+}

@@ -1,5 +1,6 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/covers/manifold_mesh.h>
+#include <nmm/covers/own_meshes.h>
 #include <nmm/io/parameter_tree.h>
 #include <nmm/io/scene.h>
 
@@ -183,6 +184,26 @@ namespace
     EXPECT_EQ(curves[1].state, JointState::open);
     EXPECT_EQ(curves[2].state, JointState::closed);
     EXPECT_EQ(curves[3].state, JointState::closed);
+  }
+
+
+  // Cells of slivers are as thin as these, and would make contact as stiff.
+  TEST(Scene, SliversHaveNoPartInContactStiffness)
+  {
+    const Scene        scene(base_scene,
+                      {"Geometry/Text=boundary name=square material=rock "
+                                     "POLYGON ((0 0, 1 0, 1 1, 0 1)); joint name=a "
+                                     "LINESTRING (0 0.3, 1 0.3); joint name=b LINESTRING "
+                                     "(0 0.30000000001, 1 0.30000000001)"});
+    const PhysicalMesh mesh(scene.make_geometry());
+    ASSERT_EQ(mesh.regions().size(), 3u);
+    const OwnMeshes own = make_own_meshes(std::make_unique<MathematicalMesh>(
+                                            scene.make_mathematical_mesh(mesh)),
+                                          mesh);
+    CoverSystem     covers(*own.manifold_mesh, MPI_COMM_SELF);
+    const ContactSurface surface(covers);
+    // blocks 0.3 and 0.7 high with cells of 0.5
+    EXPECT_GT(contact_cell_size(surface), 0.1);
   }
 
 

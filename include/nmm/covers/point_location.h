@@ -78,6 +78,35 @@ namespace NMM
     }
   }
 
+  /// The same for an edge of a manifold element or of the physical mesh.
+  template <typename Action>
+  void
+  for_each_sample(const ElementEdge &edge,
+                  const double       spacing,
+                  const Action      &action)
+  {
+    const double sweep  = swept_angle(edge);
+    const double length = edge.is_arc() ? std::abs(sweep * edge.radius)
+                                        : edge.start.distance(edge.end);
+    const auto   n =
+      static_cast<unsigned int>(std::max(1., std::ceil(length / spacing)));
+    const double first =
+      edge.is_arc() ? angle_about(edge.center, edge.start) : 0.;
+    action(edge.start);
+    for (unsigned int k = 1; k < n; ++k)
+    {
+      const double t = static_cast<double>(k) / n;
+      if (edge.is_arc())
+        action(edge.center +
+               std::abs(edge.radius) *
+                 dealii::Tensor<1, 2>(
+                   {std::cos(first + t * sweep), std::sin(first + t * sweep)}));
+      else
+        action(edge.start + t * (edge.end - edge.start));
+    }
+    action(edge.end);
+  }
+
   /**
    * Is @p x in the solid? Crossing parity of boundaries and holes in floating
    * point: for points that are not within rounding of a curve.

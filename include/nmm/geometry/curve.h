@@ -28,6 +28,15 @@ namespace NMM
     static CurvePiece
     segment(const dealii::Point<2> &start, const dealii::Point<2> &end);
 
+    /**
+     * An arc is the segment between its ends, with is_straightened set, if its
+     * sagitta @f$ s @f$ is below what rounding moves its points by anyway,
+     * @f[ s \le 4\,\varepsilon\,\max(R, |x|, |y|), \qquad
+         \varepsilon = 2^{-52}, @f]
+     * R being its radius and x, y the coordinates of its ends: points on an arc are
+     * computed from centre and radius in doubles. Measured by its chord c that is a
+     * sagitta of at most 1.1e-8 c, and a radius of at least 1.2e7 c.
+     */
     static CurvePiece
     arc(const dealii::Point<2> &start,
         const dealii::Point<2> &through,
@@ -48,7 +57,17 @@ namespace NMM
     /// and rounded once.
     dealii::Point<2> center;
     double           radius = 0.;
+
+    /// A segment that was given as an arc of hardly any sagitta, see arc().
+    bool is_straightened = false;
   };
+
+  /// Whether an arc of at most a half circle, between @p start and @p end, is a segment
+  /// up to rounding; see CurvePiece::arc().
+  bool
+  is_nearly_straight(const dealii::Point<2> &start,
+                     const dealii::Point<2> &end,
+                     double                  radius);
 
   /// What a curve means to the solid.
   enum class CurveRole
@@ -116,8 +135,8 @@ namespace NMM
     /**
      * Throw an InputError that names the curve, unless every coordinate is
      * finite, every piece has a length, every radius is positive and finite, no
-     * arc has (exactly) collinear points, each piece starts exactly where the
-     * last one ended, a full circle is the only piece, and there is a piece.
+     * arc runs through infinity (points exactly on a line, the middle one not
+     * between the others), each piece starts exactly where the last one ended, a full circle is the only piece, and there is a piece.
      */
     void
     check() const;

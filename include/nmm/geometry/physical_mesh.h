@@ -30,7 +30,15 @@ namespace NMM
    *
    * The topology is exact (CGAL Arrangement_2 over circles and segments with
    * exact constructions): a joint through a vertex, along another or tangent to
-   * a circle is an ordinary case. Immutable once built.
+   * a circle is an ordinary case. Coordinates are doubles, however, and what exact
+   * lines enclose may be smaller than these can tell apart: three lines through one
+   * point, with rounded digits, make a triangle with all corners in that point. The
+   * area of such a face, from its rounded vertices, is no more than their rounding,
+   * @f$ 16\,\varepsilon \sum_i l_i \max(M, R_i) @f$ with lengths l of its edges, radii
+   * R of arcs and the largest coordinate M. It is no region but a part of that region
+   * with which it shares the longest edge, as if the lines met in the point, and the
+   * edge between them is no more. A face without such a neighbour is left out of the
+   * solid. Notices tell how many there are. Immutable once built.
    */
   class PhysicalMesh
   {
@@ -45,6 +53,8 @@ namespace NMM
       double area;
       /// A point inside [m], for messages and pictures.
       dealii::Point<2> inside;
+      /// Thinner than a millionth of its length.
+      bool is_sliver = false;
     };
 
     /// Parts of joints with the same region on both sides: they bound no block.

@@ -161,7 +161,8 @@ namespace NMM
 
 
   /// Edge length of the cells at faces, that of the smaller ones: one in ten edges
-  /// belongs to a smaller cell [m].
+  /// belongs to a smaller cell [m]. Slivers (PhysicalMesh::Region::is_sliver) have no
+  /// part in it.
   double
   contact_cell_size(const ContactSurface &surface);
 } // namespace NMM

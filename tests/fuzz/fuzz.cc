@@ -1,0 +1,57 @@
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <fuzz/fuzz.h>
+#include <stdexcept>
+
+namespace NMM
+{
+  namespace Fuzz
+  {
+    const std::vector<Generator> &
+    generators()
+    {
+      static const std::vector<Generator> all = {
+        {"geometry", &make_geometry_case, &run_geometry_case}};
+      return all;
+    }
+
+
+    const Generator &
+    find_generator(const std::string &name)
+    {
+      std::string names;
+      for (const Generator &generator : generators())
+      {
+        if (generator.name == name)
+          return generator;
+        names += " '" + generator.name + "'";
+      }
+      throw std::invalid_argument("there is no generator '" + name + "', but" +
+                                  names);
+    }
+
+
+    std::string
+    check(const Generator &generator, const Case &c)
+    {
+      try
+      {
+        return generator.run(c);
+      }
+      catch (const std::exception &exception)
+      {
+        return exception.what();
+      }
+    }
+
+
+    void
+    write(const Case &c, const std::string &folder)
+    {
+      std::filesystem::create_directories(folder);
+      for (const auto &[name, text] : c.files)
+        std::ofstream(std::filesystem::path(folder) / name) << text;
+    }
+  } // namespace Fuzz
+} // namespace NMM

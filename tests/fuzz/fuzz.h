@@ -1,0 +1,60 @@
+#ifndef nmm_tests_fuzz_fuzz_h
+#define nmm_tests_fuzz_fuzz_h
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace NMM
+{
+  /**
+   * Random input for the library, run in one process: thousands of cases take minutes.
+   * A case follows from its seed alone. Each generator is a file of its own that is
+   * listed in generators().
+   */
+  namespace Fuzz
+  {
+    struct Case
+    {
+      /// Of what kind it is, for people.
+      std::string description;
+      /// Names and contents of files; case.prm is a scene that does what run() does,
+      /// as far as a scene can.
+      std::map<std::string, std::string> files;
+      /// What else run() needs.
+      std::map<std::string, double> numbers;
+    };
+
+    struct Generator
+    {
+      std::string name;
+      Case (*make)(std::uint64_t seed);
+      /// What is wrong with the library's answer; empty if nothing is.
+      std::string (*run)(const Case &);
+    };
+
+    const std::vector<Generator> &
+    generators();
+
+    /// @throws std::invalid_argument if there is none.
+    const Generator &
+    find_generator(const std::string &name);
+
+    /// What is wrong with a case, exceptions included; empty if nothing is.
+    std::string
+    check(const Generator &generator, const Case &c);
+
+    /// Write a case's files into a folder, which is made if need be.
+    void
+    write(const Case &c, const std::string &folder);
+
+    Case
+    make_geometry_case(std::uint64_t seed);
+
+    std::string
+    run_geometry_case(const Case &c);
+  } // namespace Fuzz
+} // namespace NMM
+
+#endif

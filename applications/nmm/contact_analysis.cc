@@ -315,6 +315,36 @@ ContactAnalysis::progress() const
 }
 
 
+std::string
+ContactAnalysis::find_deep_penetration() const
+{
+  const double given = scene->parameters().contact.max_penetration;
+  const double limit = given > 0. ? given : cell_size;
+  if (contact().is_idle() || contact().report().largest_penetration <= limit)
+    return "";
+  std::ostringstream text;
+  text << "a penetration of " << contact().report().largest_penetration << ' '
+       << scene->parameters().output.length_unit << ", more than the "
+       << (given > 0. ? "'Contact/Largest penetration'" : "cell size at faces")
+       << " of " << limit;
+  return text.str();
+}
+
+
+double
+ContactAnalysis::pressure_of_rounding() const
+{
+  constexpr double rounding = 1e-15;
+  const auto      &box      = covers->manifold_mesh()
+                      .physical_mesh()
+                      .bounding_box()
+                      .get_boundary_points();
+  return rounding * contact().parameters().normal_stiffness *
+         std::max(box.first.distance(box.second),
+                  std::max(box.first.norm(), box.second.norm()));
+}
+
+
 void
 ContactAnalysis::add_to_summary(Summary &summary) const
 {
@@ -376,6 +406,14 @@ AccountedContactModel::begin_step(const Vector &begin,
 {
   ContactModel::begin_step(begin, predicted, t, h);
   analysis->remember_states();
+}
+
+
+std::string
+AccountedContactModel::find_fault(const Vector &end)
+{
+  const std::string fault = ContactModel::find_fault(end);
+  return fault.empty() ? analysis->find_deep_penetration() : fault;
 }
 
 

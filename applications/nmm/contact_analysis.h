@@ -101,6 +101,14 @@ public:
   std::string
   progress() const;
 
+  /// What is wrong with the last assembled state; empty: nothing.
+  std::string
+  find_deep_penetration() const;
+
+  /// Pressure of a penetration that is rounding of coordinates [Pa].
+  double
+  pressure_of_rounding() const;
+
   /// Numbers of the last state into the summary, energies times the thickness.
   void
   add_to_summary(NMM::Summary &summary) const;
@@ -153,6 +161,11 @@ public:
              const Vector &predicted,
              double        t,
              double        h) override;
+
+  /// As in ContactModel; and faces may not be deeper in each other than the scene
+  /// allows.
+  std::string
+  find_fault(const Vector &end) override;
 
   double
   accept_step(const Vector &end, double t) override;

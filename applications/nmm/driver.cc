@@ -245,7 +245,19 @@ namespace
     progress.message(scene.title());
     const auto analysis =
       make_analysis(scene, progress, communicator, options.restart);
-    analysis->build();
+    try
+    {
+      analysis->build();
+    }
+    catch (const NMM::NumericalFailure &failure)
+    {
+      // A check solves nothing, so that it cannot fail to.
+      if (!options.check_only)
+        throw;
+      progress.message("  warning: a run would end with exit code 3: " +
+                       failure.message());
+      return;
+    }
     analysis->print_report();
     if (options.check_only)
       return;

@@ -79,7 +79,8 @@ DynamicAnalysis::make_integrator()
   if (!restart.empty())
   {
     Checkpoint::read(restart, *integrator);
-    AssertThrow(time() < parameters.time.end_time,
+    // A run that was killed before it wrote its end is at it.
+    AssertThrow(time() <= parameters.time.end_time * (1. + 1e-12),
                 InputError("the checkpoint '" + restart +
                              "' is of t = " + std::to_string(time()) +
                              " s, and the run ends at " +
@@ -249,13 +250,16 @@ DynamicAnalysis::solve()
     else
       run_dynamics();
   }
-  catch (const NumericalFailure &)
+  catch (const NumericalFailure &error)
   {
     recover();
     show();
     verify();
+    explain_balance(error.message());
     throw;
   }
+  if (balance_is_off())
+    progress.message("  warning: " + balance_note());
   {
     Stage recovery_stage(progress, "stress recovery");
     show();
@@ -286,6 +290,7 @@ DynamicAnalysis::run_dynamics()
     n_lost_iterations += record.n_lost_iterations;
   };
   last_good = integrator->state();
+  note_energies();
   try
   {
     while (control.advance(*integrator, parameters.end_time, record))

@@ -186,6 +186,26 @@ private:
   void
   add_energies();
 
+  /// Keep the largest energies and their balance. @throws NMM::NumericalFailure
+  /// unless they are finite.
+  void
+  note_energies();
+
+  double
+  relative_balance() const;
+
+  /// Is more energy unaccounted for than results can be trusted with?
+  bool
+  balance_is_off() const;
+
+  std::string
+  balance_note() const;
+
+  /// @throws NMM::NumericalFailure with @p reason and what the balance says, if that
+  /// is off.
+  void
+  explain_balance(const std::string &reason) const;
+
   double
   last_value() const override;
 

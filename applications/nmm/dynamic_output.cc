@@ -86,13 +86,8 @@ DynamicAnalysis::after_step(const StepRecord &record)
     drop_blocks();
   if (integrator)
   {
-    last_good              = integrator->state();
-    const Account &account = integrator->account();
-    largest_balance = std::max(largest_balance, std::abs(account.balance));
-    largest_energy =
-      std::max({largest_energy,
-                account.kinetic + account.strain + account.conditions,
-                std::abs(account.external_work)});
+    note_energies();
+    last_good = integrator->state();
   }
   write_rows(record);
   const OutputParameters &output = scene.parameters().output;
@@ -291,13 +286,66 @@ DynamicAnalysis::add_energies()
   if (leaving)
     summary.add("left_energy", t * account.left, energy);
   summary.add("energy_balance", t * account.balance, energy);
-  summary.add("energy_balance_relative",
-              largest_energy > 0. ? largest_balance / largest_energy : 0.);
+  summary.add("energy_balance_relative", relative_balance());
   summary.add("momentum_x", t * account.linear_momentum[0], momentum);
   summary.add("momentum_y", t * account.linear_momentum[1], momentum);
   summary.add("angular_momentum",
               t * account.angular_momentum,
               angular_momentum);
+}
+
+
+void
+DynamicAnalysis::note_energies()
+{
+  const Account &account = integrator->account();
+  const double   stored = account.kinetic + account.strain + account.conditions;
+  AssertThrow(
+    std::isfinite(stored) && std::isfinite(account.balance),
+    NumericalFailure("The energies are not finite",
+                     "time " + std::to_string(time()) + " s, step " +
+                       std::to_string(step_number()),
+                     "take shorter steps, or look for loads, stiffness "
+                     "and velocities of extreme size"));
+  largest_balance = std::max(largest_balance, std::abs(account.balance));
+  largest_energy =
+    std::max({largest_energy, stored, std::abs(account.external_work)});
+}
+
+
+double
+DynamicAnalysis::relative_balance() const
+{
+  return largest_energy > 0. ? largest_balance / largest_energy : 0.;
+}
+
+
+bool
+DynamicAnalysis::balance_is_off() const
+{
+  // Schemes and impacts that are resolved stay below a hundredth.
+  constexpr double limit = 0.1;
+  return relative_balance() > limit;
+}
+
+
+std::string
+DynamicAnalysis::balance_note() const
+{
+  std::ostringstream text;
+  text << std::setprecision(2) << "the energy balance is off by "
+       << 100. * relative_balance()
+       << " % of the largest energy, so that the last state is not to be "
+          "trusted: take shorter steps";
+  return text.str();
+}
+
+
+void
+DynamicAnalysis::explain_balance(const std::string &reason) const
+{
+  AssertThrow(!balance_is_off(),
+              NumericalFailure(reason + "; " + balance_note(), "", ""));
 }
 
 

@@ -129,12 +129,19 @@ NonlinearAnalysis::run_contact()
   double                 friction_work = 0.;
   const auto after_step = [&](const ContactStep &step, const Vector &solution) {
     HistoryRow row;
-    row.load_factor       = step.load_factor;
-    row.n_iterations      = step.n_iterations;
-    row.n_cuts            = step.n_cuts;
-    row.n_lost_iterations = step.n_lost_iterations;
-    row.relative_residual = step.relative_residual;
-    row.strain_energy     = problem.thickness * system->strain_energy();
+    row.load_factor         = step.load_factor;
+    row.n_iterations        = step.n_iterations;
+    row.n_cuts              = step.n_cuts;
+    row.n_lost_iterations   = step.n_lost_iterations;
+    row.relative_residual   = step.relative_residual;
+    row.strain_energy       = problem.thickness * system->strain_energy();
+    const std::string fault = contact->find_deep_penetration();
+    AssertThrow(
+      fault.empty(),
+      NumericalFailure("There is " + fault,
+                       "load factor " + std::to_string(step.load_factor),
+                       "choose a higher 'Contact/Normal stiffness', or "
+                       "loads that the solid can bear"));
     friction_work += step.dissipated;
     contact->take_state(friction_work);
     row.contact_numbers = contact->numbers(problem.thickness);
@@ -220,6 +227,11 @@ NonlinearAnalysis::add_step(HistoryRow row, const Vector &solution)
   for (const auto &[element, xi] : output_points)
     largest = std::max(largest, field->displacement(element, xi).norm());
   row.max_displacement = Parallel::max(largest, communicator);
+  AssertThrow(
+    std::isfinite(row.strain_energy) && std::isfinite(row.max_displacement),
+    NumericalFailure("The strain energy or a displacement is not finite",
+                     "load factor " + std::to_string(row.load_factor),
+                     "look for loads and stiffness of extreme size"));
 
   const auto [first, last] = covers->locally_owned_elements();
   for (const ProbePoints::Entry &entry : probes->entries())

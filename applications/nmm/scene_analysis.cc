@@ -4,6 +4,7 @@
 #include <nmm/covers/own_meshes.h>
 #include <nmm/covers/rank_cells.h>
 #include <nmm/io/vtu.h>
+#include <nmm/mechanics/load_values.h>
 
 #include <algorithm>
 #include <exception>
@@ -58,6 +59,7 @@ SceneAnalysis::build()
       problem.body_force ? 2 * p : std::max(2 * p - 2, p);
     quadrature = std::make_unique<QuadratureCollection>(
       *manifold_mesh, degree, degree, covers->locally_owned_elements());
+    check_load_values(*covers, *quadrature, problem);
   }
   make_system();
   add_counts();
@@ -167,7 +169,7 @@ SceneAnalysis::add_block_counts()
               length + "^2");
   summary.add("small_blocks",
               std::count_if(areas.begin(), areas.end(), [&](const double area) {
-                return area < limit;
+                return limit > 0. && area < limit;
               }));
   const PhysicalMesh::DanglingEnds &ends = physical_mesh->dangling_ends();
   summary.add("crack_tips", ends.n_kept);
@@ -219,15 +221,16 @@ SceneAnalysis::print_report()
 {
   for (const CleaningAction &action : cleaning_actions)
     progress.message("  cleaned: " + action.description());
-  for (const std::string &notice : physical_mesh->notices())
-    progress.message("  notice: " + notice);
-  for (const std::string &notice : block_notices())
-    progress.message("  notice: " + notice);
-  for (const std::string &notice : own_mesh_notices)
-    progress.message("  notice: " + notice);
+  std::vector<std::string> notices = physical_mesh->notices();
+  const auto add_notices           = [&](const std::vector<std::string> &n) {
+    notices.insert(notices.end(), n.begin(), n.end());
+  };
+  add_notices(block_notices());
+  add_notices(own_mesh_notices);
   if (contact)
-    for (const std::string &notice : contact->notices())
-      progress.message("  notice: " + notice);
+    add_notices(contact->notices());
+  for (const std::string &notice : merge_alike(notices))
+    progress.message("  notice: " + notice);
 
   const auto count = [&](const std::string &name) {
     std::ostringstream text;
@@ -316,11 +319,16 @@ void
 SceneAnalysis::write()
 {
   const OutputParameters &parameters = scene.parameters().output;
+  const bool              was_solved = is_solved;
+  std::string             fault;
   {
     Stage stage(progress, "output");
     if (evaluator && !probes->entries().empty())
     {
       const auto samples = probes->evaluate(*covers, *evaluator);
+      for (unsigned int i = 0; i < samples.size() && fault.empty(); ++i)
+        if (samples[i])
+          fault = find_not_finite(*samples[i], probes->entries()[i].x);
       if (is_first_rank())
         directory->write_text("probes.csv", [&](std::ostream &out) {
           probes->write(out, samples);
@@ -328,6 +336,11 @@ SceneAnalysis::write()
     }
 
     const FieldTriangles triangles(*covers, evaluator.get());
+    if (fault.empty())
+      fault = triangles.find_not_finite(communicator);
+    if (fault.empty())
+      fault = summary.find_not_finite();
+    is_solved = is_solved && fault.empty();
     summary.add("max_displacement",
                 triangles.max_displacement(communicator),
                 parameters.length_unit);
@@ -337,6 +350,7 @@ SceneAnalysis::write()
         write_fields_of_state(*covers, triangles, *directory, "fields"));
     if (evaluator)
       series->finish_contact(last_value());
+    PictureData drawn;
     if (parameters.picture)
       write_picture(scene,
                     *covers,
@@ -346,10 +360,19 @@ SceneAnalysis::write()
                     scene.title() +
                       (is_solved ? "" : " (" + unsolved_note() + ")"),
                     "picture.png",
-                    *directory);
-    on_first_rank([&]() { series->write_animation(); });
+                    *directory,
+                    &drawn);
+    on_first_rank([&]() {
+      series->write_animation(last_value(), evaluator ? &drawn : nullptr);
+    });
   }
   write_summary();
+  AssertThrow(
+    fault.empty() || !was_solved,
+    NumericalFailure(fault,
+                     "the last state",
+                     "take shorter steps, or look for loads, stiffness "
+                     "and velocities of extreme size"));
 }
 
 

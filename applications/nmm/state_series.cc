@@ -53,7 +53,10 @@ write_picture(const Scene           &scene,
   PictureData data =
     make_picture_data(covers, triangles, evaluator, parameters);
   if (contact != nullptr)
-    add_contact(contact->contact().surface(), contact->points(), data);
+    add_contact(contact->contact().surface(),
+                contact->points(),
+                data,
+                contact->pressure_of_rounding());
   if (is_first_rank(covers))
     directory.write_file(file_name, [&](const std::string &name) {
       draw_picture(data, parameters, title, name);
@@ -168,7 +171,7 @@ StateSeries::open_animation(const double last)
 
 
 void
-StateSeries::write_animation()
+StateSeries::write_animation(const double value, const PictureData *last)
 {
   if (animation == nullptr || animation->n_frames() == 0)
     return;
@@ -178,11 +181,20 @@ StateSeries::write_animation()
   AnimationParameters parameters;
   parameters.time_name = is_dynamic ? "t" : "load factor";
   parameters.time_unit = is_dynamic ? "s" : "";
+  parameters.smallest_hole =
+    smallest_hole(covers->manifold_mesh().physical_mesh());
   if (shows_true_size(*scene) && output.deformation_scale < 0.)
     output.deformation_scale = 1.;
+  // A run that continues this one has no such state in its series.
+  const bool is_added = last != nullptr && !last->triangles.empty() &&
+                        value > animation->last_time();
+  if (is_added)
+    animation->add_frame(value, *last);
   directory->write_text("animation.html", [&](std::ostream &out) {
     animation->write(out, scene->title(), output, parameters);
   });
+  if (is_added)
+    animation->remove_last_frame();
 }
 
 

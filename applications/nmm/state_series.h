@@ -66,9 +66,10 @@ public:
   void
   finish_contact(double value);
 
-  /// Write animation.html, if there are frames for it.
+  /// Write animation.html, if there are frames for it. Its last one is of the state
+  /// at @p value, drawn as @p last, unless that is null.
   void
-  write_animation();
+  write_animation(double value, const NMM::PictureData *last);
 
 private:
   void

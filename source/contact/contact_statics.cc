@@ -268,11 +268,12 @@ namespace NMM
         length = 0.5 * (next - d.load_factor);
         AssertThrow(
           length >= least,
-          NumericalFailure(
-            "The load step would be smaller than allowed: " + d.reason,
-            "load factor " + std::to_string(next),
-            "look at the last good state for what gives way, or allow "
-            "smaller steps"));
+          NumericalFailure("The load step would be smaller than allowed: " +
+                             d.reason,
+                           "load factor " + std::to_string(next),
+                           "look at the last state that converged for what "
+                           "gives way, or allow "
+                           "smaller steps"));
       }
     return result;
   }

@@ -1,4 +1,5 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/base/memory.h>
 #include <nmm/covers/graded_mesh.h>
 #include <nmm/covers/point_location.h>
 #include <nmm/geometry/physical_mesh.h>
@@ -30,6 +31,10 @@ namespace NMM
       RedGreenRefinement(const internal::Lattice        &lattice,
                          const std::vector<LatticeNode> &parallelograms,
                          unsigned int                    n_levels);
+
+      /// @throws InputError if memory has no room for so many triangles.
+      void
+      check_memory(std::size_t n_triangles) const;
 
       /// Halve the edges of triangles until no edge is longer than the size
       /// field at the triangle's centre.
@@ -84,10 +89,11 @@ namespace NMM
       bool
       split_while(const Condition &condition);
 
-      const internal::Lattice                        *lattice;
-      std::int64_t                                    scale;
-      std::vector<Triangle>                           triangles;
-      std::vector<LatticeNode>                        vertex_to_node;
+      AvailableMemory          available = available_memory(1u);
+      const internal::Lattice *lattice;
+      std::int64_t             scale;
+      std::vector<Triangle>    triangles;
+      std::vector<LatticeNode> vertex_to_node;
       std::unordered_map<std::uint64_t, unsigned int> node_to_vertex;
     };
 
@@ -166,15 +172,35 @@ namespace NMM
     }
 
 
+    void
+    RedGreenRefinement::check_memory(const std::size_t n_triangles) const
+    {
+      require_memory(internal::least_memory_per_cell * n_triangles,
+                     available,
+                     "more than " + std::to_string(n_triangles) + " cells",
+                     "the local sizes of the mathematical mesh",
+                     [](double) {
+                       return "choose larger sizes, or let them grow faster";
+                     });
+    }
+
+
     template <typename Condition>
     bool
     RedGreenRefinement::split_while(const Condition &condition)
     {
-      bool                  changed = false;
+      constexpr std::size_t check_every = 1 << 20;
+      bool                  changed     = false;
+      std::size_t           next_check  = check_every;
       std::vector<Triangle> result, stack;
       result.reserve(triangles.size());
       for (const Triangle &triangle : triangles)
       {
+        if (result.size() > next_check)
+        {
+          check_memory(result.size());
+          next_check = result.size() + check_every;
+        }
         stack.assign(1, triangle);
         while (!stack.empty())
         {

@@ -17,6 +17,10 @@ namespace NMM
 {
   namespace internal
   {
+    /// What meshing, cutting and the cheapest analysis of linear covers use per
+    /// triangle, measured on squares of 1e5 triangles [bytes].
+    constexpr double least_memory_per_cell = 2000.;
+
     /// Lattice coordinates of a node.
     using LatticeNode = std::array<std::int64_t, 2>;
 

@@ -157,16 +157,18 @@ namespace NMM
       step = h * (!report.converged && report.retry > 0.
                     ? retry_share(report, record.n_cuts)
                     : std::clamp(safety * factor, 0.1, 0.7));
-      AssertThrow(step >= parameters.min_step,
-                  NumericalFailure(
-                    "The time step would be " + std::to_string(step) +
-                      " s, less than the least one, because of " + reason,
-                    "time " + std::to_string(state.time) + " s, step " +
-                      std::to_string(state.step + 1),
-                    !report.remedy.empty()
-                      ? report.remedy
-                      : "allow smaller steps, larger displacements or errors, "
-                        "or look at the last good state for what gives way"));
+      AssertThrow(
+        step >= parameters.min_step,
+        NumericalFailure(
+          "The time step would be " + std::to_string(step) +
+            " s, less than the least one, because of " + reason,
+          "time " + std::to_string(state.time) + " s, step " +
+            std::to_string(state.step + 1),
+          !report.remedy.empty()
+            ? report.remedy
+            : "allow smaller steps, larger displacements or errors, "
+              "or look at the last state that converged for what gives "
+              "way"));
     }
   }
 

@@ -334,6 +334,23 @@ namespace NMM
   }
 
 
+  double
+  Animation::last_time() const
+  {
+    return records.back().time;
+  }
+
+
+  void
+  Animation::remove_last_frame()
+  {
+    end =
+      records.back().position - static_cast<std::streamoff>(frame_header_size);
+    records.pop_back();
+    std::filesystem::resize_file(file_name, static_cast<std::uintmax_t>(end));
+  }
+
+
   PictureData
   Animation::read(const Record &record) const
   {
@@ -404,7 +421,8 @@ namespace NMM
         at_rest.add(read(record), 0.);
       const auto [lower, upper] = at_rest.view();
       scale = choose_deformation_scale(at_rest.largest_displacement(),
-                                       lower.distance(upper));
+                                       lower.distance(upper),
+                                       animation.smallest_hole);
     }
     std::vector<Quantity> quantities = {parameters.quantity};
     for (const Quantity quantity :

@@ -1,5 +1,6 @@
 #include <nmm/base/program.h>
 #include <nmm/io/contact_output.h>
+#include <nmm/io/vtu.h>
 
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>
@@ -192,7 +193,8 @@ namespace NMM
   void
   add_contact(const ContactSurface             &surface,
               const std::vector<ContactSample> &points,
-              PictureData                      &data)
+              PictureData                      &data,
+              const double                      least)
   {
     const unsigned int first = surface.n_bodies() - surface.obstacles().size();
     const auto         corners = surface.cover_system()
@@ -219,7 +221,7 @@ namespace NMM
         data.obstacles.push_back(line);
       }
     for (const ContactSample &point : points)
-      if (point.state != ContactState::open)
+      if (point.state != ContactState::open && point.traction().norm() >= least)
         // of an obstacle's corner the force on the solid
         data.contacts.push_back(
           {{point.reference, point.x - point.reference},
@@ -385,10 +387,7 @@ namespace NMM
   void
   ContactSeries::write_list() const
   {
-    directory->write_text("contacts.pvd", [&](std::ostream &out) {
-      out.precision(12);
-      dealii::DataOutBase::write_pvd_record(out, files);
-    });
+    write_series(files, *directory, "contacts.pvd");
   }
 
 

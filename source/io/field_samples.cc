@@ -156,6 +156,39 @@ namespace NMM
   }
 
 
+  std::string
+  find_not_finite(const FieldSample &sample, const dealii::Point<2> &x)
+  {
+    const auto fault = [&](const std::string &name, const double value) {
+      return std::isfinite(value)
+               ? ""
+               : "the " + name + " at " + to_string(x) + " is not finite";
+    };
+    std::string text = fault("displacement", sample.displacement.norm_square());
+    if (text.empty())
+      text = fault("velocity", sample.velocity.norm_square());
+    for (const auto *stress : {&sample.direct, &sample.recovered})
+      if (text.empty())
+        text = fault("stress", stress->in_plane.norm() + stress->zz);
+    return text;
+  }
+
+
+  std::string
+  FieldTriangles::find_not_finite(const MPI_Comm communicator) const
+  {
+    std::string fault;
+    for (std::size_t t = 0; t < samples.size() && fault.empty(); ++t)
+      for (unsigned int i = 0; i < 6 && fault.empty(); ++i)
+        fault = NMM::find_not_finite(samples[t][i], nodes[t][i]);
+    for (const std::string &other :
+         dealii::Utilities::MPI::all_gather(communicator, fault))
+      if (fault.empty())
+        fault = other;
+    return fault;
+  }
+
+
   ElementIds
   element_ids(const ManifoldMesh &mesh, const unsigned int element)
   {

@@ -2,6 +2,7 @@
 #include <nmm/io/output_directory.h>
 
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iomanip>
@@ -255,6 +256,16 @@ namespace NMM
     out << "name,value,unit\n" << std::setprecision(12);
     for (const Row &row : rows)
       out << row.name << ',' << row.value << ',' << row.unit << '\n';
+  }
+
+
+  std::string
+  Summary::find_not_finite() const
+  {
+    for (const Row &row : rows)
+      if (!std::isfinite(row.value))
+        return "the result '" + row.name + "' is not finite";
+    return "";
   }
 
 

@@ -27,7 +27,8 @@ namespace NMM
                               .bounding_box()
                               .get_boundary_points();
       const double size = corners.first.distance(corners.second);
-      return choose_deformation_scale(largest, size);
+      return choose_deformation_scale(
+        largest, size, smallest_hole(covers.manifold_mesh().physical_mesh()));
     }
 
 

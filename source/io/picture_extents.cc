@@ -1,7 +1,9 @@
+#include <nmm/geometry/physical_mesh.h>
 #include <nmm/io/picture.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace NMM
 {
@@ -9,6 +11,20 @@ namespace NMM
 
   namespace
   {
+    /// Parameter 0 is the start, 1 the end.
+    Point<2>
+    place_on(const CurvePiece &piece, const double t)
+    {
+      if (piece.kind == CurvePiece::Kind::segment)
+        return piece.start + t * (piece.end - piece.start);
+      const double angle =
+        angle_about(piece.center, piece.start) + t * swept_angle(piece);
+      return piece.center +
+             std::abs(piece.radius) *
+               dealii::Tensor<1, 2>({std::cos(angle), std::sin(angle)});
+    }
+
+
     /// 1, 2 or 5 times a power of ten, not larger than @p value.
     double
     rounded_down(const double value)
@@ -24,11 +40,42 @@ namespace NMM
 
   double
   choose_deformation_scale(const double largest_displacement,
-                           const double diagonal)
+                           const double diagonal,
+                           const double smallest_hole)
   {
+    // both sides of a hole may move towards each other
+    const double shown = std::min(0.05 * diagonal, 0.125 * smallest_hole);
     return largest_displacement > 1e-14 * diagonal
-             ? rounded_down(0.05 * diagonal / largest_displacement)
+             ? rounded_down(shown / largest_displacement)
              : 0.;
+  }
+
+
+  double
+  smallest_hole(const PhysicalMesh &mesh)
+  {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const Curve &curve : mesh.curves())
+    {
+      if (curve.role != CurveRole::hole || curve.pieces.empty())
+        continue;
+      Point<2> lower = curve.pieces.front().start, upper = lower;
+      for (const CurvePiece &piece : curve.pieces)
+        for (unsigned int k = 0; k <= 8; ++k)
+        {
+          const Point<2> x = place_on(piece, k / 8.);
+          for (unsigned int d = 0; d < 2; ++d)
+          {
+            lower[d] = std::min(lower[d], x[d]);
+            upper[d] = std::max(upper[d], x[d]);
+          }
+        }
+      const double side = std::min(upper[0] - lower[0], upper[1] - lower[1]);
+      // an open piece of a hole's boundary may be a straight line
+      if (side > 0.)
+        smallest = std::min(smallest, side);
+    }
+    return smallest;
   }
 
 

@@ -4,10 +4,66 @@
 
 #include <exception>
 #include <iomanip>
+#include <map>
+#include <regex>
 #include <sstream>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 namespace NMM
 {
+  namespace
+  {
+    /// Characters in a line of the terminal, 80 if there is none.
+    std::size_t
+    terminal_width()
+    {
+      winsize size;
+      return isatty(STDOUT_FILENO) != 0 &&
+                 ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0
+               ? size.ws_col
+               : 80;
+    }
+  } // namespace
+
+
+  std::string
+  cut_to_width(const std::string &text, const std::size_t width)
+  {
+    const std::string end = " ...";
+    if (text.size() <= width || width <= end.size())
+      return text.substr(0, width);
+    return text.substr(0, width - end.size()) + end;
+  }
+
+
+  std::vector<std::string>
+  merge_alike(const std::vector<std::string> &notices)
+  {
+    // numbers, and names with a number, between quotation marks
+    const std::regex number("'[^']*[0-9][^']*'|[-+]?[0-9.]+(e[-+]?[0-9]+)?");
+    std::map<std::string, unsigned int> counts;
+    std::vector<std::string>            forms;
+    for (const std::string &notice : notices)
+    {
+      forms.push_back(std::regex_replace(notice, number, "#"));
+      ++counts[forms.back()];
+    }
+    std::vector<std::string> result;
+    for (std::size_t i = 0; i < notices.size(); ++i)
+    {
+      unsigned int &count = counts[forms[i]];
+      if (count > 0)
+        result.push_back(notices[i] +
+                         (count > 1 ? " (and " + std::to_string(count - 1) +
+                                        " more that differ in numbers only)"
+                                    : ""));
+      count = 0;
+    }
+    return result;
+  }
+
+
   Progress::Progress(std::ostream  &out,
                      const bool     is_terminal,
                      const MPI_Comm communicator)
@@ -79,10 +135,14 @@ namespace NMM
     last_update = now;
     const std::string line =
       words(std::chrono::duration<double>(now - start).count());
+    const std::size_t width = terminal_width();
+    // the last column would make some terminals begin a new line
     if (progress.is_terminal)
-      progress.out << "\r\033[K  " << name << " ... " << line << std::flush;
+      progress.out << "\r\033[K"
+                   << cut_to_width("  " + name + " ... " + line, width - 1)
+                   << std::flush;
     else
-      progress.out << "    " << line << std::endl;
+      progress.out << cut_to_width("    " + line, width) << std::endl;
   }
 
 

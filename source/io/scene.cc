@@ -1,4 +1,5 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/base/memory.h>
 #include <nmm/covers/rank_cells.h>
 #include <nmm/io/parameter_tree.h>
 #include <nmm/io/scene.h>
@@ -6,9 +7,11 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <io/expression.h>
+#include <sstream>
 
 namespace NMM
 {
@@ -50,6 +53,114 @@ namespace NMM
                  type == BoundaryCondition::Type::displacement
                ? 2
                : 1;
+    }
+
+
+    /**
+     * What an analysis uses [bytes], measured on squares of 1e5 and 4e5 triangles
+     * (`peak_memory` in the summary). Where systems are factorized, factors grow a
+     * little faster than their number.
+     */
+    double
+    estimate_memory(const SceneParameters &parameters, const double n_cells)
+    {
+      const ModelParameters &model = parameters.model;
+      const bool is_quadratic      = parameters.mathematical_mesh.degree > 1;
+      const bool is_iterative      = model.analysis == Analysis::statics &&
+                                model.kinematics == Kinematics::small &&
+                                !parameters.contact.is_present();
+      const double linear  = is_quadratic ? 3800. : 2000.;
+      const double factors = (is_iterative                          ? 0.
+                              : model.analysis == Analysis::statics ? 4700.
+                                                                    : 13000.) *
+                             (is_quadratic ? 1. : 0.25);
+      constexpr double n_measured = 1e5;
+      return n_cells * (linear + factors * std::log(std::max(n_cells, 2.)) /
+                                   std::log(n_measured));
+    }
+
+
+    /// Of a regular mesh, or the coarsest part of a graded one, before it is made.
+    /// @throws InputError.
+    void
+    check_memory(const SceneParameters       &parameters,
+                 const RegularMeshParameters &mesh,
+                 const PhysicalMesh          &physical_mesh,
+                 const MPI_Comm               communicator)
+    {
+      const double h = mesh.cell_size;
+      if (!(h > 0.))
+        return;
+      double       area     = 0.;
+      const double box_area = physical_mesh.bounding_box().volume();
+      for (const PhysicalMesh::Region &region : physical_mesh.regions())
+        area += region.area;
+      if (mesh.whole_box)
+        area = box_area;
+      const double of_triangle =
+        h * h *
+        (mesh.pattern == MeshPattern::equilateral ? 0.25 * std::sqrt(3.) : 0.5);
+      const double n_cells = area / of_triangle;
+      // each triangle of the box is looked at
+      constexpr double of_lattice = 2.5; // [bytes]
+      double           needed     = estimate_memory(parameters, n_cells) +
+                      of_lattice * box_area / of_triangle;
+      if (parameters.covers.is_distributed)
+        needed /= dealii::Utilities::MPI::n_mpi_processes(communicator);
+      std::ostringstream number;
+      number.precision(2);
+      number << n_cells << " cells";
+      require_memory(needed,
+                     available_memory(communicator),
+                     number.str(),
+                     "parameter 'Mathematical mesh/Cell size'",
+                     [&](const double excess) {
+                       std::ostringstream text;
+                       text.precision(2);
+                       // a little more than what just fits
+                       text << "choose at least "
+                            << 1.05 * h * std::sqrt(excess)
+                            << " m, or a machine or limit with more memory";
+                       return text.str();
+                     });
+    }
+
+
+    /// A square that stands on its base and is pressed from above: what is printed
+    /// without a scene can be run, and replaced bit by bit.
+    void
+    declare_first_scene(dealii::ParameterHandler &prm)
+    {
+      SceneNames names;
+      names.materials           = {"rock"};
+      names.boundary_conditions = {"held", "pressed"};
+      SceneParameters::declare(prm, names);
+      const std::vector<std::array<std::string, 3>> entries = {
+        {{"Geometry",
+          "Text",
+          "boundary name=right material=rock LINESTRING (1 0, 1 1); "
+          "boundary name=base LINESTRING (0 0, 1 0); "
+          "boundary name=top LINESTRING (1 1, 0 1); "
+          "boundary name=left LINESTRING (0 1, 0 0)"}},
+        {{"Mathematical mesh", "Cell size", "0.25"}},
+        {{"Materials", "Names", "rock"}},
+        {{"Materials/rock", "Young's modulus", "1e9"}},
+        {{"Boundary conditions", "Names", "held, pressed"}},
+        {{"Boundary conditions/held", "Boundary", "base"}},
+        {{"Boundary conditions/held", "Type", "displacement"}},
+        {{"Boundary conditions/held", "Value", "0; 0"}},
+        {{"Boundary conditions/pressed", "Boundary", "top"}},
+        {{"Boundary conditions/pressed", "Type", "pressure"}},
+        {{"Boundary conditions/pressed", "Value", "1e5"}}};
+      for (const auto &[section, key, value] : entries)
+      {
+        const auto path = dealii::Utilities::split_string_list(section, '/');
+        for (const std::string &name : path)
+          prm.enter_subsection(name);
+        prm.set(key, value);
+        for (std::size_t i = 0; i < path.size(); ++i)
+          prm.leave_subsection();
+      }
     }
 
 
@@ -120,7 +231,10 @@ namespace NMM
   Scene::print_defaults(std::ostream &out, const Format format)
   {
     dealii::ParameterHandler prm;
-    SceneParameters::declare(prm, SceneNames::examples());
+    if (format == Format::markdown)
+      SceneParameters::declare(prm, SceneNames::examples());
+    else
+      declare_first_scene(prm);
     print_parameters(prm, out, format);
   }
 
@@ -150,6 +264,10 @@ namespace NMM
     switch (parameters.type)
     {
       case MathematicalMeshParameters::Type::graded:
+        check_memory(scene_parameters,
+                     parameters.graded,
+                     physical_mesh,
+                     communicator);
         return make_graded_mesh(physical_mesh,
                                 parameters.graded,
                                 parameters.degree);
@@ -169,6 +287,7 @@ namespace NMM
       regular.cell_size =
         largest_extent(physical_mesh) * (is_alone ? 1. / n_across : 1.5);
     }
+    check_memory(scene_parameters, regular, physical_mesh, communicator);
     if (scene_parameters.covers.is_distributed)
       return make_distributed_mesh(physical_mesh,
                                    regular,

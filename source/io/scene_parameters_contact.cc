@@ -217,6 +217,12 @@ namespace NMM
                       "Distance within which faces are looked at [m]; 0: a "
                       "tenth of the longest edge of an element. Time steps "
                       "look further where something moves fast.");
+    prm.declare_entry(
+      "Largest penetration",
+      "0",
+      Patterns::Double(),
+      "A step fails in which faces are deeper in each other [m]; "
+      "0: the cell size at faces.");
     prm.declare_entry("Number of points",
                       std::to_string(defaults.n_points),
                       Patterns::Integer(2, 20),
@@ -262,6 +268,7 @@ namespace NMM
     enforcement           = get_selection(prm, "Enforcement", enforcements);
     penetration_tolerance = prm.get_double("Penetration tolerance");
     reach                 = prm.get_double("Reach");
+    max_penetration       = prm.get_double("Largest penetration");
     n_points              = prm.get_integer("Number of points");
     integration           = get_selection(prm, "Integration", integrations);
     open_joints           = get_names(prm, "Open joints");
@@ -293,6 +300,7 @@ namespace NMM
     };
     expect("Penetration tolerance", penetration_tolerance, 0.);
     expect("Reach", reach, 0.);
+    expect("Largest penetration", max_penetration, 0.);
     expect("Number of points", n_points, defaults.n_points);
     AssertThrow(integration == ContactIntegration::length,
                 InputError("'Integration = points' would not be used by " + by,
@@ -367,7 +375,8 @@ namespace NMM
     }
     for (const auto &[key, value] :
          {std::make_pair("Penetration tolerance", penetration_tolerance),
-          std::make_pair("Reach", reach)})
+          std::make_pair("Reach", reach),
+          std::make_pair("Largest penetration", max_penetration)})
       AssertThrow(value >= 0. && std::isfinite(value),
                   InputError(std::string("'") + key + "' is " + to_text(value),
                              std::string("parameter 'Contact/") + key + "'",

@@ -278,7 +278,7 @@ namespace NMM
                       "none",
                       selection(exact_solutions),
                       "thick ring: Lame's solution of a circular ring under "
-                      "inner and outer pressure.");
+                      "inner pressure.");
     prm.declare_entry(
       "Inner boundary",
       "",

@@ -6,12 +6,22 @@
 #include <cstdint>
 #include <io/vtu_array.h>
 #include <numeric>
+#include <regex>
+#include <sstream>
 #include <tuple>
 
 namespace NMM
 {
   namespace
   {
+    /// deal.II's have the date, by which the files of equal runs would differ.
+    std::string
+    without_comments(const std::string &text)
+    {
+      return std::regex_replace(text, std::regex("<!--[^>]*-->\\s*"), "");
+    }
+
+
     using VectorRanges = std::vector<std::tuple<
       unsigned int,
       unsigned int,
@@ -211,12 +221,14 @@ namespace NMM
         std::vector<std::string> pieces;
         for (unsigned int r = 0; r < n_ranks; ++r)
           pieces.push_back(piece_name(r));
+        std::ostringstream text;
         dealii::DataOutBase::write_pvtu_record(
-          out,
+          text,
           pieces,
           field_names(triangles.has_velocity),
           vector_ranges(triangles.has_velocity),
           dealii::DataOutBase::VtkFlags());
+        out << without_comments(text.str());
       });
     return base + ".pvtu";
   }
@@ -226,10 +238,20 @@ namespace NMM
   write_series(const std::vector<std::pair<double, std::string>> &states,
                const OutputDirectory                             &directory)
   {
-    directory.write_text("fields.pvd", [&](std::ostream &out) {
-      out.precision(12);
-      dealii::DataOutBase::write_pvd_record(out, states);
-    });
+    write_series(states, directory, "fields.pvd");
   }
 
+
+  void
+  write_series(const std::vector<std::pair<double, std::string>> &states,
+               const OutputDirectory                             &directory,
+               const std::string                                 &name)
+  {
+    directory.write_text(name, [&](std::ostream &out) {
+      std::ostringstream text;
+      text.precision(12);
+      dealii::DataOutBase::write_pvd_record(text, states);
+      out << without_comments(text.str());
+    });
+  }
 } // namespace NMM

@@ -63,6 +63,9 @@ namespace NMM
     unsigned int max_frames = 300;
     /// Steps of the colour map: with fewer the page is smaller.
     unsigned int n_colours = 256;
+    /// Of the smallest hole, which displacements drawn at a scale of their own must
+    /// not close; infinity: there is none [m].
+    double smallest_hole = std::numeric_limits<double>::infinity();
     /// What frames follow each other by: "t = 0.25 s".
     std::string time_name = "t", time_unit = "s";
     /// As in PictureFrame, for all frames; else what contains all of them.
@@ -102,6 +105,14 @@ namespace NMM
 
     unsigned int
     n_frames() const;
+
+    /// There must be one.
+    double
+    last_time() const;
+
+    /// Take the last frame away.
+    void
+    remove_last_frame();
 
     /**
      * Draw all frames: displacements times `parameters.deformation_scale` or, if

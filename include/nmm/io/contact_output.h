@@ -60,11 +60,12 @@ namespace NMM
                    const std::vector<ContactPoint> &points);
 
   /// Add obstacles and contact points, which gather_contact_points() returned, to a
-  /// picture.
+  /// picture, if their traction is larger than @p least [Pa].
   void
   add_contact(const ContactSurface             &surface,
               const std::vector<ContactSample> &points,
-              PictureData                      &data);
+              PictureData                      &data,
+              double                            least = 0.);
 
 
   /**

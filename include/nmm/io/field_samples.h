@@ -111,7 +111,16 @@ namespace NMM
     /// Largest displacement on any rank [m].
     double
     max_displacement(MPI_Comm communicator) const;
+
+    /// Which result is not finite, and where; empty: all are. Collective.
+    std::string
+    find_not_finite(MPI_Comm communicator) const;
   };
+
+
+  /// Which result at @p x is not finite, and where; empty: all are.
+  std::string
+  find_not_finite(const FieldSample &sample, const dealii::Point<2> &x);
 
 
   /// Indices of a manifold element's block, region and material (0 if the

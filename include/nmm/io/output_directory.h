@@ -73,6 +73,10 @@ namespace NMM
     void
     write(std::ostream &out) const;
 
+    /// Which value is not finite; empty: all are.
+    std::string
+    find_not_finite() const;
+
     /// The value called @p name; it must exist.
     double
     value(const std::string &name) const;

@@ -4,6 +4,7 @@
 #include <nmm/io/field_samples.h>
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -137,7 +138,14 @@ namespace NMM
   /// solid's box or a little less: 1, 2 or 5 times a power of ten; 0 where
   /// displacements are rounding errors.
   double
-  choose_deformation_scale(double largest_displacement, double diagonal);
+  choose_deformation_scale(
+    double largest_displacement,
+    double diagonal,
+    double smallest_hole = std::numeric_limits<double>::infinity());
+
+  /// Shorter side of the box around the smallest hole; infinity: there is none [m].
+  double
+  smallest_hole(const PhysicalMesh &mesh);
 
   /// Collect what all ranks have to draw on rank 0. Arcs are sampled finely.
   PictureData

@@ -39,7 +39,8 @@ namespace NMM
 
       /// How far long work has come: on a terminal beside the stage's name, a
       /// few times a second; else a line every ten seconds. @p text makes
-      /// the words when they are shown, from the seconds since the start.
+      /// the words when they are shown, from the seconds since the start. The
+      /// line is cut to the terminal's width, 80 characters without one.
       void
       update(const std::function<std::string(double seconds)> &text);
 
@@ -65,6 +66,15 @@ namespace NMM
     bool                                        prints;
     std::vector<std::pair<std::string, double>> stage_times;
   };
+
+  /// Of @p notices that differ in numbers only the first one, with how many there
+  /// are.
+  std::vector<std::string>
+  merge_alike(const std::vector<std::string> &notices);
+
+  /// @p text, if need be cut to @p width characters.
+  std::string
+  cut_to_width(const std::string &text, std::size_t width);
 
   /// Greatest memory this process has used [MB], summed over ranks.
   double

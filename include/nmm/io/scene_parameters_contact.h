@@ -78,9 +78,11 @@ namespace NMM
     /// Augmented Lagrangian [m]; 0: chosen.
     double penetration_tolerance = 0.;
     /// [m]; 0: chosen.
-    double             reach       = 0.;
-    unsigned int       n_points    = 4;
-    ContactIntegration integration = ContactIntegration::length;
+    double reach = 0.;
+    /// Above which a step fails [m]; 0: the cell size at faces.
+    double             max_penetration = 0.;
+    unsigned int       n_points        = 4;
+    ContactIntegration integration     = ContactIntegration::length;
     /// Joints that are faces in contact, or tied, whatever the geometry says.
     std::vector<std::string> open_joints, tied_joints;
 

@@ -34,6 +34,12 @@ namespace NMM
   void
   write_series(const std::vector<std::pair<double, std::string>> &states,
                const OutputDirectory                             &directory);
+
+  /// The same of other files, in a list called @p name.
+  void
+  write_series(const std::vector<std::pair<double, std::string>> &states,
+               const OutputDirectory                             &directory,
+               const std::string                                 &name);
 } // namespace NMM
 
 #endif

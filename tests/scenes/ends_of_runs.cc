@@ -1,0 +1,128 @@
+#include "rejected_input.h"
+#include <iterator>
+
+// How runs end that meet a limit: of memory, of numbers, of contact, of the disk.
+using namespace rejected_input;
+
+namespace
+{
+  namespace fs = std::filesystem;
+
+  const std::string folder = NMM_TEST_OUTPUT_DIR "/ends";
+
+  using Settings = std::vector<std::string>;
+
+
+  DriverResult
+  run(const Settings                 &settings,
+      const std::vector<std::string> &more  = {},
+      const std::string              &scene = base_scene)
+  {
+    std::vector<std::string> arguments = {"--output", folder};
+    for (const std::string &setting : settings)
+      arguments.insert(arguments.end(), {"--set", setting});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    arguments.push_back(scene);
+    return run_in_process(arguments);
+  }
+
+
+  std::string
+  content(const std::string &name)
+  {
+    std::ifstream in(folder + "/" + name);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+
+  const Settings moving =
+    dynamic + Settings{"Boundary conditions/held/Amplitude=sin(t)",
+                       "Boundary conditions/held/Value=1; 0",
+                       "Time/End time=0.25",
+                       "Output/Fields every=2",
+                       "Output/Checkpoint every=2"};
+
+
+  TEST(EndsOfRuns, MoreMemoryThanThereIsIsRefused)
+  {
+    // 2.5e9 triangles of 4 kB
+    expect_rejected_override("Mathematical mesh/Cell size=3e-5",
+                             {"GB", "Cell size", "choose at least"});
+    expect_rejected({"--set",
+                     "Mathematical mesh/Type=graded",
+                     "--set",
+                     "Mathematical mesh/Cell size=3e-5",
+                     base_scene},
+                    {"GB", "Cell size"});
+  }
+
+
+  TEST(EndsOfRuns, ExpressionsThatAreNotFiniteAreNamed)
+  {
+    expect_rejected_override("Model/Body force=0; log(x - 0.5)",
+                             {"body force", "log(x - 0.5)", "nan at ("});
+    expect_rejected_override("Boundary conditions/held/Value=1/(x - x); 0",
+                             {"held", "1/(x - x)", "inf at ("});
+    // a singularity between the points that are used is none of ours
+    EXPECT_EQ(run({"Model/Body force=log(x); 0"}, {"--check"}).exit_code, 0);
+  }
+
+
+  // At rest it would be 10 m deep: E/h is 2, the weight 200.
+  TEST(EndsOfRuns, PenetrationOfACellIsNoSolution)
+  {
+    const Settings heavy = touching + dynamic +
+                           Settings{"Boundary conditions/held/Components=x",
+                                    "Model/Gravity=0, -200",
+                                    "Fixed points/corner/Stiffness=1e-6",
+                                    "Output/Picture=false"};
+    const DriverResult result = run(heavy);
+    EXPECT_EQ(result.exit_code, 3) << result.output;
+    if (is_first_rank())
+      EXPECT_NE(result.output.find("penetration"), std::string::npos)
+        << result.output;
+    expect_rejected_override("Contact/Largest penetration=0.1",
+                             {"Contact/Largest penetration",
+                              "Contact/Enforcement"});
+  }
+
+
+  // A kill between the last checkpoint and the last files loses nothing.
+  TEST(EndsOfRuns, RestartAtTheEndWritesWhatIsMissing)
+  {
+    const DriverResult whole = run(moving);
+    ASSERT_EQ(whole.exit_code, 0) << whole.output;
+    const std::string fields = content("fields.vtu"),
+                      probes = content("probes.csv"),
+                      series = content("fields.pvd"),
+                      page   = content("animation.html");
+    EXPECT_EQ(series.find("<!--"), std::string::npos) << series;
+    // the animation ends where the run does, after its last state of the series
+    EXPECT_NE(page.find("t = 0.25"), std::string::npos);
+    for (const char *name :
+         {"fields.vtu", "probes.csv", "summary.csv", "animation.html"})
+      fs::remove(folder + "/" + name);
+    const DriverResult restarted =
+      run(moving, {"--restart", folder + "/checkpoint.nmm"});
+    EXPECT_EQ(restarted.exit_code, 0) << restarted.output;
+    EXPECT_TRUE(fs::exists(folder + "/summary.csv"));
+    EXPECT_TRUE(content("fields.vtu") == fields);
+    EXPECT_EQ(content("probes.csv"), probes);
+    EXPECT_EQ(content("fields.pvd"), series);
+    EXPECT_TRUE(content("animation.html") == page);
+  }
+
+
+  TEST(EndsOfRuns, WhatIsPrintedWithoutASceneIsAScene)
+  {
+    for (const std::string format : {"prm", "json"})
+    {
+      const DriverResult printed =
+        run_in_process({"--print-parameters=" + format});
+      ASSERT_EQ(printed.exit_code, 0);
+      const std::string name = write_scene("printed." + format, printed.output);
+      const DriverResult result = run({"Output/Picture=false"}, {}, name);
+      EXPECT_EQ(result.exit_code, 0) << result.output;
+    }
+  }
+} // namespace

@@ -195,7 +195,7 @@ namespace NMM
         const double end =
           shot.step *
           (4. + std::min(20., (T + (T < way ? 10. * T : 0.)) / way));
-        constexpr unsigned int max_steps = 500;
+        constexpr unsigned int max_steps = 200;
         Run                    result;
         StepControlParameters  steps;
         steps.initial_step = shot.step;

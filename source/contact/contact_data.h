@@ -466,9 +466,9 @@ namespace NMM
     }
 
     /// Does the step that began at detect() take anything through something else to where
-    /// the surface is now?
+    /// the surface is now? @p largest_motion: of any point of a face in the step [m].
     StepFault
-    find_crossing();
+    find_crossing(double largest_motion);
 
     void
     reduce_report();

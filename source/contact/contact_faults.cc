@@ -53,12 +53,12 @@ namespace NMM
 
 
   StepFault
-  Contact::Data::find_crossing()
+  Contact::Data::find_crossing(const double largest_motion)
   {
     if (crossings == nullptr)
       crossings =
         std::make_unique<ContactCrossings>(*surface, parameters.reach);
-    const double motion = 2. * search.motion();
+    const double motion = 2. * largest_motion;
     const double depth  = std::max(deepest, report.largest_penetration);
     if (!crossings->may_cross(motion + depth))
       return {};
@@ -118,16 +118,17 @@ namespace NMM
   {
     Data &d = *data;
     d.move_to(end);
+    const double       motion = d.search.motion();
     std::ostringstream text;
     if (!d.is_idle && d.deepest > 0.5 * d.reach)
       text << "a penetration of " << d.deepest
            << " m, more than half of the distance of " << d.reach
            << " m within which faces are looked for";
-    else if (d.search.motion() > d.reach)
+    else if (motion > d.reach)
       text << "a point of a face that moved further than the distance of "
            << d.reach << " m within which faces are looked for";
     if (!text.str().empty())
       return {text.str(), "", 0.};
-    return d.find_crossing();
+    return d.find_crossing(motion);
   }
 } // namespace NMM

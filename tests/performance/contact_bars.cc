@@ -230,7 +230,13 @@ namespace
   void
   shots(Measurements &measurements)
   {
-    shoot_at_walls(Shots(), measurements);
+    Shots parameters;
+    parameters.n_shots = 100;
+    for (unsigned int i = 0; i < 10; ++i)
+    {
+      parameters.first_seed = 100 * i;
+      shoot_at_walls(parameters, measurements);
+    }
   }
 
 

@@ -87,51 +87,70 @@ namespace NMM
       }
 
 
-      /// Deepest place of a corner of the block beyond the middle of the wall, over its thickness [-]:
-      /// 0 there, where it would be pushed out on the other side; 1 where it comes out.
+      /// Distance of a point from an edge [m], and the same with a sign, negative behind it: from
+      /// chords, the nearest of which are divided again.
+      std::pair<double, double>
+      distance_from(const Point<2>       &x,
+                    const ContactSurface &surface,
+                    const unsigned int    edge)
+      {
+        constexpr unsigned int n = 8, n_levels = 3;
+        double                 distance = 0., gap = 0., first = 0., last = 1.;
+        for (unsigned int level = 0; level < n_levels; ++level)
+        {
+          const double size = (last - first) / n, begin = first;
+          distance = std::numeric_limits<double>::max();
+          for (unsigned int i = 0; i < n; ++i)
+          {
+            const double       s     = begin + i * size;
+            const Point<2>     a     = surface.place(edge, s).x;
+            const Tensor<1, 2> chord = surface.place(edge, s + size).x - a;
+            const double       t =
+              std::clamp(((x - a) * chord) / chord.norm_square(), 0., 1.);
+            const Tensor<1, 2> way = x - a - t * chord;
+            if (way.norm() >= distance)
+              continue;
+            distance = way.norm();
+            gap      = (way[0] * chord[1] - way[1] * chord[0]) / chord.norm();
+            first    = std::max(0., s - size);
+            last     = std::min(1., s + 2. * size);
+          }
+        }
+        return {distance, gap};
+      }
+
+
+      /// Deepest place of a corner of the block beyond the middle of the wall, over its
+      /// thickness [-]: 0 there, where it would be pushed out on the other side; 1 where it
+      /// comes out.
       double
       way_through(const Shot &shot, const ContactSurface &surface)
       {
         const auto &edges  = surface.edges();
         double      result = -std::numeric_limits<double>::max();
-        for (const auto &edge : edges)
+        for (unsigned int corner = 0; corner < edges.size(); ++corner)
         {
-          if (edge.body != 0)
+          if (edges[corner].body != 0)
             continue;
-          const Point<2> x = surface.place(&edge - edges.data(), 0.).x;
+          const Point<2> x = surface.place(corner, 0.).x;
           // nearest places of the near and of the far side
-          double near = std::numeric_limits<double>::max(), far = near;
-          double gap = 0.;
+          std::pair<double, double> near(std::numeric_limits<double>::max(),
+                                         0.),
+            far = near;
           for (unsigned int e = 0; e < edges.size(); ++e)
           {
-            if (edges[e].body == 0)
-              continue;
             const double side = surface.reference_place(e, 0.5).normal()[0];
-            if (std::abs(side) < 0.5)
-              continue;
-            constexpr unsigned int n = 8;
-            for (unsigned int i = 0; i < n; ++i)
+            if (edges[e].body != 0 && std::abs(side) > 0.5)
             {
-              const Point<2> a = surface.place(e, i / double(n)).x,
-                             b = surface.place(e, (i + 1) / double(n)).x;
-              const Tensor<1, 2> chord = b - a;
-              const double       t =
-                std::clamp(((x - a) * chord) / chord.norm_square(), 0., 1.);
-              const Tensor<1, 2> way     = x - a - t * chord;
-              double            &nearest = side > 0. ? far : near;
-              if (way.norm() < nearest)
-              {
-                nearest = way.norm();
-                if (side < 0.)
-                  gap = (way[0] * chord[1] - way[1] * chord[0]) / chord.norm();
-              }
+              auto &nearest = side > 0. ? far : near;
+              nearest       = std::min(nearest, distance_from(x, surface, e));
             }
           }
           // a half of the plane has no far side: the block is half inside
-          result =
-            std::max(result,
-                     shot.wall == Wall::line ? -gap / radius
-                                             : (near - far) / shot.thickness);
+          result = std::max(result,
+                            shot.wall == Wall::line
+                              ? -near.second / radius
+                              : (near.first - far.first) / shot.thickness);
         }
         return result;
       }
@@ -176,7 +195,7 @@ namespace NMM
         const double end =
           shot.step *
           (4. + std::min(20., (T + (T < way ? 10. * T : 0.)) / way));
-        constexpr unsigned int max_steps = 500;
+        constexpr unsigned int max_steps = 200;
         Run                    result;
         StepControlParameters  steps;
         steps.initial_step = shot.step;

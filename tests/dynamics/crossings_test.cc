@@ -1,0 +1,112 @@
+// What is thrown at thin things does not pass through them, or the run ends and says so.
+#include <gtest/gtest.h>
+#include <support/contact_bars/moving_bodies.h>
+
+namespace NMM
+{
+  namespace ContactBars
+  {
+    namespace
+    {
+      MovingBodies::Options
+      options(std::vector<RigidObstacle> obstacles)
+      {
+        MovingBodies::Options result;
+        result.cell_size           = 3.;
+        result.mesh_of_every_block = true;
+        result.obstacles           = std::move(obstacles);
+        return result;
+      }
+
+
+      /// The first block falls at a speed.
+      Run
+      fall(MovingBodies     &bodies,
+           const double      speed,
+           const double      step,
+           const double      end,
+           const Kinematics  kinematics,
+           const TimeScheme &scheme = TimeScheme::energy_momentum())
+      {
+        bodies.problem.materials = {
+          material("rock", rock_modulus, 0.2, rock_density)};
+        bodies.start(contact_parameters(20. * rock_modulus), kinematics);
+        bodies.integrate(scheme,
+                         bodies.zero(),
+                         bodies.values([&](const Point<2> &,
+                                           const unsigned int block) {
+                           return Tensor<1, 2>({0., block == 0 ? -speed : 0.});
+                         }));
+        return bodies.run(step, end);
+      }
+    } // namespace
+
+
+    // In 0.02 s the block falls by twice the thickness of the wall.
+    TEST(Crossings, BlockOnThinWall)
+    {
+      for (const auto kinematics : {Kinematics::small, Kinematics::finite})
+        for (const auto &scheme : {TimeScheme::energy_momentum(),
+                                   TimeScheme::generalized_alpha(0.5)})
+        {
+          Geometry geometry;
+          add_block(geometry,
+                    "block",
+                    {{0., 0.}, {1., 0.}, {1., 1.}, {0., 1.}});
+          MovingBodies bodies(
+            std::move(geometry),
+            options({obstacle(
+              "wall",
+              {{-2., -1.1}, {3., -1.1}, {3., -1.}, {-2., -1.}, {-2., -1.1}})}));
+          const Run run = fall(bodies, 10., 0.02, 0.3, kinematics, scheme);
+          EXPECT_EQ(run.failure, "");
+          EXPECT_GE(run.n_cuts, 1U);
+          // it has bounced: what is lost goes into vibration
+          EXPECT_GT(bodies.velocity(0)[1], 5.);
+          EXPECT_GT(bodies.displacement(0)[1], -1.);
+        }
+    }
+
+
+    // The first step takes the block 2 km below the floor; with such steps the run ends, or
+    // the block is above it.
+    TEST(Crossings, FastBlockOnFloor)
+    {
+      Geometry geometry;
+      add_block(geometry, "block", {{0., 0.}, {1., 0.}, {1., 1.}, {0., 1.}});
+      MovingBodies bodies(std::move(geometry),
+                          options(
+                            {obstacle("floor", {{30., -1.}, {-30., -1.}})}));
+      const Run    run = fall(bodies, 1e5, 0.02, 0.1, Kinematics::finite);
+      EXPECT_TRUE(!run.failure.empty() || bodies.displacement(0)[1] > -1.5);
+      EXPECT_GE(run.n_cuts, 1U);
+    }
+
+
+    TEST(Crossings, ThinPlates)
+    {
+      for (const double speed : {10., 1e4})
+      {
+        Geometry geometry;
+        add_block(geometry,
+                  "plate",
+                  {{0., 0.}, {1., 0.}, {1., 0.01}, {0., 0.01}});
+        add_block(geometry,
+                  "other",
+                  {{-1., -0.51}, {2., -0.51}, {2., -0.5}, {-1., -0.5}});
+        MovingBodies bodies(std::move(geometry), options({}));
+        const Run    run =
+          fall(bodies, speed, 0.6 / speed, 3. / speed, Kinematics::finite);
+        const double distance =
+          0.5 + bodies.displacement(0)[1] - bodies.displacement(1)[1];
+        EXPECT_GT(distance, 0.) << speed << ": " << run.failure;
+        if (speed == 10.)
+        {
+          EXPECT_EQ(run.failure, "");
+          EXPECT_LT(bodies.velocity(1)[1], -1.);
+        }
+        EXPECT_GE(run.n_cuts, 1U);
+      }
+    }
+  } // namespace ContactBars
+} // namespace NMM

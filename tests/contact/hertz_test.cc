@@ -3,6 +3,7 @@
 
 #include <contact/contact_model.h>
 #include <random>
+#include <support/n_samples.h>
 
 using namespace NMM;
 using namespace NMM::Test;
@@ -188,7 +189,7 @@ namespace
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937                           generator(seed);
     std::uniform_real_distribution<double> random(0., 1.);
-    for (unsigned int k = 0; k < 6; ++k)
+    for (unsigned int k = 0; k < n_samples(6); ++k)
     {
       const double x = 0.2 * random(generator), y = 0.2 * random(generator);
       expect_curve(

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <support/hard_cases/hard_cases.h>
+#include <support/n_samples.h>
 
 using namespace NMM;
 using namespace NMM::HardCases;
@@ -105,12 +106,8 @@ TEST(HardCases, SliverWithoutStabilizationIsIllConditioned)
 
 TEST(HardCases, DiskAnywhere)
 {
-#ifdef DEBUG
-  constexpr unsigned int n_disks = 6;
-#else
-  constexpr unsigned int n_disks = 25;
-#endif
-  const Result uncut = fitted_hexagon(0.2, Measure());
+  constexpr unsigned int n_disks = n_samples(25);
+  const Result           uncut   = fitted_hexagon(0.2, Measure());
   for (const Stabilization stabilization : {aggregation, ghost})
   {
     double smallest = 1e300, largest = 0.;
@@ -270,7 +267,7 @@ TEST(HardCases, Slender)
 
 TEST(HardCases, RandomNetworks)
 {
-  for (unsigned int seed = 1; seed <= 60; ++seed)
+  for (unsigned int seed = 1; seed <= n_samples(60); ++seed)
   {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Network network = random_network(seed, 60, aggregation);

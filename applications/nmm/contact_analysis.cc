@@ -1,6 +1,7 @@
 #include "contact_analysis.h"
 
 #include <nmm/base/exceptions.h>
+#include <nmm/contact/locked_corners.h>
 #include <nmm/dynamics/strength_reduction.h>
 
 #include <deal.II/base/mpi.h>
@@ -171,6 +172,24 @@ ContactAnalysis::notices() const
                        surface->obstacles()[i].name +
                        "', which is rigid there: draw its line in the other "
                        "direction if they are to touch");
+  const auto corners =
+    find_locked_corners(*surface, scene->parameters().model.gravity);
+  if (!corners.empty())
+  {
+    const LockedCorner &first = corners.front();
+    result.push_back(
+      "a corner of block " + std::to_string(first.block) + " at " +
+      to_string(first.place) + " lies where '" + first.along + "' ends at '" +
+      first.ahead + "'" +
+      (corners.size() == 1 ? ""
+                           : " (and " + std::to_string(corners.size() - 1) +
+                               " more of this kind)") +
+      ": it cannot slide there without going into '" + first.ahead +
+      "', which holds it however sharp the corner is. If it is to slide, let "
+      "'" +
+      first.along + "' end above '" + first.ahead +
+      "', by more than the way it is to slide");
+  }
   return result;
 }
 

@@ -177,18 +177,17 @@ ContactAnalysis::notices() const
   if (!corners.empty())
   {
     const LockedCorner &first = corners.front();
-    result.push_back(
-      "a corner of block " + std::to_string(first.block) + " at " +
-      to_string(first.place) + " lies where '" + first.along + "' ends at '" +
-      first.ahead + "'" +
-      (corners.size() == 1 ? ""
-                           : " (and " + std::to_string(corners.size() - 1) +
-                               " more of this kind)") +
-      ": it cannot slide there without going into '" + first.ahead +
-      "', which holds it however sharp the corner is. If it is to slide, let "
-      "'" +
-      first.along + "' end above '" + first.ahead +
-      "', by more than the way it is to slide");
+    const std::string   more =
+      corners.size() == 1
+          ? ""
+          : " (and " + std::to_string(corners.size() - 1) + " more of this kind)";
+    result.push_back("a corner of block " + std::to_string(first.block) +
+                     " at " + to_string(first.place) + " lies where '" +
+                     first.along + "' ends and '" + first.ahead + "' is ahead" +
+                     more +
+                     ": it cannot slide that way, however sharp it is. If it "
+                     "is to slide, let the face that it lies on end above the "
+                     "one ahead, by more than the way it is to slide");
   }
   return result;
 }

@@ -1,6 +1,7 @@
 #include "contact_analysis.h"
 
 #include <nmm/base/exceptions.h>
+#include <nmm/contact/locked_corners.h>
 #include <nmm/dynamics/strength_reduction.h>
 
 #include <deal.II/base/mpi.h>
@@ -171,6 +172,23 @@ ContactAnalysis::notices() const
                        surface->obstacles()[i].name +
                        "', which is rigid there: draw its line in the other "
                        "direction if they are to touch");
+  const auto corners =
+    find_locked_corners(*surface, scene->parameters().model.gravity);
+  if (!corners.empty())
+  {
+    const LockedCorner &first = corners.front();
+    const std::string   more =
+      corners.size() == 1
+          ? ""
+          : " (and " + std::to_string(corners.size() - 1) + " more of this kind)";
+    result.push_back("a corner of block " + std::to_string(first.block) +
+                     " at " + to_string(first.place) + " lies where '" +
+                     first.along + "' ends and '" + first.ahead + "' is ahead" +
+                     more +
+                     ": it cannot slide that way, however sharp it is. If it "
+                     "is to slide, let the face that it lies on end above the "
+                     "one ahead, by more than the way it is to slide");
+  }
   return result;
 }
 

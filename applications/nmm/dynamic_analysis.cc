@@ -234,6 +234,10 @@ DynamicAnalysis::solve()
     line << "  damping: " << damping.stiffness
          << " s times the stiffness, since there is friction (set "
             "'Time/Stiffness damping' for another)";
+    if (!has_start() && restart.empty())
+      line << "; loads act at once on blocks without stress, which may slip a "
+              "little until they bear them ('Time/Start = equilibrium' begins "
+              "at rest)";
     progress.message(line.str());
   }
   try

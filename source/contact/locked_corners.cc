@@ -1,0 +1,128 @@
+#include <nmm/contact/locked_corners.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace NMM
+{
+  using dealii::Point;
+  using dealii::Tensor;
+
+  namespace
+  {
+    /// Sine of half a degree: directions that differ by less are one.
+    constexpr double same_direction = 0.01;
+
+
+    /// An end of an edge.
+    struct End
+    {
+      Point<2>     x;
+      unsigned int edge = invalid_index, end = 0;
+      /// Unit vectors: along the edge away from this end, and out of its body.
+      Tensor<1, 2> away, normal;
+    };
+
+
+    std::vector<End>
+    sorted_ends(const ContactSurface &surface)
+    {
+      std::vector<End> result;
+      for (unsigned int e = 0; e < surface.edges().size(); ++e)
+        for (const unsigned int end : {0U, 1U})
+        {
+          const auto   place = surface.reference_place(e, end);
+          Tensor<1, 2> away  = place.a / place.a.norm();
+          if (end == 1)
+            away *= -1.;
+          result.push_back({place.x, e, end, away, place.normal()});
+        }
+      std::sort(result.begin(), result.end(), [](const End &a, const End &b) {
+        return a.x[0] < b.x[0];
+      });
+      return result;
+    }
+
+
+    /// Does a side of a corner lie on the face that begins at the same point?
+    bool
+    lies_on(const End &side, const End &face)
+    {
+      return side.normal * face.normal < 0. && side.away * face.away > 0. &&
+             std::abs(side.away * face.normal) < same_direction;
+    }
+  } // namespace
+
+
+  std::vector<LockedCorner>
+  find_locked_corners(const ContactSurface &surface,
+                      const Tensor<1, 2>   &gravity)
+  {
+    // parts of an edge: ends that are nearer are one point
+    constexpr double rounding = 1e-9;
+    // cosine of 60 degrees
+    constexpr double least_ahead = 0.5;
+
+    const auto            &edges = surface.edges();
+    const std::vector<End> ends  = sorted_ends(surface);
+    std::vector<End>       near;
+    // faces of other bodies at the corner
+    const auto find_near = [&](const End &corner) {
+      near.clear();
+      const double same = rounding * edges[corner.edge].length;
+      for (auto other = std::lower_bound(ends.begin(),
+                                         ends.end(),
+                                         corner.x[0] - same,
+                                         [](const End &end, const double x) {
+                                           return end.x[0] < x;
+                                         });
+           other != ends.end() && other->x[0] <= corner.x[0] + same;
+           ++other)
+        if (edges[other->edge].body != edges[corner.edge].body &&
+            std::abs(other->x[1] - corner.x[1]) <= same)
+          near.push_back(*other);
+    };
+    const auto is_filled = [&](const End &side) {
+      return std::any_of(near.begin(), near.end(), [&](const End &face) {
+        return lies_on(side, face);
+      });
+    };
+
+    std::vector<LockedCorner> result;
+    for (const End &corner : ends)
+    {
+      const auto &edge = edges[corner.edge];
+      if (corner.end != 1 || surface.is_rigid(corner.edge) ||
+          edge.at_end != ContactSurface::Corner::convex)
+        continue;
+      find_near(corner);
+      if (near.size() < 2)
+        continue;
+      const auto place = surface.reference_place(edge.next, 0.);
+      const End  next{
+        place.x, edge.next, 0, place.a / place.a.norm(), place.normal()};
+      for (const auto &[side, other] :
+           {std::make_pair(corner, next), std::make_pair(next, corner)})
+      {
+        const Tensor<1, 2> way = -side.away;
+        if (is_filled(other) || gravity * way < 0.)
+          continue;
+        const auto along =
+          std::find_if(near.begin(), near.end(), [&](const End &face) {
+            return lies_on(side, face);
+          });
+        const auto ahead =
+          std::find_if(near.begin(), near.end(), [&](const End &face) {
+            return way * face.normal < -same_direction &&
+                   way * face.away > least_ahead;
+          });
+        if (along != near.end() && ahead != near.end())
+          result.push_back({corner.x,
+                            edge.body,
+                            surface.name(along->edge),
+                            surface.name(ahead->edge)});
+      }
+    }
+    return result;
+  }
+} // namespace NMM

@@ -77,7 +77,7 @@ namespace NMM
       MovingBodies bodies(std::move(geometry),
                           options(
                             {obstacle("floor", {{30., -1.}, {-30., -1.}})}));
-      const Run    run = fall(bodies, 1e5, 0.02, 0.1, Kinematics::finite);
+      const auto   run = fall(bodies, 1e5, 0.02, 0.1, Kinematics::finite);
       EXPECT_TRUE(!run.failure.empty() || bodies.displacement(0)[1] > -1.5);
       EXPECT_GE(run.n_cuts, 1U);
     }
@@ -95,7 +95,7 @@ namespace NMM
                   "other",
                   {{-1., -0.51}, {2., -0.51}, {2., -0.5}, {-1., -0.5}});
         MovingBodies bodies(std::move(geometry), options({}));
-        const Run    run =
+        const auto   run =
           fall(bodies, speed, 0.6 / speed, 3. / speed, Kinematics::finite);
         const double distance =
           0.5 + bodies.displacement(0)[1] - bodies.displacement(1)[1];

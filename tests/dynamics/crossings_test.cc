@@ -58,7 +58,7 @@ namespace NMM
             options({obstacle(
               "wall",
               {{-2., -1.1}, {3., -1.1}, {3., -1.}, {-2., -1.}, {-2., -1.1}})}));
-          const Run run = fall(bodies, 10., 0.02, 0.3, kinematics, scheme);
+          const auto run = fall(bodies, 10., 0.02, 0.3, kinematics, scheme);
           EXPECT_EQ(run.failure, "");
           EXPECT_GE(run.n_cuts, 1U);
           // it has bounced: what is lost goes into vibration

@@ -78,8 +78,8 @@ namespace NMM
                           options(
                             {obstacle("floor", {{30., -1.}, {-30., -1.}})}));
       const auto   run = fall(bodies, 1e5, 0.02, 0.1, Kinematics::finite);
-      EXPECT_TRUE(!run.failure.empty() || bodies.displacement(0)[1] > -1.5);
-      EXPECT_GE(run.n_cuts, 1U);
+      // the last good state, if it ends
+      EXPECT_GT(bodies.displacement(0)[1], -1.5) << run.failure;
     }
 
 
@@ -100,12 +100,6 @@ namespace NMM
         const double distance =
           0.5 + bodies.displacement(0)[1] - bodies.displacement(1)[1];
         EXPECT_GT(distance, 0.) << speed << ": " << run.failure;
-        if (speed == 10.)
-        {
-          EXPECT_EQ(run.failure, "");
-          EXPECT_LT(bodies.velocity(1)[1], -1.);
-        }
-        EXPECT_GE(run.n_cuts, 1U);
       }
     }
   } // namespace ContactBars

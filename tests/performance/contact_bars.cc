@@ -236,6 +236,7 @@ namespace
     {
       parameters.first_seed = 100 * i;
       shoot_at_walls(parameters, measurements);
+      std::cout << std::flush;
     }
   }
 

@@ -222,6 +222,8 @@ namespace NMM
     struct Shots
     {
       unsigned int n_shots = 1000, first_seed = 0;
+      /// Of a shot: impact and what follows; steps that do not converge grow and are cut for long.
+      unsigned int max_steps = 100;
       /// Print a line for each.
       bool is_verbose = false;
     };

@@ -157,7 +157,7 @@ namespace NMM
 
 
       Run
-      run_shot(const Shot &shot, double &through)
+      run_shot(const Shot &shot, const unsigned int max_steps, double &through)
       {
         constexpr double      modulus = 1e10, density = 2500.;
         MovingBodies::Options options;
@@ -195,9 +195,8 @@ namespace NMM
         const double end =
           shot.step *
           (4. + std::min(20., (T + (T < way ? 10. * T : 0.)) / way));
-        constexpr unsigned int max_steps = 200;
-        Run                    result;
-        StepControlParameters  steps;
+        Run                   result;
+        StepControlParameters steps;
         steps.initial_step = shot.step;
         dealii::Timer timer;
         through = -std::numeric_limits<double>::max();
@@ -235,7 +234,7 @@ namespace NMM
       {
         double     through = 0.;
         const Shot shot    = make_shot(seed);
-        Run        run     = run_shot(shot, through);
+        Run        run     = run_shot(shot, shots.max_steps, through);
         if (shots.is_verbose)
           std::cout << "seed " << seed << " wall " << int(shot.wall)
                     << " thickness " << shot.thickness << " speed "

@@ -334,18 +334,25 @@ ContactAnalysis::progress() const
 
 
 std::string
-ContactAnalysis::find_deep_penetration() const
+ContactAnalysis::find_deep_penetration(const double penetration) const
 {
   const double given = scene->parameters().contact.max_penetration;
   const double limit = given > 0. ? given : cell_size;
-  if (contact().is_idle() || contact().report().largest_penetration <= limit)
+  if (penetration <= limit)
     return "";
   std::ostringstream text;
-  text << "a penetration of " << contact().report().largest_penetration << ' '
+  text << "a penetration of " << penetration << ' '
        << scene->parameters().output.length_unit << ", more than the "
        << (given > 0. ? "'Contact/Largest penetration'" : "cell size at faces")
        << " of " << limit;
   return text.str();
+}
+
+
+std::string
+ContactAnalysis::find_deep_penetration() const
+{
+  return find_deep_penetration(state.report.largest_penetration);
 }
 
 
@@ -427,11 +434,42 @@ AccountedContactModel::begin_step(const Vector &begin,
 }
 
 
+Deformation
+AccountedContactModel::assemble(const Vector &u,
+                                const double  t,
+                                const Tangent tangent,
+                                const Vector *increment)
+{
+  is_between = false;
+  return ContactModel::assemble(u, t, tangent, increment);
+}
+
+
+Deformation
+AccountedContactModel::assemble_between(const Vector &begin,
+                                        const Vector &end,
+                                        const double  t_0,
+                                        const double  t_1,
+                                        const Tangent tangent)
+{
+  is_between = true;
+  return ContactModel::assemble_between(begin, end, t_0, t_1, tangent);
+}
+
+
 std::string
 AccountedContactModel::find_fault(const Vector &end)
 {
   const std::string fault = ContactModel::find_fault(end);
-  return fault.empty() ? analysis->find_deep_penetration() : fault;
+  if (!fault.empty() || contact().is_idle())
+    return fault;
+  double penetration = contact().report().largest_penetration;
+  // In conserving steps it is the mean of begin and end; this is a bound from below
+  // of that at the end, since different points may be the deepest.
+  if (is_between)
+    penetration =
+      2. * penetration - analysis->last_state().report.largest_penetration;
+  return analysis->find_deep_penetration(penetration);
 }
 
 

@@ -101,7 +101,11 @@ public:
   std::string
   progress() const;
 
-  /// What is wrong with the last assembled state; empty: nothing.
+  /// Words for a penetration that is deeper than the scene allows; else empty.
+  std::string
+  find_deep_penetration(double penetration) const;
+
+  /// Of the last state that was taken.
   std::string
   find_deep_penetration() const;
 
@@ -162,6 +166,19 @@ public:
              double        t,
              double        h) override;
 
+  NMM::Deformation
+  assemble(const Vector &u,
+           double        t,
+           NMM::Tangent  tangent,
+           const Vector *increment = nullptr) override;
+
+  NMM::Deformation
+  assemble_between(const Vector &begin,
+                   const Vector &end,
+                   double        t_0,
+                   double        t_1,
+                   NMM::Tangent  tangent) override;
+
   /// As in ContactModel; and faces may not be deeper in each other than the scene
   /// allows.
   std::string
@@ -183,6 +200,8 @@ public:
 private:
   ContactAnalysis *analysis;
   double           work = 0.;
+  /// Was the last assembly one between two states?
+  bool is_between = false;
 };
 
 #endif

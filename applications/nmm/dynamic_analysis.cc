@@ -278,7 +278,8 @@ DynamicAnalysis::recover()
   if (!integrator)
     return;
   integrator->restore(last_good);
-  if (kind == Analysis::dynamics)
+  // What contact remembers is of a state that must not be continued then.
+  if (kind == Analysis::dynamics && !is_checking_state)
     write_checkpoint();
 }
 

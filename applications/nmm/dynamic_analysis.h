@@ -68,7 +68,9 @@ private:
   std::unique_ptr<NMM::TimeTable> departures;
 
   /// To go back to if a step fails half-way.
-  NMM::DynamicState     last_good;
+  NMM::DynamicState last_good;
+  /// Between a step and the decision that its end is good.
+  bool                  is_checking_state = false;
   NMM::RelaxationReport relaxation;
   StartReport           start;
   /// Of this run, without what a checkpoint was reached by.

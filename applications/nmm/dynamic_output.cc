@@ -86,8 +86,17 @@ DynamicAnalysis::after_step(const StepRecord &record)
     drop_blocks();
   if (integrator)
   {
+    is_checking_state = true;
     note_energies();
-    last_good = integrator->state();
+    const std::string fault = contact ? contact->find_deep_penetration() : "";
+    AssertThrow(fault.empty(),
+                NumericalFailure("There is " + fault,
+                                 "time " + std::to_string(time()) +
+                                   " s, step " + std::to_string(step_number()),
+                                 "take shorter steps, or choose a higher "
+                                 "'Contact/Normal stiffness'"));
+    is_checking_state = false;
+    last_good         = integrator->state();
   }
   write_rows(record);
   const OutputParameters &output = scene.parameters().output;

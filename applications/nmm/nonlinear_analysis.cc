@@ -129,13 +129,14 @@ NonlinearAnalysis::run_contact()
   double                 friction_work = 0.;
   const auto after_step = [&](const ContactStep &step, const Vector &solution) {
     HistoryRow row;
-    row.load_factor         = step.load_factor;
-    row.n_iterations        = step.n_iterations;
-    row.n_cuts              = step.n_cuts;
-    row.n_lost_iterations   = step.n_lost_iterations;
-    row.relative_residual   = step.relative_residual;
-    row.strain_energy       = problem.thickness * system->strain_energy();
-    const std::string fault = contact->find_deep_penetration();
+    row.load_factor       = step.load_factor;
+    row.n_iterations      = step.n_iterations;
+    row.n_cuts            = step.n_cuts;
+    row.n_lost_iterations = step.n_lost_iterations;
+    row.relative_residual = step.relative_residual;
+    row.strain_energy     = problem.thickness * system->strain_energy();
+    const std::string fault =
+      contact->find_deep_penetration(step.contact.largest_penetration);
     AssertThrow(
       fault.empty(),
       NumericalFailure("There is " + fault,

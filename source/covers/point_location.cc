@@ -85,8 +85,9 @@ namespace NMM
     // middle of the chord minus the centre, differences first
     const Tensor<1, 2> middle =
       0.5 * ((edge.start - edge.center) + (edge.end - edge.center));
-    const double half =
-      std::atan2(0.5 * length, std::abs(cross(chord, middle)) / length);
+    // of a chord of a few ulp, rounding decides the direction: its distance from the
+    // centre is that of its middle
+    const double half = std::atan2(0.5 * length, middle.norm());
     return std::copysign(2. * half, edge.radius);
   }
 

@@ -1,3 +1,5 @@
+#include <nmm/base/exceptions.h>
+
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -38,6 +40,10 @@ namespace NMM
       try
       {
         return generator.run(c);
+      }
+      catch (const UserError &error)
+      {
+        return error.message();
       }
       catch (const std::exception &exception)
       {

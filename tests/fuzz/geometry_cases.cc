@@ -132,9 +132,9 @@ namespace NMM
       {
         if (placed(a) == placed(b))
           return;
-        curves << (chance(0.15) ? "interface" : "joint") << " name=l"
-               << n_lines++ << " LINESTRING (" << text(a) << ", " << text(b)
-               << ")\n";
+        curves << (chance(0.15) ? "interface" : "joint state=closed")
+               << " name=l" << n_lines++ << " LINESTRING (" << text(a) << ", "
+               << text(b) << ")\n";
       }
 
 
@@ -147,8 +147,9 @@ namespace NMM
         // between the ends, so that what is on a line exactly is a segment
         if (p == q || q == r || p == r || (q - p) * (r - q) <= 0.)
           return;
-        curves << "joint name=l" << n_lines++ << " CIRCULARSTRING (" << text(a)
-               << ", " << text(m) << ", " << text(b) << ")\n";
+        curves << "joint state=closed name=l" << n_lines++
+               << " CIRCULARSTRING (" << text(a) << ", " << text(m) << ", "
+               << text(b) << ")\n";
       }
 
 
@@ -255,7 +256,7 @@ namespace NMM
         if (rounded(r) <= 0.)
           return;
         const Point<2> center = placed(c);
-        curves << "joint name=l" << n_lines++ << " CIRCLE ("
+        curves << "joint state=closed name=l" << n_lines++ << " CIRCLE ("
                << number(center[0]) << " " << number(center[1]) << ", "
                << number(scale * rounded(r)) << ")\n";
         const double shift =
@@ -360,9 +361,7 @@ namespace NMM
               << "\n  set Pattern = "
               << (result.numbers["right-angled"] != 0. ? "right-angled"
                                                        : "equilateral")
-              << "\nend\n"
-              << "subsection Covers\n  set Degree = "
-              << result.numbers["degree"] << "\nend\n"
+              << "\n  set Degree = " << result.numbers["degree"] << "\nend\n"
               << "subsection Materials\n  set Names = m\n  subsection m\n"
               << "    set Young's modulus = 1e9\n  end\nend\n"
               << "subsection Boundary conditions\n  set Names = held\n"

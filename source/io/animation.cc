@@ -202,6 +202,29 @@ namespace NMM
     }
 
 
+    /// In the range of the picture's own values, unless a range @p is_given or that
+    /// of @p frame is not known (then the picture's parameters have one), and of its
+    /// own bars. What the single precision of frames cannot tell from a constant, or
+    /// from nothing, stays as it is.
+    PictureFrame
+    own_frame(const PictureData  &data,
+              const PictureFrame &frame,
+              const bool          is_given)
+    {
+      constexpr double rounding = 1e-5;
+      PictureExtents   extents;
+      extents.add(data, data.deformation_scale);
+      PictureFrame own         = frame;
+      const auto [least, most] = extents.range();
+      const double size        = std::max(std::abs(least), std::abs(most));
+      if (!is_given && frame.range && most - least > rounding * size)
+        own.range = extents.range();
+      if (extents.largest_traction() > 0.)
+        own.bar_scale = extents.largest_traction();
+      return own;
+    }
+
+
     /// Writes times with as many places as tell neighbours from each other.
     class TimeText
     {
@@ -463,16 +486,23 @@ namespace NMM
       PictureData data               = read(record);
       data.deformation_scale         = scale;
       const std::string        label = text(record.time, animation);
-      std::vector<std::string> pictures;
+      std::vector<std::string> pictures, own_pictures;
       for (std::size_t q = 0; q < quantities.size(); ++q)
       {
         if (q > 0)
           choose_layer(quantities[q], data);
-        frames[q].note = label;
-        pictures.push_back(draw_picture_in_memory(
-          data, of_frames[q], title, frames[q], animation.n_colours));
+        frames[q].note       = label;
+        const bool has_range = q == 0 && animation.range;
+        const auto draw      = [&](const PictureFrame &frame) {
+          return draw_picture_in_memory(
+            data, of_frames[q], title, frame, animation.n_colours);
+        };
+        pictures.push_back(draw(frames[q]));
+        own_pictures.push_back(draw(own_frame(data, frames[q], has_range)));
+        if (own_pictures.back() == pictures.back())
+          own_pictures.back().clear();
       }
-      page.add_frame(record.time, label, pictures);
+      page.add_frame(record.time, label, pictures, own_pictures);
     }
     out << "</body>\n</html>\n";
   }

@@ -13,9 +13,10 @@ namespace NMM
     constexpr const char *style_and_controls = R"html(<style>
 body { margin: 0; font: 15px/1.4 system-ui, sans-serif; color: #1a1a1a;
        background: #f4f4f4; }
-main { max-width: 1000px; margin: 16px auto; padding: 12px; background: #fff;
-       border-radius: 8px; box-shadow: 0 1px 4px #0003; }
-img { display: block; margin: 0 auto; max-width: 100%; max-height: 80vh; }
+main { margin: 8px; padding: 8px 12px; background: #fff; border-radius: 8px;
+       box-shadow: 0 1px 4px #0003; }
+img { display: block; width: 100%; height: auto;
+      max-height: calc(100vh - 150px); min-height: 200px; object-fit: contain; }
 .row { display: flex; gap: 10px; align-items: center; flex-wrap: wrap;
        margin-top: 10px; }
 #position { flex: 1 1 260px; accent-color: #35608d; }
@@ -40,6 +41,10 @@ button:hover { background: #eaeaea; }
 </div>
 <div class="row">
 <label id="choice" hidden>Colour <select id="quantity"></select></label>
+<label id="ranges" hidden>Range of colours and bars <select id="range">
+<option selected>whole run</option>
+<option>this frame</option>
+</select></label>
 <label>Speed <select id="speed">
 <option value="0.25">&times; &frac14;</option>
 <option value="0.5">&times; &frac12;</option>
@@ -65,8 +70,16 @@ function choices(names) {
   at("choice").hidden = names.length < 2;
 }
 
+// Of the chosen quantity: in its range of the whole run or, if that is asked for
+// and differs, in the frame's own.
+function picture(f) {
+  const q = at("quantity").selectedIndex;
+  const own = at("range").selectedIndex === 1 && f.own && f.own[q];
+  return own || f.png[q];
+}
 function frame(data) {
   frames.push(data);
+  if (data.own) at("ranges").hidden = false;
   at("position").max = frames.length - 1;
   if (frames.length === 1) show(0);
 }
@@ -75,7 +88,7 @@ function show(k) {
   if (n === 0) return;
   current = Math.max(0, Math.min(n - 1, k));
   const f = frames[current];
-  at("picture").src = "data:image/png;base64," + f.png[at("quantity").selectedIndex];
+  at("picture").src = "data:image/png;base64," + picture(f);
   at("picture").alt = f.label;
   at("position").value = current;
   at("label").textContent = f.label;
@@ -124,7 +137,7 @@ at("play").onclick = () => play(!playing);
 at("back").onclick = () => go(current - 1);
 at("next").onclick = () => go(current + 1);
 at("position").oninput = () => go(Number(at("position").value));
-at("quantity").onchange = () => show(current);
+at("quantity").onchange = at("range").onchange = () => show(current);
 document.onkeydown = e => {
   const keys = { " ": () => play(!playing), ArrowLeft: () => go(current - 1),
                  ArrowRight: () => go(current + 1), Home: () => go(0),
@@ -242,7 +255,8 @@ window.onload = () => { show(0); play(true); };
   void
   AnimationPage::add_frame(const double                    time,
                            const std::string              &label,
-                           const std::vector<std::string> &png)
+                           const std::vector<std::string> &png,
+                           const std::vector<std::string> &own)
   {
     AssertThrow(std::isfinite(time) && time >= last_time,
                 InputError("time " + std::to_string(time) + " after " +
@@ -254,25 +268,51 @@ window.onload = () => { show(0); play(true); };
                            "a frame of a moving picture",
                            "give " + std::to_string(n_choices) +
                              ", one for each choice"));
+    AssertThrow(own.empty() || own.size() == n_choices,
+                InputError(std::to_string(own.size()) +
+                             " pictures in the frame's own range",
+                           "a frame of a moving picture",
+                           "give none or " + std::to_string(n_choices) +
+                             ", one for each choice"));
     if (n_written == 0)
       size = png_size(png.front());
     const auto text = [](const auto &s) {
       return std::to_string(s.first) + " x " + std::to_string(s.second);
     };
-    for (const std::string &picture : png)
-      AssertThrow(png_size(picture) == size,
-                  InputError(text(png_size(picture)) + " pixels instead of " +
-                               text(size),
-                             "a frame of a moving picture",
-                             "draw all frames with the same view"));
+    for (const auto *pictures : {&png, &own})
+      for (const std::string &picture : *pictures)
+        AssertThrow((pictures == &own && picture.empty()) ||
+                      png_size(picture) == size,
+                    InputError(text(png_size(picture)) + " pixels instead of " +
+                                 text(size),
+                               "a frame of a moving picture",
+                               "draw all frames with the same view"));
     last_time = time;
     ++n_written;
     *out << "<script>frame({\"time\":"
          << std::setprecision(std::numeric_limits<double>::max_digits10) << time
-         << ",\"label\":" << json(label) << ",\"png\":[";
-    for (std::size_t c = 0; c < png.size(); ++c)
-      *out << (c > 0 ? ",\"" : "\"") << base64(png[c]) << '"';
-    *out << "]})</script>\n";
+         << ",\"label\":" << json(label) << ",\"png\":";
+    write_pictures(png);
+    const bool has_own =
+      std::any_of(own.begin(), own.end(), [](const std::string &picture) {
+        return !picture.empty();
+      });
+    if (has_own)
+    {
+      *out << ",\"own\":";
+      write_pictures(own);
+    }
+    *out << "})</script>\n";
+  }
+
+
+  void
+  AnimationPage::write_pictures(const std::vector<std::string> &pictures)
+  {
+    *out << '[';
+    for (std::size_t c = 0; c < pictures.size(); ++c)
+      *out << (c > 0 ? ",\"" : "\"") << base64(pictures[c]) << '"';
+    *out << ']';
   }
 
 

@@ -2,6 +2,7 @@
 
 #include <nmm/geometry/physical_mesh.h>
 
+#include "geometry/cgal_compat.h"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>
@@ -47,7 +48,7 @@ TEST(ToDouble, nearly_parallel_lines)
     const Kernel::Line_2 b(Kernel::Point_2(0, -h), Kernel::Point_2(1, 2 * h));
     const auto           crossing = CGAL::intersection(a, b);
     ASSERT_TRUE(crossing);
-    const auto *point = boost::get<Kernel::Point_2>(&*crossing);
+    const auto *point = get_if<Kernel::Point_2>(*crossing);
     ASSERT_NE(point, nullptr);
     EXPECT_NEAR(to_double(Coordinate(point->x())), 1. / 3., tolerance / 3.);
   }

@@ -57,8 +57,9 @@ namespace
   {
     double      time;
     std::string label, png;
-    /// All pictures of the frame; png is the first one.
-    std::vector<std::string> pictures;
+    /// All pictures of the frame, png is the first one; and in its own range, empty
+    /// where that makes no difference.
+    std::vector<std::string> pictures, own;
   };
 
 
@@ -89,32 +90,46 @@ namespace
   }
 
 
+  /// Strings in quotes, separated by commas.
+  std::vector<std::string>
+  decode_list(const std::string &text)
+  {
+    std::vector<std::string> result;
+    for (std::size_t first = 0; first < text.size();)
+    {
+      const auto last = text.find('"', first + 1);
+      result.push_back(decode(text.substr(first + 1, last - first - 1)));
+      first = last + 2;
+    }
+    return result;
+  }
+
+
   /// What the page holds, by the form that its documentation promises.
   std::vector<Frame>
   frames_of(const std::string &page)
   {
     std::vector<Frame> frames;
     const std::string  start = "<script>frame({\"time\":",
-                      label = ",\"label\":\"", png = "\",\"png\":[\"",
-                      end = "\"]})</script>\n", between = "\",\"";
+                      label = ",\"label\":\"", png = "\",\"png\":[",
+                      own = "],\"own\":[", end = "]})</script>\n";
     for (auto i = page.find(start); i != std::string::npos;
          i      = page.find(start, i + 1))
     {
       const auto a = i + start.size(), b = page.find(label, a),
                  c = page.find(png, b), d = page.find(end, c);
       EXPECT_NE(d, std::string::npos);
-      std::vector<std::string> pictures;
-      for (auto first = c + png.size(); first < d;)
-      {
-        const auto last = std::min(page.find(between, first), d);
-        pictures.push_back(decode(page.substr(first, last - first)));
-        first = last + between.size();
-      }
+      const auto first = c + png.size(), last = std::min(page.find(own, c), d);
+      const auto pictures = decode_list(page.substr(first, last - first));
       EXPECT_FALSE(pictures.empty());
       frames.push_back({std::stod(page.substr(a, b - a)),
                         page.substr(b + label.size(), c - b - label.size()),
                         pictures.front(),
-                        pictures});
+                        pictures,
+                        {}});
+      if (last < d)
+        frames.back().own =
+          decode_list(page.substr(last + own.size(), d - last - own.size()));
     }
     return frames;
   }
@@ -279,6 +294,64 @@ namespace
   }
 
 
+  // A frame with small values and forces before one with large ones: a picture in its
+  // own range, too, where that differs.
+  TEST(Animation, OffersTheRangeOfTheFrame)
+  {
+    std::filesystem::remove(spool);
+    Animation   animation(spool);
+    PictureData data[3];
+    for (unsigned int k = 0; k < 3; ++k)
+    {
+      data[k] = square(k == 0 ? 0.01 : 1., shift(0., 0.));
+      data[k].contacts.push_back({{Point<2>(1000.5, 1000.), shift(0., 0.)},
+                                  shift(0., k == 1 ? 0.5 : 100.),
+                                  PictureData::Bar::sticks});
+      animation.add_frame(k, data[k]);
+    }
+    OutputParameters parameters;
+    parameters.deformation_scale = 1.;
+    const auto frames            = frames_of(write(animation, parameters));
+    ASSERT_EQ(frames.size(), 3u);
+
+    PictureExtents extents;
+    extents.add(data[0], 1.);
+    PictureFrame frame;
+    frame.view                 = extents.view(0.01);
+    OutputParameters of_frames = parameters;
+    of_frames.picture_width    = 800;
+    const auto drawn           = [&](const unsigned int k,
+                           const double       largest_value,
+                           const double       bar_scale) {
+      data[k].deformation_scale = 1.;
+      frame.range               = {{0., largest_value}};
+      frame.bar_scale           = bar_scale;
+      frame.note                = frames[k].label;
+      return draw_picture_in_memory(
+        data[k], of_frames, "a <title> & \"more\"", frame, 256);
+    };
+    EXPECT_EQ(frames[0].png, drawn(0, 1., 100.));
+    ASSERT_EQ(frames[0].own.size(), 1u);
+    // what 0.01 is in single precision
+    EXPECT_EQ(frames[0].own[0], drawn(0, 0.01f, 100.));
+    ASSERT_EQ(frames[1].own.size(), 1u);
+    EXPECT_EQ(frames[1].own[0], drawn(1, 1., 0.5));
+    // the same as in the range of the run
+    EXPECT_TRUE(frames[2].own.empty());
+
+    // a range that is given holds for all frames; bars are still the frame's
+    parameters.range_min = 0.;
+    parameters.range_max = 1.;
+    const auto given     = frames_of(write(animation, parameters));
+    EXPECT_TRUE(given[0].own.empty());
+    EXPECT_EQ(given[1].own, frames[1].own);
+    AnimationParameters how;
+    how.range = {{0., 1.}};
+    EXPECT_TRUE(frames_of(write(animation, parameters, how))[0].own.empty());
+    animation.discard();
+  }
+
+
   // The reader chooses between quantities, each in the colours of its own range
   // and all in one view.
   TEST(Animation, SeveralQuantities)
@@ -427,7 +500,10 @@ namespace
     const std::string picture = draw_picture_in_memory(data, parameters, "");
     EXPECT_THROW(page.add_frame(0., "", {picture, picture}), InputError);
     EXPECT_THROW(page.add_frame(0., "", {}), InputError);
-    page.add_frame(0., "", {picture});
+    EXPECT_THROW(page.add_frame(0., "", {picture}, {picture, picture}),
+                 InputError);
+    EXPECT_THROW(page.add_frame(0., "", {picture}, {"no picture"}), InputError);
+    page.add_frame(0., "", {picture}, {""});
     parameters.picture_width = 500;
     EXPECT_THROW(page.add_frame(1.,
                                 "",

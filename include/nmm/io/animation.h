@@ -18,11 +18,13 @@ namespace NMM
    * is in one file, the pictures as base64. Buttons and keys play, stop and step,
    * a slider goes anywhere; frames follow each other in proportion to their times.
    * Where each frame has several pictures, e.g. in the colours of several
-   * quantities, the reader chooses which ones are shown.
+   * quantities, the reader chooses which ones are shown; and where frames also have
+   * pictures in a range of their own, whether these are.
    *
    * Each frame is a script element of its own,
    * `<script>frame({"time":0.1,"label":"t = 0.1 s","png":["iVBOR..."]})</script>`,
-   * so that a page that ends after any frame is a whole one.
+   * perhaps with `"own":["iVBOR..."]` after `png`, so that a page that ends after any
+   * frame is a whole one.
    *
    * Lifetime: the stream must outlive this object. Memory: one frame.
    */
@@ -37,16 +39,21 @@ namespace NMM
 
     /// @p png are the bytes of PNG files, one for each choice, of the same size
     /// in pixels as the first frame's; @p time must not be less than the last
-    /// one's. @throws InputError otherwise.
+    /// one's. @p own: the same in the frame's own range of values, empty where that
+    /// makes no difference. @throws InputError otherwise.
     void
     add_frame(double                          time,
               const std::string              &label,
-              const std::vector<std::string> &png);
+              const std::vector<std::string> &png,
+              const std::vector<std::string> &own = {});
 
     unsigned int
     n_frames() const;
 
   private:
+    void
+    write_pictures(const std::vector<std::string> &pictures);
+
     std::ostream *out;
     std::size_t   n_choices;
     unsigned int  n_written = 0;
@@ -120,7 +127,8 @@ namespace NMM
      * `animation.range`, the range in @p parameters or that of all frames.
      * `parameters.picture_width` is not used. To choose from: the quantity in
      * @p parameters and its `animation_quantities`, as far as all frames have
-     * them, each of these in the range of all frames.
+     * them, each of these in the range of all frames; and, for each frame, the range
+     * of its own values, if none is given, and of its own contact bars.
      * @throws InputError if there are no frames.
      */
     void

@@ -355,7 +355,7 @@ namespace
   }
 
 
-  TEST(BadInput, InitialVelocities)
+  TEST(BadInput, InitialVelocitiesMPI)
   {
     const auto settings =
       dynamic + std::vector<std::string>{"Initial velocities/Names=start"};
@@ -371,10 +371,6 @@ namespace
         "Initial velocities/start/" + text,
         {"Initial velocities/start/" + text.substr(0, text.find('=')), word});
     }
-    expect_rejected_with(settings,
-                         "Initial velocities/start/Block=2, 2",
-                         {"lies in no block"},
-                         2);
   }
 
 
@@ -628,9 +624,10 @@ namespace
   TEST(BadInput, OverlapsMPI)
   {
     const std::string shape = "Obstacles/floor/Shape=";
-    expect_rejected_with(touching,
-                         shape + "LINESTRING (2 0.25, -1 0.25)",
-                         {"Block 0", "'floor'", "overlap by 0.25 m", "(", "0)"});
+    expect_rejected_with(
+      touching,
+      shape + "LINESTRING (2 0.25, -1 0.25)",
+      {"Block 0", "'floor'", "overlap by 0.25 m", "(", "0)"});
     expect_rejected_with(touching,
                          shape + "POLYGON ((-1 -1, 0.1 -1, 0.1 2, -1 2))",
                          {"'floor'", "overlap by 0.1 m"});

@@ -16,7 +16,8 @@ namespace
     Capture()
       : cout_buffer(std::cout.rdbuf(text.rdbuf()))
       , cerr_buffer(std::cerr.rdbuf(text.rdbuf()))
-    {}
+    {
+    }
 
     ~Capture()
     {

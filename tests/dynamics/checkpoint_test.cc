@@ -215,7 +215,7 @@ namespace
   {
     const std::string file = file_name("full-disk");
     Body              body = beam(true);
-    TimeIntegrator    integrator(*body.mechanics);
+    TimeIntegrator    integrator(*body.mechanics, TimeScheme::newmark());
     Checkpoint::write(integrator, file);
     rlimit limit;
     getrlimit(RLIMIT_FSIZE, &limit);

@@ -1,4 +1,4 @@
-#include <nmm/base/exceptions.h>
+#include <nmm/base/program.h>
 #include <nmm/io/animation.h>
 
 #include <cmath>
@@ -489,7 +489,7 @@ namespace
     how       = {};
     how.width = 10;
     EXPECT_THROW(write(animation, {}, how), InputError);
-    EXPECT_THROW(Animation("/nowhere/at/all"), InputError);
+    EXPECT_THROW(Animation("/nowhere/at/all"), OutputFailure);
     animation.discard();
 
     std::ostringstream out;

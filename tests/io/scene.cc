@@ -362,10 +362,11 @@ namespace
         for (unsigned int i = 0; i < n; ++i)
           text += open;
         std::ofstream(name) << text;
-        EXPECT_NE(message_of_scene(name).find("nested"), std::string::npos);
+        EXPECT_NE(message_of_scene(name).find("nested more"),
+                  std::string::npos);
       }
     std::ofstream(name) << "{\"a\": \"" << std::string(100, '{') << "\"}";
-    EXPECT_EQ(message_of_scene(name).find("nested"), std::string::npos);
+    EXPECT_EQ(message_of_scene(name).find("nested more"), std::string::npos);
   }
 
 

@@ -68,22 +68,46 @@ namespace
   }
 
 
-  // At rest it would be 10 m deep: E/h is 2, the weight 200.
-  TEST(EndsOfRuns, PenetrationOfACellIsNoSolution)
+  // Springs of 20 Pa/m under 20 Pa: the square would come to lie 1 m deep.
+  TEST(EndsOfRuns, DeepPenetrationIsNoSolution)
   {
-    const Settings heavy = touching + dynamic +
-                           Settings{"Boundary conditions/held/Components=x",
-                                    "Model/Gravity=0, -200",
-                                    "Fixed points/corner/Stiffness=1e-6",
-                                    "Output/Picture=false"};
-    const DriverResult result = run(heavy);
-    EXPECT_EQ(result.exit_code, 3) << result.output;
-    if (is_first_rank())
-      EXPECT_NE(result.output.find("penetration"), std::string::npos)
-        << result.output;
+    const Settings soft = touching + dynamic +
+                          Settings{"Boundary conditions/held/Components=x",
+                                   "Fixed points/corner/Stiffness=1e-6",
+                                   "Model/Gravity=0, -20",
+                                   "Time/Initial step=0.02",
+                                   "Output/Picture=false"};
+    // a length that is given, and a cell where faces are looked for so deep
+    for (const auto &[setting, limit] :
+         {std::make_pair("Contact/Largest penetration=0.01", "of 0.01"),
+          std::make_pair("Contact/Reach=2", "cell size at faces of 0.5")})
+    {
+      const DriverResult result = run(soft + Settings{setting});
+      EXPECT_EQ(result.exit_code, 3) << result.output;
+      for (const char *word : {"penetration", limit})
+        EXPECT_NE(result.output.find(word), std::string::npos) << result.output;
+      EXPECT_NE(content("summary.csv").find("solved,0"), std::string::npos);
+    }
     expect_rejected_override("Contact/Largest penetration=0.1",
                              {"Contact/Largest penetration",
                               "Contact/Enforcement"});
+  }
+
+
+  // Two steps of a thousand radians turn elements inside out between quadrature
+  // points, where stress has no value.
+  TEST(EndsOfRuns, StressThatIsNotFiniteIsNoSolution)
+  {
+    const DriverResult result =
+      run({"Initial velocities/spin/Angular velocity=1e5",
+           "Time/End time=0.02",
+           "Time/Initial step=0.01"},
+          {},
+          cases_dir + "spinning-block/scene.prm");
+    EXPECT_EQ(result.exit_code, 3) << result.output;
+    EXPECT_NE(result.output.find("not finite"), std::string::npos)
+      << result.output;
+    EXPECT_NE(content("summary.csv").find("solved,0"), std::string::npos);
   }
 
 

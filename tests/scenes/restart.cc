@@ -258,8 +258,8 @@ namespace
                    {"--restart", "small or finite"});
     expect_refused(checkpoint,
                    scene,
-                   {"--set", "Time/End time=0.2"},
-                   {"Time/End time", "0.2"});
+                   {"--set", "Time/End time=0.1"},
+                   {"Time/End time", "0.1"});
     expect_refused(checkpoint, "base.prm", {}, {"--restart", "no dynamic"});
     // Other probes: other columns.
     expect_refused(checkpoint,

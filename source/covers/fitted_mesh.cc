@@ -122,6 +122,12 @@ namespace NMM
       for (const Point<2> &x : hull)
         scale = std::max({scale, std::abs(x[0]), std::abs(x[1])});
       rounding = 64. * std::numeric_limits<double>::epsilon() * scale;
+      for (const unsigned int e : edges.region_edges(region))
+        // points on an arc are computed from centre and radius
+        rounding = std::max({rounding,
+                             edges.edges()[e].sagitta,
+                             8. * std::numeric_limits<double>::epsilon() *
+                               std::abs(edges.edges()[e].shape.radius)});
 
       // a minimum-area rectangle has a side along one of the hull's
       double smallest = std::numeric_limits<double>::max();

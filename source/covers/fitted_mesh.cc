@@ -192,6 +192,10 @@ namespace NMM
                                 d * shape.axes[1] / shape.sides[1]});
           support[k] = std::max(support[k], normals[k] * s);
         }
+        // the curves may be so far beyond their shapes in doubles
+        for (unsigned int d = 0; d < 2; ++d)
+          support[k] +=
+            shape.rounding * std::abs(normals[k][d]) / shape.sides[d];
       }
       const auto corner = [&](const unsigned int k, const unsigned int l) {
         const double det = cross(normals[k], normals[l]);

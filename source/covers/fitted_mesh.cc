@@ -122,6 +122,12 @@ namespace NMM
       for (const Point<2> &x : hull)
         scale = std::max({scale, std::abs(x[0]), std::abs(x[1])});
       rounding = 64. * std::numeric_limits<double>::epsilon() * scale;
+      for (const unsigned int e : edges.region_edges(region))
+        // points on an arc are computed from centre and radius
+        rounding = std::max({rounding,
+                             edges.edges()[e].sagitta,
+                             8. * std::numeric_limits<double>::epsilon() *
+                               std::abs(edges.edges()[e].shape.radius)});
 
       // a minimum-area rectangle has a side along one of the hull's
       double smallest = std::numeric_limits<double>::max();
@@ -186,6 +192,10 @@ namespace NMM
                                 d * shape.axes[1] / shape.sides[1]});
           support[k] = std::max(support[k], normals[k] * s);
         }
+        // the curves may be so far beyond their shapes in doubles
+        for (unsigned int d = 0; d < 2; ++d)
+          support[k] +=
+            shape.rounding * std::abs(normals[k][d]) / shape.sides[d];
       }
       const auto corner = [&](const unsigned int k, const unsigned int l) {
         const double det = cross(normals[k], normals[l]);

@@ -64,9 +64,12 @@ namespace NMM
             std::max(1., std::ceil(length / spacing)));
           const double sagitta =
             std::abs(edge.radius) * (1. - std::cos(0.5 * sweep / n));
-          // points on an arc, from centre and radius
-          const double rounding = 16. * std::numeric_limits<double>::epsilon() *
-                                  std::abs(edge.radius);
+          // points on an arc, from centre and radius; what is straight may be an
+          // arc that is so up to rounding, see is_nearly_straight()
+          const double rounding =
+            edge.is_arc() ? 16. * std::numeric_limits<double>::epsilon() *
+                              std::abs(edge.radius)
+                          : 1.1e-8 * length;
           const double first =
             edge.is_arc() ? angle_about(edge.center, edge.start) : 0.;
           Point<2> previous = edge.start;

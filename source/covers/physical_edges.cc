@@ -96,7 +96,6 @@ namespace NMM
           {number(halfedge->source()), number(halfedge->target())}};
         edge.shape.start                 = all_vertices[edge.vertices[0]];
         edge.shape.end                   = all_vertices[edge.vertices[1]];
-        edge.is_linear                   = halfedge->curve().is_linear();
         Traits::X_monotone_curve_2 curve = halfedge->curve();
         curve_set.clear();
         for (const Label label : curve.data())
@@ -106,11 +105,17 @@ namespace NMM
             curve_set.push_back(label);
           }
         const CurvePiece &piece = physical_mesh.pieces()[edge.piece];
+        edge.is_linear          = halfedge->curve().is_linear();
         if (!is_nearly_straight(edge.shape.start, edge.shape.end, piece.radius))
           set_circle(halfedge->curve(),
                      true,
                      physical_mesh.pieces(),
                      edge.shape);
+        else if (!edge.is_linear)
+          edge.sagitta =
+            std::min(0.25 * edge.shape.start.distance_square(edge.shape.end) /
+                       piece.radius,
+                     piece.radius);
         edge.line = {{piece.start, piece.end}};
         if (std::tie(piece.end[0], piece.end[1]) <
             std::tie(piece.start[0], piece.start[1]))

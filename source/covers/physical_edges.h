@@ -40,6 +40,9 @@ namespace NMM
         unsigned int piece = invalid_index;
         /// Whether it lies on a line exactly.
         bool is_linear = true;
+        /// Of an arc with a straight shape: how far it is from that, at most 1.1e-8 of its
+        /// length [m].
+        double sagitta = 0.;
         /// If so: that piece's ends, the left one first. They are what
         /// is given, so that the edge lies exactly on the line through them.
         std::array<dealii::Point<2>, 2> line;

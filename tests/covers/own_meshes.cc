@@ -470,5 +470,24 @@ TEST(OwnMeshes, TinyCoordinates)
   for (unsigned int e = 0; e < model.own.manifold_mesh->n_elements(); ++e)
     area += model.own.manifold_mesh->area(e);
   // half of base times height, rounded some hundred times
-  EXPECT_NEAR(area, 0.5e-18, 1e-30);
+  EXPECT_NEAR(area, 0.5 * 1e-9 * (1e-9 + 3.5804183894449036e-18), 1e-31);
+}
+
+
+// What an arc does outside of the solid costs nothing: this one leaves it at once and
+// comes back from a distance of 2e8, as a drawing's bulge of 1e9 makes it do.
+TEST(OwnMeshes, HugeArc)
+{
+  Geometry geometry = parse_geometry(
+    "boundary name=b POLYGON ((0 0, 1 0, 1 1, 0 1))\n"
+    "joint CIRCULARSTRING (0.3 0.5, 0.5 -200000000, 0.7 0.5)",
+    "test.wkt");
+  RegularMeshParameters parameters;
+  parameters.cell_size = 0.3;
+  const Model model(std::move(geometry), parameters);
+  EXPECT_EQ(model.physical.n_blocks(), 1u);
+  double area = 0.;
+  for (unsigned int e = 0; e < model.own.manifold_mesh->n_elements(); ++e)
+    area += model.own.manifold_mesh->area(e);
+  EXPECT_NEAR(area, 1., 1e-12);
 }

@@ -8,7 +8,7 @@ using namespace NMM::Fuzz;
 TEST(Fuzz, Geometry)
 {
   const Generator &generator = find_generator("geometry");
-  for (unsigned int seed = 1; seed <= 200; ++seed)
+  for (unsigned int seed = 101; seed <= 300; ++seed)
   {
     const Case        c       = generator.make(seed);
     const std::string failure = check(generator, c);

@@ -445,6 +445,52 @@ namespace
   }
 
 
+  // Two bodies that slide with friction, in steps that are given: what the number of
+  // ranks changes is Newton's tolerance of 1e-9 at the most, 6e-11 measured. Left out are
+  // the balance, which is a difference of nearly equal numbers, the energy of strain,
+  // which is small beside that of motion, and how often states changed on the way.
+  TEST(Scenes, MotionWithFrictionIsTheSameOnTwoRanks)
+  {
+    std::map<std::string, double> values[2];
+    for (const unsigned int n_ranks : {1, 2})
+    {
+      const std::string  output = fresh_output_dir("ranks");
+      const DriverResult result =
+        run_driver({"-o",
+                    output,
+                    "--set",
+                    "Time/End time=0.05",
+                    cases_dir + "contact-two-laws/scene.prm"},
+                   n_ranks);
+      ASSERT_EQ(result.exit_code, 0) << result.output;
+      for (const auto &[name, value] : read_results(output))
+        if (name.rfind("history/", 0) == 0)
+          values[n_ranks - 1][name] = value;
+    }
+    // the largest of each column is what its values are compared with
+    const auto column_of = [](const std::string &name) {
+      return name.substr(name.rfind('/') + 1);
+    };
+    std::map<std::string, double> sizes;
+    for (const auto &[name, value] : values[0])
+    {
+      double &size = sizes[column_of(name)];
+      size         = std::max(size, std::abs(value));
+    }
+    ASSERT_EQ(values[0].count("history/10/time"), 1U);
+    ASSERT_EQ(values[0].size(), values[1].size());
+    EXPECT_GT(sizes.at("contact_slip"), 0.);
+    for (const auto &[name, value] : values[0])
+    {
+      const std::string column = column_of(name);
+      if (column == "balance" || column == "strain" ||
+          column == "contact_changes")
+        continue;
+      EXPECT_NEAR(values[1].at(name), value, 1e-9 * sizes.at(column)) << name;
+    }
+  }
+
+
   // Contact points of each state as a table and for ParaView.
   TEST(Scenes, WritesContactPoints)
   {

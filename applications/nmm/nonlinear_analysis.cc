@@ -177,15 +177,33 @@ NonlinearAnalysis::explain_floating(const std::string &reason) const
   {
     floating = error.message();
   }
-  AssertThrow(
-    floating.empty(),
-    NumericalFailure(reason +
-                       ". Contact alone has to hold the solid, "
-                       "and does not do so from the start: " +
-                       floating,
-                     "the first load step",
-                     "let faces touch at the start, with friction, or "
-                     "set 'Model/Analysis = relaxation'"));
+  if (floating.empty())
+    return;
+  const Vector start = finite->initial_solution();
+  Contact     &law   = contact->contact();
+  law.set_time(0.);
+  law.detect(start);
+  law.assemble(start, false);
+  const bool touches = law.report().n_stick + law.report().n_slip > 0;
+  AssertThrow(touches,
+              NumericalFailure(reason +
+                                 ". Contact alone has to hold the solid, "
+                                 "and no faces touch at the start: " +
+                                 floating,
+                               "the first load step",
+                               "let faces touch at the start, or "
+                               "set 'Model/Analysis = relaxation'"));
+  AssertThrow(false,
+              NumericalFailure(
+                reason +
+                  ". Contact alone has to hold the solid. Its faces touch, but "
+                  "there is no equilibrium under the least load: blocks slide, "
+                  "as friction and cohesion are too low, or they tip over or "
+                  "lift off",
+                "the first load step",
+                "increase 'Contact/Friction angle' or 'Contact/Cohesion', hold "
+                "blocks by displacement conditions, or let them move with "
+                "'Model/Analysis = relaxation' or 'dynamic'"));
 }
 
 

@@ -145,8 +145,9 @@ namespace NMM
                                const ContactProjection     &projection)
   {
     // faces that touch are in contact, whatever rounding makes of their gap:
-    // a block that lies on another one is held by it from the start
-    constexpr double touching = 1e-9;
+    // a block that lies on another one is held by it from the start. In statics
+    // rounding makes nothing of it
+    const double touching = is_moving ? 1e-9 : 0.;
 
     ContactTraction   traction;
     ContactPoint     &point = points[q];
@@ -178,8 +179,7 @@ namespace NMM
     point.state             = ContactState::slip;
     if (law.has_friction())
     {
-      const Tensor<1, 2> distance =
-        slave.x - surface->place(point.stick_edge, point.stick_t).x;
+      const Tensor<1, 2> distance = way_from_stick(q, slave);
       const Tensor<1, 2> tangent =
         projection.place.a / projection.place.a.norm();
       traction.normal_distance = distance * projection.normal;
@@ -242,8 +242,7 @@ namespace NMM
     // shear and pressure if nothing slides
     const Tensor<1, 2> tangent = projection.place.a / projection.place.a.norm();
     const double       trial =
-      law.shear_stiffness *
-      ((slave.x - surface->place(point.stick_edge, point.stick_t).x) * tangent);
+      law.shear_stiffness * (way_from_stick(q, slave) * tangent);
     const double gap      = projection.gap - fixed.offset - result.opening;
     const double pressure = point.multiplier - law.normal_stiffness * gap;
     const double excess =
@@ -494,6 +493,9 @@ namespace NMM
     };
     if (is_between && fixed.corner < Kind::along)
       stay_with_face_of_end(q, slave, projection);
+    if (!is_moving && point.master != invalid_index &&
+        point.master != projection.master)
+      stay_with_face(q, slave, projection);
     // a piece ends where two edges of the master meet; its end stays with one of
     // them, since their normals differ a little and the iteration would not end
     if (fixed.corner == Kind::along && point.master != invalid_index &&
@@ -517,6 +519,10 @@ namespace NMM
       if (last.master != invalid_index && last.gap < 0.)
         projection = last;
     }
+    // not where corners take it from another face
+    if (!is_moving && projection.master != invalid_index &&
+        projection.gap == (slave.x - projection.place.x) * projection.normal)
+      projection.gap = gap_of_displacements(q, projection);
     point.x      = slave.x;
     point.master = projection.master;
     if (projection.master == invalid_index)

@@ -220,6 +220,16 @@ namespace NMM
                           const ContactSurface::Place &slave,
                           internal::ContactProjection &projection) const;
 
+    /**
+     * Statics: where corners of several bodies meet, which face is the nearest one jumps,
+     * and with it the force, so that Newton's method goes round. What a point is pressed on
+     * by stays its face until points are made anew.
+     */
+    void
+    stay_with_face(unsigned int                 q,
+                   const ContactSurface::Place &slave,
+                   internal::ContactProjection &projection) const;
+
     /// Does one of the edges go on in the other, within a few edges?
     bool
     goes_on(unsigned int edge,
@@ -241,6 +251,22 @@ namespace NMM
 
     internal::AdmittedContact
     find_admitted(unsigned int q) const;
+
+    /**
+     * Statics: the gap of a projection, with X for places in the reference configuration
+     * and N for the normal there,
+     * @f[ g = (u_s - u_m)\cdot n + (X_s - X_m)\cdot(n - N) + (X_s - X_m)\cdot N, @f]
+     * which is that of the positions. But its digits are those of the displacements: stiff
+     * springs under small loads give way by less than what positions are rounded to. The
+     * last term is 0 where faces are drawn as touching, so that they do, whatever the load.
+     */
+    double
+    gap_of_displacements(unsigned int                       q,
+                         const internal::ContactProjection &projection) const;
+
+    /// From where a point sticks to where it is [m]; in statics in the same way.
+    dealii::Tensor<1, 2>
+    way_from_stick(unsigned int q, const ContactSurface::Place &slave) const;
 
     /// As ContactSearch finds it for a point along an edge, or a corner.
     internal::ContactProjection

@@ -3,9 +3,93 @@
 
 #include <algorithm>
 #include <cmath>
+#include <contact/contact_data.h>
 
 namespace NMM
 {
+  using namespace internal;
+  using dealii::Tensor;
+
+  namespace
+  {
+    /// Rounding of a difference of two positions on edges [m].
+    double
+    rounding_of(const ContactSurface::Place &place)
+    {
+      constexpr double parts = 1e-15;
+      return parts *
+             (std::abs(place.x[0]) + std::abs(place.x[1]) + place.a.norm());
+    }
+  } // namespace
+
+
+  double
+  Contact::Data::gap_of_displacements(const unsigned int       q,
+                                      const ContactProjection &projection) const
+  {
+    // of the reach: what is drawn as touching has no gap
+    constexpr double touching = 1e-9;
+
+    const ContactPoint         &point = points[q];
+    const unsigned int          face  = projection.master;
+    const ContactSurface::Place slave =
+      surface->reference_place(point.edge, point.s);
+    const ContactSurface::Place master =
+      surface->reference_place(face, projection.t);
+    const ContactSurface::Edge &edge   = surface->edges()[face];
+    const Tensor<1, 2>          normal = master.normal();
+    const Tensor<1, 2>          d      = slave.x - master.x;
+    // of a straight face it is the same from wherever it is measured
+    double gap = (edge.radius == 0. ? slave.x - edge.start : d) * normal;
+    if (std::abs(gap) <= touching * reach)
+      gap = 0.;
+    return gap + d * (projection.normal - normal) +
+           (surface->displacement(point.edge, point.s) -
+            surface->displacement(face, projection.t)) *
+             projection.normal;
+  }
+
+
+  void
+  Contact::Data::stay_with_face(const unsigned int           q,
+                                const ContactSurface::Place &slave,
+                                ContactProjection           &projection) const
+  {
+    const ContactPoint &point = points[q];
+    const PointData    &fixed = point_data[q];
+    if (point.state == ContactState::open)
+      return;
+    const dealii::ArrayView<const unsigned int> face(&point.master, 1);
+    const ContactProjection                     last =
+      fixed.corner >= Kind::along
+                            ? search.project(slave, face, fixed.slack, fixed.home, find_admitted(q))
+                            : search.project_corner(slave,
+                                normal_of_other_edge(q),
+                                face,
+                                point.master,
+                                find_admitted(q));
+    if (last.master != invalid_index && last.gap < 0.)
+      projection = last;
+  }
+
+
+  Tensor<1, 2>
+  Contact::Data::way_from_stick(const unsigned int           q,
+                                const ContactSurface::Place &slave) const
+  {
+    const ContactPoint &point = points[q];
+    if (is_moving)
+      return slave.x - surface->place(point.stick_edge, point.stick_t).x;
+    const ContactSurface::Place from =
+      surface->reference_place(point.stick_edge, point.stick_t);
+    Tensor<1, 2> way = surface->reference_place(point.edge, point.s).x - from.x;
+    if (way.norm() <= rounding_of(from))
+      way = 0.;
+    return way + surface->displacement(point.edge, point.s) -
+           surface->displacement(point.stick_edge, point.stick_t);
+  }
+
+
   struct ContactSystem::Data
   {
     NonlinearSystem *elasticity;

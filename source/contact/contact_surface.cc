@@ -584,6 +584,28 @@ namespace NMM
   }
 
 
+  Tensor<1, 2>
+  ContactSurface::displacement(const unsigned int e, const double t) const
+  {
+    const Edge &edge = all_edges[e];
+    if (is_rigid(e))
+      return obstacle_displacements[edge.body - n_blocks];
+    if (edge.radius == 0.)
+    {
+      const auto &d = current[e].d;
+      return d[0] + t * (d[1] + t * d[2]);
+    }
+    Weights f;
+    weights(e, t, f);
+    const auto   edge_covers = covers(e);
+    Tensor<1, 2> result;
+    for (unsigned int i = 0; i < f.n; ++i)
+      for (unsigned int c = 0; c < 2; ++c)
+        result[c] += f.w[i] * (*nodal)[2 * edge_covers[i] + c];
+    return result;
+  }
+
+
   bool
   ContactSurface::is_further(const unsigned int e,
                              const Point<2>    &x,

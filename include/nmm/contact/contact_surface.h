@@ -222,6 +222,10 @@ namespace NMM
     Place
     place(unsigned int edge, double t) const;
 
+    /// x(t) - X(t), with the digits that positions have no room for [m].
+    dealii::Tensor<1, 2>
+    displacement(unsigned int edge, double t) const;
+
     /// Of a straight edge, at the current displacements and time; of arcs it says
     /// nothing.
     EdgeDisplacement

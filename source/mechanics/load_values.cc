@@ -61,13 +61,13 @@ namespace NMM
                          "the body force");
         for (const ElementEdge &edge : mesh.edges(e))
         {
-          if (conditions.conditions(edge).empty())
+          if (conditions.conditions(e, edge).empty())
             continue;
           const EdgeRule edge_rule =
             make_edge_rule(edge,
                            internal::cell_frame(mathematical_mesh, cell),
                            2 * mathematical_mesh.degree());
-          for (const unsigned int c : conditions.conditions(edge))
+          for (const unsigned int c : conditions.conditions(e, edge))
           {
             const BoundaryCondition &condition = problem.boundary_conditions[c];
             if (condition.value == nullptr)

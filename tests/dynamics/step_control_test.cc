@@ -1,5 +1,6 @@
 // Choice of the step, failure below the least one, relaxation to rest, history.
 
+#include <nmm/base/program.h>
 #include <nmm/dynamics/history.h>
 #include <nmm/mechanics/nonlinear_statics.h>
 
@@ -287,6 +288,6 @@ namespace
     for (unsigned int i = 0; i < after.size(); ++i)
       EXPECT_EQ(after[i], before[i]);
     EXPECT_THROW(History("no/such/folder/history.csv", MPI_COMM_WORLD),
-                 InputError);
+                 OutputFailure);
   }
 } // namespace

@@ -98,6 +98,43 @@ ContactAnalysis::contact() const
 }
 
 
+bool
+ContactAnalysis::all_are_touched(const ElasticityProblem &problem) const
+{
+  if (Parallel::n_mpi_processes(covers->communicator()) > 1)
+    return true;
+  using Type = BoundaryCondition::Type;
+  const bool has_conditions =
+    std::any_of(problem.boundary_conditions.begin(),
+                problem.boundary_conditions.end(),
+                [](const BoundaryCondition &condition) {
+                  return condition.type == Type::displacement ||
+                         condition.type == Type::normal_displacement;
+                });
+  if (has_conditions || !problem.fixed_points.empty())
+    return contact().report().n_stick + contact().report().n_slip > 0;
+  const auto       &edges = surface->edges();
+  std::vector<bool> is_touched(surface->n_bodies(), false);
+  std::fill(is_touched.end() - surface->obstacles().size(),
+            is_touched.end(),
+            true);
+  for (bool goes_on = true; goes_on;)
+  {
+    goes_on = false;
+    for (const ContactPoint &point : contact().points())
+      if (point.state != ContactState::open)
+      {
+        const unsigned int a = edges[point.edge].body,
+                           b = edges[point.master].body;
+        if (is_touched[a] != is_touched[b])
+          is_touched[a] = is_touched[b] = goes_on = true;
+      }
+  }
+  return std::find(is_touched.begin(), is_touched.end(), false) ==
+         is_touched.end();
+}
+
+
 std::string
 ContactAnalysis::description() const
 {

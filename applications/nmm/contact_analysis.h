@@ -39,6 +39,12 @@ public:
   const NMM::Contact &
   contact() const;
 
+  /// Do faces that press in the last assembly of the contact connect every block with an
+  /// obstacle? With displacement conditions, which may hold blocks as well: does any face
+  /// press? On several ranks it is not found out, and said to be so.
+  bool
+  all_are_touched(const NMM::ElasticityProblem &problem) const;
+
   /// What was chosen, for people.
   std::string
   description() const;

@@ -184,11 +184,10 @@ NonlinearAnalysis::explain_floating(const std::string &reason) const
   law.set_time(0.);
   law.detect(start);
   law.assemble(start, false);
-  const bool touches = law.report().n_stick + law.report().n_slip > 0;
-  AssertThrow(touches,
+  AssertThrow(contact->all_are_touched(problem),
               NumericalFailure(reason +
                                  ". Contact alone has to hold the solid, "
-                                 "and no faces touch at the start: " +
+                                 "and not all blocks touch what holds them: " +
                                  floating,
                                "the first load step",
                                "let faces touch at the start, or "

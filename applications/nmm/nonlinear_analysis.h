@@ -81,8 +81,8 @@ private:
   void
   run_contact();
 
-  /// @throws NMM::NumericalFailure, beside @p reason naming the block, if one
-  /// floats that only contact may hold.
+  /// @throws NMM::NumericalFailure, if contact alone has to hold blocks: beside @p reason
+  /// with the block that touches nothing, or that friction is too low where all touch.
   void
   explain_floating(const std::string &reason) const;
 

@@ -494,11 +494,11 @@ AccountedContactModel::assemble_between(const Vector &begin,
 }
 
 
-std::string
+StepFault
 AccountedContactModel::find_fault(const Vector &end)
 {
-  const std::string fault = ContactModel::find_fault(end);
-  if (!fault.empty() || contact().is_idle())
+  StepFault fault = ContactModel::find_fault(end);
+  if (!fault.reason.empty() || contact().is_idle())
     return fault;
   double penetration = contact().report().largest_penetration;
   // In conserving steps it is the mean of begin and end; this is a bound from below
@@ -506,7 +506,8 @@ AccountedContactModel::find_fault(const Vector &end)
   if (is_between)
     penetration =
       2. * penetration - analysis->last_state().report.largest_penetration;
-  return analysis->find_deep_penetration(penetration);
+  fault.reason = analysis->find_deep_penetration(penetration);
+  return fault;
 }
 
 

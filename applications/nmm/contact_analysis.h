@@ -187,7 +187,7 @@ public:
 
   /// As in ContactModel; and faces may not be deeper in each other than the scene
   /// allows.
-  std::string
+  NMM::StepFault
   find_fault(const Vector &end) override;
 
   double

@@ -102,14 +102,14 @@ namespace NMM
       Measurements measurements;
       Disk         disk;
 #ifdef DEBUG
-      constexpr double part = 0.2;
+      constexpr double rolling = 0.1, sliding = 1.;
 #else
-      constexpr double part = 1.;
+      constexpr double rolling = 0.5, sliding = 3.;
 #endif
-      disk.duration = 0.5 * part;
+      disk.duration = rolling;
       roll(disk, measurements);
       disk.spin     = 0.;
-      disk.duration = 3. * part;
+      disk.duration = sliding;
       roll(disk, measurements);
       expect_holds(measurements);
     }

@@ -107,7 +107,14 @@ namespace
 
   TEST(Restart, StoppedRunsGoOnWithTheSameBits)
   {
-    for (const unsigned int n_ranks : {1, 2})
+    // In Debug on one rank: other scenes pass the assertions of two ranks in a tenth of the
+    // time.
+#ifdef NDEBUG
+    const std::vector<unsigned int> all_n_ranks = {1, 2};
+#else
+    const std::vector<unsigned int> all_n_ranks = {1};
+#endif
+    for (const unsigned int n_ranks : all_n_ranks)
     {
       // The release is in the second part.
       check_stop("released-bar/scene.prm",
@@ -137,7 +144,7 @@ namespace
 #ifdef NDEBUG
     const std::string end = "3";
 #else
-    const std::string end = "0.2";
+    const std::string               end         = "0.2";
 #endif
     const Arguments   settings{"--set",
                              "Contact/Friction angle=20",

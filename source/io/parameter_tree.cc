@@ -440,8 +440,10 @@ namespace NMM
       }
       if (std::regex_search(message,
                             match,
-                            std::regex("no such subsection to be entered: "
-                                       "(.*)")))
+                            // deal.II 9.4, and 9.6
+                            std::regex("(?:no such subsection to be entered: |"
+                                       "enter a subsection ')(.*?)(?:', but "
+                                       "the ParameterHandler.*)?$")))
       {
         std::vector<std::string> child_path = path;
         // Below the top level the name comes with its path.

@@ -44,6 +44,7 @@ if [[ ! -e "$system/etc/debian_version" ]]; then
 fi
 
 mount -t proc proc "$system/proc"
+mount --rbind /sys "$system/sys"
 mount --rbind /dev "$system/dev"
 # Open MPI's ranks share memory here.
 mount -t tmpfs tmpfs "$system/dev/shm"

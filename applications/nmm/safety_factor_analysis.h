@@ -68,7 +68,7 @@ private:
   void
   give_up();
 
-  /// Of the trials that did not fail, for people.
+  /// Part of a message: what the trials that did not fail have shown.
   std::string
   what_is_known() const;
 

@@ -17,7 +17,7 @@ namespace NMM
   {
     struct Case
     {
-      /// Of what kind it is, for people.
+      /// The kinds of curves in it, for the message if the case fails.
       std::string description;
       /// Names and contents of files; case.prm is a scene that does what run() does,
       /// as far as a scene can.

@@ -6,7 +6,7 @@
 #
 # FOLDER is made by debootstrap if it is not there (300 MB from Debian's main archive, 4 GB
 # with what setup.sh installs) and used again if it is. The arguments are those of setup.sh,
-# 'test' if there are none; variables such as NMM_JOBS and NMM_SKIP_DEBUG reach it. The tree
+# 'test' if there are none; variables such as NMM_JOBS and NMM_PRESETS reach it. The tree
 # that is tested is that of the last commit; it is built in FOLDER/root/nmm. Another release
 # is chosen by NMM_RELEASE=bookworm.
 

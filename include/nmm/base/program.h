@@ -40,7 +40,7 @@ namespace NMM
   struct ProgramEnd
   {
     ExitCode code;
-    /// One sentence for people.
+    /// The message to print: one sentence.
     std::string message;
   };
 

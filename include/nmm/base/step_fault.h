@@ -8,11 +8,11 @@ namespace NMM
   /// Why the result of a step must not be accepted.
   struct StepFault
   {
-    /// For people; empty: it may be accepted.
+    /// Part of a message; empty if the result may be accepted.
     std::string reason;
-    /// What helps if no shorter step does; empty: what helps with steps in general.
+    /// What the user can do if no shorter step helps; empty: the general advice on steps.
     std::string remedy;
-    /// Share of the step that is to be tried next; 0: as with any other step that fails.
+    /// Length of the next trial as a fraction of this step; 0: as after any other failure.
     double retry = 0.;
   };
 } // namespace NMM

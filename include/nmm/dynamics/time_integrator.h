@@ -92,7 +92,7 @@ namespace NMM
   struct StepReport
   {
     bool converged = false;
-    /// Why not, and what helps, for people; see StepFault.
+    /// Messages: why the step failed, and what the user can do; see StepFault.
     std::string reason, remedy;
     /// Share of the step that is to be tried next; 0: nothing is known of that.
     double       retry        = 0.;

@@ -25,9 +25,9 @@ namespace
 TEST(Fuzz, Geometry)
 {
   const Generator &generator = find_generator("geometry");
-  for (unsigned int seed = 1; seed <= 200; ++seed)
-    if (seed != known_failures[0])
-      expect_good(generator, seed);
+  // Seed 69 is a known failure, see below.
+  for (unsigned int seed = 101; seed <= 300; ++seed)
+    expect_good(generator, seed);
 }
 
 

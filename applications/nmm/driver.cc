@@ -1,17 +1,12 @@
 #include "driver.h"
 
 #include <nmm/base/program.h>
-#include <nmm/io/output_directory.h>
-#include <nmm/io/progress.h>
-#include <nmm/io/scene.h>
+#include <nmm/output/progress.h>
+#include <nmm/scene/run_scene.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/multithread_info.h>
 
-#include "dynamic_analysis.h"
-#include "nonlinear_analysis.h"
-#include "safety_factor_analysis.h"
-#include "static_analysis.h"
 #include <boost/program_options.hpp>
 #include <cerrno>
 #include <filesystem>
@@ -194,38 +189,6 @@ namespace
   }
 
 
-  std::unique_ptr<SceneAnalysis>
-  make_analysis(const NMM::Scene  &scene,
-                NMM::Progress     &progress,
-                const MPI_Comm     communicator,
-                const std::string &restart)
-  {
-    const NMM::ModelParameters &model = scene.parameters().model;
-    const bool is_dynamic = model.analysis == NMM::Analysis::dynamics;
-    AssertThrow(restart.empty() ||
-                  (is_dynamic &&
-                   model.kinematics != NMM::Kinematics::incremental),
-                NMM::InputError("the scene has no dynamic analysis of small or "
-                                "finite kinematics to continue",
-                                "--restart " + restart,
-                                "give the scene the checkpoint was written "
-                                "with"));
-    if (model.analysis == NMM::Analysis::safety_factor)
-      return std::make_unique<SafetyFactorAnalysis>(scene,
-                                                    progress,
-                                                    communicator);
-    if (model.analysis != NMM::Analysis::statics)
-      return std::make_unique<DynamicAnalysis>(scene,
-                                               progress,
-                                               communicator,
-                                               restart);
-    if (model.kinematics == NMM::Kinematics::small &&
-        !scene.parameters().contact.is_present())
-      return std::make_unique<StaticAnalysis>(scene, progress, communicator);
-    return std::make_unique<NonlinearAnalysis>(scene, progress, communicator);
-  }
-
-
   /// @p has_output becomes true when results begin to be written.
   void
   run_scene(const Options &options,
@@ -236,57 +199,13 @@ namespace
     const bool is_terminal =
       isatty(STDOUT_FILENO) != 0 &&
       dealii::Utilities::MPI::n_mpi_processes(communicator) == 1;
-    NMM::Progress              progress(std::cout, is_terminal, communicator);
-    const NMM::Scene           scene(options.scene, options.overrides);
-    const NMM::OutputDirectory directory(options.output);
-    if (!options.check_only)
-      NMM::on_first_rank(communicator, [&]() { directory.check(); });
-
-    progress.message(scene.title());
-    const auto analysis =
-      make_analysis(scene, progress, communicator, options.restart);
-    try
-    {
-      analysis->build();
-    }
-    catch (const NMM::NumericalFailure &failure)
-    {
-      // A check solves nothing, so that it cannot fail to.
-      if (!options.check_only)
-        throw;
-      progress.message("  warning: a run would end with exit code 3: " +
-                       failure.message());
-      return;
-    }
-    analysis->print_report();
-    if (options.check_only)
-      return;
-
-    analysis->open(directory);
-    has_output = true;
-    try
-    {
-      analysis->solve();
-    }
-    catch (const NMM::NumericalFailure &failure)
-    {
-      const std::string reason = failure.message();
-      try
-      {
-        analysis->write();
-      }
-      catch (const NMM::UserError &error)
-      {
-        AssertThrow(false,
-                    NMM::NumericalFailure(reason + "; and " + error.message(),
-                                          "",
-                                          ""));
-      }
-      throw;
-    }
-    analysis->verify();
-    analysis->write();
-    progress.message("Results are in " + directory.path().string());
+    NMM::Progress        progress(std::cout, is_terminal, communicator);
+    const NMM::Scene     scene(options.scene, options.overrides);
+    NMM::SceneRunOptions run_options;
+    run_options.output     = options.output;
+    run_options.restart    = options.restart;
+    run_options.check_only = options.check_only;
+    NMM::run_scene(scene, run_options, progress, communicator, has_output);
   }
 
 

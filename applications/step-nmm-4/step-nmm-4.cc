@@ -18,10 +18,10 @@
 #include <nmm/dynamics/time_integrator.h>
 #include <nmm/geometry/joint_network.h>
 #include <nmm/geometry/physical_mesh.h>
-#include <nmm/io/contact_output.h>
 #include <nmm/mechanics/displacement_field.h>
 #include <nmm/mechanics/finite_elasticity.h>
 #include <nmm/mechanics/stress_recovery.h>
+#include <nmm/output/contact_output.h>
 #include <nmm/quadrature/element_quadrature.h>
 
 #include <deal.II/base/mpi.h>

@@ -3,9 +3,9 @@
 
 // What surrounds the method in step-nmm-4: parameters, tables, pictures.
 
-#include <nmm/io/animation.h>
-#include <nmm/io/output_directory.h>
-#include <nmm/io/picture.h>
+#include <nmm/output/animation.h>
+#include <nmm/output/output_directory.h>
+#include <nmm/output/picture.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>

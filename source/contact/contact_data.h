@@ -10,10 +10,10 @@
 #include <contact/contact_search.h>
 #include <contact/contact_terms.h>
 #include <cstdint>
+#include <linear_algebra/active_items.h>
+#include <linear_algebra/block_system.h>
+#include <linear_algebra/matrix_sum.h>
 #include <map>
-#include <mechanics/active_items.h>
-#include <mechanics/block_system.h>
-#include <mechanics/matrix_sum.h>
 
 namespace NMM
 {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mechanics/active_items.h>
-#include <mechanics/matrix_rows.h>
+#include <linear_algebra/active_items.h>
+#include <linear_algebra/matrix_rows.h>
 #include <utility>
 
 namespace NMM

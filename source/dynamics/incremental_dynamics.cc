@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <mechanics/matrix_sum.h>
-#include <mechanics/mumps_solver.h>
+#include <linear_algebra/matrix_sum.h>
+#include <linear_algebra/mumps_solver.h>
 
 namespace NMM
 {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <dynamics/step_equations.h>
-#include <mechanics/matrix_rows.h>
+#include <linear_algebra/matrix_rows.h>
 #include <utility>
 
 namespace NMM

@@ -4,8 +4,8 @@
 #include <nmm/dynamics/time_integrator.h>
 
 #include <dynamics/sleeping_blocks.h>
-#include <mechanics/matrix_sum.h>
-#include <mechanics/mumps_solver.h>
+#include <linear_algebra/matrix_sum.h>
+#include <linear_algebra/mumps_solver.h>
 
 namespace NMM
 {

@@ -1,7 +1,7 @@
 #ifndef nmm_source_mechanics_conserving_terms_h
 #define nmm_source_mechanics_conserving_terms_h
 
-#include <nmm/mechanics/hyperelasticity.h>
+#include <nmm/materials/hyperelasticity.h>
 
 #include <array>
 #include <mechanics/element_tables.h>

@@ -1,5 +1,5 @@
+#include <nmm/covers/weight_functions.h>
 #include <nmm/mechanics/displacement_field.h>
-#include <nmm/mechanics/weight_functions.h>
 
 #include <limits>
 

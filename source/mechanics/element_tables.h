@@ -2,7 +2,7 @@
 #define nmm_source_mechanics_element_tables_h
 
 #include <nmm/covers/cover_system.h>
-#include <nmm/mechanics/weight_functions.h>
+#include <nmm/covers/weight_functions.h>
 #include <nmm/quadrature/element_quadrature.h>
 
 #include <vector>

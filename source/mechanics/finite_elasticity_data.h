@@ -4,7 +4,7 @@
 #include <nmm/mechanics/finite_elasticity.h>
 
 #include <array>
-#include <mechanics/block_system.h>
+#include <linear_algebra/block_system.h>
 #include <mechanics/conserving_terms.h>
 #include <mechanics/curve_conditions.h>
 #include <mechanics/edge_tables.h>

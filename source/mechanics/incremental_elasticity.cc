@@ -5,13 +5,13 @@
 
 #include <cmath>
 #include <limits>
-#include <mechanics/block_system.h>
+#include <linear_algebra/block_system.h>
+#include <linear_algebra/mumps_solver.h>
 #include <mechanics/curve_conditions.h>
 #include <mechanics/edge_tables.h>
 #include <mechanics/element_tables.h>
 #include <mechanics/finite_terms.h>
 #include <mechanics/floating_blocks.h>
-#include <mechanics/mumps_solver.h>
 #include <mechanics/nodal_values.h>
 #include <mechanics/point_terms.h>
 #include <mechanics/trace_constant.h>

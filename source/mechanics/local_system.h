@@ -1,7 +1,7 @@
 #ifndef nmm_source_mechanics_local_system_h
 #define nmm_source_mechanics_local_system_h
 
-#include <nmm/mechanics/weight_functions.h>
+#include <nmm/covers/weight_functions.h>
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include <nmm/mechanics/mass_matrix.h>
 
-#include <mechanics/block_system.h>
+#include <linear_algebra/block_system.h>
 #include <mechanics/ghost_terms.h>
 #include <mechanics/local_system.h>
 

@@ -1,12 +1,12 @@
 #include <nmm/mechanics/static_elasticity.h>
 
 #include <base/in_order.h>
-#include <mechanics/block_system.h>
+#include <linear_algebra/block_system.h>
+#include <linear_algebra/linear_solver.h>
 #include <mechanics/boundary_terms.h>
 #include <mechanics/curve_conditions.h>
 #include <mechanics/floating_blocks.h>
 #include <mechanics/ghost_terms.h>
-#include <mechanics/linear_solver.h>
 #include <mechanics/local_system.h>
 #include <mechanics/point_terms.h>
 #include <mechanics/trace_constant.h>

@@ -1,6 +1,6 @@
 #include <nmm/covers/point_location.h>
+#include <nmm/covers/weight_functions.h>
 #include <nmm/mechanics/stress_recovery.h>
-#include <nmm/mechanics/weight_functions.h>
 
 #include <deal.II/base/mpi.h>
 

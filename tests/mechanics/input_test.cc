@@ -1,6 +1,6 @@
 // Parameters: materials, checks of the problem, weight functions.
 
-#include <nmm/mechanics/weight_functions.h>
+#include <nmm/covers/weight_functions.h>
 
 #include <deal.II/fe/fe_simplex_p.h>
 

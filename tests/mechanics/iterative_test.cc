@@ -2,8 +2,8 @@
 // positive definite, and steps that depend neither on the mesh nor on how it is cut.
 
 #include <gtest/gtest.h>
+#include <linear_algebra/two_level_preconditioner.h>
 #include <mechanics/model.h>
-#include <mechanics/two_level_preconditioner.h>
 
 using namespace NMM;
 using namespace NMM::Test;

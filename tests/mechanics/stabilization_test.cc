@@ -1,7 +1,7 @@
 // Ghost penalty, mass matrix and condition number against closed solutions and
 // dense linear algebra.
 
-#include <nmm/mechanics/condition_number.h>
+#include <nmm/linear_algebra/condition_number.h>
 #include <nmm/mechanics/mass_matrix.h>
 
 #include <Eigen/Eigenvalues>

@@ -7,7 +7,7 @@
 // Each kernel ends with a dump whose name is what|for each of what|how many.
 
 #include <nmm/base/exceptions.h>
-#include <nmm/mechanics/hyperelasticity.h>
+#include <nmm/materials/hyperelasticity.h>
 #include <nmm/quadrature/element_rule_builder.h>
 
 #include <contact/contact_terms.h>

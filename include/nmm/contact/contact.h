@@ -4,7 +4,7 @@
 #include <nmm/base/step_fault.h>
 #include <nmm/contact/contact_integration.h>
 #include <nmm/contact/contact_surface.h>
-#include <nmm/mechanics/block_matrix.h>
+#include <nmm/linear_algebra/block_matrix.h>
 
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>

@@ -2,8 +2,8 @@
 #define nmm_contact_contact_surface_h
 
 #include <nmm/covers/cover_system.h>
+#include <nmm/covers/weight_functions.h>
 #include <nmm/geometry/curve.h>
-#include <nmm/mechanics/weight_functions.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>

@@ -4,8 +4,8 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/base/step_fault.h>
 #include <nmm/base/types.h>
-#include <nmm/mechanics/block_matrix.h>
-#include <nmm/mechanics/hyperelasticity.h>
+#include <nmm/linear_algebra/block_matrix.h>
+#include <nmm/materials/hyperelasticity.h>
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/lac/affine_constraints.h>

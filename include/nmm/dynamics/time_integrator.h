@@ -3,7 +3,7 @@
 
 #include <nmm/dynamics/mechanical_model.h>
 #include <nmm/dynamics/time_scheme.h>
-#include <nmm/mechanics/newton_solver.h>
+#include <nmm/solution/newton_solver.h>
 
 #include <deal.II/base/tensor.h>
 

@@ -2,7 +2,7 @@
 #define nmm_mechanics_elastic_system_h
 
 #include <nmm/mechanics/finite_elasticity.h>
-#include <nmm/mechanics/newton_solver.h>
+#include <nmm/solution/newton_solver.h>
 
 namespace NMM
 {

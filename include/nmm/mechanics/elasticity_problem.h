@@ -1,7 +1,7 @@
 #ifndef nmm_mechanics_elasticity_problem_h
 #define nmm_mechanics_elasticity_problem_h
 
-#include <nmm/mechanics/material.h>
+#include <nmm/materials/material.h>
 
 #include <deal.II/base/function.h>
 #include <deal.II/base/point.h>

@@ -2,8 +2,8 @@
 #define nmm_mechanics_finite_elasticity_h
 
 #include <nmm/covers/cover_system.h>
+#include <nmm/materials/hyperelasticity.h>
 #include <nmm/mechanics/elasticity_problem.h>
-#include <nmm/mechanics/hyperelasticity.h>
 #include <nmm/quadrature/element_quadrature.h>
 
 #include <deal.II/lac/affine_constraints.h>

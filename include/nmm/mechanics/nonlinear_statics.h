@@ -2,7 +2,7 @@
 #define nmm_mechanics_nonlinear_statics_h
 
 #include <nmm/mechanics/finite_elasticity.h>
-#include <nmm/mechanics/newton_solver.h>
+#include <nmm/solution/newton_solver.h>
 
 #include <functional>
 #include <vector>

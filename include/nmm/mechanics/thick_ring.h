@@ -1,7 +1,7 @@
 #ifndef nmm_mechanics_thick_ring_h
 #define nmm_mechanics_thick_ring_h
 
-#include <nmm/mechanics/material.h>
+#include <nmm/materials/material.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/symmetric_tensor.h>

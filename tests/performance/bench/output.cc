@@ -2,7 +2,7 @@
 
 #include <nmm/dynamics/elastic_models.h>
 #include <nmm/dynamics/time_integrator.h>
-#include <nmm/io/vtu.h>
+#include <nmm/output/vtu.h>
 
 #include "staged_model.h"
 #include <filesystem>

@@ -1,7 +1,7 @@
 // The slope of jointed rock of applications/nmm/scenes/slope.prm, that slides when its
 // wall is taken away.
 
-#include <nmm/io/scene.h>
+#include <nmm/scene/scene.h>
 
 #include "measure.h"
 #include "timed_model.h"

@@ -1,4 +1,4 @@
-#include <nmm/mechanics/condition_number.h>
+#include <nmm/linear_algebra/condition_number.h>
 #include <nmm/mechanics/mass_matrix.h>
 #include <nmm/quadrature/element_quadrature.h>
 

@@ -1,0 +1,90 @@
+#ifndef nmm_materials_material_h
+#define nmm_materials_material_h
+
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <limits>
+#include <string>
+
+namespace NMM
+{
+  /// What is assumed about the third direction.
+  enum class PlaneState
+  {
+    /// sigma_zz = 0 (thin plates).
+    plane_stress,
+    /// epsilon_zz = 0 (long bodies).
+    plane_strain
+  };
+
+  /// How stress follows from deformation in `finite` kinematics; `small` and
+  /// `incremental` take the linear law whatever is named here.
+  enum class MaterialLaw
+  {
+    /// Stress is linear in strain; in `finite` kinematics the second
+    /// Piola-Kirchhoff stress in Green-Lagrange strain: the next one.
+    linear,
+    /// W = lambda/2 (tr E)^2 + mu E : E. For large rotations with moderate
+    /// strains; it gives way under strong compression.
+    st_venant_kirchhoff,
+    /// W = mu/2 (J^(-2/3) I_1 - 3) + K/2 (J - 1)^2. For large strains.
+    neo_hookean
+  };
+
+  /**
+   * The two constants of plane isotropic elasticity,
+   * @f[ \sigma = \lambda\,\mathrm{tr}(\varepsilon)\,I + 2\mu\,\varepsilon, @f]
+   * in-plane components only: lambda = E nu / ((1 + nu)(1 - 2 nu)) in plane
+   * strain, E nu / (1 - nu^2) in plane stress, mu = E / (2 (1 + nu)) in both
+   * [Pa].
+   */
+  struct PlaneElasticity
+  {
+    double lambda = 0.;
+    double mu     = 0.;
+
+    /// sigma without initial stress [Pa] from du_i/dx_j [-].
+    dealii::SymmetricTensor<2, 2>
+    stress(const dealii::Tensor<2, 2> &gradient) const;
+
+    /// Largest eigenvalue of the elasticity tensor, max(2 mu, 2 (lambda + mu))
+    /// [Pa]: |sigma|^2 <= largest_eigenvalue() * (epsilon : C : epsilon).
+    double
+    largest_eigenvalue() const;
+  };
+
+  /// An isotropic, elastic material. Units are any consistent set; SI
+  /// is written here.
+  struct Material
+  {
+    std::string name;
+    /// E [Pa], > 0.
+    double youngs_modulus = std::numeric_limits<double>::signaling_NaN();
+    /// nu [-], in (-1, 0.5).
+    double poissons_ratio = std::numeric_limits<double>::signaling_NaN();
+    /// rho [kg/m^3], >= 0.
+    double      density = 0.;
+    MaterialLaw law     = MaterialLaw::linear;
+    /// sigma_0 of the paper's eq. (9), tension positive [Pa]; in `finite`
+    /// kinematics the second Piola-Kirchhoff stress at rest.
+    dealii::SymmetricTensor<2, 2> initial_stress;
+
+    /// @throws InputError naming the material, the parameter and its value.
+    void
+    check(PlaneState plane_state) const;
+
+    PlaneElasticity
+    plane_elasticity(PlaneState plane_state) const;
+
+    /// sigma = C : epsilon, the in-plane part [Pa].
+    dealii::SymmetricTensor<4, 2>
+    elasticity_tensor(PlaneState plane_state) const;
+
+    /// sigma_zz for in-plane strain @p strain [Pa]; 0 in plane stress.
+    double
+    out_of_plane_stress(const dealii::SymmetricTensor<2, 2> &strain,
+                        PlaneState                           plane_state) const;
+  };
+} // namespace NMM
+
+#endif

@@ -1,0 +1,133 @@
+#ifndef nmm_scene_scene_parameters_contact_h
+#define nmm_scene_scene_parameters_contact_h
+
+#include <nmm/contact/contact_integration.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace NMM
+{
+  enum class Analysis;
+  enum class Kinematics;
+
+  /// How faces are kept from passing through each other.
+  enum class Enforcement
+  {
+    /// There is no contact.
+    none,
+    penalty,
+    augmented_lagrangian
+  };
+
+
+  /// How two faces act on each other: entries of `Contact` and of its laws.
+  struct ContactLawParameters
+  {
+    /// Of a law's subsection; empty: the section `Contact` itself.
+    std::string name;
+    /// Names of faces, "any" for all. Laws only.
+    std::array<std::string, 2> between;
+    /// [Pa/m]; 0: the section's, or chosen, see
+    /// Scene::make_contact_parameters().
+    double normal_stiffness = 0., shear_stiffness = 0.;
+    /// Dashpots [Pa s/m].
+    double normal_damping = 0., shear_damping = 0.;
+    /// [degrees].
+    double friction_angle = 0.;
+    /// [Pa].
+    double cohesion         = 0.;
+    bool   is_bonded        = false;
+    double tensile_strength = 0.;
+    /// [degrees]; [m], 0: no limit.
+    double dilation_angle = 0., dilation_limit = 0.;
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+
+    /// A law with its entry `Between`.
+    static void
+    declare_law(dealii::ParameterHandler &prm);
+
+    void
+    parse(dealii::ParameterHandler &prm);
+
+    /// @throws InputError naming the parameter and its value. @p may_be_damped: do
+    /// time steps know dashpots?
+    void
+    check(bool may_be_damped) const;
+
+  private:
+    /// "parameter 'Contact/.../key'".
+    std::string
+    place(const std::string &key) const;
+  };
+
+
+  /// The section `Contact`.
+  struct ContactSectionParameters
+  {
+    Enforcement enforcement = Enforcement::none;
+    /// For faces that no law names.
+    ContactLawParameters law;
+    /// The first one that fits holds.
+    std::vector<ContactLawParameters> laws;
+    /// Augmented Lagrangian [m]; 0: chosen.
+    double penetration_tolerance = 0.;
+    /// [m]; 0: chosen.
+    double reach = 0.;
+    /// Above which a step fails [m]; 0: the cell size at faces.
+    double             max_penetration = 0.;
+    unsigned int       n_points        = 4;
+    ContactIntegration integration     = ContactIntegration::length;
+    /// Joints that are faces in contact, or tied, whatever the geometry says.
+    std::vector<std::string> open_joints, tied_joints;
+
+    bool
+    is_present() const
+    {
+      return enforcement != Enforcement::none;
+    }
+
+    static void
+    declare(dealii::ParameterHandler       &prm,
+            const std::vector<std::string> &law_names);
+    void
+    parse(dealii::ParameterHandler       &prm,
+          const std::vector<std::string> &law_names);
+
+    /// @throws InputError naming the parameter that is wrong, or would not be
+    /// used.
+    void
+    check(Analysis analysis, Kinematics kinematics, bool may_be_damped) const;
+
+  private:
+    void
+    check_unused() const;
+  };
+
+
+  /// A rigid body: a subsection of `Obstacles`.
+  struct ObstacleParameters
+  {
+    std::string name;
+    /// Geometry file relative to the scene file, or a shape of one.
+    std::string file, shape;
+    /// "ux; uy", each as an amplitude [m]; empty: at rest.
+    std::string displacement;
+    /// It is gone from this time on [s]; negative: never.
+    double release_time = -1.;
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
+    void
+    check(Analysis analysis) const;
+  };
+} // namespace NMM
+
+#endif

@@ -1,0 +1,60 @@
+#ifndef nmm_scene_scene_parameters_covers_h
+#define nmm_scene_scene_parameters_covers_h
+
+#include <nmm/covers/aggregation.h>
+#include <nmm/covers/own_meshes.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/point.h>
+
+#include <string>
+#include <vector>
+
+namespace NMM
+{
+  /// The mathematical mesh of one block: a subsection of `Covers`.
+  struct BlockMeshParameters
+  {
+    std::string name;
+    /// A point inside of the block [m].
+    dealii::Point<2> block;
+    RegionMesh       mesh;
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    /// @throws InputError without a point.
+    void
+    parse(dealii::ParameterHandler &prm);
+  };
+
+
+  /// The section `Covers`.
+  struct CoverParameters
+  {
+    Stabilization stabilization = Stabilization::aggregation;
+    /// Least element_support() that makes an element good [-].
+    double threshold = default_aggregation_threshold;
+    /// Of all regions but those of `blocks`, see make_own_meshes().
+    RegionMesh                       mesh;
+    std::vector<BlockMeshParameters> blocks;
+    /// Does each rank hold a part of the mathematical mesh only, see
+    /// make_distributed_mesh()?
+    bool is_distributed = false;
+
+    static void
+    declare(dealii::ParameterHandler       &prm,
+            const std::vector<std::string> &block_names);
+    void
+    parse(dealii::ParameterHandler &prm);
+    /// @throws InputError for a number of elements that is missing or not used.
+    void
+    check() const;
+
+    /// Is the size of the main mesh's cells of no consequence, so that it need not
+    /// be given?
+    bool
+    may_choose_cell_size() const;
+  };
+} // namespace NMM
+
+#endif

@@ -1,0 +1,115 @@
+#ifndef nmm_scene_scene_parameters_geometry_h
+#define nmm_scene_scene_parameters_geometry_h
+
+#include <nmm/geometry/joint_network.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+#include <vector>
+
+namespace NMM
+{
+  /**
+   * The sections of a scene file. Every struct declares and parses the entries
+   * of its own section (the caller has entered it) and checks what patterns
+   * cannot express. Units are any consistent set; the help texts name SI ones.
+   *
+   * Sections that hold a list have an entry `Names`; each name has a
+   * subsection of its own, so the list must be known before the entries can be
+   * declared: see SceneNames.
+   */
+
+  /// The section `Geometry`.
+  struct GeometryParameters
+  {
+    /// WKT geometry file, relative to the scene file; empty: `text` is used.
+    std::string file;
+    /// Geometry records separated by semicolons.
+    std::string text;
+    /// Tolerance of the cleaning step [m]; 0: off.
+    double cleaning_tolerance = 0.;
+    /// Joints lose what bounds no block.
+    bool drops_ends = false;
+    /// Blocks below this are told of [m^2]; 0: none.
+    double small_block = 0.;
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
+    void
+    check() const;
+  };
+
+
+  /// A set of joints: a subsection of `Joint sets`. See JointSet.
+  struct JointSetParameters
+  {
+    static void
+    declare(dealii::ParameterHandler &prm);
+    /// @throws InputError for a value that is wrong.
+    static JointSet
+    parse(dealii::ParameterHandler &prm, const std::string &name);
+  };
+
+
+  /// Joints from a file of their own: a subsection of `Traces`.
+  struct TraceParameters
+  {
+    std::string name;
+    /// DXF drawing (.dxf) or geometry file, relative to the scene file.
+    std::string file;
+    /// Of a drawing, those that are read; empty: all.
+    std::vector<std::string> layers;
+    /// What all are called; empty: after their layers, or as in the file.
+    std::string label;
+    JointState  state = JointState::open;
+    std::string within;
+
+    bool
+    is_drawing() const;
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
+    void
+    check() const;
+  };
+
+
+  /// A place in the scene: a subsection of `Regions`.
+  struct RegionParameters
+  {
+    enum class Use
+    {
+      /// For materials and joint sets only.
+      place,
+      /// What is inside is taken out of the solid.
+      excavation,
+      /// The same, and a rigid body is in its place until it is released.
+      restraint,
+      /// Blocks that leave it are dropped.
+      limit
+    };
+
+    std::string name;
+    /// A closed shape, or a geometry file with one.
+    std::string shape, file;
+    Use         use = Use::place;
+    /// Of blocks inside; empty: what they have.
+    std::string material;
+    /// Restraint [s]; negative: never.
+    double release_time = -1.;
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm);
+    void
+    check() const;
+  };
+} // namespace NMM
+
+#endif

@@ -1,0 +1,377 @@
+#include <Eigen/Dense>
+#include <Epetra_CrsMatrix.h>
+#include <Epetra_Import.h>
+#include <Epetra_Vector.h>
+#include <algorithm>
+#include <linear_algebra/cover_smoother.h>
+
+namespace NMM
+{
+  namespace internal
+  {
+    namespace
+    {
+      /// Sum of products of blocks with pairs of a vector, all four products of a block at
+      /// once.
+      class Sum
+      {
+      public:
+        void
+        add(const float *block, const float *x)
+        {
+          sum += Eigen::Map<const Eigen::Array4f>(block) *
+                 Eigen::Array4f(x[0], x[1], x[0], x[1]);
+        }
+
+        float
+        operator[](const unsigned int c) const
+        {
+          return sum[2 * c] + sum[2 * c + 1];
+        }
+
+      private:
+        Eigen::Array4f sum = Eigen::Array4f::Zero();
+      };
+    } // namespace
+
+
+    CoverSmoother::CoverSmoother(
+      const Epetra_CrsMatrix                  &matrix,
+      const CoverSystem                       &covers,
+      const dealii::AffineConstraints<double> &constraints)
+      : matrix(&matrix)
+    {
+      read(matrix);
+      invert_diagonals();
+      make_patches(covers, constraints);
+    }
+
+
+    unsigned int
+    CoverSmoother::n_owned() const
+    {
+      return n_rows;
+    }
+
+
+    unsigned int
+    CoverSmoother::n_columns() const
+    {
+      return n_all;
+    }
+
+
+    void
+    CoverSmoother::read(const Epetra_CrsMatrix &matrix)
+    {
+      n_rows = matrix.NumMyRows() / 2;
+      n_all  = matrix.NumMyCols() / 2;
+      row_begin.reserve(n_rows + 1);
+      row_begin.push_back(0);
+      columns.reserve(matrix.NumMyNonzeros() / 4);
+      values.reserve(matrix.NumMyNonzeros());
+      for (unsigned int r = 0; r < n_rows; ++r)
+      {
+        int     n, n_second, *indices;
+        double *first, *second;
+        matrix.ExtractMyRowView(2 * r, n, first, indices);
+        matrix.ExtractMyRowView(2 * r + 1, n_second, second);
+        AssertDimension(n, n_second);
+        diagonal.push_back(invalid_index);
+        for (int i = 0; i < n; i += 2)
+        {
+          Assert(indices[i] % 2 == 0 && indices[i + 1] == indices[i] + 1,
+                 dealii::ExcInternalError());
+          const unsigned int column = indices[i] / 2;
+          if (column == r)
+            diagonal.back() = columns.size();
+          columns.push_back(column);
+          for (const double *row : {first, second})
+            for (unsigned int c = 0; c < 2; ++c)
+              values.push_back(row[i + c]);
+        }
+        Assert(diagonal.back() != invalid_index, dealii::ExcInternalError());
+        Assert(std::is_sorted(columns.begin() + row_begin[r], columns.end()),
+               dealii::ExcInternalError());
+        row_begin.push_back(columns.size());
+        owned_end.push_back(std::lower_bound(columns.begin() + row_begin[r],
+                                             columns.end(),
+                                             n_rows) -
+                            columns.begin());
+      }
+    }
+
+
+    void
+    CoverSmoother::invert_diagonals()
+    {
+      if (n_all > n_rows)
+        addition.assign(2 * n_rows, 0.F);
+      inverse_diagonal.resize(4 * n_rows);
+      for (unsigned int r = 0; r < n_rows; ++r)
+      {
+        for (unsigned int i = owned_end[r]; i < row_begin[r + 1]; ++i)
+          for (unsigned int c = 0; c < 4; ++c)
+            addition[2 * r + c / 2] += 0.5F * std::abs(values[4 * i + c]);
+        const float *a        = values.data() + 4 * diagonal[r];
+        const double extra[2] = {addition.empty() ? 0. : addition[2 * r],
+                                 addition.empty() ? 0. : addition[2 * r + 1]};
+        const double a00 = a[0] + extra[0], a11 = a[3] + extra[1],
+                     a01         = 0.5 * (double(a[1]) + a[2]),
+                     determinant = a00 * a11 - a01 * a01;
+        float *inverse           = inverse_diagonal.data() + 4 * r;
+        inverse[0]               = a11 / determinant;
+        inverse[3]               = a00 / determinant;
+        inverse[1] = inverse[2] = -a01 / determinant;
+      }
+    }
+
+
+    void
+    CoverSmoother::make_patches(
+      const CoverSystem                       &covers,
+      const dealii::AffineConstraints<double> &constraints)
+    {
+      const ManifoldMesh &mesh = covers.manifold_mesh();
+      const auto [first, last] = covers.locally_owned_elements();
+      const unsigned int first_cover =
+        n_rows > 0 ? covers.locally_owned_covers().nth_index_in_set(0) : 0;
+      std::vector<unsigned int> rows;
+      const auto                add = [&](const unsigned int cover) {
+        if (cover >= first_cover && cover < first_cover + n_rows)
+          rows.push_back(cover - first_cover);
+      };
+      for (unsigned int e = first; e < last; ++e)
+      {
+        if (mesh.is_whole(e))
+          continue;
+        rows.clear();
+        for (const unsigned int k : covers.covers(e))
+        {
+          const unsigned int cover   = covers.global_cover(k);
+          bool               is_free = true;
+          for (unsigned int c = 0; c < 2; ++c)
+            if (const auto *entries =
+                  constraints.get_constraint_entries(2 * cover + c))
+            {
+              is_free = false;
+              for (const auto &entry : *entries)
+                add(entry.first / 2);
+            }
+          if (is_free)
+            add(cover);
+        }
+        std::sort(rows.begin(), rows.end());
+        rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+        add_patch(rows);
+      }
+    }
+
+
+    void
+    CoverSmoother::add_patch(const std::vector<unsigned int> &rows)
+    {
+      // What is nearly singular is moved this far away from it, in comparison with the
+      // diagonal, so that single precision is enough.
+      constexpr double shift = 1e-5;
+      // A patch whose scaled inverse is smaller is done well by Gauss-Seidel.
+      constexpr double least_norm = 4.;
+      if (rows.size() < 2)
+        return;
+      const unsigned int n = 2 * rows.size();
+      Eigen::MatrixXd    block(n, n);
+      block.setZero();
+      for (unsigned int i = 0; i < rows.size(); ++i)
+      {
+        unsigned int j = 0;
+        for (unsigned int k = row_begin[rows[i]]; k < owned_end[rows[i]]; ++k)
+        {
+          while (j < rows.size() && rows[j] < columns[k])
+            ++j;
+          if (j < rows.size() && rows[j] == columns[k])
+            for (unsigned int c = 0; c < 4; ++c)
+              block(2 * i + c / 2, 2 * j + c % 2) = values[4 * k + c];
+        }
+        if (!addition.empty())
+          for (unsigned int c = 0; c < 2; ++c)
+            block(2 * i + c, 2 * i + c) += addition[2 * rows[i] + c];
+      }
+      const Eigen::VectorXd scaling =
+        block.diagonal().cwiseSqrt().cwiseInverse();
+      block = scaling.asDiagonal() * block * scaling.asDiagonal();
+      block.diagonal().array() += shift;
+      const Eigen::LLT<Eigen::MatrixXd> factorization(block);
+      // a matrix that is no positive definite one is not for this method at all
+      if (factorization.info() != Eigen::Success)
+        return;
+      block = factorization.solve(Eigen::MatrixXd::Identity(n, n));
+      if (block.cwiseAbs().rowwise().sum().maxCoeff() < least_norm)
+        return;
+      block = scaling.asDiagonal() * block * scaling.asDiagonal();
+
+      Patch patch;
+      patch.begin = patch_rows.size();
+      patch_rows.insert(patch_rows.end(), rows.begin(), rows.end());
+      patch.end     = patch_rows.size();
+      patch.inverse = patch_inverses.size();
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          patch_inverses.push_back(0.5 * (block(i, j) + block(j, i)));
+      patches.push_back(patch);
+      if (patch_residual.size() < n)
+      {
+        patch_residual.resize(n);
+        patch_solution.resize(n);
+      }
+    }
+
+
+    void
+    CoverSmoother::solve_patch(const Patch &patch,
+                               const float *r,
+                               float       *product) const
+    {
+      const unsigned int n       = 2 * (patch.end - patch.begin);
+      const float       *inverse = patch_inverses.data() + patch.inverse;
+      std::fill(product, product + n, 0.F);
+      // symmetric: by columns, which vectorizes
+      for (unsigned int j = 0; j < n; ++j, inverse += n)
+        for (unsigned int i = 0; i < n; ++i)
+          product[i] += inverse[i] * r[j];
+    }
+
+
+    void
+    CoverSmoother::update_ghosts(std::vector<float> &x)
+    {
+      const Epetra_Import *importer = matrix->Importer();
+      if (importer == nullptr)
+        return;
+      Epetra_Vector owned(matrix->RowMap()), all(matrix->ColMap());
+      std::copy(x.begin(), x.begin() + 2 * n_rows, owned.Values());
+      all.Import(owned, *importer, Insert);
+      std::copy(all.Values() + 2 * n_rows,
+                all.Values() + 2 * n_all,
+                x.begin() + 2 * n_rows);
+    }
+
+
+    void
+    CoverSmoother::pre_smooth(const std::vector<float> &rhs,
+                              std::vector<float>       &x,
+                              std::vector<float>       &residual)
+    {
+      // (D + L) x = b
+      for (unsigned int r = 0; r < n_rows; ++r)
+      {
+        Sum sum;
+        for (unsigned int i = row_begin[r]; i < diagonal[r]; ++i)
+          sum.add(values.data() + 4 * i, x.data() + 2 * columns[i]);
+        const float  s0 = rhs[2 * r] - sum[0], s1 = rhs[2 * r + 1] - sum[1];
+        const float *d = inverse_diagonal.data() + 4 * r;
+        x[2 * r]       = d[0] * s0 + d[1] * s1;
+        x[2 * r + 1]   = d[2] * s0 + d[3] * s1;
+      }
+      // b - (L + D + U) x = -U x
+      for (unsigned int r = 0; r < n_rows; ++r)
+      {
+        Sum sum;
+        for (unsigned int i = diagonal[r] + 1; i < owned_end[r]; ++i)
+          sum.add(values.data() + 4 * i, x.data() + 2 * columns[i]);
+        residual[2 * r]     = -sum[0];
+        residual[2 * r + 1] = -sum[1];
+      }
+      for (const Patch &patch : patches)
+      {
+        const unsigned int *rows = patch_rows.data() + patch.begin;
+        const unsigned int  n    = patch.end - patch.begin;
+        for (unsigned int i = 0; i < 2 * n; ++i)
+          patch_residual[i] = residual[2 * rows[i / 2] + i % 2];
+        solve_patch(patch, patch_residual.data(), patch_solution.data());
+        for (unsigned int k = 0; k < n; ++k)
+        {
+          const unsigned int r  = rows[k];
+          const float        y0 = patch_solution[2 * k],
+                      y1        = patch_solution[2 * k + 1];
+          x[2 * r] += y0;
+          x[2 * r + 1] += y1;
+          // the matrix is symmetric: its column is its row
+          for (unsigned int i = row_begin[r]; i < owned_end[r]; ++i)
+          {
+            const float *a = values.data() + 4 * i;
+            float       *s = residual.data() + 2 * columns[i];
+            s[0] -= a[0] * y0 + a[2] * y1;
+            s[1] -= a[1] * y0 + a[3] * y1;
+          }
+          if (!addition.empty())
+          {
+            residual[2 * r] -= addition[2 * r] * y0;
+            residual[2 * r + 1] -= addition[2 * r + 1] * y1;
+          }
+        }
+      }
+      if (addition.empty())
+        return;
+
+      // so far of this rank's rows and columns with what was added to the diagonal
+      update_ghosts(x);
+      for (unsigned int r = 0; r < n_rows; ++r)
+        if (owned_end[r] < row_begin[r + 1])
+        {
+          Sum sum;
+          for (unsigned int i = owned_end[r]; i < row_begin[r + 1]; ++i)
+            sum.add(values.data() + 4 * i, x.data() + 2 * columns[i]);
+          for (unsigned int c = 0; c < 2; ++c)
+            residual[2 * r + c] += addition[2 * r + c] * x[2 * r + c] - sum[c];
+        }
+    }
+
+
+    void
+    CoverSmoother::residual_of_row(const unsigned int        row,
+                                   const std::vector<float> &rhs,
+                                   const std::vector<float> &x,
+                                   float                    *residual) const
+    {
+      Sum sum;
+      for (unsigned int i = row_begin[row]; i < row_begin[row + 1]; ++i)
+        sum.add(values.data() + 4 * i, x.data() + 2 * columns[i]);
+      for (unsigned int c = 0; c < 2; ++c)
+      {
+        residual[c] = rhs[2 * row + c] - sum[c];
+        if (!addition.empty())
+          residual[c] -=
+            addition[2 * row + c] * (x[2 * row + c] - start[2 * row + c]);
+      }
+    }
+
+
+    void
+    CoverSmoother::post_smooth(const std::vector<float> &rhs,
+                               std::vector<float>       &x)
+    {
+      update_ghosts(x);
+      // what was added to the diagonal acts on what is done here only
+      if (!addition.empty())
+        start.assign(x.begin(), x.begin() + 2 * n_rows);
+      for (auto patch = patches.rbegin(); patch != patches.rend(); ++patch)
+      {
+        const unsigned int *rows = patch_rows.data() + patch->begin;
+        const unsigned int  n    = patch->end - patch->begin;
+        for (unsigned int k = 0; k < n; ++k)
+          residual_of_row(rows[k], rhs, x, patch_residual.data() + 2 * k);
+        solve_patch(*patch, patch_residual.data(), patch_solution.data());
+        for (unsigned int i = 0; i < 2 * n; ++i)
+          x[2 * rows[i / 2] + i % 2] += patch_solution[i];
+      }
+      for (unsigned int r = n_rows; r-- > 0;)
+      {
+        float residual[2];
+        residual_of_row(r, rhs, x, residual);
+        const float *d = inverse_diagonal.data() + 4 * r;
+        x[2 * r] += d[0] * residual[0] + d[1] * residual[1];
+        x[2 * r + 1] += d[2] * residual[0] + d[3] * residual[1];
+      }
+    }
+  } // namespace internal
+} // namespace NMM

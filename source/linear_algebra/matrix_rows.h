@@ -1,0 +1,40 @@
+#ifndef nmm_source_linear_algebra_matrix_rows_h
+#define nmm_source_linear_algebra_matrix_rows_h
+
+#include <deal.II/base/exceptions.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
+#include <Epetra_CrsMatrix.h>
+
+namespace NMM
+{
+  namespace internal
+  {
+    /// The arrays of a matrix with a fixed pattern: for owned row r, entries begins[r] to
+    /// begins[r + 1] - 1 of the others; columns in local numbers. Asking
+    /// Epetra_CrsMatrix for each row takes longer than copying a row of a small block.
+    struct MatrixRows
+    {
+      explicit MatrixRows(const Epetra_CrsMatrix &matrix)
+      {
+        int      *row_begins, *row_columns;
+        const int error =
+          matrix.ExtractCrsDataPointers(row_begins, row_columns, values);
+        AssertThrow(error == 0,
+                    dealii::ExcMessage("The matrix is not compressed."));
+        begins  = row_begins;
+        columns = row_columns;
+      }
+
+      explicit MatrixRows(const dealii::TrilinosWrappers::SparseMatrix &matrix)
+        : MatrixRows(matrix.trilinos_matrix())
+      {
+      }
+
+      const int *begins, *columns;
+      double    *values;
+    };
+  } // namespace internal
+} // namespace NMM
+
+#endif

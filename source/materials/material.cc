@@ -1,0 +1,109 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/materials/material.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace NMM
+{
+  namespace
+  {
+    std::string
+    parameter_message(const std::string &parameter,
+                      const double       value,
+                      const std::string &unit)
+    {
+      std::ostringstream out;
+      out.precision(12);
+      out << parameter << " is " << value << ' ' << unit;
+      return out.str();
+    }
+  } // namespace
+
+
+  dealii::SymmetricTensor<2, 2>
+  PlaneElasticity::stress(const dealii::Tensor<2, 2> &gradient) const
+  {
+    const double volumetric = lambda * (gradient[0][0] + gradient[1][1]);
+
+    dealii::SymmetricTensor<2, 2> sigma;
+    sigma[0][0] = volumetric + 2. * mu * gradient[0][0];
+    sigma[1][1] = volumetric + 2. * mu * gradient[1][1];
+    sigma[0][1] = mu * (gradient[0][1] + gradient[1][0]);
+    return sigma;
+  }
+
+
+  double
+  PlaneElasticity::largest_eigenvalue() const
+  {
+    return 2. * (mu + std::max(0., lambda));
+  }
+
+
+  void
+  Material::check(const PlaneState plane_state) const
+  {
+    const std::string where = "material \"" + name + "\"";
+
+    AssertThrow(
+      std::isfinite(youngs_modulus) && youngs_modulus > 0.,
+      InputError(parameter_message("Young's modulus", youngs_modulus, "Pa"),
+                 where,
+                 "give a positive number"));
+    AssertThrow(
+      std::isfinite(poissons_ratio) && poissons_ratio > -1. &&
+        poissons_ratio < 0.5,
+      InputError(
+        parameter_message("Poisson's ratio", poissons_ratio, "[-]"),
+        where,
+        plane_state == PlaneState::plane_strain && poissons_ratio == 0.5
+          ? "an incompressible material has no finite stiffness in plane "
+            "strain; give a number above -1 and below 0.5, e.g. 0.499"
+          : "give a number above -1 and below 0.5"));
+    AssertThrow(std::isfinite(density) && density >= 0.,
+                InputError(parameter_message("Density", density, "kg/m^3"),
+                           where,
+                           "give a number that is not negative"));
+    AssertThrow(std::isfinite(initial_stress.norm()),
+                InputError("Initial stress is not finite",
+                           where,
+                           "give three numbers xx, yy, xy in Pa"));
+  }
+
+
+  PlaneElasticity
+  Material::plane_elasticity(const PlaneState plane_state) const
+  {
+    const double nu = poissons_ratio;
+
+    PlaneElasticity constants;
+    constants.mu     = youngs_modulus / (2. * (1. + nu));
+    constants.lambda = plane_state == PlaneState::plane_strain
+                         ? youngs_modulus * nu / ((1. + nu) * (1. - 2. * nu))
+                         : youngs_modulus * nu / (1. - nu * nu);
+    return constants;
+  }
+
+
+  dealii::SymmetricTensor<4, 2>
+  Material::elasticity_tensor(const PlaneState plane_state) const
+  {
+    const PlaneElasticity c        = plane_elasticity(plane_state);
+    const auto            identity = dealii::unit_symmetric_tensor<2>();
+
+    return c.lambda * dealii::outer_product(identity, identity) +
+           2. * c.mu * dealii::identity_tensor<2>();
+  }
+
+
+  double
+  Material::out_of_plane_stress(const dealii::SymmetricTensor<2, 2> &strain,
+                                const PlaneState plane_state) const
+  {
+    if (plane_state == PlaneState::plane_stress)
+      return 0.;
+    return plane_elasticity(plane_state).lambda * dealii::trace(strain);
+  }
+} // namespace NMM

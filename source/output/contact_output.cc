@@ -1,0 +1,420 @@
+#include <nmm/base/program.h>
+#include <nmm/output/contact_output.h>
+#include <nmm/output/vtu.h>
+
+#include <deal.II/base/data_out_base.h>
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iomanip>
+#include <regex>
+#include <sstream>
+#include <tuple>
+
+namespace NMM
+{
+  using dealii::Point;
+  using dealii::Tensor;
+  namespace Parallel = dealii::Utilities::MPI;
+
+  namespace
+  {
+    constexpr const char *table_name = "contacts.csv";
+
+    MPI_Comm
+    communicator(const ContactSurface &surface)
+    {
+      return surface.cover_system().communicator();
+    }
+
+
+    Tensor<1, 2>
+    traction_of(const double        pressure,
+                const double        shear,
+                const Tensor<1, 2> &normal)
+    {
+      return pressure * normal - shear * Point<2>(-normal[1], normal[0]);
+    }
+
+
+    /// Numbers that stand for a sample between ranks.
+    constexpr unsigned int n_packed = 15;
+
+
+    /// In the CSV manner where that is needed.
+    std::string
+    quoted(const std::string &text)
+    {
+      if (text.find_first_of(",\"") == std::string::npos)
+        return text;
+      return '"' + std::regex_replace(text, std::regex("\""), "\"\"") + '"';
+    }
+
+
+    template <typename Value>
+    void
+    write_array(std::ostream                     &out,
+                const std::string                &name,
+                const unsigned int                n_components,
+                const std::vector<ContactSample> &points,
+                const Value                      &value)
+    {
+      out << "<DataArray type=\"Float64\" Name=\"" << name
+          << "\" NumberOfComponents=\"" << n_components
+          << "\" format=\"ascii\">\n";
+      for (const ContactSample &point : points)
+      {
+        value(point);
+        out << '\n';
+      }
+      out << "</DataArray>\n";
+    }
+  } // namespace
+
+
+  Tensor<1, 2>
+  ContactSample::traction() const
+  {
+    return traction_of(pressure, shear, normal);
+  }
+
+
+  const std::string &
+  to_string(const ContactState state)
+  {
+    static const std::string words[] = {"open", "stick", "slip"};
+    return words[static_cast<unsigned int>(state)];
+  }
+
+
+  std::vector<ContactSample>
+  gather_contact_points(const ContactSurface            &surface,
+                        const std::vector<ContactPoint> &points)
+  {
+    std::vector<double> mine;
+    for (const ContactPoint &point : points)
+      if (point.master != invalid_index && point.weight != 0.)
+      {
+        const Point<2> X = surface.reference_place(point.edge, point.s).x;
+        mine.insert(mine.end(),
+                    {X[0],
+                     X[1],
+                     point.x[0],
+                     point.x[1],
+                     point.normal[0],
+                     point.normal[1],
+                     double(point.edge),
+                     double(point.master),
+                     point.gap,
+                     point.pressure,
+                     point.shear,
+                     point.weight,
+                     double(static_cast<unsigned int>(point.state)),
+                     double(point.is_bonded),
+                     point.s});
+      }
+    const auto all = Parallel::gather(communicator(surface), mine);
+    std::vector<ContactSample> result;
+    for (const std::vector<double> &part : all)
+      for (auto v = part.begin(); v != part.end(); v += n_packed)
+      {
+        ContactSample point;
+        point.reference = Point<2>(v[0], v[1]);
+        point.x         = Point<2>(v[2], v[3]);
+        point.normal    = Point<2>(v[4], v[5]);
+        point.slave     = static_cast<unsigned int>(v[6]);
+        point.master    = static_cast<unsigned int>(v[7]);
+        point.gap       = v[8];
+        point.pressure  = v[9];
+        point.shear     = v[10];
+        point.weight    = v[11];
+        point.state     = static_cast<ContactState>(static_cast<int>(v[12]));
+        point.is_bonded = v[13] != 0.;
+        point.s         = v[14];
+        result.push_back(point);
+      }
+    std::stable_sort(result.begin(),
+                     result.end(),
+                     [](const ContactSample &a, const ContactSample &b) {
+                       return std::tie(a.slave, a.s, a.master) <
+                              std::tie(b.slave, b.s, b.master);
+                     });
+    return result;
+  }
+
+
+  std::vector<Tensor<1, 2>>
+  obstacle_forces(const ContactSurface            &surface,
+                  const std::vector<ContactPoint> &points)
+  {
+    const unsigned int  n     = surface.obstacles().size();
+    const unsigned int  first = surface.n_bodies() - n;
+    std::vector<double> sums(2 * n, 0.);
+    const auto          add = [&](const unsigned int  edge,
+                         const double        weight,
+                         const Tensor<1, 2> &traction) {
+      if (surface.is_rigid(edge))
+        for (unsigned int c = 0; c < 2; ++c)
+          sums[2 * (surface.edges()[edge].body - first) + c] +=
+            weight * traction[c];
+    };
+    for (const ContactPoint &point : points)
+      if (point.state != ContactState::open)
+      {
+        const Tensor<1, 2> traction =
+          traction_of(point.pressure, point.shear, point.normal);
+        // corners of obstacles are slaves
+        add(point.edge, point.weight, traction);
+        add(point.master, -point.weight, traction);
+      }
+    if (n > 0)
+      Parallel::sum(sums, communicator(surface), sums);
+    std::vector<Tensor<1, 2>> forces(n);
+    for (unsigned int i = 0; i < n; ++i)
+      forces[i] = Point<2>(sums[2 * i], sums[2 * i + 1]);
+    return forces;
+  }
+
+
+  double
+  largest_pressure(const ContactSurface            &surface,
+                   const std::vector<ContactPoint> &points)
+  {
+    double largest = 0.;
+    for (const ContactPoint &point : points)
+      if (point.state != ContactState::open && point.weight != 0.)
+        largest = std::max(largest, point.pressure);
+    return Parallel::max(largest, communicator(surface));
+  }
+
+
+  void
+  add_contact(const ContactSurface             &surface,
+              const std::vector<ContactSample> &points,
+              PictureData                      &data,
+              const double                      least)
+  {
+    const unsigned int first = surface.n_bodies() - surface.obstacles().size();
+    const auto         corners = surface.cover_system()
+                           .manifold_mesh()
+                           .physical_mesh()
+                           .bounding_box()
+                           .get_boundary_points();
+    // what was released is far away
+    const double far = 1e3 * corners.first.distance(corners.second);
+    for (unsigned int e = 0; e < surface.edges().size(); ++e)
+      if (surface.is_rigid(e))
+      {
+        const ContactSurface::Edge &edge = surface.edges()[e];
+        const Tensor<1, 2>         &shift =
+          surface.obstacle_displacement(edge.body - first);
+        if (shift.norm() > far)
+          continue;
+        const double sweep = edge.last_angle - edge.first_angle;
+        const auto   n     = 1 + static_cast<unsigned int>(
+                             edge.radius == 0. ? 0. : std::abs(sweep) / 0.05);
+        PictureData::Polyline line;
+        for (unsigned int i = 0; i <= n; ++i)
+          line.push_back({surface.reference_place(e, double(i) / n).x, shift});
+        data.obstacles.push_back(line);
+      }
+    for (const ContactSample &point : points)
+      if (point.state != ContactState::open && point.traction().norm() >= least)
+        // of an obstacle's corner the force on the solid
+        data.contacts.push_back(
+          {{point.reference, point.x - point.reference},
+           (surface.is_rigid(point.slave) ? -1. : 1.) * point.traction(),
+           point.is_bonded                     ? PictureData::Bar::bonded
+           : point.state == ContactState::slip ? PictureData::Bar::slips
+                                               : PictureData::Bar::sticks});
+  }
+
+
+  ContactSeries::ContactSeries(const ContactSurface  &surface,
+                               const OutputDirectory &directory,
+                               std::string            value_name,
+                               const bool             with_table,
+                               const bool             with_fields)
+    : surface(&surface)
+    , directory(&directory)
+    , value_name(std::move(value_name))
+    , with_table(with_table)
+    , with_fields(with_fields)
+  {
+  }
+
+
+  std::string
+  ContactSeries::header() const
+  {
+    return value_name +
+           ",x,y,reference_x,reference_y,slave,master,gap,pressure,shear,"
+           "state,weight,bonded";
+  }
+
+
+  void
+  ContactSeries::resume(const double last)
+  {
+    const double limit = last + 1e-9 * std::abs(last);
+    std::string  kept, line;
+    files.clear();
+    written.clear();
+    {
+      std::ifstream    in(directory->path() / "contacts.pvd");
+      const std::regex entry(
+        "timestep=\"([^\"]*)\".*file=\"(contacts-[^\"]*)\"");
+      std::smatch match;
+      while (std::getline(in, line))
+        if (std::regex_search(line, match, entry) &&
+            std::stod(match[1]) <= limit)
+          files.emplace_back(std::stod(match[1]), match[2]);
+    }
+    if (!files.empty())
+      write_list();
+    std::ifstream in(directory->path() / table_name);
+    if (!with_table || !std::getline(in, line) || line != header())
+      return;
+    while (std::getline(in, line) && !in.eof())
+    {
+      std::istringstream row(line);
+      double             value;
+      if (!(row >> value) || value > limit)
+        continue;
+      // The earlier run's end is no state of the series.
+      const auto is_same = [&](const auto &file) {
+        return std::abs(file.first - value) <= 1e-9 * std::abs(value);
+      };
+      if (with_fields && std::none_of(files.begin(), files.end(), is_same))
+        continue;
+      if (written.empty() || written.back() != value)
+        written.push_back(value);
+      kept += line + "\n";
+    }
+    in.close();
+    directory->write_text(table_name, [&](std::ostream &out) {
+      out << header() << '\n' << kept;
+    });
+    has_table = true;
+  }
+
+
+  void
+  ContactSeries::append_rows(const double                      value,
+                             const std::vector<ContactSample> &points)
+  {
+    if (!with_table || (!written.empty() && written.back() == value))
+      return;
+    const std::string name = (directory->path() / table_name).string();
+    std::ofstream     out(name, has_table ? std::ios::app : std::ios::trunc);
+    if (!has_table)
+      out << header() << '\n';
+    has_table = true;
+    written.push_back(value);
+    out << std::setprecision(12);
+    for (const ContactSample &point : points)
+      out << value << ',' << point.x[0] << ',' << point.x[1] << ','
+          << point.reference[0] << ',' << point.reference[1] << ','
+          << quoted(surface->name(point.slave)) << ','
+          << quoted(surface->name(point.master)) << ',' << point.gap << ','
+          << point.pressure << ',' << point.shear << ','
+          << to_string(point.state) << ',' << point.weight << ','
+          << point.is_bonded << '\n';
+    out.close();
+    AssertThrow(out.good(), OutputFailure(name));
+  }
+
+
+  void
+  ContactSeries::write_points(const std::string                &name,
+                              const std::vector<ContactSample> &points) const
+  {
+    directory->write_text(name, [&](std::ostream &out) {
+      out << std::setprecision(12)
+          << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" "
+             "version=\"1.0\" byte_order=\"LittleEndian\">\n<PolyData>\n<Piece "
+             "NumberOfPoints=\""
+          << points.size() << "\" NumberOfVerts=\"" << points.size()
+          << "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+             "NumberOfPolys=\"0\">\n<Points>\n";
+      using Sample = ContactSample;
+      write_array(out, "Points", 3, points, [&](const Sample &point) {
+        out << point.x[0] << ' ' << point.x[1] << " 0";
+      });
+      out << "</Points>\n<Verts>\n";
+      for (const bool is_offset : {false, true})
+      {
+        out << "<DataArray type=\"Int64\" Name=\""
+            << (is_offset ? "offsets" : "connectivity")
+            << "\" format=\"ascii\">\n";
+        for (std::size_t i = 0; i < points.size(); ++i)
+          out << i + (is_offset ? 1 : 0) << '\n';
+        out << "</DataArray>\n";
+      }
+      out << "</Verts>\n<PointData Scalars=\"pressure\" "
+             "Vectors=\"traction\">\n";
+      const auto scalar = [&](const std::string &field, const auto &value) {
+        write_array(out, field, 1, points, [&](const Sample &point) {
+          out << value(point);
+        });
+      };
+      scalar("pressure", [](const Sample &point) { return point.pressure; });
+      scalar("shear", [](const Sample &point) { return point.shear; });
+      scalar("gap", [](const Sample &point) { return point.gap; });
+      scalar("state", [](const Sample &point) {
+        return static_cast<unsigned int>(point.state);
+      });
+      scalar("bonded", [](const Sample &point) { return point.is_bonded; });
+      scalar("weight", [](const Sample &point) { return point.weight; });
+      for (const bool is_traction : {true, false})
+        write_array(out,
+                    is_traction ? "traction" : "displacement",
+                    3,
+                    points,
+                    [&](const Sample &point) {
+                      const Tensor<1, 2> value = is_traction
+                                                   ? point.traction()
+                                                   : point.x - point.reference;
+                      out << value[0] << ' ' << value[1] << " 0";
+                    });
+      out << "</PointData>\n</Piece>\n</PolyData>\n</VTKFile>\n";
+    });
+  }
+
+
+  void
+  ContactSeries::write_list() const
+  {
+    write_series(files, *directory, "contacts.pvd");
+  }
+
+
+  void
+  ContactSeries::write(const double                      value,
+                       const std::string                &base,
+                       const std::vector<ContactSample> &points)
+  {
+    append_rows(value, points);
+    if (!with_fields)
+      return;
+    write_points(base + ".vtp", points);
+    files.emplace_back(value, base + ".vtp");
+    write_list();
+  }
+
+
+  void
+  ContactSeries::finish(const double                      value,
+                        const std::vector<ContactSample> &points)
+  {
+    append_rows(value, points);
+    if (!with_fields)
+      return;
+    write_points("contacts.vtp", points);
+    if (files.empty() || files.back().first != value)
+      files.emplace_back(value, "contacts.vtp");
+    write_list();
+  }
+} // namespace NMM

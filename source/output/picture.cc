@@ -1,0 +1,653 @@
+#include <nmm/base/program.h>
+#include <nmm/output/picture.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <algorithm>
+#include <cairo.h>
+#include <cmath>
+#include <iomanip>
+#include <memory>
+#include <output/picture_canvas.h>
+#include <sstream>
+
+namespace NMM
+{
+  namespace
+  {
+    using dealii::Point;
+    using internal::Canvas;
+    using internal::Layout;
+
+    /// Width of what is right of the solid [thousandths of the picture width].
+    constexpr double bar_space = 160.;
+
+
+    Layout
+    make_layout(const std::pair<Point<2>, Point<2>> &view,
+                const unsigned int                   width)
+    {
+      const auto &[lower, upper] = view;
+      Layout layout;
+      layout.unit       = width / 1000.;
+      layout.left       = 30. * layout.unit;
+      layout.top        = 85. * layout.unit;
+      layout.plot_width = width - layout.left - bar_space * layout.unit;
+      layout.center     = Point<2>(0.5 * (lower + upper));
+      const double size = std::max(upper[0] - lower[0], upper[1] - lower[1]);
+      const double box_width  = std::max(upper[0] - lower[0], 1e-3 * size);
+      const double box_height = std::max(upper[1] - lower[1], 1e-3 * size);
+      // As wide as there is room, unless that makes the picture too tall; a
+      // flat solid leaves room for the colour bar.
+      layout.scale = size > 0. ? std::min(layout.plot_width / box_width,
+                                          1000. * layout.unit / box_height)
+                               : 1.;
+      layout.plot_width =
+        std::max(layout.scale * box_width, 420. * layout.unit);
+      layout.plot_height =
+        std::max(layout.scale * box_height, 320. * layout.unit);
+      layout.width = static_cast<int>(
+        std::ceil(layout.left + layout.plot_width + bar_space * layout.unit));
+      layout.height = static_cast<int>(
+        std::ceil(layout.top + layout.plot_height + 30. * layout.unit));
+      return layout;
+    }
+
+
+    void
+    draw_lines(cairo_t                                  *cr,
+               const std::vector<PictureData::Polyline> &lines,
+               const Layout                             &layout,
+               const double                              scale,
+               const double                              width,
+               const cairo_line_cap_t                    cap,
+               const std::array<double, 4>              &colour)
+    {
+      cairo_set_source_rgba(cr, colour[0], colour[1], colour[2], colour[3]);
+      cairo_set_line_width(cr, width * layout.unit);
+      cairo_set_line_cap(cr, cap);
+      cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+      for (const PictureData::Polyline &line : lines)
+      {
+        for (std::size_t i = 0; i < line.size(); ++i)
+        {
+          const Point<2> x = layout(line[i].at(scale));
+          if (i == 0)
+            cairo_move_to(cr, x[0], x[1]);
+          else
+            cairo_line_to(cr, x[0], x[1]);
+        }
+        cairo_stroke(cr);
+      }
+    }
+
+
+    void
+    draw_text(cairo_t           *cr,
+              const std::string &text,
+              const double       x,
+              const double       y,
+              const double       size,
+              const double       max_width,
+              const bool         bold           = false,
+              const bool         right_adjusted = false)
+    {
+      cairo_select_font_face(cr,
+                             "sans-serif",
+                             CAIRO_FONT_SLANT_NORMAL,
+                             bold ? CAIRO_FONT_WEIGHT_BOLD
+                                  : CAIRO_FONT_WEIGHT_NORMAL);
+      cairo_set_font_size(cr, size);
+      cairo_text_extents_t extents;
+      cairo_text_extents(cr, text.c_str(), &extents);
+      if (extents.x_advance > max_width)
+        cairo_set_font_size(cr, size * max_width / extents.x_advance);
+      cairo_set_source_rgb(cr, 0.1, 0.1, 0.1);
+      cairo_move_to(cr,
+                    right_adjusted
+                      ? x + std::max(0., max_width - extents.x_advance)
+                      : x,
+                    y);
+      cairo_show_text(cr, text.c_str());
+    }
+
+
+    std::string
+    number_text(const double value, const unsigned int n_digits = 4)
+    {
+      std::ostringstream text;
+      text << std::setprecision(n_digits) << value;
+      return text.str();
+    }
+
+
+    /// Power of ten, a multiple of three, that numbers are shown in; 0 for
+    /// handy ones.
+    int
+    choose_exponent(const double minimum, const double maximum)
+    {
+      const double largest = std::max(std::abs(minimum), std::abs(maximum));
+      if (largest == 0. || (largest >= 0.1 && largest < 1e4))
+        return 0;
+      return 3 * static_cast<int>(std::floor(std::log10(largest) / 3.));
+    }
+
+
+    std::string
+    superscript(const int number)
+    {
+      static const std::array<const char *, 10> digits = {
+        {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"}};
+      std::string text = number < 0 ? "⁻" : "";
+      for (const char c : std::to_string(std::abs(number)))
+        text += digits[c - '0'];
+      return text;
+    }
+
+
+    void
+    draw_colour_bar(cairo_t      *cr,
+                    const Layout &layout,
+                    const double  minimum,
+                    const double  maximum)
+    {
+      const double factor = std::pow(10., choose_exponent(minimum, maximum));
+      const double u      = layout.unit;
+      const double x      = layout.width - (bar_space - 30.) * u;
+      const double width  = 26. * u;
+      const double height = std::min(layout.plot_height, 560. * u);
+      const double y      = layout.top + 0.5 * (layout.plot_height - height);
+
+      const std::unique_ptr<cairo_pattern_t, decltype(&cairo_pattern_destroy)>
+                    gradient(cairo_pattern_create_linear(0., y + height, 0., y),
+                 &cairo_pattern_destroy);
+      constexpr int n_stops = 64;
+      for (int i = 0; i <= n_stops; ++i)
+      {
+        const double t   = static_cast<double>(i) / n_stops;
+        const auto   rgb = colour_map(t);
+        cairo_pattern_add_color_stop_rgb(
+          gradient.get(), t, rgb[0], rgb[1], rgb[2]);
+      }
+      cairo_rectangle(cr, x, y, width, height);
+      cairo_set_source(cr, gradient.get());
+      cairo_fill_preserve(cr);
+      cairo_set_source_rgb(cr, 0.1, 0.1, 0.1);
+      cairo_set_line_width(cr, u);
+      cairo_stroke(cr);
+
+      // what differs by rounding is one number
+      const double resolution =
+        1e-10 * std::max(std::abs(minimum), std::abs(maximum));
+      const bool                is_constant = maximum - minimum <= resolution;
+      const std::vector<double> ticks =
+        round_ticks(minimum, is_constant ? minimum : maximum, 7);
+      std::vector<double> shown;
+      for (const double tick : ticks)
+        shown.push_back(tick / factor);
+      const std::vector<std::string> labels = tick_labels(shown);
+      for (unsigned int i = 0; i < ticks.size(); ++i)
+      {
+        const double position =
+          is_constant ? 0.5 : (ticks[i] - minimum) / (maximum - minimum);
+        const double tick_y = y + height * (1. - position);
+        cairo_move_to(cr, x + width, tick_y);
+        cairo_line_to(cr, x + width + 5. * u, tick_y);
+        cairo_stroke(cr);
+        draw_text(cr,
+                  labels[i],
+                  x + width + 9. * u,
+                  tick_y + 5. * u,
+                  15. * u,
+                  105. * u);
+      }
+    }
+
+
+    std::string
+    subtitle(const PictureData      &data,
+             const OutputParameters &parameters,
+             const int               exponent)
+    {
+      const Quantity     quantity = parameters.quantity;
+      std::ostringstream text;
+      const bool         is_stress = quantity < Quantity::displacement;
+      const bool         is_index =
+        quantity == Quantity::block || quantity == Quantity::material;
+      const std::string unit =
+        is_stress
+          ? parameters.stress_unit
+          : parameters.length_unit + (is_velocity(quantity) ? "/s" : "");
+      if (is_stress && !parameters.recovered)
+        text << "direct ";
+      text << to_string(quantity);
+      if (!is_index)
+        text << " ["
+             << (exponent == 0 ? "" : "10" + superscript(exponent) + " ")
+             << unit << ']';
+      if (data.deformation_scale != 0.)
+      {
+        // No exponent below a million.
+        text << ", displacements × " << std::setprecision(6)
+             << data.deformation_scale;
+      }
+      return text.str();
+    }
+
+
+    /// Values at the ends of the colour bar.
+    std::pair<double, double>
+    value_range(const PictureExtents   &extents,
+                const OutputParameters &parameters,
+                const PictureFrame     &frame)
+    {
+      if (frame.range)
+        return *frame.range;
+      if (parameters.range_min < parameters.range_max)
+        return {parameters.range_min, parameters.range_max};
+      return extents.range();
+    }
+
+
+    using Surface =
+      std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
+
+    void
+    fill(cairo_surface_t   *surface,
+         const PictureData &data,
+         const Layout      &layout,
+         const double       minimum,
+         const double       range,
+         const unsigned int n_colours)
+    {
+      cairo_surface_flush(surface);
+      const double margin = 10. * layout.unit;
+      Canvas       canvas{cairo_image_surface_get_data(surface),
+                    cairo_image_surface_get_stride(surface),
+                    static_cast<int>(layout.left - margin),
+                    static_cast<int>(layout.left + layout.plot_width + margin),
+                    static_cast<int>(layout.top - margin),
+                    static_cast<int>(layout.top + layout.plot_height + margin)};
+      canvas.left        = std::max(canvas.left, 0);
+      canvas.top         = std::max(canvas.top, 0);
+      canvas.right       = std::min(canvas.right, layout.width - 1);
+      canvas.bottom      = std::min(canvas.bottom, layout.height - 1);
+      const auto colours = internal::make_colour_table(n_colours);
+      for (const PictureData::Triangle &triangle : data.triangles)
+        internal::fill_quadratic_triangle(triangle,
+                                          layout,
+                                          data.deformation_scale,
+                                          minimum,
+                                          range,
+                                          colours,
+                                          canvas);
+      cairo_surface_mark_dirty(surface);
+    }
+
+
+    const std::array<double, 3> &
+    colour_of_bar(const PictureData::Bar::Kind kind)
+    {
+      static const std::array<double, 3> colours[] = {{{0.84, 0.10, 0.11}},
+                                                      {{1.00, 0.50, 0.05}},
+                                                      {{0.85, 0.20, 0.75}}};
+      return colours[kind];
+    }
+
+
+    /// The part of a straight line that lies in the plot; false if none does.
+    bool
+    clip_to_plot(const Layout &layout, Point<2> &start, Point<2> &end)
+    {
+      const double   margin  = 30. * layout.unit;
+      const double   low[2]  = {layout.left - margin, layout.top - margin};
+      const double   high[2] = {layout.left + layout.plot_width + margin,
+                                layout.top + layout.plot_height + margin};
+      double         first = 0., last = 1.;
+      const Point<2> from          = start;
+      const dealii::Tensor<1, 2> d = end - start;
+      for (unsigned int c = 0; c < 2; ++c)
+      {
+        if (d[c] == 0.)
+        {
+          if (from[c] < low[c] || from[c] > high[c])
+            return false;
+          continue;
+        }
+        const double a = (low[c] - from[c]) / d[c];
+        const double b = (high[c] - from[c]) / d[c];
+        first          = std::max(first, std::min(a, b));
+        last           = std::min(last, std::max(a, b));
+      }
+      if (first >= last)
+        return false;
+      start = from + first * d;
+      end   = from + last * d;
+      return true;
+    }
+
+
+    /// Lines with hatches on the left, where the rigid body is.
+    void
+    draw_obstacles(cairo_t *cr, const PictureData &data, const Layout &layout)
+    {
+      const double u       = layout.unit;
+      const double spacing = 9. * u, size = 9. * u;
+      cairo_set_source_rgb(cr, 0.25, 0.25, 0.25);
+      cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+      for (const PictureData::Polyline &line : data.obstacles)
+      {
+        double passed = 0.;
+        for (std::size_t i = 1; i < line.size(); ++i)
+        {
+          Point<2> a = layout(line[i - 1].at(data.deformation_scale));
+          Point<2> b = layout(line[i].at(data.deformation_scale));
+          if (!clip_to_plot(layout, a, b))
+            continue;
+          cairo_set_line_width(cr, 2.2 * u);
+          cairo_move_to(cr, a[0], a[1]);
+          cairo_line_to(cr, b[0], b[1]);
+          cairo_stroke(cr);
+          const double               length = a.distance(b);
+          const dealii::Tensor<1, 2> d      = (b - a) / length;
+          // y of pixels is downwards
+          const Point<2> hatch(size * (d[1] - d[0]), size * (-d[0] - d[1]));
+          cairo_set_line_width(cr, 0.9 * u);
+          double at = -passed;
+          for (; at < length; at += spacing)
+            if (at >= 0.)
+            {
+              const Point<2> x = a + at * d;
+              cairo_move_to(cr, x[0], x[1]);
+              cairo_line_to(cr, x[0] + hatch[0], x[1] + hatch[1]);
+            }
+          passed = length - (at - spacing);
+          cairo_stroke(cr);
+        }
+      }
+    }
+
+
+    /// Bars that start at the face and show where it is pushed to.
+    void
+    draw_bars(cairo_t           *cr,
+              const PictureData &data,
+              const Layout      &layout,
+              const double       largest)
+    {
+      if (!(largest > 0.))
+        return;
+      const double longest = 75. * layout.unit;
+      cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+      // first all rims, which would cover neighbours
+      for (const bool is_rim : {true, false})
+        for (const PictureData::Bar &bar : data.contacts)
+        {
+          const auto &colour = colour_of_bar(bar.kind);
+          if (is_rim)
+            cairo_set_source_rgba(cr, 1., 1., 1., 0.5);
+          else
+            cairo_set_source_rgb(cr, colour[0], colour[1], colour[2]);
+          cairo_set_line_width(cr, (is_rim ? 2.8 : 1.6) * layout.unit);
+          const Point<2> x      = layout(bar.foot.at(data.deformation_scale));
+          const double   factor = longest / largest;
+          cairo_move_to(cr, x[0], x[1]);
+          cairo_line_to(cr,
+                        x[0] + factor * bar.traction[0],
+                        x[1] - factor * bar.traction[1]);
+          cairo_stroke(cr);
+        }
+    }
+
+
+    /// What bars mean, right-adjusted beside the subtitle.
+    void
+    draw_legend_of_bars(cairo_t                *cr,
+                        const PictureData      &data,
+                        const Layout           &layout,
+                        const double            largest,
+                        const OutputParameters &parameters)
+    {
+      const double      u        = layout.unit;
+      const int         exponent = choose_exponent(0., largest);
+      const std::string unit =
+        (exponent == 0 ? "" : " × 10" + superscript(exponent)) + " " +
+        parameters.stress_unit;
+      const std::string text = "contact up to " +
+                               number_text(largest / std::pow(10., exponent)) +
+                               unit;
+      static const char *const words[] = {"sticks", "slips", "bonded"};
+      double                   x       = layout.width - 30. * u;
+      for (int kind = 2; kind >= 0; --kind)
+      {
+        const bool is_there = std::any_of(data.contacts.begin(),
+                                          data.contacts.end(),
+                                          [&](const PictureData::Bar &bar) {
+                                            return bar.kind == kind;
+                                          });
+        if (!is_there)
+          continue;
+        constexpr double text_width = 52., sample_width = 22., gap = 6.;
+        x -= text_width * u;
+        draw_text(cr, words[kind], x, 63. * u, 15. * u, text_width * u);
+        const auto &colour =
+          colour_of_bar(static_cast<PictureData::Bar::Kind>(kind));
+        cairo_set_source_rgb(cr, colour[0], colour[1], colour[2]);
+        cairo_set_line_width(cr, 3. * u);
+        cairo_move_to(cr, x - gap * u, 58. * u);
+        cairo_line_to(cr, x - (gap + sample_width) * u, 58. * u);
+        cairo_stroke(cr);
+        x -= (2. * gap + sample_width + 4.) * u;
+      }
+      draw_text(
+        cr, text, x - 260. * u, 63. * u, 15. * u, 260. * u, false, true);
+    }
+
+
+    void
+    draw_all_lines(cairo_t           *cr,
+                   const PictureData &data,
+                   const Layout      &layout,
+                   const double       largest_traction)
+    {
+      const double scale  = data.deformation_scale;
+      const double margin = 10. * layout.unit;
+      cairo_save(cr);
+      cairo_rectangle(cr,
+                      layout.left - margin,
+                      layout.top - margin,
+                      layout.plot_width + 2. * margin,
+                      layout.plot_height + 2. * margin);
+      cairo_clip(cr);
+      draw_lines(cr,
+                 data.mesh_lines,
+                 layout,
+                 scale,
+                 0.4,
+                 CAIRO_LINE_CAP_BUTT,
+                 {{1., 1., 1., 0.35}});
+      draw_lines(cr,
+                 data.interfaces,
+                 layout,
+                 scale,
+                 1.,
+                 CAIRO_LINE_CAP_BUTT,
+                 {{0.9, 0.9, 0.9, 0.9}});
+      draw_lines(cr,
+                 data.outlines,
+                 layout,
+                 scale,
+                 1.4,
+                 CAIRO_LINE_CAP_ROUND,
+                 {{0.05, 0.05, 0.05, 1.}});
+      draw_obstacles(cr, data, layout);
+      draw_bars(cr, data, layout, largest_traction);
+      cairo_restore(cr);
+    }
+
+
+    Surface
+    draw(const PictureData      &data,
+         const OutputParameters &parameters,
+         const std::string      &title,
+         const PictureFrame     &frame,
+         const unsigned int      n_colours)
+    {
+      PictureExtents extents;
+      extents.add(data, data.deformation_scale);
+      const Layout layout =
+        make_layout(frame.view ? *frame.view : extents.view(),
+                    parameters.picture_width);
+      const auto [minimum, maximum] = value_range(extents, parameters, frame);
+
+      Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24,
+                                                 layout.width,
+                                                 layout.height),
+                      &cairo_surface_destroy);
+      const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cr(
+        cairo_create(surface.get()), &cairo_destroy);
+      cairo_set_source_rgb(cr.get(), 1., 1., 1.);
+      cairo_paint(cr.get());
+      fill(surface.get(),
+           data,
+           layout,
+           minimum,
+           maximum > minimum ? maximum - minimum : 1.,
+           n_colours);
+      const double largest =
+        frame.bar_scale ? *frame.bar_scale : extents.largest_traction();
+      draw_all_lines(cr.get(), data, layout, largest);
+
+      const double u          = layout.unit;
+      const double width      = layout.width - 60. * u;
+      const double note_width = frame.note.empty() ? 0. : 0.35 * width;
+      draw_text(
+        cr.get(), title, 30. * u, 36. * u, 24. * u, width - note_width, true);
+      if (!frame.note.empty())
+        draw_text(cr.get(),
+                  frame.note,
+                  30. * u + width - note_width + 10. * u,
+                  36. * u,
+                  22. * u,
+                  note_width - 10. * u,
+                  false,
+                  true);
+      draw_text(cr.get(),
+                subtitle(data, parameters, choose_exponent(minimum, maximum)),
+                30. * u,
+                63. * u,
+                17. * u,
+                data.contacts.empty() ? width : 0.52 * width);
+      if (!data.contacts.empty())
+        draw_legend_of_bars(cr.get(), data, layout, largest, parameters);
+      draw_colour_bar(cr.get(), layout, minimum, maximum);
+      cairo_surface_flush(surface.get());
+      return surface;
+    }
+
+
+    cairo_status_t
+    append(void *closure, const unsigned char *data, const unsigned int length)
+    {
+      static_cast<std::string *>(closure)->append(
+        reinterpret_cast<const char *>(data), length);
+      return CAIRO_STATUS_SUCCESS;
+    }
+  } // namespace
+
+
+  std::array<double, 3>
+  colour_map(const double value)
+  {
+    // Viridis (Smith & van der Walt) at eleven equal steps.
+    static const std::array<std::array<double, 3>, 11> colours = {
+      {{{0.267, 0.005, 0.329}},
+       {{0.283, 0.141, 0.458}},
+       {{0.254, 0.265, 0.530}},
+       {{0.207, 0.372, 0.553}},
+       {{0.164, 0.471, 0.558}},
+       {{0.128, 0.567, 0.551}},
+       {{0.135, 0.659, 0.518}},
+       {{0.267, 0.749, 0.441}},
+       {{0.478, 0.821, 0.318}},
+       {{0.741, 0.873, 0.150}},
+       {{0.993, 0.906, 0.144}}}};
+    const double position =
+      std::min(1., std::max(0., value)) * (colours.size() - 1.);
+    const auto   i = std::min<std::size_t>(static_cast<std::size_t>(position),
+                                         colours.size() - 2);
+    const double t = position - static_cast<double>(i);
+    std::array<double, 3> colour;
+    for (unsigned int c = 0; c < 3; ++c)
+      colour[c] = (1. - t) * colours[i][c] + t * colours[i + 1][c];
+    return colour;
+  }
+
+
+  std::vector<double>
+  round_ticks(const double min, const double max, const unsigned int n)
+  {
+    if (!(max > min))
+      return {min};
+    const double rough = (max - min) / n;
+    const double power = std::pow(10., std::floor(std::log10(rough)));
+    double       step  = 10. * power;
+    for (const double factor : {5., 2., 1.})
+      if (factor * power >= rough * (1. - 1e-9))
+        step = factor * power;
+    std::vector<double> ticks;
+    for (double k = std::ceil(min / step - 1e-9); k * step <= max + 1e-9 * step;
+         ++k)
+      // Adding zero turns -0 into 0.
+      ticks.push_back(k * step + 0.);
+    return ticks;
+  }
+
+
+  std::vector<std::string>
+  tick_labels(const std::vector<double> &ticks)
+  {
+    std::vector<std::string> labels;
+    for (unsigned int n_digits = 4; n_digits <= 12; ++n_digits)
+    {
+      labels.clear();
+      for (const double tick : ticks)
+        labels.push_back(number_text(tick, n_digits));
+      if (std::adjacent_find(labels.begin(), labels.end()) == labels.end())
+        break;
+    }
+    return labels;
+  }
+
+
+  void
+  draw_picture(const PictureData      &data,
+               const OutputParameters &parameters,
+               const std::string      &title,
+               const std::string      &file_name,
+               const PictureFrame     &frame)
+  {
+    const Surface        surface = draw(data, parameters, title, frame, 1024);
+    const cairo_status_t status =
+      cairo_surface_write_to_png(surface.get(), file_name.c_str());
+    AssertThrow(status == CAIRO_STATUS_SUCCESS, OutputFailure(file_name));
+  }
+
+
+  std::string
+  draw_picture_in_memory(const PictureData      &data,
+                         const OutputParameters &parameters,
+                         const std::string      &title,
+                         const PictureFrame     &frame,
+                         const unsigned int      n_colours)
+  {
+    const Surface surface = draw(data, parameters, title, frame, n_colours);
+    std::string   bytes;
+    const cairo_status_t status =
+      cairo_surface_write_to_png_stream(surface.get(), &append, &bytes);
+    AssertThrow(status == CAIRO_STATUS_SUCCESS,
+                dealii::ExcMessage(std::string("A picture cannot be made: ") +
+                                   cairo_status_to_string(status)));
+    return bytes;
+  }
+} // namespace NMM

@@ -1,0 +1,65 @@
+#ifndef nmm_source_output_picture_canvas_h
+#define nmm_source_output_picture_canvas_h
+
+#include <nmm/output/picture.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace NMM
+{
+  namespace internal
+  {
+    /// Where things are in the picture [pixels], and how the solid is mapped
+    /// into it.
+    struct Layout
+    {
+      int    width, height;
+      double unit; // a thousandth of the width: line widths and fonts scale
+      double left, top, plot_width, plot_height;
+      double scale;
+      dealii::Point<2> lower, center;
+
+      dealii::Point<2>
+      operator()(const dealii::Point<2> &x) const
+      {
+        return {left + 0.5 * plot_width + scale * (x[0] - center[0]),
+                top + 0.5 * plot_height - scale * (x[1] - center[1])};
+      }
+    };
+
+
+    /// A pixel image, ARGB32 in native byte order as Cairo's.
+    struct Canvas
+    {
+      unsigned char *pixels;
+      int            stride;
+      /// First and last pixels that may be set.
+      int left, right, top, bottom;
+
+      void
+      set(const int x, const int y, const std::uint32_t colour)
+      {
+        reinterpret_cast<std::uint32_t *>(pixels + y * stride)[x] = colour;
+      }
+    };
+
+
+    /// Colours of colour_map(), as pixels.
+    std::vector<std::uint32_t>
+    make_colour_table(unsigned int n_colours);
+
+
+    /// Colour a triangle by its values, from @p minimum to @p minimum + @p range.
+    void
+    fill_quadratic_triangle(const PictureData::Triangle      &triangle,
+                            const Layout                     &layout,
+                            double                            scale,
+                            double                            minimum,
+                            double                            range,
+                            const std::vector<std::uint32_t> &colours,
+                            Canvas                           &canvas);
+  } // namespace internal
+} // namespace NMM
+
+#endif

@@ -1,0 +1,174 @@
+#include <nmm/output/progress.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <exception>
+#include <iomanip>
+#include <map>
+#include <regex>
+#include <sstream>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+namespace NMM
+{
+  namespace
+  {
+    /// Characters in a line of the terminal, 80 if there is none.
+    std::size_t
+    terminal_width()
+    {
+      winsize size;
+      return isatty(STDOUT_FILENO) != 0 &&
+                 ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0
+               ? size.ws_col
+               : 80;
+    }
+  } // namespace
+
+
+  std::string
+  cut_to_width(const std::string &text, const std::size_t width)
+  {
+    const std::string end = " ...";
+    if (text.size() <= width || width <= end.size())
+      return text.substr(0, width);
+    return text.substr(0, width - end.size()) + end;
+  }
+
+
+  std::vector<std::string>
+  merge_alike(const std::vector<std::string> &notices)
+  {
+    // numbers, and names with a number, between quotation marks
+    const std::regex number("'[^']*[0-9][^']*'|[-+]?[0-9.]+(e[-+]?[0-9]+)?");
+    std::map<std::string, unsigned int> counts;
+    std::vector<std::string>            forms;
+    for (const std::string &notice : notices)
+    {
+      forms.push_back(std::regex_replace(notice, number, "#"));
+      ++counts[forms.back()];
+    }
+    std::vector<std::string> result;
+    for (std::size_t i = 0; i < notices.size(); ++i)
+    {
+      unsigned int &count = counts[forms[i]];
+      if (count > 0)
+        result.push_back(notices[i] +
+                         (count > 1 ? " (and " + std::to_string(count - 1) +
+                                        " more that differ in numbers only)"
+                                    : ""));
+      count = 0;
+    }
+    return result;
+  }
+
+
+  Progress::Progress(std::ostream  &out,
+                     const bool     is_terminal,
+                     const MPI_Comm communicator)
+    : out(out)
+    , is_terminal(is_terminal)
+    , communicator(communicator)
+    , prints(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+  {
+  }
+
+
+  Progress::Stage::Stage(Progress &progress, std::string name)
+    : progress(progress)
+    , name(std::move(name))
+    , start(std::chrono::steady_clock::now())
+    , last_update(start)
+    , n_exceptions(std::uncaught_exceptions())
+  {
+    if (progress.prints && progress.is_terminal)
+      progress.out << "  " << this->name << " ..." << std::flush;
+  }
+
+
+  Progress::Stage::~Stage()
+  {
+    const bool failed = std::uncaught_exceptions() > n_exceptions;
+    // Ranks may not all have failed, so nobody waits then.
+    if (!failed)
+      MPI_Barrier(progress.communicator);
+    const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
+        .count();
+    progress.stage_times.emplace_back(name, seconds);
+    if (!progress.prints)
+      return;
+
+    std::ostringstream line;
+    line << (progress.is_terminal ? "\r\033[K" : "") << "  " << std::left
+         << std::setw(18) << name << std::right;
+    if (failed)
+      line << "    failed";
+    else
+      line << std::fixed << std::setprecision(3) << std::setw(8) << seconds
+           << " s";
+    if (!text.empty())
+      line << "  " << text;
+    progress.out << line.str() << std::endl;
+  }
+
+
+  void
+  Progress::Stage::remark(const std::string &words)
+  {
+    text = words;
+  }
+
+
+  void
+  Progress::Stage::update(
+    const std::function<std::string(double seconds)> &words)
+  {
+    if (!progress.prints)
+      return;
+    const auto   now = std::chrono::steady_clock::now();
+    const double since =
+      std::chrono::duration<double>(now - last_update).count();
+    if (since < (progress.is_terminal ? 0.2 : 10.))
+      return;
+    last_update = now;
+    const std::string line =
+      words(std::chrono::duration<double>(now - start).count());
+    const std::size_t width = terminal_width();
+    // the last column would make some terminals begin a new line
+    if (progress.is_terminal)
+      progress.out << "\r\033[K"
+                   << cut_to_width("  " + name + " ... " + line, width - 1)
+                   << std::flush;
+    else
+      progress.out << cut_to_width("    " + line, width) << std::endl;
+  }
+
+
+  void
+  Progress::message(const std::string &text)
+  {
+    // On a terminal the line of a running stage gives way.
+    if (prints)
+      out << (is_terminal ? "\r\033[K" : "") << text << std::endl;
+  }
+
+
+  const std::vector<std::pair<std::string, double>> &
+  Progress::times() const
+  {
+    return stage_times;
+  }
+
+
+  double
+  peak_memory(const MPI_Comm communicator)
+  {
+    dealii::Utilities::System::MemoryStats statistics;
+    dealii::Utilities::System::get_memory_stats(statistics);
+    return dealii::Utilities::MPI::sum(static_cast<double>(statistics.VmHWM),
+                                       communicator) /
+           1024.;
+  }
+} // namespace NMM

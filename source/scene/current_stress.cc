@@ -1,0 +1,256 @@
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <scene/current_stress.h>
+
+namespace NMM
+{
+  namespace internal
+  {
+
+    using namespace NMM;
+    using dealii::Point;
+    using dealii::Tensor;
+    using Stress = dealii::SymmetricTensor<2, 2>;
+
+    namespace
+    {
+      Tensor<2, 2>
+      deformation_gradient(Tensor<2, 2> displacement_gradient)
+      {
+        displacement_gradient[0][0] += 1.;
+        displacement_gradient[1][1] += 1.;
+        return displacement_gradient;
+      }
+
+
+      /// Cauchy stress across the plane in plane strain [Pa].
+      double
+      out_of_plane_stress(const Material &material, const Tensor<2, 2> &F)
+      {
+        const double J       = dealii::determinant(F);
+        const double squares = dealii::scalar_product(F, F);
+        const double nu      = material.poissons_ratio;
+        const auto moduli = material.plane_elasticity(PlaneState::plane_strain);
+        if (material.law != MaterialLaw::neo_hookean)
+          return moduli.lambda * 0.5 * (squares - 2.) / J;
+        const double bulk_modulus =
+          material.youngs_modulus / (3. * (1. - 2. * nu));
+        return (moduli.mu * std::pow(J, -2. / 3.) *
+                (1. - (squares + 1.) / 3.)) /
+                 J +
+               bulk_modulus * (J - 1.);
+      }
+
+
+      FieldSample::Stress
+      finite_stress(const FiniteElasticity          &elasticity,
+                    const std::vector<unsigned int> &region_to_material,
+                    const unsigned int               element,
+                    const Tensor<2, 2>              &F)
+      {
+        const ElasticityProblem &problem = elasticity.elasticity_problem();
+        const unsigned int       region =
+          elasticity.cover_system().manifold_mesh().region(element);
+        FieldSample::Stress stress;
+        if (elasticity.law(region).cauchy_stress(F, stress.in_plane) !=
+            Deformation::admissible)
+        {
+          // Where the solution is turned inside out there is no stress.
+          const double nan        = std::numeric_limits<double>::quiet_NaN();
+          stress.in_plane[0][0]   = stress.in_plane[1][1] =
+            stress.in_plane[0][1] = stress.zz = nan;
+          return stress;
+        }
+        if (problem.plane_state == PlaneState::plane_strain)
+          stress.zz =
+            out_of_plane_stress(problem.materials[region_to_material[region]],
+                                F);
+        return stress;
+      }
+
+
+      /// Stress of an element as a linear function of reference coordinates [Pa].
+      struct LinearStress
+      {
+        Stress   mean, slope[2];
+        Point<2> center;
+
+        Stress
+        operator()(const Point<2> &xi) const
+        {
+          return mean + (xi[0] - center[0]) * slope[0] +
+                 (xi[1] - center[1]) * slope[1];
+        }
+      };
+
+
+      /// The best fit in the points of a rule.
+      LinearStress
+      fit(const dealii::Quadrature<2> &rule, const Stress *stress)
+      {
+        double       sum = 0.;
+        LinearStress result;
+        for (unsigned int q = 0; q < rule.size(); ++q)
+        {
+          sum += rule.weight(q);
+          result.mean += rule.weight(q) * stress[q];
+          result.center += rule.weight(q) * Tensor<1, 2>(rule.point(q));
+        }
+        result.mean /= sum;
+        result.center /= sum;
+
+        Tensor<2, 2> moments;
+        Stress       first_moments[2];
+        for (unsigned int q = 0; q < rule.size(); ++q)
+        {
+          const Tensor<1, 2> d = rule.point(q) - result.center;
+          moments += rule.weight(q) * dealii::outer_product(d, d);
+          for (unsigned int c = 0; c < 2; ++c)
+            first_moments[c] += rule.weight(q) * d[c] * stress[q];
+        }
+        // Points on a line, or one alone, do not tell how stress varies.
+        const double trace = moments[0][0] + moments[1][1];
+        if (dealii::determinant(moments) > 1e-8 * trace * trace)
+        {
+          const Tensor<2, 2> inverse = dealii::invert(moments);
+          for (unsigned int c = 0; c < 2; ++c)
+            result.slope[c] = inverse[c][0] * first_moments[0] +
+                              inverse[c][1] * first_moments[1];
+        }
+        return result;
+      }
+
+
+      /// Area of quadrature weight 1 in an element [m^2].
+      double
+      area_of_weight(const ManifoldMesh &mesh, const unsigned int element)
+      {
+        return 2. * mesh.mathematical_mesh().cell_area(mesh.cell(element));
+      }
+    } // namespace
+
+
+    namespace CurrentStress
+    {
+      FieldEvaluator::StressLaw
+      finite(const FiniteElasticity &elasticity)
+      {
+        return [&elasticity,
+                region_to_material =
+                  elasticity.elasticity_problem().region_to_material(
+                    elasticity.cover_system().manifold_mesh().physical_mesh())](
+                 const unsigned int element,
+                 const Point<2> &,
+                 const Tensor<2, 2> &gradient) {
+          return finite_stress(elasticity,
+                               region_to_material,
+                               element,
+                               deformation_gradient(gradient));
+        };
+      }
+
+
+      FieldEvaluator::StressLaw
+      incremental(const CoverSystem          &covers,
+                  const QuadratureCollection &quadrature,
+                  const ElasticityProblem    &problem,
+                  const std::vector<Stress>  &stresses)
+      {
+        const auto [first, last] = covers.locally_owned_elements();
+        std::vector<LinearStress> fits;
+        const Stress             *stress = stresses.data();
+        for (unsigned int element = first; element < last; ++element)
+        {
+          fits.push_back(fit(quadrature.rule(element), stress));
+          stress += quadrature.rule(element).size();
+        }
+        Assert(stress == stresses.data() + stresses.size(),
+               dealii::ExcInternalError());
+
+        const ManifoldMesh &mesh = covers.manifold_mesh();
+        return [&mesh,
+                &problem,
+                first              = first,
+                fits               = std::move(fits),
+                region_to_material = problem.region_to_material(
+                  mesh.physical_mesh())](const unsigned int element,
+                                         const Point<2>    &xi,
+                                         const Tensor<2, 2> &) {
+          FieldSample::Stress result;
+          result.in_plane = fits[element - first](xi);
+          if (problem.plane_state == PlaneState::plane_strain)
+          {
+            // sigma_zz = nu (sigma_xx + sigma_yy) of what strain has caused.
+            const Material &material =
+              problem.materials[region_to_material[mesh.region(element)]];
+            result.zz = material.poissons_ratio *
+                        (dealii::trace(result.in_plane) -
+                         dealii::trace(material.initial_stress));
+          }
+          return result;
+        };
+      }
+
+
+      double
+      incremental_strain_energy(const DisplacementField    &field,
+                                const QuadratureCollection &quadrature,
+                                const ElasticityProblem    &problem,
+                                const std::vector<Stress>  &stresses)
+      {
+        const CoverSystem  &covers = field.cover_system();
+        const ManifoldMesh &mesh   = covers.manifold_mesh();
+        const auto          region_to_material =
+          problem.region_to_material(mesh.physical_mesh());
+        const auto [first, last] = covers.locally_owned_elements();
+        auto   stress            = stresses.begin();
+        double energy            = 0.;
+        for (unsigned int element = first; element < last; ++element)
+        {
+          const dealii::Quadrature<2> &rule = quadrature.rule(element);
+          const double                 area = area_of_weight(mesh, element);
+          const PlaneElasticity        moduli =
+            problem.materials[region_to_material[mesh.region(element)]]
+              .plane_elasticity(problem.plane_state);
+          for (unsigned int q = 0; q < rule.size(); ++q, ++stress)
+          {
+            const double J = dealii::determinant(
+              deformation_gradient(field.gradient(element, rule.point(q))));
+            const double trace = dealii::trace(*stress);
+            const double density =
+              (*stress * *stress - moduli.lambda /
+                                     (2. * (moduli.lambda + moduli.mu)) *
+                                     trace * trace) /
+              (4. * moduli.mu);
+            energy += area * rule.weight(q) * J * density;
+          }
+        }
+        return dealii::Utilities::MPI::sum(energy, covers.communicator());
+      }
+
+
+      double
+      area(const DisplacementField    &field,
+           const QuadratureCollection &quadrature)
+      {
+        const CoverSystem  &covers = field.cover_system();
+        const ManifoldMesh &mesh   = covers.manifold_mesh();
+        const auto [first, last]   = covers.locally_owned_elements();
+        double sum                 = 0.;
+        for (unsigned int element = first; element < last; ++element)
+        {
+          const dealii::Quadrature<2> &rule = quadrature.rule(element);
+          for (unsigned int q = 0; q < rule.size(); ++q)
+            sum += area_of_weight(mesh, element) * rule.weight(q) *
+                   dealii::determinant(deformation_gradient(
+                     field.gradient(element, rule.point(q))));
+        }
+        return dealii::Utilities::MPI::sum(sum, covers.communicator());
+      }
+    } // namespace CurrentStress
+
+  } // namespace internal
+} // namespace NMM

@@ -1,0 +1,415 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/dynamics/checkpoint.h>
+
+#include <algorithm>
+#include <cmath>
+#include <scene/dynamic_analysis.h>
+#include <scene/static_start.h>
+#include <sstream>
+
+namespace NMM
+{
+  namespace internal
+  {
+
+    // Set-up and course of the run; what is written is in dynamic_output.cc.
+    using namespace NMM;
+    using dealii::Point;
+    using dealii::Tensor;
+    using Stage = Progress::Stage;
+
+    DynamicAnalysis::DynamicAnalysis(const Scene       &scene,
+                                     Progress          &progress,
+                                     const MPI_Comm     communicator,
+                                     const std::string &restart)
+      : SceneAnalysis(scene, progress, communicator)
+      , restart(restart)
+      , kind(scene.parameters().model.analysis)
+    {
+    }
+
+
+    void
+    DynamicAnalysis::make_system()
+    {
+      Stage              system_stage(progress, "masses");
+      const unsigned int degree = 2 * mathematical_mesh->degree();
+      mass_quadrature           = std::make_unique<QuadratureCollection>(
+        *manifold_mesh, degree, degree, covers->locally_owned_elements());
+      if (scene.parameters().model.kinematics == Kinematics::incremental)
+        make_incremental();
+      else
+        make_integrator();
+      probe_history = std::make_unique<ProbeHistory>(*covers,
+                                                     *probes,
+                                                     scene.parameters().probes);
+    }
+
+
+    void
+    DynamicAnalysis::make_integrator()
+    {
+      const SceneParameters &parameters = scene.parameters();
+      const Kinematics       kinematics = parameters.model.kinematics;
+      Loading                loading    = scene.make_loading();
+
+      elasticity = std::make_unique<FiniteElasticity>(
+        *covers, *quadrature, constraints, problem, /* may_float = */ true);
+      if (kinematics == Kinematics::finite)
+        model = std::make_unique<FiniteModel>(*elasticity,
+                                              *mass_quadrature,
+                                              std::move(loading));
+      else
+        model = std::make_unique<SmallModel>(*elasticity,
+                                             *mass_quadrature,
+                                             std::move(loading));
+
+      if (contact)
+        contact_model =
+          std::make_unique<AccountedContactModel>(*model, *contact);
+
+      MechanicalModel *moved = contact_model.get();
+      if (!contact)
+        moved = model.get();
+      damping =
+        scene.make_damping(*physical_mesh, problem, contact && has_friction());
+      integrator = std::make_unique<TimeIntegrator>(
+        *moved,
+        parameters.time.time_scheme(kind, kinematics, contact != nullptr),
+        damping,
+        motion_newton_parameters(scene));
+      make_leaving();
+      if (parameters.time.sleep.speed > 0.)
+        integrator->let_blocks_sleep(parameters.time.sleep);
+
+      if (!restart.empty())
+      {
+        Checkpoint::read(restart, *integrator);
+        // A run that was killed before it wrote its end is at it.
+        AssertThrow(time() <= parameters.time.end_time * (1. + 1e-12),
+                    InputError("the checkpoint '" + restart +
+                                 "' is of t = " + std::to_string(time()) +
+                                 " s, and the run ends at " +
+                                 std::to_string(parameters.time.end_time) +
+                                 " s",
+                               "parameter 'Time/End time'",
+                               "choose a later end to continue"));
+      }
+      else if (!parameters.initial_velocities.empty())
+      {
+        const Vector rest(model->locally_owned(), communicator);
+        integrator->initialize(rest, initial_velocity());
+      }
+      start_time = time();
+    }
+
+
+    bool
+    DynamicAnalysis::has_friction() const
+    {
+      const ContactParameters &laws = contact->contact().parameters();
+      return laws.friction > 0. || std::any_of(laws.pairs.begin(),
+                                               laws.pairs.end(),
+                                               [](const ContactPair &pair) {
+                                                 return pair.law.friction > 0.;
+                                               });
+    }
+
+
+    void
+    DynamicAnalysis::make_incremental()
+    {
+      incremental = std::make_unique<IncrementalElasticity>(
+        *covers, *quadrature, constraints, problem, /* may_float = */ true);
+      incremental_dynamics = std::make_unique<IncrementalDynamics>(
+        *incremental, *covers, *mass_quadrature, constraints, problem);
+      if (!scene.parameters().initial_velocities.empty())
+        incremental_dynamics->set_velocity(initial_velocity());
+    }
+
+
+    DynamicAnalysis::Vector
+    DynamicAnalysis::initial_velocity() const
+    {
+      struct Motion
+      {
+        unsigned int  block;
+        RigidVelocity velocity;
+      };
+      std::vector<Motion> motions;
+      for (const InitialVelocityParameters &parameters :
+           scene.parameters().initial_velocities)
+      {
+        unsigned int block = invalid_index;
+        if (parameters.block)
+        {
+          const unsigned int element =
+            manifold_mesh->find_element(*parameters.block);
+          AssertThrow(element != invalid_index,
+                      InputError("the point " + to_string(*parameters.block) +
+                                   " lies in no block",
+                                 "parameter 'Initial velocities/" +
+                                   parameters.name + "/Block'",
+                                 "give a point inside the block that moves"));
+          block = manifold_mesh->block(element);
+        }
+        motions.push_back(
+          {block,
+           {parameters.translation,
+            parameters.angular_velocity,
+            parameters.center ? *parameters.center : centroid(block)}});
+      }
+      return interpolate_velocity(
+        *covers, constraints, [&](const Point<2> &x, const unsigned int block) {
+          Tensor<1, 2> v;
+          for (const Motion &motion : motions)
+            if (motion.block == invalid_index || motion.block == block)
+              v += motion.velocity(x);
+          return v;
+        });
+    }
+
+
+    Point<2>
+    DynamicAnalysis::centroid(const unsigned int block) const
+    {
+      // area and its moments
+      std::vector<double> local(3, 0.), sums(3);
+      const auto [first, last] = covers->locally_owned_elements();
+      for (unsigned int element = first; element < last; ++element)
+        if (block == invalid_index || manifold_mesh->block(element) == block)
+        {
+          const dealii::Quadrature<2> &rule = quadrature->rule(element);
+          const unsigned int           cell = manifold_mesh->cell(element);
+          const double area = mathematical_mesh->cell_area(cell);
+          for (unsigned int q = 0; q < rule.size(); ++q)
+          {
+            const Point<2> x =
+              mathematical_mesh->reference_to_real(cell, rule.point(q));
+            local[0] += rule.weight(q) * area;
+            local[1] += rule.weight(q) * area * x[0];
+            local[2] += rule.weight(q) * area * x[1];
+          }
+        }
+      dealii::Utilities::MPI::sum(local, communicator, sums);
+      return {sums[1] / sums[0], sums[2] / sums[0]};
+    }
+
+
+    bool
+    DynamicAnalysis::has_start() const
+    {
+      return restart.empty() && kind == Analysis::dynamics &&
+             scene.parameters().time.start != TimeParameters::Start::undeformed;
+    }
+
+
+    void
+    DynamicAnalysis::run_start()
+    {
+      last_good = integrator->state();
+      Stage start_stage(progress, "start");
+      if (contact)
+        contact->hold_obstacles(true);
+      const Vector u = find_start({scene,
+                                   *covers,
+                                   *quadrature,
+                                   *mass_quadrature,
+                                   constraints,
+                                   problem,
+                                   contact.get(),
+                                   progress},
+                                  start);
+      if (contact)
+        contact->hold_obstacles(false);
+      Vector v(model->locally_owned(), communicator);
+      if (!scene.parameters().initial_velocities.empty())
+        v = initial_velocity();
+      // releases what is released at 0
+      integrator->initialize(u, v);
+      last_good = integrator->state();
+      write_first_state();
+    }
+
+
+    void
+    DynamicAnalysis::solve()
+    {
+      if (damping.stiffness > 0. &&
+          scene.parameters().time.damping.stiffness < 0.)
+      {
+        std::ostringstream line;
+        line << "  damping: " << damping.stiffness
+             << " s times the stiffness, since there is friction (set "
+                "'Time/Stiffness damping' for another)";
+        if (!has_start() && restart.empty())
+          line
+            << "; loads act at once on blocks without stress, which may slip a "
+               "little until they bear them ('Time/Start = equilibrium' begins "
+               "at rest)";
+        progress.message(line.str());
+      }
+      try
+      {
+        if (has_start())
+          run_start();
+        Stage running(progress,
+                      kind == Analysis::relaxation ? "relaxation" : "motion");
+        stage = &running;
+        if (incremental)
+          run_incremental();
+        else if (kind == Analysis::relaxation)
+          run_relaxation();
+        else
+          run_dynamics();
+      }
+      catch (const NumericalFailure &error)
+      {
+        recover();
+        show();
+        verify();
+        explain_balance(error.message());
+        throw;
+      }
+      if (balance_is_off())
+        progress.message("  warning: " + balance_note());
+      {
+        Stage recovery_stage(progress, "stress recovery");
+        show();
+      }
+      is_solved = true;
+    }
+
+
+    void
+    DynamicAnalysis::recover()
+    {
+      if (!integrator)
+        return;
+      integrator->restore(last_good);
+      // What contact remembers is of a state that must not be continued then.
+      if (kind == Analysis::dynamics && !is_checking_state)
+        write_checkpoint();
+    }
+
+
+    void
+    DynamicAnalysis::run_dynamics()
+    {
+      const TimeParameters &parameters = scene.parameters().time;
+      const StepControl     control(parameters.step_control());
+      StepRecord            record;
+      const auto            count_lost = [&]() {
+        n_cuts += record.n_cuts;
+        n_lost_iterations += record.n_lost_iterations;
+      };
+      last_good = integrator->state();
+      note_energies();
+      try
+      {
+        while (control.advance(*integrator, parameters.end_time, record))
+        {
+          count_lost();
+          after_step(record);
+        }
+      }
+      catch (const NumericalFailure &)
+      {
+        count_lost();
+        throw;
+      }
+      if (scene.parameters().output.checkpoint_every > 0)
+        write_checkpoint();
+    }
+
+
+    void
+    DynamicAnalysis::run_relaxation()
+    {
+      last_good  = integrator->state();
+      relaxation = relax(*integrator,
+                         scene.parameters().relaxation.relaxation,
+                         [&](const StepRecord &record) {
+                           n_cuts += record.n_cuts;
+                           n_lost_iterations += record.n_lost_iterations;
+                           after_step(record);
+                         });
+    }
+
+
+    void
+    DynamicAnalysis::run_incremental()
+    {
+      const TimeParameters &parameters = scene.parameters().time;
+      const double          h          = parameters.initial_step;
+      const double          bound      = parameters.max_displacement;
+      // A remainder that is rounding is no step.
+      while (parameters.end_time - incremental_time > 1e-9 * h)
+      {
+        StepRecord record;
+        record.report.n_iterations = 1;
+        if (bound > 0.)
+        {
+          const double least =
+            parameters.min_step > 0. ? parameters.min_step : 1e-6 * h;
+          const IncrementalDynamics::Advance taken =
+            incremental_dynamics->advance(parameters.end_time,
+                                          {h, least, bound});
+          record.report.step             = taken.step;
+          record.report.max_displacement = taken.largest_displacement;
+          record.n_cuts = record.n_lost_iterations = taken.n_cuts;
+          incremental_time = incremental_dynamics->time();
+          ++incremental_step;
+        }
+        else
+        {
+          record.report.step =
+            std::min(h, parameters.end_time - incremental_time);
+          record.report.max_displacement =
+            incremental_dynamics->step(record.report.step);
+          ++incremental_step;
+          // A product has less rounding than a sum of steps.
+          incremental_time =
+            std::min(incremental_step * h, parameters.end_time);
+        }
+        after_step(record);
+      }
+    }
+
+
+    double
+    DynamicAnalysis::time() const
+    {
+      return incremental ? incremental_time : integrator->state().time;
+    }
+
+
+    unsigned int
+    DynamicAnalysis::step_number() const
+    {
+      return incremental ? incremental_step : integrator->state().step;
+    }
+
+
+    const DynamicAnalysis::Vector &
+    DynamicAnalysis::velocity() const
+    {
+      return incremental ? incremental_dynamics->velocity()
+                         : integrator->state().v;
+    }
+
+
+    DynamicAnalysis::Vector
+    DynamicAnalysis::displacement() const
+    {
+      if (incremental)
+        return incremental->solution();
+      Vector relevant(model->locally_owned(),
+                      model->locally_relevant(),
+                      communicator);
+      relevant = integrator->state().u;
+      return relevant;
+    }
+
+  } // namespace internal
+} // namespace NMM

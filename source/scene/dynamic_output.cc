@@ -1,0 +1,388 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/dynamics/checkpoint.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iomanip>
+#include <scene/current_stress.h>
+#include <scene/dynamic_analysis.h>
+#include <sstream>
+
+namespace NMM
+{
+  namespace internal
+  {
+
+    using namespace NMM;
+
+    void
+    DynamicAnalysis::open_files()
+    {
+      const std::string name = (directory->path() / "history.csv").string();
+      const bool        is_continued = [&]() {
+        bool exists =
+          !restart.empty() && is_first_rank() && std::filesystem::exists(name);
+        return dealii::Utilities::MPI::max(exists ? 1 : 0, communicator) == 1;
+      }();
+      const int continue_after =
+        is_continued ? static_cast<int>(step_number()) : -1;
+      if (is_continued)
+        series->resume(time());
+      on_first_rank([&]() {
+        if (!is_continued)
+          directory->create();
+        if (!probe_history->is_empty())
+          probe_history->open(
+            (directory->path() / "probes-history.csv").string(),
+            continue_after);
+        if (incremental)
+          incremental_history = std::make_unique<TimeTable>(
+            name,
+            "# per unit thickness: energies [J/m], angular momentum about the "
+            "origin [kg m/s]; time and size [s], displacement [m], area [m^2]",
+            std::vector<std::string>{"size",
+                                     "max_displacement",
+                                     "kinetic",
+                                     "strain",
+                                     "angular_momentum",
+                                     "area"},
+            MPI_COMM_SELF);
+        else
+          history = std::make_unique<History>(name,
+                                              MPI_COMM_SELF,
+                                              continue_after,
+                                              further_columns());
+        open_departures(continue_after);
+        if (is_continued)
+          directory->resume();
+      });
+      if (!has_start() && !is_continued)
+        write_first_state();
+      else if (contact)
+        take_contact();
+    }
+
+
+    void
+    DynamicAnalysis::take_contact()
+    {
+      contact->remember_states();
+      contact->take_state(contact_model->friction_work());
+    }
+
+
+    void
+    DynamicAnalysis::write_first_state()
+    {
+      if (contact)
+        take_contact();
+      write_rows(StepRecord());
+      if (scene.parameters().output.fields_every > 0)
+        write_state_of_series();
+    }
+
+
+    void
+    DynamicAnalysis::after_step(const StepRecord &record)
+    {
+      ++n_steps;
+      n_iterations += record.report.n_iterations;
+      if (leaving)
+        drop_blocks();
+      if (integrator)
+      {
+        is_checking_state = true;
+        note_energies();
+        const std::string fault =
+          contact ? contact->find_deep_penetration() : "";
+        AssertThrow(fault.empty(),
+                    NumericalFailure("There is " + fault,
+                                     "time " + std::to_string(time()) +
+                                       " s, step " +
+                                       std::to_string(step_number()),
+                                     "take shorter steps, or choose a higher "
+                                     "'Contact/Normal stiffness'"));
+        is_checking_state = false;
+        last_good         = integrator->state();
+      }
+      write_rows(record);
+      const OutputParameters &output = scene.parameters().output;
+      if (output.fields_every > 0 && step_number() % output.fields_every == 0)
+        write_state_of_series();
+      // Last, so that what is written of the steps up to it is complete.
+      if (output.checkpoint_every > 0 &&
+          step_number() % output.checkpoint_every == 0)
+        write_checkpoint();
+      show_progress();
+    }
+
+
+    void
+    DynamicAnalysis::write_rows(const StepRecord &record)
+    {
+      std::vector<double> row = further_values();
+      if (incremental)
+      {
+        const DisplacementField current(*covers, problem, displacement());
+        row = {record.report.step,
+               record.report.max_displacement,
+               incremental_dynamics->kinetic_energy(),
+               CurrentStress::incremental_strain_energy(
+                 current, *quadrature, problem, incremental->stresses()),
+               incremental_dynamics->angular_momentum(),
+               CurrentStress::area(current, *quadrature)};
+      }
+      std::vector<double> probe_values;
+      if (!probe_history->is_empty())
+      {
+        // Without unknowns of other ranks.
+        Vector owned(velocity());
+        owned = incremental ? incremental->solution() : integrator->state().u;
+        probe_values = probe_history->evaluate(owned, velocity());
+      }
+      on_first_rank([&]() {
+        if (incremental)
+          incremental_history->write(time(), step_number(), row);
+        else
+          history->write(*integrator, record, row);
+        probe_history->write(time(), step_number(), probe_values);
+      });
+    }
+
+
+    void
+    DynamicAnalysis::write_state_of_series()
+    {
+      show();
+      std::ostringstream description;
+      description << "t = " << time() << " s";
+      series->write(step_number() / scene.parameters().output.fields_every,
+                    time(),
+                    description.str(),
+                    *evaluator);
+    }
+
+
+    void
+    DynamicAnalysis::write_checkpoint()
+    {
+      Checkpoint::write(*integrator,
+                        (directory->path() / "checkpoint.nmm").string());
+    }
+
+
+    void
+    DynamicAnalysis::show_progress()
+    {
+      stage->update([&](const double seconds) {
+        std::ostringstream line;
+        line << std::setprecision(4) << "step " << step_number()
+             << ", t = " << time();
+        if (kind == Analysis::relaxation)
+          line << " s, imbalance " << std::setprecision(2)
+               << integrator->account().imbalance;
+        else
+        {
+          const double end  = scene.parameters().time.end_time;
+          const double left = seconds * (end - time()) / (time() - start_time);
+          line << " of " << end << " s, " << std::setprecision(3)
+               << n_steps / seconds << " steps/s, about " << std::ceil(left)
+               << " s left";
+        }
+        if (contact)
+          line << "; " << contact->progress();
+        if (leaving && !integrator->state().left_blocks.empty())
+          line << "; " << integrator->state().left_blocks.size()
+               << " block(s) have left";
+        if (integrator && integrator->n_asleep() > 0)
+          line << "; " << integrator->n_asleep() << " block(s) sleep";
+        return line.str();
+      });
+    }
+
+
+    void
+    DynamicAnalysis::show()
+    {
+      evaluator.reset();
+      recovery.reset();
+      field =
+        std::make_unique<DisplacementField>(*covers, problem, displacement());
+      recovery = std::make_unique<StressRecovery>(*field, aggregation);
+      FieldEvaluator::StressLaw law;
+      if (incremental)
+        law = CurrentStress::incremental(*covers,
+                                         *quadrature,
+                                         problem,
+                                         incremental->stresses());
+      else if (scene.parameters().model.kinematics == Kinematics::finite)
+        law = CurrentStress::finite(*elasticity);
+      Vector relevant(covers->locally_owned_dofs(2),
+                      covers->locally_relevant_dofs(2),
+                      communicator);
+      relevant = velocity();
+      velocity_field =
+        std::make_unique<DisplacementField>(*covers, problem, relevant);
+      evaluator = std::make_unique<FieldEvaluator>(
+        *field, *recovery, problem, law, velocity_field.get());
+      if (leaving)
+        evaluator->hide_blocks(integrator->state().left_blocks);
+    }
+
+
+    void
+    DynamicAnalysis::verify()
+    {
+      const std::string &length = scene.parameters().output.length_unit;
+      if (has_start())
+      {
+        summary.add("start_steps", start.n_steps);
+        summary.add("start_iterations", start.n_iterations);
+      }
+      summary.add("time_reached", time(), "s");
+      summary.add("time_steps", step_number());
+      summary.add("newton_iterations",
+                  incremental ? 0 : n_iterations + n_lost_iterations);
+      summary.add("cuts", n_cuts);
+      if (damping.stiffness > 0.)
+        summary.add("stiffness_damping", damping.stiffness, "s");
+      if (kind == Analysis::relaxation)
+      {
+        summary.add("relaxation_stops", relaxation.n_stops);
+        summary.add("imbalance", integrator->account().imbalance);
+      }
+      add_energies();
+      if (scene.parameters().model.kinematics != Kinematics::small)
+        summary.add("current_area",
+                    CurrentStress::area(*field, *quadrature),
+                    length + "^2");
+      if (contact)
+        contact->add_to_summary(summary);
+      if (leaving)
+        summary.add("blocks_left", integrator->state().left_blocks.size());
+      if (scene.parameters().time.sleep.speed > 0.)
+        summary.add("blocks_asleep", integrator->n_asleep());
+      if (!incremental)
+        summary.add("direct_stress_covers",
+                    dealii::Utilities::MPI::sum(recovery->n_direct(),
+                                                communicator));
+    }
+
+
+    void
+    DynamicAnalysis::add_energies()
+    {
+      const OutputParameters &output = scene.parameters().output;
+      const double            t      = problem.thickness;
+      const std::string       energy =
+        output.stress_unit + "*" + output.length_unit + "^3";
+      const std::string momentum =
+        output.stress_unit + "*" + output.length_unit + "^2*s";
+      const std::string angular_momentum =
+        output.stress_unit + "*" + output.length_unit + "^3*s";
+      if (incremental)
+      {
+        summary.add("kinetic_energy",
+                    t * incremental_dynamics->kinetic_energy(),
+                    energy);
+        summary.add("strain_energy",
+                    t *
+                      CurrentStress::incremental_strain_energy(
+                        *field, *quadrature, problem, incremental->stresses()),
+                    energy);
+        summary.add("angular_momentum",
+                    t * incremental_dynamics->angular_momentum(),
+                    angular_momentum);
+        return;
+      }
+      const Account &account = integrator->account();
+      summary.add("kinetic_energy", t * account.kinetic, energy);
+      summary.add("strain_energy", t * account.strain, energy);
+      summary.add("conditions_energy", t * account.conditions, energy);
+      summary.add("dissipated_energy", t * account.dissipated, energy);
+      summary.add("external_work", t * account.external_work, energy);
+      if (leaving)
+        summary.add("left_energy", t * account.left, energy);
+      summary.add("energy_balance", t * account.balance, energy);
+      summary.add("energy_balance_relative", relative_balance());
+      summary.add("momentum_x", t * account.linear_momentum[0], momentum);
+      summary.add("momentum_y", t * account.linear_momentum[1], momentum);
+      summary.add("angular_momentum",
+                  t * account.angular_momentum,
+                  angular_momentum);
+    }
+
+
+    void
+    DynamicAnalysis::note_energies()
+    {
+      const Account &account = integrator->account();
+      const double   stored =
+        account.kinetic + account.strain + account.conditions;
+      AssertThrow(
+        std::isfinite(stored) && std::isfinite(account.balance),
+        NumericalFailure("The energies are not finite",
+                         "time " + std::to_string(time()) + " s, step " +
+                           std::to_string(step_number()),
+                         "take shorter steps, or look for loads, stiffness "
+                         "and velocities of extreme size"));
+      largest_balance = std::max(largest_balance, std::abs(account.balance));
+      largest_energy =
+        std::max({largest_energy, stored, std::abs(account.external_work)});
+    }
+
+
+    double
+    DynamicAnalysis::relative_balance() const
+    {
+      return largest_energy > 0. ? largest_balance / largest_energy : 0.;
+    }
+
+
+    bool
+    DynamicAnalysis::balance_is_off() const
+    {
+      // Schemes and impacts that are resolved stay below a hundredth.
+      constexpr double limit = 0.1;
+      return relative_balance() > limit;
+    }
+
+
+    std::string
+    DynamicAnalysis::balance_note() const
+    {
+      std::ostringstream text;
+      text << std::setprecision(2) << "the energy balance is off by "
+           << 100. * relative_balance()
+           << " % of the largest energy, so that the last state is not to be "
+              "trusted: take shorter steps";
+      return text.str();
+    }
+
+
+    void
+    DynamicAnalysis::explain_balance(const std::string &reason) const
+    {
+      AssertThrow(!balance_is_off(),
+                  NumericalFailure(reason + "; " + balance_note(), "", ""));
+    }
+
+
+    double
+    DynamicAnalysis::last_value() const
+    {
+      return time();
+    }
+
+
+    std::string
+    DynamicAnalysis::unsolved_note() const
+    {
+      std::ostringstream note;
+      note << "solved up to t = " << time() << " s";
+      return note.str();
+    }
+
+  } // namespace internal
+} // namespace NMM

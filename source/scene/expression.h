@@ -1,0 +1,27 @@
+#ifndef nmm_source_scene_expression_h
+#define nmm_source_scene_expression_h
+
+#include <deal.II/base/function.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace NMM
+{
+  namespace internal
+  {
+    /**
+     * Expressions of @p variables ("x,y" or "t"), which @p parameter holds, as a
+     * function. @throws InputError naming the parameter for what cannot be
+     * parsed.
+     */
+    template <int dim>
+    std::shared_ptr<const dealii::Function<dim>>
+    parse_expressions(const std::vector<std::string> &expressions,
+                      const std::string              &variables,
+                      const std::string              &parameter);
+  } // namespace internal
+} // namespace NMM
+
+#endif

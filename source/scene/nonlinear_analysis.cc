@@ -1,0 +1,409 @@
+#include <nmm/base/exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <scene/current_stress.h>
+#include <scene/nonlinear_analysis.h>
+#include <sstream>
+
+namespace NMM
+{
+  namespace internal
+  {
+
+    using namespace NMM;
+    using dealii::Point;
+    using dealii::Tensor;
+    using Stage        = Progress::Stage;
+    namespace Parallel = dealii::Utilities::MPI;
+
+    void
+    NonlinearAnalysis::make_system()
+    {
+      try
+      {
+        if (scene.parameters().model.kinematics != Kinematics::incremental)
+          // What floats may be held by contact.
+          finite = std::make_unique<FiniteElasticity>(
+            *covers, *quadrature, constraints, problem, contact != nullptr);
+        else
+          incremental = std::make_unique<IncrementalElasticity>(*covers,
+                                                                *quadrature,
+                                                                constraints,
+                                                                problem);
+      }
+      catch (const NumericalFailure &)
+      {
+        failure = std::current_exception();
+      }
+      if (contact)
+        system = std::make_unique<ElasticSystem>(
+          *finite,
+          /* is_linearized = */ !has_large_displacements());
+
+      const auto [first, last] = covers->locally_owned_elements();
+      for (unsigned int element = first; element < last; ++element)
+        for (const QuadraticTriangle &triangle :
+             triangulate(*manifold_mesh, element))
+          for (const Point<2> &x : triangle)
+            output_points.emplace_back(element,
+                                       mathematical_mesh->real_to_reference(
+                                         manifold_mesh->cell(element), x));
+    }
+
+
+    bool
+    NonlinearAnalysis::has_large_displacements() const
+    {
+      return scene.parameters().model.kinematics != Kinematics::small;
+    }
+
+
+    void
+    NonlinearAnalysis::solve()
+    {
+      if (failure)
+        std::rethrow_exception(failure);
+      const auto finish = [&]() {
+        if (!history.empty())
+        {
+          Stage stage(progress, "stress recovery");
+          show();
+        }
+      };
+      write_history();
+      try
+      {
+        Stage stage(progress, "load steps");
+        if (contact)
+          run_contact();
+        else if (finite)
+          run_finite();
+        else
+          run_incremental();
+      }
+      catch (const NumericalFailure &)
+      {
+        finish();
+        verify();
+        throw;
+      }
+      finish();
+      is_solved = true;
+    }
+
+
+    void
+    NonlinearAnalysis::run_finite()
+    {
+      const SceneParameters &parameters = scene.parameters();
+      NonlinearStatics       statics(*finite, parameters.newton.newton);
+      const auto             after_step = [&](const LoadStep &step,
+                                  const Vector   &solution) {
+        HistoryRow row;
+        row.load_factor       = step.load_factor;
+        row.n_iterations      = step.newton.iterations.size();
+        row.n_cuts            = step.n_cuts;
+        row.n_lost_iterations = step.n_lost_iterations;
+        row.relative_residual = step.newton.relative_residual;
+        row.strain_energy = problem.thickness * finite->energies().strain;
+        add_step(row, solution);
+      };
+      try
+      {
+        statics.run(parameters.load_steps.load_steps(), after_step);
+      }
+      catch (const NumericalFailure &)
+      {
+        n_last_cuts       = statics.last_attempt().n_cuts;
+        n_last_iterations = statics.last_attempt().n_lost_iterations;
+        throw;
+      }
+    }
+
+
+    void
+    NonlinearAnalysis::run_contact()
+    {
+      const SceneParameters &parameters = scene.parameters();
+      ContactStatics         statics(*system,
+                             contact->contact(),
+                             contact_newton_parameters(scene));
+      double                 friction_work = 0.;
+      const auto             after_step    = [&](const ContactStep &step,
+                                  const Vector      &solution) {
+        HistoryRow row;
+        row.load_factor       = step.load_factor;
+        row.n_iterations      = step.n_iterations;
+        row.n_cuts            = step.n_cuts;
+        row.n_lost_iterations = step.n_lost_iterations;
+        row.relative_residual = step.relative_residual;
+        row.strain_energy = problem.thickness * system->strain_energy();
+        const std::string fault =
+          contact->find_deep_penetration(step.contact.largest_penetration);
+        AssertThrow(
+          fault.empty(),
+          NumericalFailure("There is " + fault,
+                           "load factor " + std::to_string(step.load_factor),
+                           "choose a higher 'Contact/Normal stiffness', or "
+                                          "loads that the solid can bear"));
+        friction_work += step.dissipated;
+        contact->take_state(friction_work);
+        row.contact_numbers = contact->numbers(problem.thickness);
+        contact->remember_states();
+        add_step(row, solution);
+      };
+      try
+      {
+        statics.run(parameters.load_steps.load_steps(), after_step);
+      }
+      catch (const NumericalFailure &error)
+      {
+        if (history.empty())
+          explain_floating(error.message());
+        throw;
+      }
+    }
+
+
+    void
+    NonlinearAnalysis::explain_floating(const std::string &reason) const
+    {
+      std::string floating;
+      try
+      {
+        const FiniteElasticity without_contact(*covers,
+                                               *quadrature,
+                                               constraints,
+                                               problem);
+      }
+      catch (const NumericalFailure &error)
+      {
+        floating = error.message();
+      }
+      if (floating.empty())
+        return;
+      const Vector start = finite->initial_solution();
+      Contact     &law   = contact->contact();
+      law.set_time(0.);
+      law.detect(start);
+      law.assemble(start, false);
+      AssertThrow(
+        contact->all_are_touched(problem),
+        NumericalFailure(reason +
+                           ". Contact alone has to hold the solid, "
+                           "and not all blocks touch what holds them: " +
+                           floating,
+                         "the first load step",
+                         "let faces touch at the start, or "
+                         "set 'Model/Analysis = relaxation'"));
+      AssertThrow(
+        false,
+        NumericalFailure(
+          reason +
+            ". Contact alone has to hold the solid. Its faces touch, but "
+            "there is no equilibrium under the least load: blocks slide, "
+            "as friction and cohesion are too low, or they tip over or "
+            "lift off",
+          "the first load step",
+          "increase 'Contact/Friction angle' or 'Contact/Cohesion', hold "
+          "blocks by displacement conditions, or let them move with "
+          "'Model/Analysis = relaxation' or 'dynamic'"));
+    }
+
+
+    void
+    NonlinearAnalysis::run_incremental()
+    {
+      const LoadStepParameters &parameters = scene.parameters().load_steps;
+      IncrementalSteps          steps;
+      steps.load_factors = parameters.load_steps().load_factors;
+      steps.min_step     = parameters.min_step;
+      if (parameters.max_displacement > 0.)
+        steps.max_displacement = parameters.max_displacement;
+      IncrementalStatics statics(*incremental);
+      statics.run(steps,
+                  [&](const IncrementalStep &step, const Vector &solution) {
+                    HistoryRow row;
+                    row.load_factor       = step.load_factor;
+                    row.n_iterations      = 1;
+                    row.n_cuts            = step.n_cuts;
+                    row.n_lost_iterations = step.n_cuts;
+                    row.relative_residual =
+                      std::numeric_limits<double>::quiet_NaN();
+                    add_step(row, solution);
+                  });
+    }
+
+
+    void
+    NonlinearAnalysis::add_step(HistoryRow row, const Vector &solution)
+    {
+      field = std::make_unique<DisplacementField>(*covers, problem, solution);
+      if (incremental)
+        row.strain_energy =
+          problem.thickness *
+          CurrentStress::incremental_strain_energy(*field,
+                                                   *quadrature,
+                                                   problem,
+                                                   incremental->stresses());
+      if (!has_large_displacements())
+        row.strain_energy = small_strain_energy();
+      double largest = 0.;
+      for (const auto &[element, xi] : output_points)
+        largest = std::max(largest, field->displacement(element, xi).norm());
+      row.max_displacement = Parallel::max(largest, communicator);
+      AssertThrow(
+        std::isfinite(row.strain_energy) && std::isfinite(row.max_displacement),
+        NumericalFailure("The strain energy or a displacement is not finite",
+                         "load factor " + std::to_string(row.load_factor),
+                         "look for loads and stiffness of extreme size"));
+
+      const auto [first, last] = covers->locally_owned_elements();
+      for (const ProbePoints::Entry &entry : probes->entries())
+        if (!scene.parameters().probes[entry.probe].is_line)
+        {
+          Tensor<1, 2> u;
+          if (entry.element >= first && entry.element < last)
+            u = field->displacement(entry.element,
+                                    mathematical_mesh->real_to_reference(
+                                      manifold_mesh->cell(entry.element),
+                                      entry.x));
+          row.probe_displacements.push_back(Parallel::sum(u, communicator));
+        }
+      history.push_back(row);
+
+      std::ostringstream line;
+      line << "    load factor " << std::left << std::setw(10)
+           << row.load_factor << std::right << std::setw(3) << row.n_iterations
+           << " iteration(s)";
+      if (finite)
+        line << ", " << row.n_cuts << " cut(s), residual " << std::scientific
+             << std::setprecision(1) << row.relative_residual;
+      if (contact)
+        line << "; " << contact->progress();
+      progress.message(line.str());
+
+      last_solution = solution;
+      write_history();
+      const unsigned int every = scene.parameters().output.fields_every;
+      if (every > 0 && history.size() % every == 0)
+      {
+        show();
+        std::ostringstream description;
+        description << "load factor " << row.load_factor;
+        series->write(history.size() / every,
+                      row.load_factor,
+                      description.str(),
+                      *evaluator);
+      }
+    }
+
+
+    void
+    NonlinearAnalysis::show()
+    {
+      evaluator.reset();
+      recovery.reset();
+      field =
+        std::make_unique<DisplacementField>(*covers, problem, last_solution);
+      recovery  = std::make_unique<StressRecovery>(*field, aggregation);
+      evaluator = std::make_unique<FieldEvaluator>(
+        *field,
+        *recovery,
+        problem,
+        incremental ? CurrentStress::incremental(
+                        *covers, *quadrature, problem, incremental->stresses())
+        : has_large_displacements() ? CurrentStress::finite(*finite)
+                                    : FieldEvaluator::StressLaw());
+    }
+
+
+    void
+    NonlinearAnalysis::verify()
+    {
+      unsigned int n_iterations = n_last_iterations, n_cuts = n_last_cuts;
+      for (const HistoryRow &row : history)
+      {
+        n_iterations += row.n_iterations + row.n_lost_iterations;
+        n_cuts += row.n_cuts;
+      }
+      summary.add("load_steps", history.size());
+      summary.add("newton_iterations", finite ? n_iterations : 0);
+      summary.add("cuts", n_cuts);
+      summary.add("load_factor", last_value());
+      if (history.empty())
+        return;
+      if (finite)
+      {
+        summary.add("final_residual", history.back().relative_residual);
+        summary.add("direct_stress_covers",
+                    Parallel::sum(recovery->n_direct(), communicator));
+      }
+      summary.add("strain_energy",
+                  history.back().strain_energy,
+                  scene.parameters().output.stress_unit + "*" +
+                    scene.parameters().output.length_unit + "^3");
+      if (contact)
+        contact->add_to_summary(summary);
+    }
+
+
+    double
+    NonlinearAnalysis::last_value() const
+    {
+      return history.empty() ? 0. : history.back().load_factor;
+    }
+
+
+    std::string
+    NonlinearAnalysis::unsolved_note() const
+    {
+      std::ostringstream note;
+      if (history.empty())
+        note << "not solved";
+      else
+        note << "solved up to load factor " << last_value();
+      return note.str();
+    }
+
+
+    void
+    NonlinearAnalysis::write_history() const
+    {
+      if (is_first_rank())
+        directory->write_text("history.csv",
+                              [&](std::ostream &out) { write_history(out); });
+    }
+
+
+    void
+    NonlinearAnalysis::write_history(std::ostream &out) const
+    {
+      out << "step,load_factor,iterations,cuts,relative_residual,strain_energy,"
+             "max_displacement";
+      for (const ProbeParameters &probe : scene.parameters().probes)
+        if (!probe.is_line)
+          out << ',' << probe.name << "_x," << probe.name << "_y";
+      if (contact)
+        for (const std::string &column : contact->columns())
+          out << ',' << column;
+      out << '\n' << std::setprecision(12);
+      for (unsigned int i = 0; i < history.size(); ++i)
+      {
+        const HistoryRow &row = history[i];
+        out << i + 1 << ',' << row.load_factor << ',' << row.n_iterations << ','
+            << row.n_cuts << ',' << row.relative_residual << ','
+            << row.strain_energy << ',' << row.max_displacement;
+        for (const Tensor<1, 2> &u : row.probe_displacements)
+          out << ',' << u[0] << ',' << u[1];
+        for (const double value : row.contact_numbers)
+          out << ',' << value;
+        out << '\n';
+      }
+    }
+
+  } // namespace internal
+} // namespace NMM

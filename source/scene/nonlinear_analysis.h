@@ -1,0 +1,122 @@
+#ifndef nmm_source_scene_nonlinear_analysis_h
+#define nmm_source_scene_nonlinear_analysis_h
+
+#include <nmm/mechanics/elastic_system.h>
+#include <nmm/mechanics/finite_elasticity.h>
+#include <nmm/mechanics/incremental_elasticity.h>
+#include <nmm/mechanics/incremental_statics.h>
+#include <nmm/mechanics/nonlinear_statics.h>
+
+#include <exception>
+#include <memory>
+#include <scene/scene_analysis.h>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace NMM
+{
+  namespace internal
+  {
+
+    /**
+ * Large displacements under growing load, by FiniteElasticity and Newton's
+ * method or by IncrementalElasticity; contact, with small or large displacements. If a load step fails, the last one that
+ * converged is what is written.
+ */
+    class NonlinearAnalysis : public SceneAnalysis
+    {
+    public:
+      using SceneAnalysis::SceneAnalysis;
+
+      void
+      solve() override;
+
+      void
+      verify() override;
+
+    private:
+      using Vector = FiniteElasticity::Vector;
+
+      /// A row of history.csv.
+      struct HistoryRow
+      {
+        double       load_factor       = 0.;
+        unsigned int n_iterations      = 0;
+        unsigned int n_cuts            = 0;
+        unsigned int n_lost_iterations = 0;
+        /// NaN in incremental kinematics, which has none.
+        double relative_residual = 0.;
+        /// [J].
+        double strain_energy = 0.;
+        /// [m].
+        double max_displacement = 0.;
+        /// Of probes that are points [m].
+        std::vector<dealii::Tensor<1, 2>> probe_displacements;
+        /// See ContactAnalysis::columns(); energies times the thickness.
+        std::vector<double> contact_numbers;
+      };
+
+      /// With contact also that of small displacements, as `system` sees it.
+      std::unique_ptr<FiniteElasticity>      finite;
+      std::unique_ptr<ElasticSystem>         system;
+      std::unique_ptr<IncrementalElasticity> incremental;
+      /// Why there are no equations: a block floats. Not an input error, so it waits
+      /// until solve().
+      std::exception_ptr failure;
+      /// Where the largest displacement is looked for: elements and reference
+      /// coordinates.
+      std::vector<std::pair<unsigned int, dealii::Point<2>>> output_points;
+
+      std::vector<HistoryRow> history;
+      /// Cuts and iterations of a step that was given up at last.
+      unsigned int n_last_cuts = 0, n_last_iterations = 0;
+      /// Of the last step that converged.
+      Vector last_solution;
+
+      void
+      make_system() override;
+
+      bool
+      has_large_displacements() const;
+
+      void
+      run_finite();
+
+      void
+      run_contact();
+
+      /// @throws NumericalFailure, if contact alone has to hold blocks: beside @p reason
+      /// with the block that touches nothing, or that friction is too low where all touch.
+      void
+      explain_floating(const std::string &reason) const;
+
+      void
+      run_incremental();
+
+      /// Note a load step that converged, and say so.
+      void
+      add_step(HistoryRow row, const Vector &solution);
+
+      /// Make field, recovery and evaluator those of the last step that converged.
+      void
+      show();
+
+      double
+      last_value() const override;
+
+      std::string
+      unsolved_note() const override;
+
+      /// history.csv as far as it goes.
+      void
+      write_history() const;
+
+      void
+      write_history(std::ostream &out) const;
+    };
+
+  } // namespace internal
+} // namespace NMM
+
+#endif

@@ -1,0 +1,66 @@
+#ifndef nmm_source_scene_probe_history_h
+#define nmm_source_scene_probe_history_h
+
+#include <nmm/covers/cover_system.h>
+#include <nmm/output/probes.h>
+#include <nmm/scene/time_table.h>
+
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace NMM
+{
+  namespace internal
+  {
+
+    /**
+ * probes-history.csv: displacement [m] and velocity [m/s] of the probes that are
+ * points, a row per time step. All functions are collective.
+ */
+    class ProbeHistory
+    {
+    public:
+      using Vector = dealii::TrilinosWrappers::MPI::Vector;
+
+      ProbeHistory(const CoverSystem                  &covers,
+                   const ProbePoints                  &points,
+                   const std::vector<ProbeParameters> &probes);
+
+      /// Is there a probe that is a point?
+      bool
+      is_empty() const;
+
+      /// On the first rank. See TimeTable.
+      void
+      open(const std::string &file_name, int continue_after);
+
+      /// Displacement and velocity of each probe in turn, from owned unknowns; on all
+      /// ranks.
+      std::vector<double>
+      evaluate(const Vector &u, const Vector &v) const;
+
+      /// On the first rank.
+      void
+      write(double time, unsigned int step, const std::vector<double> &values);
+
+    private:
+      struct Term
+      {
+        unsigned int cover;
+        double       weight;
+      };
+
+      MPI_Comm                 communicator;
+      std::vector<std::string> names;
+      /// Per probe, of covers this rank owns.
+      std::vector<std::vector<Term>> terms;
+      std::unique_ptr<TimeTable>     table;
+    };
+
+  } // namespace internal
+} // namespace NMM
+
+#endif

@@ -1,0 +1,117 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/base/program.h>
+#include <nmm/output/output_directory.h>
+#include <nmm/scene/run_scene.h>
+
+#include <memory>
+#include <scene/dynamic_analysis.h>
+#include <scene/nonlinear_analysis.h>
+#include <scene/safety_factor_analysis.h>
+#include <scene/static_analysis.h>
+
+namespace NMM
+{
+  namespace
+  {
+    std::unique_ptr<internal::SceneAnalysis>
+    make_analysis(const Scene       &scene,
+                  Progress          &progress,
+                  const MPI_Comm     communicator,
+                  const std::string &restart)
+    {
+      const ModelParameters &model      = scene.parameters().model;
+      const bool             is_dynamic = model.analysis == Analysis::dynamics;
+      AssertThrow(restart.empty() ||
+                    (is_dynamic && model.kinematics != Kinematics::incremental),
+                  InputError("the scene has no dynamic analysis of small or "
+                             "finite kinematics to continue",
+                             "--restart " + restart,
+                             "give the scene the checkpoint was written "
+                             "with"));
+      if (model.analysis == Analysis::safety_factor)
+        return std::make_unique<internal::SafetyFactorAnalysis>(scene,
+                                                                progress,
+                                                                communicator);
+      if (model.analysis != Analysis::statics)
+        return std::make_unique<internal::DynamicAnalysis>(scene,
+                                                           progress,
+                                                           communicator,
+                                                           restart);
+      if (model.kinematics == Kinematics::small &&
+          !scene.parameters().contact.is_present())
+        return std::make_unique<internal::StaticAnalysis>(scene,
+                                                          progress,
+                                                          communicator);
+      return std::make_unique<internal::NonlinearAnalysis>(scene,
+                                                           progress,
+                                                           communicator);
+    }
+
+
+    /// Writes what is known before the failure is passed on.
+    void
+    solve_or_save(internal::SceneAnalysis &analysis)
+    {
+      try
+      {
+        analysis.solve();
+      }
+      catch (const NumericalFailure &failure)
+      {
+        const std::string reason = failure.message();
+        try
+        {
+          analysis.write();
+        }
+        catch (const UserError &error)
+        {
+          AssertThrow(false,
+                      NumericalFailure(reason + "; and " + error.message(),
+                                       "",
+                                       ""));
+        }
+        throw;
+      }
+    }
+  } // namespace
+
+
+  void
+  run_scene(const Scene           &scene,
+            const SceneRunOptions &options,
+            Progress              &progress,
+            const MPI_Comm         communicator,
+            bool                  &has_output)
+  {
+    const OutputDirectory directory(options.output);
+    if (!options.check_only)
+      on_first_rank(communicator, [&]() { directory.check(); });
+
+    progress.message(scene.title());
+    const auto analysis =
+      make_analysis(scene, progress, communicator, options.restart);
+    try
+    {
+      analysis->build();
+    }
+    catch (const NumericalFailure &failure)
+    {
+      // A check solves nothing, so that it cannot fail to.
+      if (!options.check_only)
+        throw;
+      progress.message("  warning: a run would end with exit code 3: " +
+                       failure.message());
+      return;
+    }
+    analysis->print_report();
+    if (options.check_only)
+      return;
+
+    analysis->open(directory);
+    has_output = true;
+    solve_or_save(*analysis);
+    analysis->verify();
+    analysis->write();
+    progress.message("Results are in " + directory.path().string());
+  }
+} // namespace NMM

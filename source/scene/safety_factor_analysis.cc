@@ -1,0 +1,281 @@
+#include <nmm/base/exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <scene/current_stress.h>
+#include <scene/safety_factor_analysis.h>
+#include <scene/static_start.h>
+#include <sstream>
+#include <utility>
+
+namespace NMM
+{
+  namespace internal
+  {
+
+    using namespace NMM;
+    using Stage = Progress::Stage;
+    using Start = SafetyFactorSectionParameters::Start;
+
+    namespace
+    {
+      const char *
+      verb(const StrengthTrial::Outcome outcome)
+      {
+        switch (outcome)
+        {
+          case StrengthTrial::Outcome::stands:
+            return "stands";
+          case StrengthTrial::Outcome::moves:
+            return "moves";
+          default:
+            return "fails";
+        }
+      }
+    } // namespace
+
+
+    void
+    SafetyFactorAnalysis::make_system()
+    {
+      Stage              system_stage(progress, "masses");
+      const unsigned int degree = 2 * mathematical_mesh->degree();
+      mass_quadrature           = std::make_unique<QuadratureCollection>(
+        *manifold_mesh, degree, degree, covers->locally_owned_elements());
+      elasticity = std::make_unique<FiniteElasticity>(
+        *covers, *quadrature, constraints, problem, /* may_float = */ true);
+      if (scene.parameters().model.kinematics == Kinematics::finite)
+        model = std::make_unique<FiniteModel>(*elasticity,
+                                              *mass_quadrature,
+                                              scene.make_loading());
+      else
+        model = std::make_unique<SmallModel>(*elasticity,
+                                             *mass_quadrature,
+                                             scene.make_loading());
+    }
+
+
+    void
+    SafetyFactorAnalysis::settle()
+    {
+      Stage       start_stage(progress, "start");
+      StartReport report;
+      settled         = find_start({scene,
+                                    *covers,
+                                    *quadrature,
+                                    *mass_quadrature,
+                                    constraints,
+                                    problem,
+                                    contact.get(),
+                                    progress},
+                           report);
+      n_start_steps   = report.n_steps;
+      settled_contact = contact->contact().history();
+    }
+
+
+    StrengthTrial
+    SafetyFactorAnalysis::try_factor(const double factor)
+    {
+      const SceneParameters &parameters = scene.parameters();
+      contact->divide_strength(factor);
+      AccountedContactModel with_contact(*model, *contact);
+      TimeIntegrator        integrator(
+        with_contact,
+        parameters.time.time_scheme(Analysis::safety_factor,
+                                    parameters.model.kinematics,
+                                    /* has_contact = */ true),
+        {},
+        motion_newton_parameters(scene));
+      if (parameters.safety_factor.start == Start::settled)
+      {
+        contact->contact().restore_history(settled_contact);
+        integrator.initialize(settled,
+                              Vector(model->locally_owned(), communicator));
+      }
+      RelaxationParameters relaxation = parameters.relaxation.relaxation;
+      relaxation.max_displacement = parameters.safety_factor.max_displacement;
+      const StrengthTrial trial = try_to_stand(integrator, relaxation, factor);
+
+      if (tells_more(trial))
+      {
+        shown              = trial;
+        shown_displacement = integrator.state().u;
+        shown_contact      = contact->last_state();
+      }
+      trials.push_back(trial);
+      on_first_rank([&]() { write_trials(); });
+      std::ostringstream line;
+      line << "  factor " << factor << ' ' << verb(trial.outcome) << " ("
+           << trial.n_steps << " steps" << (trial.reason.empty() ? "" : ", ")
+           << trial.reason << ')';
+      progress.message(line.str());
+      return trial;
+    }
+
+
+    bool
+    SafetyFactorAnalysis::tells_more(const StrengthTrial &trial) const
+    {
+      if (trials.empty() || trial.fails())
+        return true;
+      if (trial.outcome != shown.outcome)
+        return shown.stands();
+      return trial.stands() ? trial.factor > shown.factor
+                            : trial.factor < shown.factor;
+    }
+
+
+    void
+    SafetyFactorAnalysis::solve()
+    {
+      const SafetyFactorSectionParameters &parameters =
+        scene.parameters().safety_factor;
+      if (parameters.start == Start::settled)
+        settle();
+      {
+        Stage search(progress, "trials");
+        result = find_safety_factor(
+          [this](const double factor) { return try_factor(factor); },
+          parameters.search);
+      }
+      contact->show_state(shown_contact);
+      Stage recovery_stage(progress, "stress recovery");
+      show();
+      is_solved = result.stands_at > 0. && std::isfinite(result.moves_at) &&
+                  !result.has_failed();
+      if (!is_solved)
+        give_up();
+      std::ostringstream line;
+      line << "  factor of safety " << result.value() << ": stands at "
+           << result.stands_at << ", moves at " << result.moves_at;
+      progress.message(line.str());
+    }
+
+
+    std::string
+    SafetyFactorAnalysis::what_is_known() const
+    {
+      std::ostringstream text;
+      if (result.stands_at > 0.)
+        text << "they stand at " << result.stands_at;
+      if (std::isfinite(result.moves_at))
+        text << (text.str().empty() ? "they" : " and") << " move at "
+             << result.moves_at;
+      return text.str().empty() ? "nothing is known of other factors"
+                                : text.str();
+    }
+
+
+    void
+    SafetyFactorAnalysis::give_up()
+    {
+      const SafetyFactorParameters &search =
+        scene.parameters().safety_factor.search;
+      const bool stands = result.stands_at > 0.;
+      verify();
+      std::ostringstream what;
+      if (result.has_failed())
+      {
+        std::ostringstream where;
+        where << "the factor " << trials.back().factor;
+        what
+          << "The search for the factor of safety has ended, because a trial "
+             "did not converge: it tells neither whether the blocks stand nor "
+             "whether they move ("
+          << what_is_known() << "; " << trials.back().reason << ')';
+        AssertThrow(false,
+                    NumericalFailure(what.str(),
+                                     where.str(),
+                                     "look for joints that nearly coincide and "
+                                     "other slivers, or choose another "
+                                     "'Safety factor/First', a smaller "
+                                     "'Relaxation/Step' or softer springs of "
+                                     "contact"));
+      }
+      what << "The blocks " << (stands ? "stand" : "move")
+           << " at all factors tried, from " << search.first
+           << (stands ? " up to " : " down to ")
+           << (stands ? result.stands_at : result.moves_at);
+      AssertThrow(false,
+                  NumericalFailure(what.str(),
+                                   std::string("parameter 'Safety factor/") +
+                                     (stands ? "Highest'" : "Lowest'"),
+                                   stands
+                                     ? "raise it, if blocks can move at all"
+                                     : "lower it, or see safety_factor.csv "
+                                       "for what moves"));
+    }
+
+
+    void
+    SafetyFactorAnalysis::write_trials() const
+    {
+      directory->write_text("safety_factor.csv", [&](std::ostream &out) {
+        out.precision(12);
+        out << "trial,factor,stands,moves,largest_displacement,steps,reason\n";
+        for (unsigned int i = 0; i < trials.size(); ++i)
+          out << i + 1 << ',' << trials[i].factor << ',' << trials[i].stands()
+              << ',' << (trials[i].outcome == StrengthTrial::Outcome::moves)
+              << ',' << trials[i].displacement << ',' << trials[i].n_steps
+              << ",\"" << trials[i].reason << "\"\n";
+      });
+    }
+
+
+    void
+    SafetyFactorAnalysis::show()
+    {
+      evaluator.reset();
+      recovery.reset();
+      Vector relevant(model->locally_owned(),
+                      model->locally_relevant(),
+                      communicator);
+      relevant = shown_displacement;
+      field = std::make_unique<DisplacementField>(*covers, problem, relevant);
+      recovery = std::make_unique<StressRecovery>(*field, aggregation);
+      FieldEvaluator::StressLaw law;
+      if (scene.parameters().model.kinematics == Kinematics::finite)
+        law = CurrentStress::finite(*elasticity);
+      evaluator =
+        std::make_unique<FieldEvaluator>(*field, *recovery, problem, law);
+    }
+
+
+    void
+    SafetyFactorAnalysis::verify()
+    {
+      summary.add("safety_factor", result.value());
+      summary.add("factor_stands", result.stands_at);
+      summary.add("factor_moves", result.moves_at);
+      summary.add("trials", trials.size());
+      unsigned int n_steps = n_start_steps;
+      for (const StrengthTrial &trial : trials)
+        n_steps += trial.n_steps;
+      summary.add("time_steps", n_steps);
+      summary.add("shown_factor", shown.factor);
+      summary.add("shown_stands", shown.stands() ? 1. : 0.);
+      contact->add_to_summary(summary);
+    }
+
+
+    double
+    SafetyFactorAnalysis::last_value() const
+    {
+      return shown.factor;
+    }
+
+
+    std::string
+    SafetyFactorAnalysis::unsolved_note() const
+    {
+      std::ostringstream note;
+      if (shown.fails())
+        note << "no convergence at the factor " << shown.factor;
+      else
+        note << verb(shown.outcome) << " at all factors tried";
+      return note.str();
+    }
+
+  } // namespace internal
+} // namespace NMM

@@ -1,0 +1,355 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/base/memory.h>
+#include <nmm/covers/rank_cells.h>
+#include <nmm/scene/parameter_tree.h>
+#include <nmm/scene/scene.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <scene/expression.h>
+#include <sstream>
+
+namespace NMM
+{
+  namespace
+  {
+    /**
+     * Expressions of x and y, separated by semicolons, as a function with
+     * @p n_components components; null if @p text is empty.
+     */
+    std::shared_ptr<const dealii::Function<2>>
+    make_function(const std::string &text,
+                  const unsigned int n_components,
+                  const std::string &parameter)
+    {
+      if (text.find_first_not_of(" \t") == std::string::npos)
+        return nullptr;
+
+      const std::vector<std::string> expressions =
+        dealii::Utilities::split_string_list(text, ';');
+      const std::string where = "parameter '" + parameter + "'";
+      AssertThrow(expressions.size() == n_components,
+                  InputError("'" + text + "' has " +
+                               std::to_string(expressions.size()) +
+                               " expression(s) instead of " +
+                               std::to_string(n_components),
+                             where,
+                             n_components == 1
+                               ? "give one expression of x and y"
+                               : "give two, separated by a semicolon"));
+
+      return internal::parse_expressions<2>(expressions, "x,y", parameter);
+    }
+
+
+    unsigned int
+    n_values(const BoundaryCondition::Type type)
+    {
+      return type == BoundaryCondition::Type::traction ||
+                 type == BoundaryCondition::Type::displacement
+               ? 2
+               : 1;
+    }
+
+
+    /**
+     * What an analysis uses [bytes], measured on squares of 1e5 and 4e5 triangles
+     * (`peak_memory` in the summary). Where systems are factorized, factors grow a
+     * little faster than their number.
+     */
+    double
+    estimate_memory(const SceneParameters &parameters, const double n_cells)
+    {
+      const ModelParameters &model = parameters.model;
+      const bool is_quadratic      = parameters.mathematical_mesh.degree > 1;
+      const bool is_iterative      = model.analysis == Analysis::statics &&
+                                model.kinematics == Kinematics::small &&
+                                !parameters.contact.is_present();
+      const double linear  = is_quadratic ? 3800. : 2000.;
+      const double factors = (is_iterative                          ? 0.
+                              : model.analysis == Analysis::statics ? 4700.
+                                                                    : 13000.) *
+                             (is_quadratic ? 1. : 0.25);
+      constexpr double n_measured = 1e5;
+      return n_cells * (linear + factors * std::log(std::max(n_cells, 2.)) /
+                                   std::log(n_measured));
+    }
+
+
+    /// Of a regular mesh, or the coarsest part of a graded one, before it is made.
+    /// @throws InputError.
+    void
+    check_memory(const SceneParameters       &parameters,
+                 const RegularMeshParameters &mesh,
+                 const PhysicalMesh          &physical_mesh,
+                 const MPI_Comm               communicator)
+    {
+      const double h = mesh.cell_size;
+      if (!(h > 0.))
+        return;
+      double       area     = 0.;
+      const double box_area = physical_mesh.bounding_box().volume();
+      for (const PhysicalMesh::Region &region : physical_mesh.regions())
+        area += region.area;
+      if (mesh.whole_box)
+        area = box_area;
+      const double of_triangle =
+        h * h *
+        (mesh.pattern == MeshPattern::equilateral ? 0.25 * std::sqrt(3.) : 0.5);
+      const double n_cells = area / of_triangle;
+      // each triangle of the box is looked at
+      constexpr double of_lattice = 2.5; // [bytes]
+      double           needed     = estimate_memory(parameters, n_cells) +
+                      of_lattice * box_area / of_triangle;
+      if (parameters.covers.is_distributed)
+        needed /= dealii::Utilities::MPI::n_mpi_processes(communicator);
+      std::ostringstream number;
+      number.precision(2);
+      number << n_cells << " cells";
+      require_memory(needed,
+                     available_memory(communicator),
+                     number.str(),
+                     "parameter 'Mathematical mesh/Cell size'",
+                     [&](const double excess) {
+                       std::ostringstream text;
+                       text.precision(2);
+                       // a little more than what just fits
+                       text << "choose at least "
+                            << 1.05 * h * std::sqrt(excess)
+                            << " m, or a machine or limit with more memory";
+                       return text.str();
+                     });
+    }
+
+
+    /// A square that stands on its base and is pressed from above: what is printed
+    /// without a scene can be run, and replaced bit by bit.
+    void
+    declare_first_scene(dealii::ParameterHandler &prm)
+    {
+      SceneNames names;
+      names.materials           = {"rock"};
+      names.boundary_conditions = {"held", "pressed"};
+      SceneParameters::declare(prm, names);
+      const std::vector<std::array<std::string, 3>> entries = {
+        {{"Geometry",
+          "Text",
+          "boundary name=right material=rock LINESTRING (1 0, 1 1); "
+          "boundary name=base LINESTRING (0 0, 1 0); "
+          "boundary name=top LINESTRING (1 1, 0 1); "
+          "boundary name=left LINESTRING (0 1, 0 0)"}},
+        {{"Mathematical mesh", "Cell size", "0.25"}},
+        {{"Materials", "Names", "rock"}},
+        {{"Materials/rock", "Young's modulus", "1e9"}},
+        {{"Boundary conditions", "Names", "held, pressed"}},
+        {{"Boundary conditions/held", "Boundary", "base"}},
+        {{"Boundary conditions/held", "Type", "displacement"}},
+        {{"Boundary conditions/held", "Value", "0; 0"}},
+        {{"Boundary conditions/pressed", "Boundary", "top"}},
+        {{"Boundary conditions/pressed", "Type", "pressure"}},
+        {{"Boundary conditions/pressed", "Value", "1e5"}}};
+      for (const auto &[section, key, value] : entries)
+      {
+        const auto path = dealii::Utilities::split_string_list(section, '/');
+        for (const std::string &name : path)
+          prm.enter_subsection(name);
+        prm.set(key, value);
+        for (std::size_t i = 0; i < path.size(); ++i)
+          prm.leave_subsection();
+      }
+    }
+
+
+    void
+    print_parameters(const dealii::ParameterHandler &prm,
+                     std::ostream                   &out,
+                     const Scene::Format             format)
+    {
+      using dealii::ParameterHandler;
+      switch (format)
+      {
+        case Scene::Format::prm:
+          prm.print_parameters(out,
+                               ParameterHandler::PRM |
+                                 ParameterHandler::KeepDeclarationOrder);
+          break;
+        case Scene::Format::json:
+          prm.print_parameters(out,
+                               ParameterHandler::ShortJSON |
+                                 ParameterHandler::KeepDeclarationOrder);
+          break;
+        case Scene::Format::markdown:
+          out << parameter_reference(prm);
+          break;
+      }
+    }
+  } // namespace
+
+
+  Scene::Scene(const std::string              &file_name,
+               const std::vector<std::string> &overrides)
+    : file_name(file_name)
+    , prm(std::make_shared<dealii::ParameterHandler>())
+  {
+    std::vector<ParameterAssignment> assignments;
+    for (const std::string &text : overrides)
+      assignments.push_back(parse_assignment(text));
+
+    {
+      dealii::ParameterHandler first_pass;
+      SceneNames::declare(first_pass);
+      read_parameters(file_name, assignments, true, first_pass);
+      names.parse(first_pass);
+    }
+
+    SceneParameters::declare(*prm, names);
+    read_parameters(file_name, assignments, false, *prm);
+    scene_parameters.parse(*prm, names);
+    scene_parameters.check();
+  }
+
+
+  const SceneParameters &
+  Scene::parameters() const
+  {
+    return scene_parameters;
+  }
+
+
+  void
+  Scene::print(std::ostream &out, const Format format) const
+  {
+    print_parameters(*prm, out, format);
+  }
+
+
+  void
+  Scene::print_defaults(std::ostream &out, const Format format)
+  {
+    dealii::ParameterHandler prm;
+    if (format == Format::markdown)
+      SceneParameters::declare(prm, SceneNames::examples());
+    else
+      declare_first_scene(prm);
+    print_parameters(prm, out, format);
+  }
+
+
+  std::string
+  Scene::title() const
+  {
+    return scene_parameters.output.title.empty()
+             ? std::filesystem::path(file_name).stem().string()
+             : scene_parameters.output.title;
+  }
+
+
+  std::string
+  Scene::relative_to_scene(const std::string &name) const
+  {
+    return (std::filesystem::path(file_name).parent_path() / name).string();
+  }
+
+
+  MathematicalMesh
+  Scene::make_mathematical_mesh(const PhysicalMesh &physical_mesh,
+                                const MPI_Comm      communicator) const
+  {
+    const MathematicalMeshParameters &parameters =
+      scene_parameters.mathematical_mesh;
+    switch (parameters.type)
+    {
+      case MathematicalMeshParameters::Type::graded:
+        check_memory(scene_parameters,
+                     parameters.graded,
+                     physical_mesh,
+                     communicator);
+        return make_graded_mesh(physical_mesh,
+                                parameters.graded,
+                                parameters.degree);
+      case MathematicalMeshParameters::Type::gmsh:
+        return read_gmsh_mesh(relative_to_scene(parameters.gmsh_file),
+                              parameters.degree);
+      case MathematicalMeshParameters::Type::regular:
+        break;
+    }
+    RegularMeshParameters regular = parameters.regular;
+    if (regular.cell_size == 0.)
+    {
+      // one region is resolved by this mesh; more have meshes of their own, and
+      // this one has to be too coarse for all of them
+      const unsigned int n_across = scene_parameters.covers.mesh.n_across;
+      const bool is_alone = physical_mesh.regions().size() == 1 && n_across > 1;
+      regular.cell_size =
+        largest_extent(physical_mesh) * (is_alone ? 1. / n_across : 1.5);
+    }
+    check_memory(scene_parameters, regular, physical_mesh, communicator);
+    if (scene_parameters.covers.is_distributed)
+      return make_distributed_mesh(physical_mesh,
+                                   regular,
+                                   parameters.degree,
+                                   communicator);
+    return make_regular_mesh(physical_mesh, regular, parameters.degree);
+  }
+
+
+  std::vector<RegionMesh>
+  Scene::make_region_meshes(const PhysicalMesh &physical_mesh) const
+  {
+    const CoverParameters  &parameters = scene_parameters.covers;
+    const auto             &regions    = physical_mesh.regions();
+    std::vector<RegionMesh> choices(regions.size(), parameters.mesh);
+    for (const BlockMeshParameters &block : parameters.blocks)
+    {
+      const unsigned int found = find_region(physical_mesh, block.block);
+      AssertThrow(found != invalid_index,
+                  InputError("the point " + to_string(block.block) +
+                               " lies in no block",
+                             "parameter 'Covers/" + block.name + "/Block'",
+                             "give a point inside the block that is meant"));
+      for (unsigned int r = 0; r < regions.size(); ++r)
+        if (regions[r].block == regions[found].block)
+          choices[r] = block.mesh;
+    }
+    return choices;
+  }
+
+
+  ElasticityProblem
+  Scene::make_problem() const
+  {
+    const ModelParameters &model = scene_parameters.model;
+    ElasticityProblem      problem;
+    problem.plane_state = model.plane_state;
+    problem.thickness   = model.thickness;
+    problem.gravity     = model.gravity;
+    problem.body_force = make_function(model.body_force, 2, "Model/Body force");
+    problem.materials  = scene_parameters.materials;
+    problem.point_forces = scene_parameters.point_forces;
+    problem.fixed_points = scene_parameters.fixed_points;
+
+    for (const auto &parameters : scene_parameters.boundary_conditions)
+    {
+      const auto value =
+        make_function(parameters.value,
+                      n_values(parameters.type),
+                      "Boundary conditions/" + parameters.name + "/Value");
+      for (const std::string &curve : parameters.boundaries)
+      {
+        BoundaryCondition condition;
+        condition.name          = parameters.name;
+        condition.curve         = curve;
+        condition.type          = parameters.type;
+        condition.value         = value;
+        condition.components[0] = parameters.components[0];
+        condition.components[1] = parameters.components[1];
+        problem.boundary_conditions.push_back(condition);
+      }
+    }
+    return problem;
+  }
+} // namespace NMM

@@ -1,0 +1,417 @@
+#include <nmm/base/program.h>
+#include <nmm/covers/own_meshes.h>
+#include <nmm/covers/rank_cells.h>
+#include <nmm/mechanics/load_values.h>
+#include <nmm/output/vtu.h>
+
+#include <algorithm>
+#include <exception>
+#include <scene/scene_analysis.h>
+#include <sstream>
+
+namespace NMM
+{
+  namespace internal
+  {
+
+    using namespace NMM;
+    using Stage = Progress::Stage;
+
+    SceneAnalysis::SceneAnalysis(const Scene   &scene,
+                                 Progress      &progress,
+                                 const MPI_Comm communicator)
+      : scene(scene)
+      , progress(progress)
+      , communicator(communicator)
+    {
+    }
+
+
+    void
+    SceneAnalysis::build()
+    {
+      const SceneParameters &parameters = scene.parameters();
+      {
+        Stage    stage(progress, "geometry");
+        Geometry geometry = scene.make_geometry();
+        cleaning_actions =
+          clean(geometry, parameters.geometry.cleaning_tolerance);
+        physical_mesh = std::make_unique<PhysicalMesh>(std::move(geometry));
+        problem       = scene.make_problem();
+        problem.check(*physical_mesh);
+        check_problem();
+      }
+      {
+        Stage stage(progress, "mathematical mesh");
+        mathematical_mesh = std::make_unique<MathematicalMesh>(
+          scene.make_mathematical_mesh(*physical_mesh, communicator));
+      }
+      {
+        Stage stage(progress, "cutting");
+        cut();
+        probes =
+          std::make_unique<ProbePoints>(*manifold_mesh, parameters.probes);
+      }
+      {
+        Stage stage(progress, "covers");
+        make_covers();
+      }
+      {
+        Stage stage(progress, "quadrature");
+        // Stiffness needs 2p - 2, a constant body force p; one that varies is
+        // integrated with the accuracy of the mass matrix.
+        const unsigned int p = mathematical_mesh->degree();
+        const unsigned int degree =
+          problem.body_force ? 2 * p : std::max(2 * p - 2, p);
+        quadrature = std::make_unique<QuadratureCollection>(
+          *manifold_mesh, degree, degree, covers->locally_owned_elements());
+        check_load_values(*covers, *quadrature, problem);
+      }
+      make_system();
+      add_counts();
+    }
+
+
+    void
+    SceneAnalysis::cut()
+    {
+      OwnMeshParameters parameters;
+      parameters.threshold = scene.parameters().covers.threshold;
+      parameters.regions   = scene.make_region_meshes(*physical_mesh);
+      OwnMeshes meshes     = make_own_meshes(std::move(mathematical_mesh),
+                                         *physical_mesh,
+                                         parameters);
+      mathematical_mesh    = std::move(meshes.mathematical_mesh);
+      manifold_mesh        = std::move(meshes.manifold_mesh);
+      own_mesh_notices     = std::move(meshes.notices);
+    }
+
+
+    void
+    SceneAnalysis::make_covers()
+    {
+      const CoverParameters &parameters = scene.parameters().covers;
+      covers = std::make_unique<CoverSystem>(*manifold_mesh, communicator);
+      // The surface comes first: it makes more covers relevant to a rank, and
+      // aggregation what these follow.
+      if (scene.parameters().contact.is_present())
+        contact =
+          std::make_unique<ContactAnalysis>(scene, *physical_mesh, *covers);
+      // With threshold 0 every element is well supported and no cover is
+      // constrained.
+      aggregation =
+        aggregate(*covers,
+                  parameters.stabilization == Stabilization::aggregation
+                    ? parameters.threshold
+                    : 0.);
+      constraints = make_constraints(*covers, aggregation, 2);
+      if (contact)
+        contact->make_contact(constraints, problem);
+      if (parameters.stabilization == Stabilization::ghost_penalty)
+        ghost_penalty = std::make_unique<GhostPenalty>(
+          make_ghost_penalty(*manifold_mesh, parameters.threshold));
+    }
+
+
+    void
+    SceneAnalysis::add_counts()
+    {
+      const auto [first, last] = covers->locally_owned_elements();
+      double area = 0., smallest = 1.;
+      for (unsigned int element = first; element < last; ++element)
+      {
+        const double fraction = quadrature->area_fraction(element);
+        smallest              = std::min(smallest, fraction);
+        area +=
+          fraction * mathematical_mesh->cell_area(manifold_mesh->cell(element));
+      }
+      namespace MPI = dealii::Utilities::MPI;
+      summary.add("ranks", MPI::n_mpi_processes(communicator));
+      summary.add("degree", mathematical_mesh->degree());
+      summary.add("blocks", physical_mesh->n_blocks());
+      summary.add("regions", physical_mesh->regions().size());
+      add_block_counts();
+      summary.add("own_meshes", mathematical_mesh->n_parts() - 1);
+      // of all ranks, whatever each of them holds
+      const RankCells *rank_cells = mathematical_mesh->rank_cells();
+      unsigned int     n_cut      = manifold_mesh->n_cells_cut_exactly(),
+                   n_aggregated   = 0;
+      for (const auto &[cover, root] : aggregation.cover_to_root)
+        n_aggregated += covers->locally_owned_covers().is_element(
+          covers->global_cover(cover));
+      if (rank_cells != nullptr)
+        n_cut = MPI::sum(n_cut, communicator);
+      summary.add("cells",
+                  rank_cells == nullptr ? mathematical_mesh->n_cells()
+                                        : rank_cells->n_global_cells);
+      summary.add("cells_cut_exactly", n_cut);
+      summary.add("mathematical_covers",
+                  mathematical_mesh->dof_handler().n_dofs());
+      summary.add("manifold_elements", MPI::sum(last - first, communicator));
+      summary.add("elements_held",
+                  MPI::max(manifold_mesh->n_elements(), communicator));
+      summary.add("physical_covers", covers->n_global_covers());
+      summary.add("covers_held", MPI::max(covers->n_covers(), communicator));
+      n_aggregated = MPI::sum(n_aggregated, communicator);
+      summary.add("aggregated_covers", n_aggregated);
+      summary.add("unknowns", 2. * (covers->n_global_covers() - n_aggregated));
+      summary.add("area",
+                  MPI::sum(area, communicator),
+                  scene.parameters().output.length_unit + "^2");
+      summary.add("smallest_area_fraction", MPI::min(smallest, communicator));
+      summary.add("quadrature_fallbacks",
+                  MPI::sum(quadrature->n_fallbacks(), communicator));
+      summary.add("cleaning_actions", cleaning_actions.size());
+      summary.add("notices",
+                  physical_mesh->notices().size() + own_mesh_notices.size());
+    }
+
+
+    void
+    SceneAnalysis::add_block_counts()
+    {
+      const std::string  &length = scene.parameters().output.length_unit;
+      std::vector<double> areas(physical_mesh->n_blocks(), 0.);
+      for (const PhysicalMesh::Region &region : physical_mesh->regions())
+        areas[region.block] += region.area;
+      const double limit = scene.parameters().geometry.small_block;
+      summary.add("smallest_block_area",
+                  *std::min_element(areas.begin(), areas.end()),
+                  length + "^2");
+      summary.add("small_blocks",
+                  std::count_if(areas.begin(),
+                                areas.end(),
+                                [&](const double area) {
+                                  return limit > 0. && area < limit;
+                                }));
+      const PhysicalMesh::DanglingEnds &ends = physical_mesh->dangling_ends();
+      summary.add("crack_tips", ends.n_kept);
+      summary.add("crack_length", ends.length_kept, length);
+      summary.add("dropped_ends", ends.n_dropped);
+      summary.add("dropped_length", ends.length_dropped, length);
+    }
+
+
+    std::vector<std::string>
+    SceneAnalysis::block_notices() const
+    {
+      const std::string       &length = scene.parameters().output.length_unit;
+      std::vector<std::string> result;
+      const PhysicalMesh::DanglingEnds &ends = physical_mesh->dangling_ends();
+      std::ostringstream                text;
+      if (ends.length_dropped > 0.)
+      {
+        text << "joints that bound no block were dropped over "
+             << ends.length_dropped << ' ' << length << ", " << ends.n_dropped
+             << " end(s)";
+        result.push_back(text.str());
+      }
+      if (ends.length_kept > 0. && !scene.parameters().joint_sets.empty())
+      {
+        text.str("");
+        text << "joints that bound no block are cracks over "
+             << ends.length_kept << ' ' << length << ", with " << ends.n_kept
+             << " tip(s)";
+        result.push_back(text.str());
+      }
+      if (summary.value("small_blocks") > 0.)
+      {
+        text.str("");
+        text << summary.value("small_blocks") << " of "
+             << summary.value("blocks") << " blocks are smaller than "
+             << scene.parameters().geometry.small_block << ' ' << length
+             << "^2, the smallest " << summary.value("smallest_block_area")
+             << ' ' << length
+             << "^2: 'Geometry/Cleaning tolerance' moves ends of joints that "
+                "nearly meet";
+        result.push_back(text.str());
+      }
+      return result;
+    }
+
+
+    void
+    SceneAnalysis::print_report()
+    {
+      for (const CleaningAction &action : cleaning_actions)
+        progress.message("  cleaned: " + action.description());
+      std::vector<std::string> notices = physical_mesh->notices();
+      const auto add_notices = [&](const std::vector<std::string> &n) {
+        notices.insert(notices.end(), n.begin(), n.end());
+      };
+      add_notices(block_notices());
+      add_notices(own_mesh_notices);
+      if (contact)
+        add_notices(contact->notices());
+      for (const std::string &notice : merge_alike(notices))
+        progress.message("  notice: " + notice);
+
+      const auto count = [&](const std::string &name) {
+        std::ostringstream text;
+        text << std::fixed;
+        text.precision(0);
+        text << summary.value(name);
+        return text.str();
+      };
+      progress.message("  " + count("blocks") + " block(s), " +
+                       count("regions") + " region(s), " + count("cells") +
+                       " cells (" + count("cells_cut_exactly") +
+                       " cut exactly), " + count("mathematical_covers") +
+                       " mathematical covers");
+      progress.message("  " + count("manifold_elements") +
+                       " manifold elements, " + count("physical_covers") +
+                       " physical covers (" + count("aggregated_covers") +
+                       " aggregated), " + count("unknowns") + " unknowns");
+      std::ostringstream smallest;
+      smallest << "  smallest element area over cell area "
+               << summary.value("smallest_area_fraction");
+      progress.message(smallest.str());
+      if (contact)
+        progress.message("  contact: " + contact->description());
+      if (summary.value("quadrature_fallbacks") > 0.)
+        progress.message("  warning: " + count("quadrature_fallbacks") +
+                         " quadrature rule(s) of lower quality");
+    }
+
+
+    bool
+    SceneAnalysis::is_first_rank() const
+    {
+      return dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+    }
+
+
+    double
+    SceneAnalysis::small_strain_energy() const
+    {
+      double energy            = 0.;
+      const auto [first, last] = covers->locally_owned_elements();
+      for (unsigned int element = first; element < last; ++element)
+      {
+        const dealii::Quadrature<2> &rule = quadrature->rule(element);
+        const double                 determinant =
+          2. * mathematical_mesh->cell_area(manifold_mesh->cell(element));
+        const auto initial_stress =
+          field->stress_from_gradient(element, dealii::Tensor<2, 2>());
+        for (unsigned int q = 0; q < rule.size(); ++q)
+        {
+          const auto gradient = field->gradient(element, rule.point(q));
+          const auto elastic_stress =
+            field->stress_from_gradient(element, gradient) - initial_stress;
+          energy += 0.5 * determinant * rule.weight(q) *
+                    (elastic_stress * dealii::symmetrize(gradient));
+        }
+      }
+      return problem.thickness *
+             dealii::Utilities::MPI::sum(energy, communicator);
+    }
+
+
+    void
+    SceneAnalysis::on_first_rank(const std::function<void()> &action) const
+    {
+      NMM::on_first_rank(communicator, action);
+    }
+
+
+    void
+    SceneAnalysis::open(const OutputDirectory &output_directory)
+    {
+      directory = &output_directory;
+      series    = std::make_unique<StateSeries>(scene,
+                                             *covers,
+                                             contact.get(),
+                                             *directory);
+      open_files();
+    }
+
+
+    void
+    SceneAnalysis::open_files()
+    {
+      on_first_rank([&]() { directory->create(); });
+    }
+
+
+    void
+    SceneAnalysis::write()
+    {
+      const OutputParameters &parameters = scene.parameters().output;
+      const bool              was_solved = is_solved;
+      std::string             fault;
+      {
+        Stage stage(progress, "output");
+        if (evaluator && !probes->entries().empty())
+        {
+          const auto samples = probes->evaluate(*covers, *evaluator);
+          for (unsigned int i = 0; i < samples.size() && fault.empty(); ++i)
+            if (samples[i])
+              fault = find_not_finite(*samples[i], probes->entries()[i].x);
+          if (is_first_rank())
+            directory->write_text("probes.csv", [&](std::ostream &out) {
+              probes->write(out, samples);
+            });
+        }
+
+        const FieldTriangles triangles(*covers, evaluator.get());
+        if (fault.empty())
+          fault = triangles.find_not_finite(communicator);
+        if (fault.empty())
+          fault = summary.find_not_finite();
+        is_solved = is_solved && fault.empty();
+        summary.add("max_displacement",
+                    triangles.max_displacement(communicator),
+                    parameters.length_unit);
+        if (parameters.fields)
+          series->finish(
+            last_value(),
+            write_fields_of_state(*covers, triangles, *directory, "fields"));
+        if (evaluator)
+          series->finish_contact(last_value());
+        PictureData drawn;
+        if (parameters.picture)
+          write_picture(scene,
+                        *covers,
+                        evaluator ? contact.get() : nullptr,
+                        triangles,
+                        evaluator.get(),
+                        scene.title() +
+                          (is_solved ? "" : " (" + unsolved_note() + ")"),
+                        "picture.png",
+                        *directory,
+                        &drawn);
+        on_first_rank([&]() {
+          series->write_animation(last_value(), evaluator ? &drawn : nullptr);
+        });
+      }
+      write_summary();
+      AssertThrow(
+        fault.empty() || !was_solved,
+        NumericalFailure(fault,
+                         "the last state",
+                         "take shorter steps, or look for loads, stiffness "
+                         "and velocities of extreme size"));
+    }
+
+
+    void
+    SceneAnalysis::write_summary()
+    {
+      summary.add("solved", is_solved ? 1. : 0.);
+      double total = 0.;
+      for (const auto &[name, seconds] : progress.times())
+      {
+        std::string row = "time_" + name;
+        std::replace(row.begin(), row.end(), ' ', '_');
+        summary.add(row, seconds, "s");
+        total += seconds;
+      }
+      summary.add("time_total", total, "s");
+      summary.add("peak_memory", peak_memory(communicator), "MB");
+      if (is_first_rank())
+        directory->write_text("summary.csv",
+                              [&](std::ostream &out) { summary.write(out); });
+    }
+
+  } // namespace internal
+} // namespace NMM

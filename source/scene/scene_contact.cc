@@ -1,0 +1,340 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/scene/parameter_tree.h>
+#include <nmm/scene/scene.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <output/shapes.h>
+#include <set>
+
+// Contact: which faces, how they act on each other, rigid obstacles.
+namespace NMM
+{
+  using dealii::Point;
+
+  namespace
+  {
+    std::string
+    join(const std::vector<std::string> &words)
+    {
+      std::string text;
+      for (const std::string &word : words)
+        text += (text.empty() ? "'" : ", '") + word + "'";
+      return text;
+    }
+
+
+    std::string
+    choice(const std::string              &word,
+           const std::vector<std::string> &names,
+           const std::string              &nothing)
+    {
+      return names.empty() ? nothing
+                           : "choose among " + join(near_matches(word, names));
+    }
+  } // namespace
+
+
+  void
+  Scene::set_joint_states(Geometry &geometry) const
+  {
+    const ContactSectionParameters &parameters = scene_parameters.contact;
+    for (const auto &[key, names, state] :
+         {std::make_tuple("Open joints",
+                          parameters.open_joints,
+                          JointState::open),
+          std::make_tuple("Tied joints",
+                          parameters.tied_joints,
+                          JointState::closed)})
+      for (const std::string &name : names)
+      {
+        bool                     is_found = false;
+        std::vector<std::string> joints;
+        for (Curve &curve : geometry.curves())
+          if (curve.role == CurveRole::joint)
+          {
+            joints.push_back(curve.name);
+            if (curve.name == name)
+            {
+              curve.state = state;
+              is_found    = true;
+            }
+          }
+        AssertThrow(is_found,
+                    InputError("the geometry has no joint '" + name + "'",
+                               std::string("parameter 'Contact/") + key + "'",
+                               choice(name, joints, "it has no joints")));
+      }
+    for (const std::string &name : parameters.open_joints)
+      AssertThrow(std::find(parameters.tied_joints.begin(),
+                            parameters.tied_joints.end(),
+                            name) == parameters.tied_joints.end(),
+                  InputError("the joint '" + name +
+                               "' is listed as open and "
+                               "as tied",
+                             "parameter 'Contact/Tied joints'",
+                             "remove it from one of both lists"));
+  }
+
+
+  std::vector<RigidObstacle>
+  Scene::make_obstacles(const PhysicalMesh &physical_mesh,
+                        ObstacleSwitches   *switches) const
+  {
+    // Far away, but not so far that numbers lose their digits.
+    constexpr double distance = 1e4;
+    const auto corners = physical_mesh.bounding_box().get_boundary_points();
+    const dealii::Tensor<1, 2> away(
+      {distance * corners.first.distance(corners.second), 0.});
+    const auto is_frozen = std::make_shared<bool>(false);
+    if (switches != nullptr)
+      *switches = {{}, is_frozen};
+
+    std::vector<RigidObstacle> obstacles;
+    const auto                 add = [&](const std::string &name,
+                         const Curve       &curve,
+                         const TimeVector  &motion,
+                         const double       release_time,
+                         const std::string &section) {
+      AssertThrow(physical_mesh.find_curve(name) == invalid_index &&
+                    std::none_of(obstacles.begin(),
+                                 obstacles.end(),
+                                 [&](const RigidObstacle &other) {
+                                   return other.name == name;
+                                 }),
+                  InputError("a curve of the geometry or another obstacle is "
+                                             "called '" +
+                               name + "', too",
+                             "parameter '" + section + "/Names'",
+                             "give it another name"));
+      RigidObstacle obstacle;
+      obstacle.name         = name;
+      obstacle.pieces       = internal::oriented_pieces(curve);
+      obstacle.displacement = motion;
+      if (switches != nullptr && (motion || release_time >= 0.))
+      {
+        const auto is_released = std::make_shared<bool>(false);
+        if (release_time >= 0.)
+          switches->releases.push_back(
+            {static_cast<unsigned int>(obstacles.size()),
+             release_time,
+             is_released});
+        obstacle.displacement = [=](const double t) {
+          return *is_released ? away
+                                 : motion     ? motion(*is_frozen ? 0. : t)
+                                              : dealii::Tensor<1, 2>();
+        };
+      }
+      obstacles.push_back(std::move(obstacle));
+    };
+    for (const ObstacleParameters &parameters : scene_parameters.obstacles)
+    {
+      const std::string section = "Obstacles/" + parameters.name;
+      add(parameters.name,
+          internal::read_shape(parameters.shape,
+                               parameters.file.empty()
+                                 ? ""
+                                 : relative_to_scene(parameters.file),
+                               section,
+                               file_name),
+          make_vector_function(parameters.displacement,
+                               section + "/Displacement"),
+          parameters.release_time,
+          "Obstacles");
+    }
+    for (const RegionParameters &parameters : scene_parameters.regions)
+      if (parameters.use == RegionParameters::Use::restraint)
+        add(parameters.name,
+            make_region(parameters),
+            {},
+            parameters.release_time,
+            "Regions");
+    return obstacles;
+  }
+
+
+  void
+  Scene::check_law_names(const ContactSurface &surface) const
+  {
+    std::set<std::string> names;
+    for (unsigned int e = 0; e < surface.edges().size(); ++e)
+      names.insert(surface.name(e));
+    const std::vector<std::string> list(names.begin(), names.end());
+    for (const ContactLawParameters &law : scene_parameters.contact.laws)
+      for (const std::string &name : law.between)
+        AssertThrow(name.empty() || names.count(name) > 0,
+                    InputError("there are no faces called '" + name + "'",
+                               "parameter 'Contact/" + law.name + "/Between'",
+                               choice(name, list, "there are no faces at all") +
+                                 ", or any; joints that are closed have no "
+                                 "faces"));
+  }
+
+
+  namespace
+  {
+    /// Stiffnesses that the scene leaves open are those of @p law.
+    ContactLaw
+    make_law(const ContactLawParameters &parameters, ContactLaw law)
+    {
+      if (parameters.normal_stiffness > 0.)
+        law.normal_stiffness = parameters.normal_stiffness;
+      law.shear_stiffness =
+        parameters.shear_stiffness > 0.
+          ? parameters.shear_stiffness
+          : std::min(law.shear_stiffness, law.normal_stiffness);
+      const double degree  = dealii::numbers::PI / 180.;
+      law.normal_damping   = parameters.normal_damping;
+      law.shear_damping    = parameters.shear_damping;
+      law.friction         = std::tan(parameters.friction_angle * degree);
+      law.dilation         = std::tan(parameters.dilation_angle * degree);
+      law.dilation_limit   = parameters.dilation_limit;
+      law.cohesion         = parameters.cohesion;
+      law.is_bond          = parameters.is_bonded;
+      law.tensile_strength = parameters.tensile_strength;
+      return law;
+    }
+
+
+    /// Largest Young's modulus of each block [Pa].
+    std::vector<double>
+    block_moduli(const PhysicalMesh &mesh, const ElasticityProblem &problem)
+    {
+      const std::vector<unsigned int> region_to_material =
+        problem.region_to_material(mesh);
+      std::vector<double> moduli(mesh.n_blocks(), 0.);
+      for (unsigned int r = 0; r < mesh.regions().size(); ++r)
+      {
+        double &modulus = moduli[mesh.regions()[r].block];
+        modulus =
+          std::max(modulus,
+                   problem.materials[region_to_material[r]].youngs_modulus);
+      }
+      return moduli;
+    }
+
+
+    /// From the smallest to the largest; equal ones have equal ranks.
+    std::vector<unsigned int>
+    ranks(const std::vector<double> &values)
+    {
+      const std::set<double>    steps(values.begin(), values.end());
+      std::vector<unsigned int> result;
+      for (const double value : values)
+        result.push_back(std::distance(steps.begin(), steps.find(value)));
+      return result;
+    }
+  } // namespace
+
+
+  ContactParameters
+  Scene::make_contact_parameters(const ContactSurface    &surface,
+                                 const ElasticityProblem &problem) const
+  {
+    check_law_names(surface);
+    const ContactSectionParameters &section = scene_parameters.contact;
+    const bool                      is_augmented =
+      section.enforcement == Enforcement::augmented_lagrangian;
+    const double              size = contact_cell_size(surface);
+    const std::vector<double> moduli =
+      block_moduli(surface.cover_system().manifold_mesh().physical_mesh(),
+                   problem);
+    const double modulus = *std::min_element(moduli.begin(), moduli.end());
+
+    // The penalty method needs stiff springs to be accurate, and in a static
+    // analysis it can have them. Stiff shear springs keep Newton's method from
+    // deciding between stick and slip there; in motion soft ones make faces that
+    // hop slide too far.
+    const Analysis analysis = scene_parameters.model.analysis;
+    const bool     is_stiff = !is_augmented && analysis == Analysis::statics;
+    ContactLaw     chosen;
+    // a spring at a vertex stands for a cell's length, whatever that is
+    const double length =
+      section.integration == ContactIntegration::points ? 1. : size;
+    chosen.normal_stiffness = (is_stiff ? 30. : 10.) * modulus / length;
+    chosen.shear_stiffness =
+      (analysis == Analysis::dynamics ? 10. : 1.) * modulus / length;
+    ContactParameters parameters;
+    static_cast<ContactLaw &>(parameters) = make_law(section.law, chosen);
+    for (const ContactLawParameters &law : section.laws)
+      parameters.pairs.push_back(
+        {law.between[0],
+         law.between[1],
+         make_law(law, static_cast<const ContactLaw &>(parameters))});
+    if (is_augmented)
+      parameters.penetration_tolerance = section.penetration_tolerance > 0.
+                                           ? section.penetration_tolerance
+                                           : 1e-5 * size;
+    parameters.reach       = section.reach;
+    parameters.n_points    = section.n_points;
+    parameters.integration = section.integration;
+    parameters.body_ranks  = ranks(moduli);
+    return parameters;
+  }
+
+
+  RayleighDamping
+  Scene::make_damping(const PhysicalMesh      &mesh,
+                      const ElasticityProblem &problem,
+                      const bool               has_friction) const
+  {
+    const TimeParameters  &time   = scene_parameters.time;
+    const ModelParameters &model  = scene_parameters.model;
+    RayleighDamping        result = time.damping;
+    if (result.stiffness >= 0.)
+      return result;
+    result.stiffness = 0.;
+    if (!has_friction || model.analysis != Analysis::dynamics ||
+        !time.time_scheme(model.analysis, model.kinematics, true).is_conserving)
+      return result;
+
+    const std::vector<unsigned int> region_to_material =
+      problem.region_to_material(mesh);
+    const std::vector<double> moduli = block_moduli(mesh, problem);
+    std::vector<double>       areas(mesh.n_blocks(), 0.), masses = areas;
+    for (unsigned int r = 0; r < mesh.regions().size(); ++r)
+    {
+      const PhysicalMesh::Region &region = mesh.regions()[r];
+      areas[region.block] += region.area;
+      masses[region.block] +=
+        region.area * problem.materials[region_to_material[r]].density;
+    }
+    // H / c = (A rho / E)^(1/2)
+    std::vector<double> times;
+    for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
+      times.push_back(std::sqrt(masses[b] / moduli[b]));
+    const auto median = times.begin() + (times.size() - 1) / 2;
+    std::nth_element(times.begin(), median, times.end());
+    result.stiffness = 4. / dealii::numbers::PI * *median;
+    return result;
+  }
+
+
+  double
+  contact_cell_size(const ContactSurface &surface)
+  {
+    const ManifoldMesh &mesh    = surface.cover_system().manifold_mesh();
+    const auto         &regions = mesh.physical_mesh().regions();
+    // cells of slivers are as thin as these, unless there is nothing else
+    const bool with_slivers =
+      std::all_of(regions.begin(), regions.end(), [](const auto &region) {
+        return region.is_sliver;
+      });
+    std::vector<double> sizes;
+    for (unsigned int e = 0; e < surface.edges().size(); ++e)
+      if (!surface.is_rigid(e) &&
+          (with_slivers ||
+           !regions[mesh.region(surface.edges()[e].element)].is_sliver))
+      {
+        // of the equilateral triangle with the same area
+        const double twice_area =
+          1. / std::abs(dealii::determinant(surface.edges()[e].inverse));
+        sizes.push_back(std::sqrt(2. * twice_area / std::sqrt(3.)));
+      }
+    Assert(!sizes.empty(), dealii::ExcMessage("A solid has a boundary."));
+    const auto tenth = sizes.begin() + sizes.size() / 10;
+    std::nth_element(sizes.begin(), tenth, sizes.end());
+    return *tenth;
+  }
+} // namespace NMM

@@ -1,0 +1,129 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/geometry/dxf.h>
+#include <nmm/geometry/joint_network.h>
+#include <nmm/scene/scene.h>
+
+#include <algorithm>
+#include <output/shapes.h>
+
+// The solid: what bounds it, what joints cut it, which places have names.
+namespace NMM
+{
+  namespace
+  {
+    void
+    add_traces(const TraceParameters &parameters,
+               const std::string     &file_name,
+               Geometry              &geometry)
+    {
+      std::vector<Curve> curves = parameters.is_drawing()
+                                    ? read_dxf(file_name, parameters.layers)
+                                    : read_geometry(file_name).curves();
+      for (Curve &curve : curves)
+      {
+        AssertThrow(curve.role == CurveRole::joint,
+                    InputError("the traces '" + parameters.name +
+                                 "' contain the " + to_string(curve.role) +
+                                 " '" + curve.name + "'",
+                               curve.source,
+                               "let the file have joints only, and put the "
+                               "rest into the section 'Geometry'"));
+        if (!parameters.label.empty())
+          curve.name = parameters.label;
+        // a drawing says nothing of it, and a geometry file may
+        if (parameters.is_drawing() || parameters.state == JointState::closed)
+          curve.state = parameters.state;
+        curve.within     = parameters.within;
+        curve.is_clipped = true;
+        geometry.add(std::move(curve));
+      }
+    }
+  } // namespace
+
+
+  Curve
+  Scene::make_region(const RegionParameters &parameters) const
+  {
+    Curve curve = internal::read_shape(parameters.shape,
+                                       parameters.file.empty()
+                                         ? ""
+                                         : relative_to_scene(parameters.file),
+                                       "Regions/" + parameters.name,
+                                       file_name);
+    curve.name  = parameters.name;
+    curve.material.clear();
+    AssertThrow(curve.is_closed(),
+                InputError("the region '" + parameters.name + "' is not closed",
+                           "section 'Regions/" + parameters.name + "'",
+                           "give a POLYGON, CURVEPOLYGON or CIRCLE"));
+    return curve;
+  }
+
+
+  std::vector<Curve>
+  Scene::make_limits() const
+  {
+    std::vector<Curve> limits;
+    for (const RegionParameters &parameters : scene_parameters.regions)
+      if (parameters.use == RegionParameters::Use::limit)
+        limits.push_back(make_region(parameters));
+    return limits;
+  }
+
+
+  void
+  Scene::add_regions(Geometry &geometry) const
+  {
+    using Use = RegionParameters::Use;
+    for (const RegionParameters &parameters : scene_parameters.regions)
+    {
+      Curve       region = make_region(parameters);
+      const auto &curves = geometry.curves();
+      const bool  is_unnamed =
+        std::none_of(curves.begin(), curves.end(), [&](const Curve &curve) {
+          return curve.name == parameters.name;
+        });
+      AssertThrow(is_unnamed,
+                  InputError("a curve of the geometry is called '" +
+                               parameters.name + "', too",
+                             "parameter 'Regions/Names'",
+                             "give the region another name"));
+      geometry.add_region(region);
+      if (!parameters.material.empty())
+        geometry.add_material_region(parameters.name, parameters.material);
+      if (parameters.use == Use::place || parameters.use == Use::limit)
+        continue;
+      // the faces it leaves; those of a restraint must not be called as the body
+      // that holds them
+      region.role       = CurveRole::hole;
+      region.is_clipped = true;
+      if (parameters.use == Use::restraint)
+        region.name += " face";
+      geometry.add(std::move(region));
+    }
+  }
+
+
+  Geometry
+  Scene::make_geometry() const
+  {
+    const GeometryParameters &parameters = scene_parameters.geometry;
+    std::string               text       = parameters.text;
+    std::replace(text.begin(), text.end(), ';', '\n');
+    Geometry geometry =
+      parameters.file.empty()
+        ? parse_geometry(text, file_name + ", parameter 'Geometry/Text'")
+        : read_geometry(relative_to_scene(parameters.file));
+    for (const TraceParameters &traces : scene_parameters.traces)
+      add_traces(traces, relative_to_scene(traces.file), geometry);
+    add_regions(geometry);
+    for (const JointSet &set : scene_parameters.joint_sets)
+      for (Curve &joint : make_joints(set, geometry))
+        geometry.add(std::move(joint));
+    set_joint_states(geometry);
+    if (parameters.drops_ends)
+      for (Curve &curve : geometry.curves())
+        curve.drops_ends = curve.role == CurveRole::joint;
+    return geometry;
+  }
+} // namespace NMM

@@ -1,0 +1,233 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/scene/scene.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <cmath>
+#include <scene/expression.h>
+#include <scene/parsing.h>
+#include <scene/time_function.h>
+#include <utility>
+
+// Loads and conditions as functions of time.
+namespace NMM
+{
+  namespace
+  {
+    /// Where a function has no number the analysis cannot go on.
+    double
+    checked(const double       value,
+            const double       t,
+            const std::string &unit,
+            const std::string &parameter)
+    {
+      AssertThrow(std::isfinite(value),
+                  NumericalFailure("the value is not finite",
+                                   "parameter '" + parameter +
+                                     "' at t = " + internal::to_text(t) + unit,
+                                   "correct the expression"));
+      return value;
+    }
+  } // namespace
+
+
+  namespace internal
+  {
+    TimeFunction
+    make_time_function(
+      const std::string                                     &text,
+      const std::string                                     &parameter,
+      const double                                           end_time,
+      const std::string                                     &unit,
+      const std::function<std::string(const std::string &)> &relative_to_scene)
+    {
+      const std::string trimmed = dealii::Utilities::trim(text);
+      if (trimmed.empty())
+        return nullptr;
+      const std::string prefix = "file:";
+      if (trimmed.rfind(prefix, 0) == 0)
+      {
+        const std::string name =
+          dealii::Utilities::trim(trimmed.substr(prefix.size()));
+        AssertThrow(!name.empty(),
+                    InputError("the file has no name",
+                               "parameter '" + parameter + "'",
+                               "write 'file: name'"));
+        return TimeHistory::read(relative_to_scene(name));
+      }
+      const auto function =
+        internal::parse_expressions<1>({trimmed}, "t", parameter);
+      for (const double t : {0., end_time})
+        AssertThrow(std::isfinite(function->value(dealii::Point<1>(t))),
+                    InputError("'" + trimmed + "' is not finite at t = " +
+                                 internal::to_text(t) + unit,
+                               "parameter '" + parameter + "'",
+                               "give an expression that has a value from 0 "
+                               "to the end"));
+      return [function, unit, parameter](const double t) {
+        return checked(function->value(dealii::Point<1>(t)),
+                       t,
+                       unit,
+                       parameter);
+      };
+    }
+  } // namespace internal
+
+
+  namespace
+  {
+    using internal::make_time_function;
+    using internal::TimeFunction;
+
+    /// Indices of loads with their functions.
+    using TimeFunctions = std::vector<std::pair<unsigned int, TimeFunction>>;
+
+    void
+    evaluate(const TimeFunctions &functions,
+             const std::size_t    n,
+             const double         t,
+             std::vector<double> &values)
+    {
+      if (functions.empty())
+        return;
+      values.assign(n, 1.);
+      for (const auto &[index, function] : functions)
+        values[index] = function(t);
+    }
+
+
+    /// All of a scene that change in time.
+    struct LoadFunctions
+    {
+      TimeFunctions conditions, forces, fixed_points;
+      TimeFunction  gravity, body_force;
+      std::size_t   n_conditions = 0, n_forces = 0, n_fixed_points = 0;
+
+      bool
+      is_empty() const
+      {
+        return conditions.empty() && forces.empty() && fixed_points.empty() &&
+               !gravity && !body_force;
+      }
+
+      LoadAmplitudes
+      amplitudes(const double t) const
+      {
+        LoadAmplitudes result;
+        evaluate(conditions, n_conditions, t, result.boundary_conditions);
+        evaluate(forces, n_forces, t, result.point_forces);
+        evaluate(fixed_points, n_fixed_points, t, result.fixed_points);
+        if (gravity)
+          result.gravity = gravity(t);
+        if (body_force)
+          result.body_force = body_force(t);
+        return result;
+      }
+    };
+  } // namespace
+
+
+  Loading
+  Scene::make_loading() const
+  {
+    const SceneParameters &p         = scene_parameters;
+    const auto             functions = std::make_shared<LoadFunctions>();
+    Loading                loading;
+    const auto make = [&](const std::string &text, const std::string &name) {
+      return make_time_function(
+        text, name, p.time.end_time, " s", [this](const std::string &file) {
+          return relative_to_scene(file);
+        });
+    };
+    const auto add = [&](const TimeDependence &time,
+                         const std::string    &section,
+                         const Release::Kind   kind,
+                         TimeFunctions        &list,
+                         std::size_t          &n,
+                         const std::size_t     n_conditions) {
+      const TimeFunction function =
+        make(time.amplitude, section + "/" + time.name + "/Amplitude");
+      for (std::size_t i = 0; i < n_conditions; ++i, ++n)
+      {
+        if (function)
+          list.emplace_back(n, function);
+        if (time.release_time >= 0.)
+          loading.releases.push_back(
+            {kind, static_cast<unsigned int>(n), time.release_time});
+      }
+    };
+    for (const BoundaryConditionParameters &condition : p.boundary_conditions)
+      add(condition.time,
+          "Boundary conditions",
+          Release::Kind::boundary_condition,
+          functions->conditions,
+          functions->n_conditions,
+          condition.boundaries.size());
+    for (const TimeDependence &time : p.force_times)
+      add(time,
+          "Point forces",
+          Release::Kind::fixed_point,
+          functions->forces,
+          functions->n_forces,
+          1);
+    for (const TimeDependence &time : p.fixed_point_times)
+      add(time,
+          "Fixed points",
+          Release::Kind::fixed_point,
+          functions->fixed_points,
+          functions->n_fixed_points,
+          1);
+    functions->gravity =
+      make(p.model.gravity_amplitude, "Model/Gravity amplitude");
+    functions->body_force =
+      make(p.model.body_force_amplitude, "Model/Body force amplitude");
+
+    if (!functions->is_empty())
+      loading.amplitudes = [functions](const double t) {
+        return functions->amplitudes(t);
+      };
+    loading.base_acceleration = make_vector_function(p.model.base_acceleration,
+                                                     "Model/Base acceleration");
+    return loading;
+  }
+
+
+  std::function<dealii::Tensor<1, 2>(double)>
+  Scene::make_vector_function(const std::string &text,
+                              const std::string &name) const
+  {
+    if (dealii::Utilities::trim(text).empty())
+      return nullptr;
+    const std::vector<std::string> parts =
+      dealii::Utilities::split_string_list(text, ';');
+    AssertThrow(parts.size() == 2,
+                InputError("'" + text + "' has " +
+                             std::to_string(parts.size()) +
+                             " component(s) instead of 2",
+                           "parameter '" + name + "'",
+                           "give two, separated by a semicolon"));
+    const bool is_static = scene_parameters.model.analysis == Analysis::statics;
+    const double end =
+      is_static ? scene_parameters.load_steps.load_steps().load_factors.back()
+                : scene_parameters.time.end_time;
+    TimeFunction components[2];
+    for (unsigned int c = 0; c < 2; ++c)
+    {
+      components[c] = make_time_function(parts[c],
+                                         name,
+                                         end,
+                                         is_static ? "" : " s",
+                                         [this](const std::string &file) {
+                                           return relative_to_scene(file);
+                                         });
+      AssertThrow(components[c] != nullptr,
+                  InputError("'" + text + "' has an empty component",
+                             "parameter '" + name + "'",
+                             "write 0 for a direction in which there is "
+                             "nothing"));
+    }
+    return [x = components[0], y = components[1]](const double t) {
+      return dealii::Tensor<1, 2>({x(t), y(t)});
+    };
+  }
+} // namespace NMM

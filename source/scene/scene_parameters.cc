@@ -1,0 +1,468 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/scene/scene_parameters.h>
+
+#include <algorithm>
+#include <scene/parsing.h>
+#include <set>
+
+// Mathematical mesh and solver: how the problem is discretized
+// and solved. Its physics is in scene_parameters_mechanics.cc, what is written in
+// scene_parameters_output.cc.
+namespace NMM
+{
+  using dealii::ParameterHandler;
+  namespace Patterns = dealii::Patterns;
+  using namespace internal;
+
+  namespace
+  {
+    const std::vector<std::pair<std::string, LocalSize::Kind>>
+      local_size_types = {{"point", LocalSize::Kind::point},
+                          {"box", LocalSize::Kind::box},
+                          {"curve", LocalSize::Kind::curve}};
+
+    const std::vector<std::pair<std::string, MathematicalMeshParameters::Type>>
+      mesh_types = {{"regular", MathematicalMeshParameters::Type::regular},
+                    {"graded", MathematicalMeshParameters::Type::graded},
+                    {"gmsh", MathematicalMeshParameters::Type::gmsh}};
+
+    const std::vector<std::pair<std::string, MeshPattern>> mesh_patterns = {
+      {"equilateral", MeshPattern::equilateral},
+      {"right-angled", MeshPattern::right_angled}};
+
+    const std::vector<std::pair<std::string, LinearSolverParameters::Type>>
+      solver_types = {{"automatic", LinearSolverParameters::Type::automatic},
+                      {"direct", LinearSolverParameters::Type::direct},
+                      {"iterative", LinearSolverParameters::Type::iterative}};
+  } // namespace
+
+
+  void
+  LocalSizeParameters::declare(ParameterHandler &prm)
+  {
+    prm.declare_entry("Type",
+                      "point",
+                      selection(local_size_types),
+                      "Fine at a point, in a box or along a curve.");
+    prm.declare_entry("Point",
+                      "0, 0",
+                      vector_pattern(),
+                      "Type point: x, y [m].");
+    prm.declare_entry("Lower corner",
+                      "0, 0",
+                      vector_pattern(),
+                      "Type box: its lower left corner x, y [m].");
+    prm.declare_entry("Upper corner",
+                      "0, 0",
+                      vector_pattern(),
+                      "Type box: its upper right corner x, y [m].");
+    prm.declare_entry("Curve",
+                      "",
+                      Patterns::Anything(),
+                      "Type curve: name of a curve of the geometry.");
+    prm.declare_entry("Size",
+                      "0",
+                      Patterns::Double(0),
+                      "Edge length of triangles there, > 0 [m].");
+    prm.declare_entry("Growth",
+                      "0.2",
+                      Patterns::Double(0, 1),
+                      "Increase of the edge length per distance from there "
+                      "[-]: small values grade gently.");
+  }
+
+
+  LocalSize
+  LocalSizeParameters::parse(ParameterHandler &prm, const std::string &name)
+  {
+    LocalSize local_size;
+    local_size.kind   = get_selection(prm, "Type", local_size_types);
+    local_size.point  = get_point(prm, "Point");
+    local_size.lower  = get_point(prm, "Lower corner");
+    local_size.upper  = get_point(prm, "Upper corner");
+    local_size.curve  = prm.get("Curve");
+    local_size.size   = prm.get_double("Size");
+    local_size.growth = prm.get_double("Growth");
+
+    const std::string section = "section 'Mathematical mesh/" + name + "'";
+    AssertThrow(local_size.size > 0.,
+                InputError("the local size is " +
+                             std::to_string(local_size.size) + " m",
+                           section,
+                           "set 'Size' to a positive edge length"));
+    AssertThrow(local_size.kind != LocalSize::Kind::curve ||
+                  !local_size.curve.empty(),
+                InputError("a local size along a curve without its name",
+                           section,
+                           "set 'Curve' to a curve of the geometry"));
+    AssertThrow(local_size.kind != LocalSize::Kind::box ||
+                  (local_size.lower[0] < local_size.upper[0] &&
+                   local_size.lower[1] < local_size.upper[1]),
+                InputError("the box of a local size is empty, from " +
+                             to_string(local_size.lower) + " to " +
+                             to_string(local_size.upper),
+                           section,
+                           "give a lower corner left of and below the upper "
+                           "one"));
+    return local_size;
+  }
+
+
+  void
+  MathematicalMeshParameters::declare(
+    ParameterHandler               &prm,
+    const std::vector<std::string> &local_size_names)
+  {
+    prm.declare_entry("Type",
+                      "regular",
+                      selection(mesh_types),
+                      "regular: equal triangles over the bounding box; graded: "
+                      "triangles that follow the local sizes in Names; gmsh: "
+                      "read from a file. None needs to fit the geometry.");
+    prm.declare_entry("Degree",
+                      "2",
+                      Patterns::Integer(1, 2),
+                      "Polynomial degree of the weight functions: 2 is the "
+                      "second-order method with six-node triangles.");
+    prm.declare_entry("Cell size",
+                      "0",
+                      Patterns::Double(0),
+                      "regular: edge length of the triangles (equilateral) or "
+                      "squares (right-angled); graded: the largest edge length "
+                      "[m]. Must be set for both.");
+    prm.declare_entry("Pattern",
+                      "equilateral",
+                      selection(mesh_patterns),
+                      "regular: equilateral triangles, or squares halved along "
+                      "a diagonal.");
+    prm.declare_entry("Offset",
+                      "0, 0",
+                      vector_pattern(),
+                      "regular: a node of the mesh lies at the centre of the "
+                      "bounding box plus this, before rotation [m].");
+    prm.declare_entry("Rotation",
+                      "0",
+                      Patterns::Double(),
+                      "regular: the mesh is turned counter-clockwise about the "
+                      "centre of the bounding box [degrees].");
+    prm.declare_entry("Whole box",
+                      "false",
+                      Patterns::Bool(),
+                      "regular: keep also the cells that surely lie outside "
+                      "the solid.");
+    prm.declare_entry("Gmsh file",
+                      "",
+                      Patterns::Anything(),
+                      "gmsh: triangle mesh that covers the solid, relative to "
+                      "the folder of the scene file.");
+    prm.declare_entry("Names",
+                      "",
+                      Patterns::List(Patterns::Anything(), 0),
+                      "graded: names of the local sizes, each with a "
+                      "subsection of its own.");
+    for (const std::string &name : local_size_names)
+    {
+      prm.enter_subsection(name);
+      LocalSizeParameters::declare(prm);
+      prm.leave_subsection();
+    }
+  }
+
+
+  void
+  MathematicalMeshParameters::parse(ParameterHandler &prm)
+  {
+    type              = get_selection(prm, "Type", mesh_types);
+    degree            = prm.get_integer("Degree");
+    regular.cell_size = prm.get_double("Cell size");
+    regular.pattern   = get_selection(prm, "Pattern", mesh_patterns);
+    regular.offset    = get_point(prm, "Offset");
+    regular.rotation  = prm.get_double("Rotation");
+    regular.whole_box = prm.get_bool("Whole box");
+    gmsh_file         = prm.get("Gmsh file");
+    graded.cell_size  = regular.cell_size;
+    graded.local_sizes.clear();
+    for (const std::string &name : get_names(prm, "Names"))
+    {
+      prm.enter_subsection(name);
+      graded.local_sizes.push_back(LocalSizeParameters::parse(prm, name));
+      prm.leave_subsection();
+    }
+  }
+
+
+  void
+  MathematicalMeshParameters::check(const bool may_choose_size) const
+  {
+    const std::string section = "section 'Mathematical mesh'";
+    AssertThrow(type == Type::gmsh || regular.cell_size > 0. ||
+                  (type == Type::regular && may_choose_size),
+                InputError("the cell size of the mathematical mesh is " +
+                             std::to_string(regular.cell_size) + " m",
+                           section,
+                           "set 'Cell size' to a positive length"));
+    AssertThrow((type == Type::gmsh) == !gmsh_file.empty(),
+                InputError(gmsh_file.empty()
+                             ? "no file for a mathematical mesh of type gmsh"
+                             : "the file '" + gmsh_file +
+                                 "' would not be used by this type of mesh",
+                           section,
+                           "set 'Gmsh file' for 'Type = gmsh' only"));
+    AssertThrow(type == Type::graded || graded.local_sizes.empty(),
+                InputError("local sizes would not be used by this type of mesh",
+                           section,
+                           "set 'Type = graded', or leave 'Names' empty"));
+  }
+
+
+  void
+  SolverParameters::declare(ParameterHandler &prm)
+  {
+    const LinearSolverParameters defaults;
+    prm.declare_entry("Type",
+                      "automatic",
+                      selection(solver_types),
+                      "direct: MUMPS; iterative: conjugate gradients with "
+                      "algebraic multigrid, which needs less memory; "
+                      "automatic: direct below Direct limit unknowns.");
+    prm.declare_entry("Direct limit",
+                      std::to_string(defaults.direct_limit),
+                      Patterns::Integer(0),
+                      "automatic: unknowns from which on the iterative solver "
+                      "is used.");
+    prm.declare_entry("Tolerance",
+                      dealii::Patterns::Tools::to_string(defaults.tolerance),
+                      Patterns::Double(0, 1),
+                      "iterative: relative residual at which it ends [-].");
+    prm.declare_entry("Maximum iterations",
+                      std::to_string(defaults.max_iterations),
+                      Patterns::Integer(1),
+                      "iterative: iterations after which it gives up (exit "
+                      "code 3).");
+    prm.declare_entry("Condition number",
+                      "false",
+                      Patterns::Bool(),
+                      "Estimate the condition number of the matrix after "
+                      "diagonal scaling and the place where it is weakest; "
+                      "costs about two more solutions.");
+    prm.declare_entry("Condition number limit",
+                      dealii::Patterns::Tools::to_string(
+                        defaults.condition_limit),
+                      Patterns::Double(1),
+                      "A condition number above this is warned of [-].");
+  }
+
+
+  LinearSolverParameters
+  SolverParameters::parse(ParameterHandler &prm)
+  {
+    LinearSolverParameters parameters;
+    parameters.type               = get_selection(prm, "Type", solver_types);
+    parameters.direct_limit       = prm.get_integer("Direct limit");
+    parameters.tolerance          = prm.get_double("Tolerance");
+    parameters.max_iterations     = prm.get_integer("Maximum iterations");
+    parameters.estimate_condition = prm.get_bool("Condition number");
+    parameters.condition_limit    = prm.get_double("Condition number limit");
+    AssertThrow(parameters.tolerance > 0.,
+                InputError("the tolerance of the solver is 0",
+                           "parameter 'Solver/Tolerance'",
+                           "give a positive number such as 1e-11"));
+    return parameters;
+  }
+
+
+  SceneNames
+  SceneNames::examples()
+  {
+    SceneNames names;
+    names.traces              = {"<traces>"};
+    names.joint_sets          = {"<joint set>"};
+    names.regions             = {"<region>"};
+    names.local_sizes         = {"<local size>"};
+    names.block_meshes        = {"<block>"};
+    names.materials           = {"<material>"};
+    names.boundary_conditions = {"<condition>"};
+    names.point_forces        = {"<force>"};
+    names.fixed_points        = {"<fixed point>"};
+    names.contact_laws        = {"<law>"};
+    names.obstacles           = {"<obstacle>"};
+    names.initial_velocities  = {"<velocity>"};
+    names.probes              = {"<probe>"};
+    return names;
+  }
+
+
+  namespace
+  {
+    /// Section of each list of names.
+    template <typename Names>
+    auto
+    sections_of_lists(Names &names)
+    {
+      return std::vector<std::pair<std::string, decltype(&names.materials)>>{
+        {"Traces", &names.traces},
+        {"Joint sets", &names.joint_sets},
+        {"Regions", &names.regions},
+        {"Mathematical mesh", &names.local_sizes},
+        {"Covers", &names.block_meshes},
+        {"Materials", &names.materials},
+        {"Boundary conditions", &names.boundary_conditions},
+        {"Point forces", &names.point_forces},
+        {"Fixed points", &names.fixed_points},
+        {"Contact", &names.contact_laws},
+        {"Obstacles", &names.obstacles},
+        {"Initial velocities", &names.initial_velocities},
+        {"Probes", &names.probes}};
+    }
+  } // namespace
+
+
+  void
+  SceneNames::declare(ParameterHandler &prm)
+  {
+    SceneNames names;
+    for (const auto &list : sections_of_lists(names))
+    {
+      prm.enter_subsection(list.first);
+      prm.declare_entry("Names", "", Patterns::Anything());
+      prm.leave_subsection();
+    }
+  }
+
+
+  void
+  SceneNames::parse(ParameterHandler &prm)
+  {
+    for (const auto &[section, list] : sections_of_lists(*this))
+    {
+      prm.enter_subsection(section);
+      *list = get_names(prm, "Names");
+      prm.leave_subsection();
+
+      const std::string     where = "parameter '" + section + "/Names'";
+      std::set<std::string> seen;
+      for (const std::string &name : *list)
+      {
+        AssertThrow(seen.insert(name).second,
+                    InputError("the name '" + name + "' is given twice",
+                               where,
+                               "give each name once"));
+        AssertThrow(name.find_first_of("/=") == std::string::npos,
+                    InputError("the name '" + name +
+                                 "' contains a slash or an equals sign",
+                               where,
+                               "use letters, digits, spaces, dots and "
+                               "hyphens"));
+      }
+    }
+  }
+
+
+  void
+  SceneParameters::check() const
+  {
+    geometry.check();
+    for (const TraceParameters &file : traces)
+      file.check();
+    for (const RegionParameters &region : regions)
+      region.check();
+    covers.check();
+    mathematical_mesh.check(covers.may_choose_cell_size());
+    AssertThrow(!materials.empty(),
+                InputError("the scene has no material",
+                           "section 'Materials'",
+                           "list at least one name in 'Names' and describe it "
+                           "in a subsection"));
+    for (const Material &material : materials)
+      material.check(model.plane_state);
+    for (const BoundaryConditionParameters &condition : boundary_conditions)
+      condition.check();
+    const bool has_contact = contact.is_present();
+    // a static start is a static analysis before a dynamic one
+    const bool starts_static = model.analysis == Analysis::dynamics &&
+                               time.start == TimeParameters::Start::equilibrium;
+    load_steps.check(model.kinematics,
+                     starts_static ? Analysis::statics : model.analysis,
+                     has_contact);
+    newton.check(model.kinematics, model.analysis, has_contact);
+    output.check();
+    for (const ProbeParameters &probe : probes)
+      probe.check();
+    exact_solution.check();
+    check_kinematics();
+    check_contact();
+    check_analysis();
+    check_restraints();
+    check_distribution();
+  }
+
+
+  void
+  SceneParameters::check_distribution() const
+  {
+    if (!covers.is_distributed)
+      return;
+    const std::string where = "parameter 'Covers/Distribution'";
+    const auto        check = [&](const bool is_fine, const std::string &what) {
+      AssertThrow(is_fine,
+                  InputError(what + " cannot have a mathematical mesh that is "
+                                           "distributed among ranks",
+                             where,
+                             "set it to replicated: all ranks hold all of the "
+                                    "mesh"));
+    };
+    check(model.analysis == Analysis::statics,
+          "a " + to_string(model.analysis) + " analysis");
+    check(model.kinematics == Kinematics::small,
+          to_string(model.kinematics) + " kinematics");
+    check(!contact.is_present(), "a scene with contact");
+    check(mathematical_mesh.type == MathematicalMeshParameters::Type::regular,
+          "a scene whose mesh is not of type regular");
+    const auto has_own_mesh = [](const RegionMesh &mesh) {
+      return mesh.kind == RegionMesh::Kind::own ||
+             mesh.kind == RegionMesh::Kind::automatic;
+    };
+    check(!has_own_mesh(covers.mesh) &&
+            std::none_of(covers.blocks.begin(),
+                         covers.blocks.end(),
+                         [&](const BlockMeshParameters &block) {
+                           return has_own_mesh(block.mesh);
+                         }),
+          "a scene with meshes of blocks or regions");
+  }
+
+
+  void
+  SceneParameters::check_restraints() const
+  {
+    for (const RegionParameters &region : regions)
+    {
+      AssertThrow(
+        region.use != RegionParameters::Use::limit ||
+          (model.analysis == Analysis::dynamics &&
+           model.kinematics != Kinematics::incremental),
+        InputError("the limit '" + region.name + "' would not be used by " +
+                     (model.analysis == Analysis::dynamics
+                        ? to_string(model.kinematics) + " kinematics"
+                        : "a " + to_string(model.analysis) + " analysis"),
+                   "parameter 'Regions/" + region.name + "/Use'",
+                   "remove it, or set 'Model/Analysis = dynamic' with "
+                   "small or finite kinematics"));
+      if (region.use != RegionParameters::Use::restraint)
+        continue;
+      AssertThrow(contact.is_present(),
+                  InputError("the restraint '" + region.name +
+                               "' would not be used by a scene without contact",
+                             "parameter 'Regions/" + region.name + "/Use'",
+                             "remove it, or set 'Contact/Enforcement = "
+                             "penalty'"));
+      if (model.analysis != Analysis::dynamics)
+        expect_default("Regions/" + region.name,
+                       "Release time",
+                       region.release_time,
+                       -1.,
+                       "a " + to_string(model.analysis) + " analysis",
+                       "remove it, or set 'Model/Analysis = dynamic'");
+    }
+  }
+} // namespace NMM

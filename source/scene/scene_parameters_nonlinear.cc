@@ -1,0 +1,462 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/scene/scene_parameters.h>
+
+#include <algorithm>
+#include <scene/parsing.h>
+#include <sstream>
+
+// Load steps, Newton's method, and what goes together with which kinematics.
+namespace NMM
+{
+  using dealii::ParameterHandler;
+  namespace Patterns = dealii::Patterns;
+  using namespace internal;
+
+  namespace internal
+  {
+    std::string
+    to_text(const double value)
+    {
+      std::ostringstream out;
+      out.precision(12);
+      out << value;
+      return out.str();
+    }
+
+
+    void
+    expect_default(const std::string &section,
+                   const std::string &key,
+                   const double       value,
+                   const double       default_value,
+                   const std::string &by,
+                   const std::string &remedy)
+    {
+      AssertThrow(value == default_value,
+                  InputError("'" + key + " = " + to_text(value) +
+                               "' would not be used by " + by,
+                             "parameter '" + section + "/" + key + "'",
+                             remedy));
+    }
+  } // namespace internal
+
+
+  void
+  LoadStepParameters::declare(ParameterHandler &prm)
+  {
+    const LoadStepParameters defaults;
+    prm.declare_entry("Number of steps",
+                      std::to_string(defaults.n_steps),
+                      Patterns::Integer(1, 1000000),
+                      "Finite and incremental kinematics: equal steps in which "
+                      "loads and prescribed displacements grow to their "
+                      "values.");
+    prm.declare_entry("Smallest step",
+                      dealii::Patterns::Tools::to_string(defaults.min_step),
+                      Patterns::Double(0, 1),
+                      "Finite and incremental kinematics: a step that does not "
+                      "converge, or moves too far, is divided, but not below "
+                      "this part of the last load "
+                      "factor, > 0 [-].");
+    prm.declare_entry(
+      "Maximum displacement",
+      "0",
+      Patterns::Double(0),
+      "Incremental kinematics: no cover moves further in a step, "
+      "steps are divided for it [m]; 0: no bound.");
+    prm.declare_entry("Load factors",
+                      "",
+                      Patterns::List(Patterns::Double(0), 0),
+                      "Instead of equal steps: the factors on loads and "
+                      "prescribed displacements, ascending from above 0 [-]. "
+                      "The last may be any.");
+  }
+
+
+  void
+  LoadStepParameters::parse(ParameterHandler &prm)
+  {
+    n_steps          = prm.get_integer("Number of steps");
+    min_step         = prm.get_double("Smallest step");
+    max_displacement = prm.get_double("Maximum displacement");
+    load_factors =
+      dealii::Utilities::string_to_double(get_names(prm, "Load factors"));
+  }
+
+
+  void
+  LoadStepParameters::check(const Kinematics kinematics,
+                            const Analysis   analysis,
+                            const bool       has_contact) const
+  {
+    const std::string        section = "Load steps";
+    const LoadStepParameters defaults;
+    const bool               is_static = analysis == Analysis::statics;
+    const std::string by = is_static ? to_string(kinematics) + " kinematics"
+                                     : "a " + to_string(analysis) + " analysis";
+    if ((kinematics == Kinematics::small && !has_contact) || !is_static)
+    {
+      const std::string remedy =
+        is_static
+          ? "remove it, or set 'Model/Kinematics' to finite or incremental"
+          : "remove it, or set 'Model/Analysis = static'";
+      expect_default(
+        section, "Number of steps", n_steps, defaults.n_steps, by, remedy);
+      AssertThrow(
+        load_factors.empty(),
+        InputError("the list of " + std::to_string(load_factors.size()) +
+                     " load factor(s) from " + to_text(load_factors.front()) +
+                     " on would not be used by " + by,
+                   "parameter 'Load steps/Load factors'",
+                   remedy));
+    }
+    if (kinematics != Kinematics::incremental || !is_static)
+      expect_default(section,
+                     "Maximum displacement",
+                     max_displacement,
+                     defaults.max_displacement,
+                     by,
+                     is_static
+                       ? "remove it, or set 'Model/Kinematics = incremental'"
+                       : "give 'Time/Maximum displacement' instead");
+    const bool is_divided =
+      kinematics == Kinematics::finite || has_contact ||
+      (kinematics == Kinematics::incremental && max_displacement > 0.);
+    if (!is_divided || !is_static)
+      expect_default(section,
+                     "Smallest step",
+                     min_step,
+                     defaults.min_step,
+                     by,
+                     is_static ? "remove it, or set 'Model/Kinematics = finite'"
+                               : "remove it, or set 'Model/Analysis = static'");
+    AssertThrow(min_step > 0.,
+                InputError("the smallest step is 0",
+                           "parameter 'Load steps/Smallest step'",
+                           "give a number above 0 and at most 1"));
+    AssertThrow(load_factors.empty() || n_steps == defaults.n_steps,
+                InputError("the number of steps is " + std::to_string(n_steps) +
+                             ", but " + std::to_string(load_factors.size()) +
+                             " load factors are listed",
+                           "parameter 'Load steps/Number of steps'",
+                           "set either 'Number of steps' or 'Load factors'"));
+    double last = 0.;
+    for (const double factor : load_factors)
+    {
+      AssertThrow(factor > last,
+                  InputError("the load factor " + to_text(factor) +
+                               " follows " + to_text(last),
+                             "parameter 'Load steps/Load factors'",
+                             "give factors that ascend from above 0"));
+      last = factor;
+    }
+  }
+
+
+  LoadSteps
+  LoadStepParameters::load_steps() const
+  {
+    LoadSteps steps = LoadSteps::equal(n_steps);
+    if (!load_factors.empty())
+      steps.load_factors = load_factors;
+    steps.min_step = min_step;
+    return steps;
+  }
+
+
+  void
+  NewtonSectionParameters::declare(ParameterHandler &prm)
+  {
+    const NewtonParameters defaults;
+    prm.declare_entry(
+      "Residual tolerance",
+      dealii::Patterns::Tools::to_string(defaults.residual_tolerance),
+      Patterns::Double(0, 1),
+      "Finite kinematics: forces out of balance over the forces "
+      "in balance at which an iteration ends, > 0 [-].");
+    prm.declare_entry("Energy tolerance",
+                      dealii::Patterns::Tools::to_string(
+                        defaults.energy_tolerance),
+                      Patterns::Double(0, 1),
+                      "Finite kinematics: and the work of these forces in the "
+                      "last correction over the largest such work, > 0 [-].");
+    prm.declare_entry("Maximum iterations",
+                      std::to_string(defaults.max_iterations),
+                      Patterns::Integer(1, 1000),
+                      "Finite kinematics: iterations after which a load step "
+                      "is halved.");
+  }
+
+
+  void
+  NewtonSectionParameters::parse(ParameterHandler &prm)
+  {
+    newton.residual_tolerance = prm.get_double("Residual tolerance");
+    newton.energy_tolerance   = prm.get_double("Energy tolerance");
+    newton.max_iterations     = prm.get_integer("Maximum iterations");
+  }
+
+
+  void
+  NewtonSectionParameters::check(const Kinematics kinematics,
+                                 const Analysis   analysis,
+                                 const bool       has_contact) const
+  {
+    const NewtonParameters defaults;
+    const auto             expect = [](const std::string &key,
+                           const double       value,
+                           const double       default_value,
+                           const std::string &by,
+                           const std::string &remedy) {
+      expect_default("Newton", key, value, default_value, by, remedy);
+    };
+    if (kinematics != Kinematics::finite && !has_contact)
+    {
+      const std::string by = to_string(kinematics) + " kinematics";
+      const std::string remedy =
+        "remove it, or set 'Model/Kinematics = finite'";
+      expect("Residual tolerance",
+             newton.residual_tolerance,
+             defaults.residual_tolerance,
+             by,
+             remedy);
+      expect("Energy tolerance",
+             newton.energy_tolerance,
+             defaults.energy_tolerance,
+             by,
+             remedy);
+      expect("Maximum iterations",
+             newton.max_iterations,
+             defaults.max_iterations,
+             by,
+             remedy);
+    }
+    // A time step starts so near to its end that the energy of the first
+    // correction is no measure.
+    if (analysis != Analysis::statics)
+      expect("Energy tolerance",
+             newton.energy_tolerance,
+             defaults.energy_tolerance,
+             "a " + to_string(analysis) + " analysis",
+             "remove it, or set 'Model/Analysis = static'");
+    AssertThrow(newton.residual_tolerance > 0.,
+                InputError("the residual tolerance is 0",
+                           "parameter 'Newton/Residual tolerance'",
+                           "give a positive number such as 1e-9"));
+    AssertThrow(newton.energy_tolerance > 0.,
+                InputError("the energy tolerance is 0",
+                           "parameter 'Newton/Energy tolerance'",
+                           "give a positive number such as 1e-12"));
+  }
+
+
+  void
+  SceneParameters::check_kinematics() const
+  {
+    const bool        is_static  = model.analysis == Analysis::statics;
+    const std::string kinematics = to_string(model.kinematics) + " kinematics";
+    if (model.kinematics != Kinematics::finite)
+      for (const Material &material : materials)
+        AssertThrow(material.law == MaterialLaw::linear,
+                    InputError("a law other than linear would not be used by " +
+                                 kinematics,
+                               "parameter 'Materials/" + material.name +
+                                 "/Law'",
+                               "set 'Law = linear', or 'Model/Kinematics = "
+                               "finite'"));
+    if (model.kinematics == Kinematics::small && is_static &&
+        !contact.is_present())
+    {
+      expect_default("Output",
+                     "Fields every",
+                     output.fields_every,
+                     0,
+                     kinematics,
+                     "remove it, or set 'Model/Kinematics' to finite or "
+                     "incremental");
+      return;
+    }
+
+    const std::string name =
+      !is_static ? to_string(model.analysis) + " analysis"
+      : model.kinematics == Kinematics::small ? "contact"
+                                              : kinematics;
+    AssertThrow(covers.stabilization != Stabilization::ghost_penalty,
+                InputError("'ghost penalty' is not available with " + name,
+                           "parameter 'Covers/Stabilization'",
+                           "set 'Stabilization = aggregation'"));
+    AssertThrow(solver.type != LinearSolverParameters::Type::iterative,
+                InputError("'iterative' is not available with " + name,
+                           "parameter 'Solver/Type'",
+                           "set 'Type' to automatic or direct"));
+    AssertThrow(!solver.estimate_condition,
+                InputError("'true' is not available with " + name,
+                           "parameter 'Solver/Condition number'",
+                           "set it to false, or 'Model/Kinematics = small' and "
+                           "'Model/Analysis = static'"));
+    AssertThrow(exact_solution.type == ExactSolutionParameters::Type::none,
+                InputError("the thick ring is no solution of " + name,
+                           "parameter 'Exact solution/Type'",
+                           "set it to none, or 'Model/Kinematics = small' and "
+                           "'Model/Analysis = static'"));
+  }
+
+
+  void
+  SceneParameters::check_contact() const
+  {
+    using Scheme             = TimeParameters::Scheme;
+    const bool may_be_damped = model.analysis == Analysis::dynamics &&
+                               (time.scheme == Scheme::automatic ||
+                                time.scheme == Scheme::energy_momentum);
+    contact.check(model.analysis, model.kinematics, may_be_damped);
+    for (const ObstacleParameters &obstacle : obstacles)
+    {
+      AssertThrow(contact.is_present(),
+                  InputError("the obstacle '" + obstacle.name +
+                               "' would not be used by a scene without contact",
+                             "parameter 'Obstacles/Names'",
+                             "remove it, or set 'Contact/Enforcement = "
+                             "penalty'"));
+      obstacle.check(model.analysis);
+    }
+  }
+
+
+  void
+  SceneParameters::check_analysis() const
+  {
+    time.check(model.analysis, model.kinematics, contact.is_present());
+    // a relaxed start is a relaxation before a dynamic analysis, and trials of
+    // strength are relaxations
+    const bool has_relaxed_start =
+      model.analysis == Analysis::dynamics &&
+      time.start == TimeParameters::Start::relaxation;
+    relaxation.check(has_relaxed_start ||
+                         model.analysis == Analysis::safety_factor
+                       ? Analysis::relaxation
+                       : model.analysis);
+    check_safety_factor();
+    check_loads_in_time();
+    const std::string analysis = to_string(model.analysis) + " analysis";
+    AssertThrow(model.analysis == Analysis::dynamics ||
+                  initial_velocities.empty(),
+                InputError("the initial velocity '" +
+                             (initial_velocities.empty()
+                                ? std::string()
+                                : initial_velocities.front().name) +
+                             "' would not be used by a " + analysis,
+                           "parameter 'Initial velocities/Names'",
+                           "remove it, or set 'Model/Analysis = dynamic'"));
+    AssertThrow(output.checkpoint_every == 0 ||
+                  (model.analysis == Analysis::dynamics &&
+                   model.kinematics != Kinematics::incremental),
+                InputError("checkpoints are not available with " +
+                             (model.analysis == Analysis::dynamics
+                                ? to_string(model.kinematics) + " kinematics"
+                                : analysis),
+                           "parameter 'Output/Checkpoint every'",
+                           "remove it, or set 'Model/Analysis = dynamic' with "
+                           "small or finite kinematics"));
+    check_output_quantities();
+    if (model.analysis == Analysis::statics)
+      return;
+    AssertThrow(model.analysis == Analysis::dynamics ||
+                  model.kinematics != Kinematics::incremental,
+                InputError("relaxation is not available with incremental "
+                           "kinematics",
+                           "parameter 'Model/Analysis'",
+                           "set 'Model/Kinematics' to small or finite"));
+    for (const Material &material : materials)
+      AssertThrow(material.density > 0.,
+                  InputError("the density is " + to_text(material.density),
+                             "parameter 'Materials/" + material.name +
+                               "/Density'",
+                             "a " + analysis + " needs it above 0"));
+  }
+
+
+  void
+  SceneParameters::check_output_quantities() const
+  {
+    const bool moves = model.analysis == Analysis::dynamics ||
+                       model.analysis == Analysis::relaxation;
+    const auto check = [&](const Quantity quantity, const char *key) {
+      AssertThrow(moves || !is_velocity(quantity),
+                  InputError("a " + to_string(model.analysis) +
+                               " analysis has no " + to_string(quantity),
+                             std::string("parameter 'Output/") + key + "'",
+                             "choose another quantity, or set "
+                             "'Model/Analysis = dynamic'"));
+    };
+    check(output.quantity, "Picture quantity");
+    for (const Quantity quantity : output.animation_quantities)
+      check(quantity, "Animation quantities");
+  }
+
+
+  void
+  SceneParameters::check_safety_factor() const
+  {
+    safety_factor.check(model.analysis);
+    if (model.analysis != Analysis::safety_factor)
+      return;
+    AssertThrow(contact.is_present(),
+                InputError("a scene without contact has no strength",
+                           "parameter 'Model/Analysis'",
+                           "set 'Contact/Enforcement = penalty', and a "
+                           "friction angle or a cohesion"));
+    const auto has_strength = [](const ContactLawParameters &law) {
+      return law.friction_angle > 0. || law.cohesion > 0. || law.is_bonded;
+    };
+    AssertThrow(has_strength(contact.law) || std::any_of(contact.laws.begin(),
+                                                         contact.laws.end(),
+                                                         has_strength),
+                InputError("no law of contact has strength to be reduced",
+                           "section 'Contact'",
+                           "give a friction angle or a cohesion"));
+    AssertThrow(output.fields_every == 0,
+                InputError("a series of fields is not available with a "
+                           "safety factor analysis",
+                           "parameter 'Output/Fields every'",
+                           "remove it"));
+  }
+
+
+  void
+  SceneParameters::check_loads_in_time() const
+  {
+    if (model.analysis == Analysis::dynamics)
+      for (const BoundaryConditionParameters &condition : boundary_conditions)
+        AssertThrow(condition.time.release_time < 0. ||
+                      condition.type == BoundaryCondition::Type::displacement ||
+                      condition.type ==
+                        BoundaryCondition::Type::normal_displacement,
+                    InputError("a load cannot be released",
+                               "parameter 'Boundary conditions/" +
+                                 condition.name + "/Release time'",
+                               "remove it, and let 'Amplitude' become 0"));
+    if (model.analysis == Analysis::dynamics &&
+        model.kinematics != Kinematics::incremental)
+      return;
+
+    const std::string by = model.analysis == Analysis::dynamics
+                             ? "incremental kinematics"
+                             : "a " + to_string(model.analysis) + " analysis";
+    for (const BoundaryConditionParameters &condition : boundary_conditions)
+      condition.time.expect_default("Boundary conditions", by);
+    for (const TimeDependence &force : force_times)
+      force.expect_default("Point forces", by);
+    for (const TimeDependence &point : fixed_point_times)
+      point.expect_default("Fixed points", by);
+    for (const auto &[key, text] :
+         {std::make_pair("Gravity amplitude", model.gravity_amplitude),
+          std::make_pair("Body force amplitude", model.body_force_amplitude),
+          std::make_pair("Base acceleration", model.base_acceleration)})
+      AssertThrow(text.empty(),
+                  InputError("'" + text + "' would not be used by " + by,
+                             std::string("parameter 'Model/") + key + "'",
+                             "remove it, or set 'Model/Analysis = dynamic' "
+                             "with small or finite kinematics"));
+  }
+} // namespace NMM

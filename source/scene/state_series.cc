@@ -1,0 +1,238 @@
+#include <nmm/output/picture.h>
+#include <nmm/output/vtu.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <fstream>
+#include <iomanip>
+#include <limits>
+#include <regex>
+#include <scene/state_series.h>
+#include <sstream>
+
+namespace NMM
+{
+  namespace internal
+  {
+
+    using namespace NMM;
+
+    namespace
+    {
+      bool
+      is_first_rank(const CoverSystem &covers)
+      {
+        return dealii::Utilities::MPI::this_mpi_process(
+                 covers.communicator()) == 0;
+      }
+
+
+      /// Are displacements drawn as they are, unless the scene says otherwise? Faces
+      /// in contact would overlap if not.
+      bool
+      shows_true_size(const Scene &scene)
+      {
+        return scene.parameters().model.kinematics != Kinematics::small ||
+               scene.parameters().contact.is_present();
+      }
+    } // namespace
+
+
+    void
+    write_picture(const Scene           &scene,
+                  const CoverSystem     &covers,
+                  const ContactAnalysis *contact,
+                  const FieldTriangles  &triangles,
+                  const FieldEvaluator  *evaluator,
+                  const std::string     &title,
+                  const std::string     &file_name,
+                  const OutputDirectory &directory,
+                  PictureData           *drawn)
+    {
+      OutputParameters parameters = scene.parameters().output;
+      if (evaluator == nullptr)
+        parameters.quantity = Quantity::block;
+      if (shows_true_size(scene) && parameters.deformation_scale < 0.)
+        parameters.deformation_scale = 1.;
+      PictureData data =
+        make_picture_data(covers, triangles, evaluator, parameters);
+      if (contact != nullptr)
+        add_contact(contact->contact().surface(),
+                    contact->points(),
+                    data,
+                    contact->pressure_of_rounding());
+      if (is_first_rank(covers))
+        directory.write_file(file_name, [&](const std::string &name) {
+          draw_picture(data, parameters, title, name);
+        });
+      if (drawn != nullptr)
+        *drawn = std::move(data);
+    }
+
+
+    StateSeries::StateSeries(const Scene           &scene,
+                             const CoverSystem     &covers,
+                             const ContactAnalysis *contact,
+                             const OutputDirectory &directory)
+      : scene(&scene)
+      , covers(&covers)
+      , contact(contact)
+      , directory(&directory)
+    {
+      const SceneParameters &parameters = scene.parameters();
+      if (contact != nullptr && is_first_rank(covers))
+        contact_series =
+          std::make_unique<ContactSeries>(contact->contact().surface(),
+                                          directory,
+                                          parameters.model.analysis ==
+                                              Analysis::statics
+                                            ? "load_factor"
+                                            : "time",
+                                          parameters.output.contacts,
+                                          parameters.output.fields);
+    }
+
+
+    void
+    StateSeries::resume(const double last)
+    {
+      files.clear();
+      if (!is_first_rank(*covers))
+        return;
+      std::ifstream    in(directory->path() / "fields.pvd");
+      const std::regex entry("timestep=\"([^\"]*)\".*file=\"(fields-[^\"]*)\"");
+      const double     limit = last + 1e-9 * std::abs(last);
+      std::smatch      match;
+      for (std::string line; std::getline(in, line);)
+        if (std::regex_search(line, match, entry))
+        {
+          const double value = std::stod(match[1]);
+          if (value <= limit)
+            files.emplace_back(value, match[2]);
+        }
+      if (!files.empty())
+        write_list();
+      if (contact_series)
+        contact_series->resume(last);
+      const OutputParameters &output = scene->parameters().output;
+      if (output.animation && output.picture && output.fields_every > 0)
+        open_animation(limit);
+    }
+
+
+    void
+    StateSeries::write(const unsigned int    number,
+                       const double          value,
+                       const std::string    &description,
+                       const FieldEvaluator &evaluator)
+    {
+      const OutputParameters &output = scene->parameters().output;
+      std::ostringstream      suffix;
+      suffix << '-' << std::setw(4) << std::setfill('0') << number;
+      const FieldTriangles triangles(*covers, &evaluator);
+      if (output.fields)
+      {
+        const std::string name = write_fields_of_state(*covers,
+                                                       triangles,
+                                                       *directory,
+                                                       "fields" + suffix.str());
+        // Every rank's piece is there before the list names it.
+        MPI_Barrier(covers->communicator());
+        files.emplace_back(value, name);
+        if (is_first_rank(*covers))
+          write_list();
+      }
+      if (contact != nullptr)
+      {
+        const auto points = contact->points();
+        if (contact_series)
+          contact_series->write(value, "contacts" + suffix.str(), points);
+      }
+      if (!output.picture)
+        return;
+      PictureData data;
+      write_picture(*scene,
+                    *covers,
+                    contact,
+                    triangles,
+                    &evaluator,
+                    scene->title() + ", " + description,
+                    "picture" + suffix.str() + ".png",
+                    *directory,
+                    &data);
+      if (output.animation && is_first_rank(*covers))
+      {
+        if (animation == nullptr)
+          open_animation(-std::numeric_limits<double>::infinity());
+        animation->add_frame(value, data);
+      }
+    }
+
+
+    void
+    StateSeries::open_animation(const double last)
+    {
+      animation = std::make_unique<Animation>(
+        (directory->path() / "animation.frames").string(), last);
+    }
+
+
+    void
+    StateSeries::write_animation(const double value, const PictureData *last)
+    {
+      if (animation == nullptr || animation->n_frames() == 0)
+        return;
+      OutputParameters output = scene->parameters().output;
+      const bool       is_dynamic =
+        scene->parameters().model.analysis != Analysis::statics;
+      AnimationParameters parameters;
+      parameters.time_name = is_dynamic ? "t" : "load factor";
+      parameters.time_unit = is_dynamic ? "s" : "";
+      parameters.smallest_hole =
+        smallest_hole(covers->manifold_mesh().physical_mesh());
+      if (shows_true_size(*scene) && output.deformation_scale < 0.)
+        output.deformation_scale = 1.;
+      // A run that continues this one has no such state in its series.
+      const bool is_added = last != nullptr && !last->triangles.empty() &&
+                            value > animation->last_time();
+      if (is_added)
+        animation->add_frame(value, *last);
+      directory->write_text("animation.html", [&](std::ostream &out) {
+        animation->write(out, scene->title(), output, parameters);
+      });
+      if (is_added)
+        animation->remove_last_frame();
+    }
+
+
+    void
+    StateSeries::finish(const double value, const std::string &file_name)
+    {
+      if (files.empty() || files.back().first != value)
+        files.emplace_back(value, file_name);
+      MPI_Barrier(covers->communicator());
+      if (is_first_rank(*covers))
+        write_list();
+    }
+
+
+    void
+    StateSeries::finish_contact(const double value)
+    {
+      if (contact == nullptr)
+        return;
+      const auto points = contact->points();
+      if (contact_series)
+        contact_series->finish(value, points);
+    }
+
+
+    void
+    StateSeries::write_list() const
+    {
+      write_series(files, *directory);
+    }
+
+  } // namespace internal
+} // namespace NMM

@@ -1,0 +1,253 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/covers/point_location.h>
+#include <nmm/linear_algebra/condition_number.h>
+#include <nmm/mechanics/error_norms.h>
+
+#include <algorithm>
+#include <cmath>
+#include <scene/static_analysis.h>
+#include <sstream>
+
+namespace NMM
+{
+  namespace internal
+  {
+
+    using namespace NMM;
+    using dealii::Point;
+    using Stage = Progress::Stage;
+
+    void
+    StaticAnalysis::make_system()
+    {
+      elasticity = std::make_unique<StaticElasticity>(
+        *covers, *quadrature, constraints, problem, ghost_penalty.get());
+    }
+
+
+    void
+    StaticAnalysis::solve()
+    {
+      {
+        Stage stage(progress, "assembly");
+        elasticity->assemble();
+      }
+      {
+        Stage                    stage(progress, "solution");
+        const LinearSolverReport report =
+          elasticity->solve(scene.parameters().solver);
+        stage.remark(report.direct
+                       ? "direct solver"
+                       : "conjugate gradients, " +
+                           std::to_string(report.n_iterations) + " iterations");
+        summary.add("solver_direct", report.direct ? 1. : 0.);
+        summary.add("solver_iterations", report.n_iterations);
+        summary.add("solver_relative_residual", report.relative_residual);
+      }
+      if (scene.parameters().solver.estimate_condition)
+        estimate_condition();
+      {
+        Stage stage(progress, "stress recovery");
+        field    = std::make_unique<DisplacementField>(*covers,
+                                                    problem,
+                                                    elasticity->solution());
+        recovery = std::make_unique<StressRecovery>(*field, aggregation);
+        evaluator =
+          std::make_unique<FieldEvaluator>(*field, *recovery, problem);
+      }
+      is_solved = true;
+    }
+
+
+    void
+    StaticAnalysis::estimate_condition()
+    {
+      Stage                 stage(progress, "condition number");
+      const ConditionNumber condition =
+        estimate_condition_number(elasticity->system_matrix(),
+                                  *covers,
+                                  constraints);
+      summary.add("condition_number", condition.value());
+      const bool has_place = condition.weakest_cover != invalid_index;
+      if (has_place)
+      {
+        const Point<2> &place = condition.weakest_node;
+        const auto     &unit  = scene.parameters().output.length_unit;
+        summary.add("condition_place_x", place[0], unit);
+        summary.add("condition_place_y", place[1], unit);
+      }
+      std::ostringstream text;
+      text << condition.value();
+      stage.remark(text.str());
+      if (!(condition.value() <= scene.parameters().solver.condition_limit))
+        progress.message(
+          "  warning: the condition number " + text.str() +
+          " is above the limit" +
+          (has_place ? "; the matrix is weakest near " +
+                         to_string(condition.weakest_node)
+                     : "; the matrix is singular to rounding") +
+          ": look for slivers without stabilization, parts that hardly "
+          "anything "
+          "holds, long thin parts, or large contrasts of stiffness");
+    }
+
+
+    namespace
+    {
+      /// The circle all pieces of a curve lie on.
+      CurvePiece
+      circle_of(const PhysicalMesh &mesh, const std::string &name)
+      {
+        const std::string  where = "section 'Exact solution'";
+        const unsigned int curve = mesh.find_curve(name);
+        AssertThrow(curve != invalid_index,
+                    InputError("the geometry has no curve '" + name + "'",
+                               where,
+                               "name a circle or arc of the geometry"));
+        const CurvePiece piece = mesh.curves()[curve].pieces.front();
+        for (const CurvePiece &other : mesh.curves()[curve].pieces)
+          AssertThrow(
+            other.kind != CurvePiece::Kind::segment &&
+              other.center.distance(piece.center) < 1e-9 * piece.radius &&
+              std::abs(other.radius - piece.radius) < 1e-9 * piece.radius,
+            InputError("the curve '" + name + "' is not part of one circle",
+                       where,
+                       "name a circle or arc of the geometry"));
+        return piece;
+      }
+
+
+      /// Sum of the constant pressures on a curve [Pa].
+      double
+      pressure_on(const ElasticityProblem &problem,
+                  const std::string       &curve,
+                  const Point<2>          &x)
+      {
+        double pressure = 0.;
+        for (const BoundaryCondition &condition : problem.boundary_conditions)
+          if (condition.curve == curve)
+          {
+            AssertThrow(condition.type == BoundaryCondition::Type::pressure,
+                        InputError("the condition '" + condition.name +
+                                     "' on '" + curve + "' is no pressure",
+                                   "section 'Exact solution'",
+                                   "the thick ring is loaded by pressure"));
+            if (condition.value)
+              pressure += condition.value->value(x);
+          }
+        return pressure;
+      }
+    } // namespace
+
+
+    void
+    StaticAnalysis::check_problem()
+    {
+      const ExactSolutionParameters &parameters =
+        scene.parameters().exact_solution;
+      if (parameters.type == ExactSolutionParameters::Type::none)
+        return;
+
+      const CurvePiece inner =
+        circle_of(*physical_mesh, parameters.inner_boundary);
+      const CurvePiece outer =
+        circle_of(*physical_mesh, parameters.outer_boundary);
+      AssertThrow(inner.center.distance(outer.center) < 1e-9 * outer.radius,
+                  InputError("the ring's inner circle about " +
+                               to_string(inner.center) +
+                               " and its outer one about " +
+                               to_string(outer.center) + " are not concentric",
+                             "section 'Exact solution'",
+                             "name two concentric curves"));
+      AssertThrow(pressure_on(problem,
+                              parameters.outer_boundary,
+                              outer.start) == 0.,
+                  InputError("there is a pressure on the ring's outside",
+                             "section 'Exact solution'",
+                             "this exact solution has inner pressure only"));
+      AssertThrow(problem.materials.size() == 1,
+                  InputError("the exact solution has one material, the scene " +
+                               std::to_string(problem.materials.size()),
+                             "section 'Exact solution'",
+                             "remove materials that are not used"));
+      exact_solution.emplace(inner.radius,
+                             outer.radius,
+                             pressure_on(problem,
+                                         parameters.inner_boundary,
+                                         inner.start),
+                             problem.materials.front(),
+                             problem.plane_state,
+                             inner.center);
+    }
+
+
+    void
+    StaticAnalysis::verify()
+    {
+      Stage stage(progress, "verification");
+      summary.add("strain_energy",
+                  small_strain_energy(),
+                  scene.parameters().output.stress_unit + "*" +
+                    scene.parameters().output.length_unit + "^3");
+      summary.add("direct_stress_covers",
+                  dealii::Utilities::MPI::sum(recovery->n_direct(),
+                                              communicator));
+      if (exact_solution)
+        add_errors();
+    }
+
+
+    void
+    StaticAnalysis::add_errors()
+    {
+      const ThickRing &ring         = *exact_solution;
+      const auto       displacement = [&](const Point<2> &x) {
+        return ring.displacement(x);
+      };
+      const auto stress = [&](const Point<2> &x) { return ring.stress(x); };
+      const ErrorNorms direct = compute_errors(*field, displacement, stress);
+      const ErrorNorms recovered =
+        compute_errors(*field,
+                       displacement,
+                       stress,
+                       [&](const unsigned int element, const Point<2> &xi) {
+                         return recovery->stress(element, xi);
+                       });
+      summary.add("error_displacement_l2", direct.displacement);
+      summary.add("error_direct_stress_l2", direct.stress);
+      summary.add("error_recovered_stress_l2", recovered.stress);
+
+      // Along the radius through the middle of the inner curve's first piece.
+      const CurvePiece inner =
+        circle_of(*physical_mesh,
+                  scene.parameters().exact_solution.inner_boundary);
+      const double middle =
+        angle_about(inner.center, inner.start) + 0.5 * swept_angle(inner);
+      const dealii::Tensor<1, 2> radial({std::cos(middle), std::sin(middle)});
+      const dealii::Tensor<1, 2> hoop({-radial[1], radial[0]});
+      ProbeParameters            line;
+      line.is_line = true;
+      line.from    = ring.center() + ring.inner_radius() * radial;
+      line.to      = ring.center() + ring.outer_radius() * radial;
+      const ProbePoints points(*manifold_mesh, {line});
+      const auto        samples = points.evaluate(*covers, *evaluator);
+
+      double error_direct = 0., error_recovered = 0.;
+      for (unsigned int i = 0; i < samples.size(); ++i)
+        if (samples[i])
+        {
+          const double exact =
+            ring.hoop_stress(points.entries()[i].x.distance(ring.center()));
+          const auto error = [&](const FieldSample::Stress &value) {
+            return std::abs(hoop * (value.in_plane * hoop) / exact - 1.);
+          };
+          error_direct = std::max(error_direct, error(samples[i]->direct));
+          error_recovered =
+            std::max(error_recovered, error(samples[i]->recovered));
+        }
+      summary.add("error_direct_hoop_max", error_direct);
+      summary.add("error_recovered_hoop_max", error_recovered);
+    }
+
+  } // namespace internal
+} // namespace NMM

@@ -1,0 +1,201 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/contact/contact_statics.h>
+#include <nmm/dynamics/contact_model.h>
+#include <nmm/dynamics/elastic_models.h>
+#include <nmm/dynamics/step_control.h>
+#include <nmm/mechanics/elastic_system.h>
+#include <nmm/mechanics/nonlinear_statics.h>
+
+#include <algorithm>
+#include <memory>
+#include <scene/static_start.h>
+#include <utility>
+
+namespace NMM
+{
+  namespace internal
+  {
+
+    using namespace NMM;
+    using Vector = FiniteElasticity::Vector;
+
+    namespace
+    {
+      LoadAmplitudes
+      amplitudes_at_start(const Scene &scene)
+      {
+        const Loading loading = scene.make_loading();
+        return loading.amplitudes ? loading.amplitudes(0.) : LoadAmplitudes();
+      }
+
+
+      bool
+      is_small(const Scene &scene)
+      {
+        return scene.parameters().model.kinematics == Kinematics::small;
+      }
+
+
+      Vector
+      owned_part(const StartInput &input, const Vector &solution)
+      {
+        Vector owned(input.covers.locally_owned_dofs(2),
+                     input.covers.communicator());
+        owned = solution;
+        return owned;
+      }
+
+
+      /// One linear problem.
+      Vector
+      solve_small(const StartInput &input,
+                  FiniteElasticity &elasticity,
+                  StartReport      &report)
+      {
+        ElasticSystem system(elasticity, /* is_linearized = */ true);
+        system.set_load_factor(1.);
+        Vector             u(input.covers.locally_owned_dofs(2),
+                 input.covers.locally_relevant_dofs(2),
+                 input.covers.communicator());
+        NewtonSolver       solver;
+        const NewtonReport newton = solver.solve(system, input.constraints, u);
+        AssertThrow(newton.converged,
+                    NumericalFailure(newton.reason,
+                                     "the linear problem",
+                                     "see that supports hold every block"));
+        report = {1, static_cast<unsigned int>(newton.iterations.size())};
+        return owned_part(input, u);
+      }
+
+
+      Vector
+      solve_statics(const StartInput &input, StartReport &report)
+      {
+        const Scene     &scene = input.scene;
+        FiniteElasticity elasticity(input.covers,
+                                    input.quadrature,
+                                    input.constraints,
+                                    input.problem,
+                                    /* may_float = */ input.contact != nullptr);
+        elasticity.set_amplitudes(amplitudes_at_start(scene));
+        const LoadSteps steps = scene.parameters().load_steps.load_steps();
+        if (input.contact == nullptr && is_small(scene))
+          return solve_small(input, elasticity, report);
+        if (input.contact == nullptr)
+        {
+          NonlinearStatics statics(elasticity,
+                                   scene.parameters().newton.newton);
+          statics.run(steps, [&](const LoadStep &step, const Vector &) {
+            ++report.n_steps;
+            report.n_iterations +=
+              step.newton.iterations.size() + step.n_lost_iterations;
+          });
+          return owned_part(input, statics.solution());
+        }
+        ElasticSystem  system(elasticity, is_small(scene));
+        ContactStatics statics(system,
+                               input.contact->contact(),
+                               contact_newton_parameters(scene));
+        statics.run(steps, [&](const ContactStep &step, const Vector &) {
+          ++report.n_steps;
+          report.n_iterations += step.n_iterations + step.n_lost_iterations;
+        });
+        return owned_part(input, statics.solution());
+      }
+
+
+      Vector
+      relax_to_rest(const StartInput &input, StartReport &report)
+      {
+        const Scene           &scene      = input.scene;
+        const SceneParameters &parameters = scene.parameters();
+        FiniteElasticity       elasticity(input.covers,
+                                    input.quadrature,
+                                    input.constraints,
+                                    input.problem,
+                                    /* may_float = */ true);
+        // time goes on, loads do not
+        const LoadAmplitudes amplitudes = amplitudes_at_start(scene);
+        Loading              loading;
+        loading.amplitudes = [amplitudes](const double) { return amplitudes; };
+        std::unique_ptr<ElasticModel> model;
+        if (is_small(scene))
+          model = std::make_unique<SmallModel>(elasticity,
+                                               input.mass_quadrature,
+                                               std::move(loading));
+        else
+          model = std::make_unique<FiniteModel>(elasticity,
+                                                input.mass_quadrature,
+                                                std::move(loading));
+        std::unique_ptr<ContactModel> contact_model;
+        if (input.contact != nullptr)
+          contact_model =
+            std::make_unique<ContactModel>(*model, input.contact->contact());
+        MechanicalModel *moved = contact_model.get();
+        if (input.contact == nullptr)
+          moved = model.get();
+
+        TimeParameters time = parameters.time;
+        time.scheme         = TimeParameters::Scheme::automatic;
+        TimeIntegrator integrator(*moved,
+                                  time.time_scheme(Analysis::relaxation,
+                                                   parameters.model.kinematics,
+                                                   input.contact != nullptr),
+                                  {},
+                                  motion_newton_parameters(scene));
+        relax(integrator,
+              parameters.relaxation.relaxation,
+              [&](const StepRecord &record) {
+                ++report.n_steps;
+                report.n_iterations +=
+                  record.report.n_iterations + record.n_lost_iterations;
+              });
+        return integrator.state().u;
+      }
+    } // namespace
+
+
+    NewtonParameters
+    motion_newton_parameters(const Scene &scene)
+    {
+      const NewtonParameters &given = scene.parameters().newton.newton;
+      NewtonParameters newton   = TimeIntegrator::default_newton_parameters();
+      newton.residual_tolerance = given.residual_tolerance;
+      // without contact more iterations only let steps grow that had better be cut
+      if (given.max_iterations != NewtonParameters().max_iterations ||
+          !scene.parameters().contact.is_present())
+        newton.max_iterations = given.max_iterations;
+      return newton;
+    }
+
+
+    Vector
+    find_start(const StartInput &input, StartReport &report)
+    {
+      const SceneParameters &parameters = input.scene.parameters();
+      const bool             is_relaxed =
+        parameters.model.analysis == Analysis::safety_factor ||
+        parameters.time.start == TimeParameters::Start::relaxation;
+      try
+      {
+        return is_relaxed ? relax_to_rest(input, report)
+                          : solve_statics(input, report);
+      }
+      catch (const NumericalFailure &error)
+      {
+        AssertThrow(
+          false,
+          NumericalFailure(
+            "There is no equilibrium to start from: " + error.message(),
+            parameters.model.analysis == Analysis::safety_factor
+              ? "parameter 'Safety factor/Start'"
+              : "parameter 'Time/Start'",
+            is_relaxed ? "see that obstacles and supports hold every block"
+                       : "let faces touch at the start, with friction, or "
+                         "set it to relaxation"));
+        throw;
+      }
+    }
+
+  } // namespace internal
+} // namespace NMM

@@ -1,0 +1,579 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/base/types.h>
+#include <nmm/solution/newton_solver.h>
+
+#include <deal.II/base/timer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <linear_algebra/mumps_solver.h>
+#include <solution/newton_groups.h>
+#include <utility>
+
+namespace NMM
+{
+  using internal::NewtonGroups;
+  using internal::ShareSearch;
+
+
+  const std::vector<unsigned int> &
+  NonlinearSystem::blocks_of_unknowns() const
+  {
+    static const std::vector<unsigned int> none;
+    return none;
+  }
+
+
+  const std::vector<bool> &
+  NonlinearSystem::held_blocks() const
+  {
+    static const std::vector<bool> none;
+    return none;
+  }
+
+
+  struct NewtonSolver::Data
+  {
+    using Group = NewtonGroups::Group;
+
+    NewtonParameters parameters;
+
+    /// Made for the first system and kept, with its analysis, for all of the same
+    /// size, pattern and symmetry.
+    std::unique_ptr<internal::DirectSolver> direct_solver;
+    bool                                    is_symmetric = false;
+    unsigned int                            n            = 0;
+    unsigned int                            version      = 0;
+
+    NonlinearSystem                         *system      = nullptr;
+    const dealii::AffineConstraints<double> *constraints = nullptr;
+    NewtonReport                            *report      = nullptr;
+    /// Owned unknowns, now and before the correction. The residual of what is not
+    /// active is that of the time when it was.
+    Vector owned, before, correction, residual;
+    /// How far each group came in the last iteration that it took part in; relevant
+    /// unknowns.
+    Vector last_increment;
+    bool   use_increment = true;
+    /// That of the last assembly of all, or of the first one.
+    double       scale = 0.;
+    NewtonGroups groups;
+    /// What active groups pressed on in the last assembly.
+    std::vector<unsigned int> touched;
+
+    template <typename Predicate>
+    Deformation
+    assemble_residual(const Vector &u, const Predicate &is_meant);
+
+    Deformation
+    assemble_all(const Vector &u);
+
+    Deformation
+    assemble_blocks(const Vector            &u,
+                    Tangent                  tangent,
+                    const Vector            *increment,
+                    const std::vector<bool> &blocks);
+
+    Deformation
+    assemble_tangent(const Vector &u, const Vector *increment);
+
+    void
+    factorize();
+
+    /// @p blocks: of whole groups; empty: all.
+    void
+    solve(const Vector            &rhs,
+          Vector                  &solution,
+          const std::vector<bool> &blocks = {});
+
+    /// u becomes what owned unknowns of active groups say.
+    void
+    distribute(Vector &u);
+
+    void
+    note_increment();
+
+    void
+    begin_searches(bool use_slopes);
+
+    Deformation
+    search_shares(Vector &u);
+
+    bool
+    iterate(Vector &u, const Vector *increment);
+
+    bool
+    has_converged(const Group &group, double largest_energy) const;
+
+    bool
+    settle(Vector &u, double largest_energy);
+
+    bool
+    refine(Vector &u);
+  };
+
+
+  NewtonSolver::NewtonSolver(const NewtonParameters &parameters)
+    : data(std::make_unique<Data>())
+  {
+    data->parameters = parameters;
+  }
+
+
+  NewtonSolver::~NewtonSolver() = default;
+
+
+  /// Residual of what corrections change in active groups for which @p is_meant.
+  template <typename Predicate>
+  Deformation
+  NewtonSolver::Data::assemble_residual(const Vector    &u,
+                                        const Predicate &is_meant)
+  {
+    return assemble_blocks(u,
+                           Tangent::none,
+                           nullptr,
+                           groups.are_there_several() ? groups.watched(is_meant)
+                                                      : std::vector<bool>());
+  }
+
+
+  /// The residual of what is done or held, too.
+  Deformation
+  NewtonSolver::Data::assemble_all(const Vector &u)
+  {
+    return assemble_blocks(u, Tangent::none, nullptr, {});
+  }
+
+
+  /// Of blocks of active groups; of all if there are none.
+  Deformation
+  NewtonSolver::Data::assemble_blocks(const Vector            &u,
+                                      const Tangent            tangent,
+                                      const Vector            *increment,
+                                      const std::vector<bool> &blocks)
+  {
+    dealii::Timer timer;
+    if (groups.are_there_several())
+      system->set_active_blocks(blocks);
+    const Deformation state = system->assemble(u, tangent, increment);
+    if (groups.are_there_several())
+      for (const unsigned int block : system->take_touched_blocks())
+        touched.push_back(block);
+    report->assembly_time += timer.wall_time();
+    if (state != Deformation::admissible)
+      return state;
+    // the first one is of all that is not held
+    if (blocks.empty() || scale == 0.)
+      scale = system->force_scale();
+    groups.note_residual(blocks);
+    double norm = 0.;
+    if (blocks.empty())
+    {
+      residual = system->residual();
+      norm     = residual.l2_norm();
+    }
+    else
+    {
+      const auto from = system->residual().begin();
+      const auto to   = residual.begin();
+      groups.unknowns().for_each(residual.locally_owned_size(),
+                                 [&](const unsigned int i) {
+                                   if (groups.is_in(blocks, i))
+                                     to[i] = from[i];
+                                   norm += to[i] * to[i];
+                                 });
+      norm = std::sqrt(norm);
+    }
+    report->relative_residual = norm > 0. ? norm / scale : 0.;
+    return std::isfinite(report->relative_residual) ? state
+                                                    : Deformation::inverted;
+  }
+
+
+  /// Of what is corrected and of what it presses on, with residual and groups. What is
+  /// pressed on may press on something else: each time only the rows of what is
+  /// new are assembled.
+  Deformation
+  NewtonSolver::Data::assemble_tangent(const Vector &u, const Vector *increment)
+  {
+    const unsigned int k      = report->iterations.size();
+    unsigned int       before = invalid_index;
+    groups.choose(residual, scale, parameters.residual_tolerance * scale);
+    groups.lose_tangents();
+    system->forget_tangent();
+    do
+    {
+      const std::vector<bool> blocks = groups.are_there_several()
+                                         ? groups.without_tangent()
+                                         : std::vector<bool>();
+      touched.clear();
+      const Deformation state =
+        assemble_blocks(u,
+                        k > parameters.n_robust_iterations ? Tangent::consistent
+                                                           : Tangent::robust,
+                        use_increment ? increment : nullptr,
+                        blocks);
+      if (state != Deformation::admissible)
+        return state;
+      // a matrix of another pattern has lost what was assembled before
+      const unsigned int version = system->pattern_version();
+      if (before != invalid_index && version != before)
+        groups.lose_tangents();
+      before = version;
+      groups.wake(touched);
+      if (const BlockMatrix *by_blocks = system->block_tangent())
+        groups.unite(blocks, *by_blocks);
+      else
+        groups.unite(blocks, system->tangent(), system->coupled_blocks());
+    } while (!groups.have_tangents());
+    touched.clear();
+    return Deformation::admissible;
+  }
+
+
+  void
+  NewtonSolver::Data::note_increment()
+  {
+    if (groups.corrected().all())
+    {
+      Vector change(owned);
+      change -= before;
+      last_increment = change;
+      return;
+    }
+    const auto to = last_increment.begin();
+    for (const unsigned int i : groups.corrected().chosen())
+      to[i] =
+        std::as_const(owned).begin()[i] - std::as_const(before).begin()[i];
+  }
+
+
+  void
+  NewtonSolver::Data::factorize()
+  {
+    dealii::Timer timer;
+    if (direct_solver == nullptr ||
+        is_symmetric != system->tangent_is_symmetric() || n != owned.size())
+    {
+      is_symmetric  = system->tangent_is_symmetric();
+      n             = owned.size();
+      direct_solver = std::make_unique<internal::DirectSolver>(
+        is_symmetric ? internal::DirectSolver::Symmetry::symmetric
+                     : internal::DirectSolver::Symmetry::unsymmetric,
+        system->blocks_of_unknowns());
+    }
+    else if (version != system->pattern_version())
+      direct_solver->forget_analysis();
+    version = system->pattern_version();
+    if (const BlockMatrix *by_blocks = system->block_tangent())
+      direct_solver->factorize(*by_blocks, groups.corrected().chosen());
+    else
+      direct_solver->factorize(system->tangent(),
+                               groups.corrected().chosen(),
+                               groups.couplings());
+    report->factorization_time += timer.wall_time();
+  }
+
+
+  void
+  NewtonSolver::Data::solve(const Vector            &rhs,
+                            Vector                  &solution,
+                            const std::vector<bool> &blocks)
+  {
+    dealii::Timer timer;
+    if (solution.size() != rhs.size())
+      solution.reinit(rhs);
+    direct_solver->solve(rhs, solution, blocks);
+    report->substitution_time += timer.wall_time();
+  }
+
+
+  void
+  NewtonSolver::Data::distribute(Vector &u)
+  {
+    if (groups.corrected().all() || constraints->n_constraints() > 0)
+    {
+      constraints->distribute(owned);
+      u = owned;
+      return;
+    }
+    // one rank: both have the same unknowns
+    const auto from = owned.begin();
+    const auto to   = u.begin();
+    for (const unsigned int i : groups.corrected().chosen())
+      to[i] = from[i];
+  }
+
+
+  namespace
+  {
+    /// Is |r| what it was two or three iterations ago, or did none of the last ones bring
+    /// it far below what had been reached before? Contact points that stick and slip by
+    /// turns make Newton's method go round three states and more, between which
+    /// r . du goes up and down as it should.
+    bool
+    is_going_round(const std::vector<double> &squares)
+    {
+      constexpr unsigned int n_last = 3;
+      constexpr double       enough = 0.7, same = 0.01;
+      for (const unsigned int n : {2U, 3U})
+        if (squares.size() > n + 1 &&
+            std::abs(squares.back() - squares[squares.size() - 1 - n]) <
+              same * squares.back())
+          return true;
+      if (squares.size() < 2 * n_last)
+        return false;
+      const auto last = squares.end() - n_last;
+      return *std::min_element(last, squares.end()) >
+             enough * enough * *std::min_element(squares.begin(), last);
+    }
+  } // namespace
+
+
+  /// From products and squares of this iteration.
+  void
+  NewtonSolver::Data::begin_searches(const bool use_slopes)
+  {
+    constexpr unsigned int n_young = 4;
+
+    for (const unsigned int root : groups.active_roots())
+    {
+      Group &group = groups[root];
+      group.squares.push_back(group.square / (scale * scale));
+      group.energies.push_back(std::abs(group.product));
+      const auto k = group.energies.size();
+      const bool is_late =
+        k > n_young && group.energies[k - 1] > group.energies[k - 2];
+      use_increment    = use_increment && !is_late;
+      group.goes_round = group.goes_round || is_going_round(group.squares);
+      group.search.begin(group.goes_round        ? ShareSearch::Mode::descend
+                         : is_late || use_slopes ? ShareSearch::Mode::slope
+                                                 : ShareSearch::Mode::none,
+                         group.product,
+                         std::sqrt(group.square),
+                         parameters.min_line_search);
+    }
+  }
+
+
+  /// Moves u by shares of the correction and assembles its residual.
+  Deformation
+  NewtonSolver::Data::search_shares(Vector &u)
+  {
+    const auto is_open = [](const Group &group) {
+      return !group.search.is_done();
+    };
+    const auto         x = owned.begin(), a = before.begin();
+    const auto         c = std::as_const(correction).begin();
+    const unsigned int n = owned.locally_owned_size();
+    groups.corrected().for_each(n, [&](const unsigned int i) { a[i] = x[i]; });
+    Deformation state   = Deformation::admissible;
+    bool        goes_on = true;
+    while (goes_on)
+    {
+      groups.corrected().for_each(n, [&](const unsigned int i) {
+        x[i] = a[i] - groups.of_unknown(i).search.share() * c[i];
+      });
+      distribute(u);
+      touched.clear();
+      state = assemble_residual(u, is_open);
+      if (state == Deformation::admissible)
+        groups.sum(residual, correction);
+      goes_on = false;
+      for (const unsigned int root : groups.active_roots())
+        if (is_open(groups[root]))
+        {
+          Group &group = groups[root];
+          group.search.judge(state == Deformation::admissible,
+                             group.product,
+                             std::sqrt(group.square));
+          goes_on = goes_on || !group.search.is_done();
+        }
+    }
+    return state;
+  }
+
+
+  /// One iteration; r(u) is assembled afterwards. False if it failed.
+  bool
+  NewtonSolver::Data::iterate(Vector &u, const Vector *increment)
+  {
+    report->iterations.emplace_back();
+    NewtonReport::Iteration &iteration = report->iterations.back();
+    if (assemble_tangent(u, increment) != Deformation::admissible)
+    {
+      report->reason =
+        "the deformation is not admissible (an element is "
+        "turned inside out)";
+      return false;
+    }
+    iteration.relative_residual = report->relative_residual;
+    iteration.active_share      = groups.corrected_share();
+    try
+    {
+      factorize();
+    }
+    catch (const NumericalFailure &failure)
+    {
+      report->reason = failure.message();
+      return false;
+    }
+    solve(residual, correction);
+    groups.sum(residual, correction);
+    for (const unsigned int root : groups.active_roots())
+      iteration.energy += std::abs(groups[root].product);
+    if (!std::isfinite(iteration.energy))
+    {
+      report->reason = "the tangent is singular";
+      return false;
+    }
+
+    begin_searches(parameters.always_search);
+    const Deformation state = search_shares(u);
+    for (const unsigned int root : groups.active_roots())
+    {
+      const ShareSearch &search = groups[root].search;
+      iteration.line_search = std::min(iteration.line_search, search.share());
+      report->n_line_search_cuts += search.n_cuts();
+    }
+    if (use_increment)
+      note_increment();
+    if (state != Deformation::admissible)
+      report->reason =
+        "every share of the correction gives a deformation that "
+        "is not admissible";
+    return state == Deformation::admissible;
+  }
+
+
+  /// A group's part of both tolerances is that of its unknowns.
+  bool
+  NewtonSolver::Data::has_converged(const Group &group,
+                                    const double largest_energy) const
+  {
+    const double part =
+      static_cast<double>(group.n_unknowns) / groups.n_unknowns();
+    const double allowed = parameters.residual_tolerance * scale;
+    return group.square <= allowed * allowed * part &&
+           std::abs(group.product) <=
+             parameters.energy_tolerance * largest_energy * part;
+  }
+
+
+  /// See NewtonParameters::n_refinements; of groups that have converged now. False if
+  /// u becomes inadmissible.
+  bool
+  NewtonSolver::Data::refine(Vector &u)
+  {
+    const auto is_new = [](const Group &group) { return group.has_converged; };
+    const std::vector<bool> blocks =
+      groups.are_there_several() ? groups.watched(is_new) : std::vector<bool>();
+    for (unsigned int i = 0; i < parameters.n_refinements; ++i)
+    {
+      solve(residual, correction, blocks);
+      const auto x = owned.begin();
+      const auto c = std::as_const(correction).begin();
+      groups.corrected().for_each(owned.locally_owned_size(),
+                                  [&](const unsigned int j) {
+                                    if (is_new(groups.of_unknown(j)))
+                                      x[j] -= c[j];
+                                  });
+      distribute(u);
+      touched.clear();
+      if (assemble_blocks(u, Tangent::none, nullptr, blocks) !=
+          Deformation::admissible)
+      {
+        report->reason = "the deformation is not admissible";
+        return false;
+      }
+    }
+    return true;
+  }
+
+
+  /// Leaves what has converged alone; have all? Not if there is a reason why it failed.
+  bool
+  NewtonSolver::Data::settle(Vector &u, const double largest_energy)
+  {
+    bool is_any_new = false;
+    for (const unsigned int root : groups.active_roots())
+    {
+      Group &group        = groups[root];
+      group.has_converged = has_converged(group, largest_energy);
+      is_any_new          = is_any_new || group.has_converged;
+    }
+    if (is_any_new && !refine(u))
+      return false;
+    // before, since what stays in place in active groups is pressed on all the time
+    groups.wake(touched);
+    groups.let_go();
+    if (groups.is_any_active())
+      return false;
+    if (!groups.are_there_several())
+      return true;
+
+    // what was settled early may have been pressed on, below what was noticed; and
+    // the caller may want to know forces on what is held
+    if (assemble_all(u) != Deformation::admissible)
+    {
+      report->reason = "the deformation is not admissible";
+      return false;
+    }
+    groups.sum_squares(residual);
+    const double allowed = parameters.residual_tolerance * scale;
+    touched.clear();
+    for (const unsigned int root : groups.roots())
+      if (groups[root].square * groups.n_unknowns() >
+          allowed * allowed * groups[root].n_unknowns)
+        touched.push_back(root);
+    groups.wake(touched, /* is_known = */ true);
+    return !groups.is_any_active();
+  }
+
+
+  NewtonReport
+  NewtonSolver::solve(NonlinearSystem                         &system,
+                      const dealii::AffineConstraints<double> &constraints,
+                      Vector                                  &u,
+                      const Vector                            *increment)
+  {
+    NewtonReport report;
+    Data        &d  = *data;
+    d.system        = &system;
+    d.constraints   = &constraints;
+    d.report        = &report;
+    d.use_increment = d.parameters.use_increment;
+    d.owned.reinit(u.locally_owned_elements(), u.get_mpi_communicator());
+    d.owned = u;
+    d.residual.reinit(d.owned);
+    d.before.reinit(d.owned);
+    if (d.use_increment)
+      d.last_increment.reinit(u);
+    d.scale = 0.;
+    d.groups.reinit(system.blocks_of_unknowns(), system.held_blocks(), d.owned);
+
+    double largest_energy = 0.;
+    // everything is held: only forces are wanted
+    if (!d.groups.is_any_active())
+      report.converged = d.settle(u, largest_energy);
+    while (!report.converged &&
+           report.iterations.size() < d.parameters.max_iterations)
+    {
+      if (!d.iterate(u, increment))
+        break;
+      largest_energy =
+        std::max(largest_energy, report.iterations.back().energy);
+      report.converged = d.settle(u, largest_energy);
+      if (report.converged || !report.reason.empty())
+        break;
+      if (d.use_increment)
+        increment = &d.last_increment;
+    }
+    if (!report.converged && report.reason.empty())
+      report.reason = "no convergence in " +
+                      std::to_string(report.iterations.size()) + " iterations";
+    if (d.groups.are_there_several())
+      system.set_active_blocks({});
+    return report;
+  }
+} // namespace NMM

@@ -1,0 +1,154 @@
+#include <nmm/base/program.h>
+#include <nmm/output/output_directory.h>
+#include <nmm/scene/time_table.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <sstream>
+#include <stdexcept>
+#include <sys/resource.h>
+
+using namespace NMM;
+namespace fs = std::filesystem;
+
+namespace
+{
+  fs::path
+  fresh(const std::string &name)
+  {
+    const fs::path path = fs::path(NMM_TEST_OUTPUT_DIR) / name;
+    fs::remove_all(path);
+    return path;
+  }
+
+
+  std::size_t
+  n_files(const fs::path &path)
+  {
+    return std::distance(fs::directory_iterator(path),
+                         fs::directory_iterator());
+  }
+
+
+  TEST(OutputDirectory, CheckCreatesNothing)
+  {
+    const fs::path path = fresh("check");
+    OutputDirectory(path / "deeper").check();
+    EXPECT_FALSE(fs::exists(path));
+  }
+
+
+  TEST(OutputDirectory, FileInTheWayIsAnInputError)
+  {
+    const fs::path path = fresh("in-the-way");
+    std::ofstream(path) << "a file";
+    EXPECT_THROW(OutputDirectory(path).check(), InputError);
+    EXPECT_THROW(OutputDirectory(path / "deeper").check(), InputError);
+  }
+
+
+  TEST(OutputDirectory, FileSystemsThatRefuseAndNamesThatAreTooLong)
+  {
+    const fs::path path = fresh("refused");
+    for (const fs::path &folder : {fs::path("/proc/nmm"),
+                                   path / std::string(300, 'a'),
+                                   path / std::string(300, 'a') / "deeper"})
+      EXPECT_THROW(OutputDirectory(folder).check(), InputError) << folder;
+    EXPECT_FALSE(fs::exists(path));
+  }
+
+
+  TEST(OutputDirectory, FolderWithTheNameOfAResultIsAnInputError)
+  {
+    for (const char *name : {"fields.vtu", "picture-0001.png", ".a.csv.part"})
+    {
+      const fs::path path = fresh("folder-in-the-way");
+      fs::create_directories(path / name);
+      if (name[0] == '.')
+        EXPECT_NO_THROW(OutputDirectory(path).check());
+      else
+        EXPECT_THROW(OutputDirectory(path).check(), InputError);
+      EXPECT_TRUE(fs::exists(path / name));
+      EXPECT_EQ(n_files(path), 1u);
+    }
+  }
+
+
+  // What a limit of the size of files forbids is like a full disk.
+  TEST(OutputDirectory, FullDiskLeavesTheOldFile)
+  {
+    const OutputDirectory directory(fresh("full"));
+    directory.create();
+    directory.write_text("a.csv", [](std::ostream &out) { out << "whole"; });
+    TimeTable table((directory.path() / "table.csv").string(),
+                    "",
+                    {"value"},
+                    MPI_COMM_SELF);
+    rlimit    limit;
+    getrlimit(RLIMIT_FSIZE, &limit);
+    const rlim_t unlimited = limit.rlim_cur;
+    const auto   action    = std::signal(SIGXFSZ, SIG_IGN);
+    limit.rlim_cur         = 100;
+    setrlimit(RLIMIT_FSIZE, &limit);
+    EXPECT_THROW(directory.write_text("a.csv",
+                                      [](std::ostream &out) {
+                                        out << std::string(100000, 'a');
+                                      }),
+                 OutputFailure);
+    EXPECT_THROW(for (unsigned int step = 0; step < 100; ++step)
+                   table.write(0.1 * step, step, {1.}),
+                 OutputFailure);
+    limit.rlim_cur = unlimited;
+    setrlimit(RLIMIT_FSIZE, &limit);
+    std::signal(SIGXFSZ, action);
+    std::string content;
+    std::ifstream(directory.path() / "a.csv") >> content;
+    EXPECT_EQ(content, "whole");
+    EXPECT_EQ(n_files(directory.path()), 2u);
+  }
+
+
+  TEST(OutputDirectory, CreateRemovesOnlyResults)
+  {
+    const fs::path path = fresh("earlier");
+    fs::create_directories(path);
+    for (const char *name :
+         {"summary.csv", "fields.3.vtu", "picture.png", "notes.txt"})
+      std::ofstream(path / name) << "old";
+    OutputDirectory(path).create();
+    EXPECT_TRUE(fs::exists(path / "notes.txt"));
+    EXPECT_EQ(n_files(path), 1u);
+  }
+
+
+  TEST(OutputDirectory, FailureLeavesTheOldFileAndNothingElse)
+  {
+    const OutputDirectory directory(fresh("failure"));
+    directory.create();
+    directory.write_text("a.csv", [](std::ostream &out) { out << "whole"; });
+    EXPECT_THROW(directory.write_text("a.csv",
+                                      [](std::ostream &out) {
+                                        out << "half";
+                                        throw std::runtime_error("failure");
+                                      }),
+                 std::runtime_error);
+    EXPECT_EQ(n_files(directory.path()), 1u);
+    std::string content;
+    std::ifstream(directory.path() / "a.csv") >> content;
+    EXPECT_EQ(content, "whole");
+  }
+
+
+  TEST(Summary, WritesARowPerValue)
+  {
+    Summary summary;
+    summary.add("cells", 1234567);
+    summary.add("area", 0.1, "m^2");
+    std::ostringstream text;
+    summary.write(text);
+    EXPECT_EQ(text.str(), "name,value,unit\ncells,1234567,-\narea,0.1,m^2\n");
+    EXPECT_EQ(summary.value("area"), 0.1);
+  }
+} // namespace

@@ -1,0 +1,82 @@
+#include <nmm/output/picture.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+
+using namespace NMM;
+using dealii::Point;
+
+namespace
+{
+  TEST(Picture, ColourMapGetsLighterSteadily)
+  {
+    const auto lightness = [](const double value) {
+      const auto c = colour_map(value);
+      return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
+    };
+    for (unsigned int i = 0; i < 100; ++i)
+      EXPECT_LT(lightness(i / 100.), lightness((i + 1) / 100.)) << i;
+    // Beyond the ends and for no number at all the colours are still valid.
+    for (const double value : {-1., 2., std::nan("")})
+      for (const double part : colour_map(value))
+      {
+        EXPECT_GE(part, 0.);
+        EXPECT_LE(part, 1.);
+      }
+  }
+
+
+  TEST(Picture, TicksAreRoundAndInside)
+  {
+    const auto expect_ticks = [](const double              min,
+                                 const double              max,
+                                 const std::vector<double> expected) {
+      const auto ticks = round_ticks(min, max, 5);
+      ASSERT_EQ(ticks.size(), expected.size());
+      for (unsigned int i = 0; i < ticks.size(); ++i)
+        EXPECT_NEAR(ticks[i], expected[i], 1e-12 * std::abs(max)) << i;
+    };
+    expect_ticks(0., 10., {0., 2., 4., 6., 8., 10.});
+    expect_ticks(-1.1, 0.9, {-1., -0.5, 0., 0.5});
+    expect_ticks(1234., 1236., {1234., 1234.5, 1235., 1235.5, 1236.});
+    expect_ticks(3., 3., {3.});
+  }
+
+
+  // Four digits would say 27.8 five times.
+  TEST(Picture, LabelsTellNeighboursApart)
+  {
+    using Labels = std::vector<std::string>;
+    EXPECT_EQ(tick_labels(round_ticks(27.8, 27.8008, 5)),
+              (Labels{"27.8", "27.8002", "27.8004", "27.8006", "27.8008"}));
+    EXPECT_EQ(tick_labels(round_ticks(0., 10., 5)),
+              (Labels{"0", "2", "4", "6", "8", "10"}));
+    EXPECT_EQ(tick_labels({1. / 3.}), Labels{"0.3333"});
+    EXPECT_EQ(tick_labels({}), Labels{});
+  }
+
+
+  TEST(Picture, IsWrittenForDegenerateData)
+  {
+    const std::string     name = NMM_TEST_OUTPUT_DIR "/degenerate.png";
+    PictureData           data;
+    PictureData::Triangle flat;
+    const double          x[6] = {0., 1., 2., 0.5, 1.5, 1.};
+    for (unsigned int i = 0; i < 6; ++i)
+      flat.vertices[i].position = Point<2>(x[i], 0.);
+    flat.values = {{1., 1., 1., 1., 1., 1.}};
+    for (const bool with_triangle : {false, true})
+    {
+      std::filesystem::remove(name);
+      if (with_triangle)
+        data.triangles.push_back(flat);
+      draw_picture(data, OutputParameters(), "degenerate", name);
+      char          signature[4] = {};
+      std::ifstream file(name, std::ios::binary);
+      file.read(signature, 4);
+      EXPECT_EQ(std::string(signature + 1, 3), "PNG");
+    }
+  }
+} // namespace

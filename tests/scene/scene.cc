@@ -1,0 +1,388 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/covers/manifold_mesh.h>
+#include <nmm/covers/own_meshes.h>
+#include <nmm/scene/parameter_tree.h>
+#include <nmm/scene/scene.h>
+
+#include <fstream>
+#include <gtest/gtest.h>
+#include <sstream>
+
+using namespace NMM;
+
+namespace
+{
+  const std::string base_scene = NMM_SOURCE_DIR "/tests/scenes/base.prm";
+
+  using Words = std::vector<std::string>;
+
+
+  TEST(ParameterTree, NearMatches)
+  {
+    const Words names = {"Solver", "Output", "Model", "Materials"};
+    EXPECT_EQ(near_matches("solver", names), Words({"Solver"}));
+    EXPECT_EQ(near_matches("Modle", names), Words({"Model"}));
+    EXPECT_EQ(near_matches("Material", names), Words({"Materials"}));
+    // Nothing is near: all there are.
+    EXPECT_EQ(near_matches("xyz", names), names);
+  }
+
+
+  TEST(ParameterTree, Assignment)
+  {
+    const auto assignment = parse_assignment("A section/Key = x=1; y");
+    EXPECT_EQ(assignment.path, Words({"A section", "Key"}));
+    EXPECT_EQ(assignment.value, "x=1; y");
+    EXPECT_EQ(parse_assignment("A/B/C=").path, Words({"A", "B", "C"}));
+    for (const char *bad : {"A/B", "B=1", "/B=1", "A/=1", "=", ""})
+      EXPECT_THROW(parse_assignment(bad), InputError) << bad;
+  }
+
+
+  TEST(Scene, ValuesArriveWhereTheyBelong)
+  {
+    const Scene             scene(base_scene,
+                      {"Materials/rock/Initial stress=1, 2, 3",
+                                   "Materials/rock/Density=5",
+                                   "Model/Plane state=plane strain",
+                                   "Model/Gravity=0, -9.81",
+                                   "Model/Body force=x + 1; y * pi",
+                                   "Boundary conditions/held/Components=y",
+                                   "Boundary conditions/held/Value=2 * x; y^2",
+                                   "Fixed points/corner/Stiffness=7",
+                                   "Covers/Stabilization=none",
+                                   "Mathematical mesh/Offset=0.1, -0.2",
+                                   "Solver/Type=iterative"});
+    const ElasticityProblem problem = scene.make_problem();
+    ASSERT_EQ(problem.materials.size(), 1u);
+    EXPECT_EQ(problem.materials[0].name, "rock");
+    EXPECT_EQ(problem.materials[0].youngs_modulus, 1.);
+    EXPECT_EQ(problem.materials[0].density, 5.);
+    EXPECT_EQ(problem.materials[0].initial_stress[1][1], 2.);
+    EXPECT_EQ(problem.materials[0].initial_stress[0][1], 3.);
+    EXPECT_EQ(problem.plane_state, PlaneState::plane_strain);
+    EXPECT_EQ(problem.gravity[1], -9.81);
+    ASSERT_TRUE(problem.body_force);
+    const dealii::Point<2> x(0.5, 2.);
+    EXPECT_DOUBLE_EQ(problem.body_force->value(x, 0), 1.5);
+    EXPECT_DOUBLE_EQ(problem.body_force->value(x, 1), 2. * dealii::numbers::PI);
+    ASSERT_EQ(problem.boundary_conditions.size(), 1u);
+    const BoundaryCondition &condition = problem.boundary_conditions[0];
+    EXPECT_EQ(condition.curve, "square");
+    EXPECT_EQ(condition.type, BoundaryCondition::Type::displacement);
+    EXPECT_FALSE(condition.components[0]);
+    EXPECT_TRUE(condition.components[1]);
+    EXPECT_DOUBLE_EQ(condition.value->value(x, 0), 1.);
+    EXPECT_DOUBLE_EQ(condition.value->value(x, 1), 4.);
+    ASSERT_EQ(problem.fixed_points.size(), 1u);
+    EXPECT_EQ(problem.fixed_points[0].stiffness, 7.);
+    EXPECT_EQ(scene.parameters().covers.stabilization, Stabilization::none);
+    EXPECT_EQ(scene.parameters().mathematical_mesh.regular.offset[1], -0.2);
+    EXPECT_EQ(scene.parameters().solver.type,
+              LinearSolverParameters::Type::iterative);
+    EXPECT_EQ(scene.title(), "base");
+  }
+
+
+  TEST(Scene, ConditionOnSeveralCurvesIsOneForEach)
+  {
+    const Scene scene(base_scene, {"Boundary conditions/held/Boundary=a, b"});
+    const auto  conditions = scene.make_problem().boundary_conditions;
+    ASSERT_EQ(conditions.size(), 2u);
+    EXPECT_EQ(conditions[0].curve, "a");
+    EXPECT_EQ(conditions[1].curve, "b");
+  }
+
+
+  /// That of the base scene with these settings.
+  RigidObstacle
+  obstacle(const Words &settings)
+  {
+    Words all = {"Contact/Enforcement=penalty", "Obstacles/Names=body"};
+    all.insert(all.end(), settings.begin(), settings.end());
+    const Scene        scene(base_scene, all);
+    const PhysicalMesh mesh(scene.make_geometry());
+    const auto         obstacles = scene.make_obstacles(mesh);
+    EXPECT_EQ(obstacles.size(), 1u);
+    EXPECT_EQ(obstacles[0].name, "body");
+    return obstacles[0];
+  }
+
+
+  /// Twice the area on the left of straight pieces and chords.
+  double
+  twice_area(const RigidObstacle &body)
+  {
+    double area = 0.;
+    for (const CurvePiece &piece : body.pieces)
+    {
+      const auto add = [&](const dealii::Point<2> &a,
+                           const dealii::Point<2> &b) {
+        area += a[0] * b[1] - a[1] * b[0];
+      };
+      if (piece.kind == CurvePiece::Kind::arc)
+      {
+        add(piece.start, piece.through);
+        add(piece.through, piece.end);
+      }
+      else
+        add(piece.start, piece.end);
+    }
+    return area;
+  }
+
+
+  // Lines as they are drawn; polygons and circles rigid inside, holes outside.
+  TEST(Scene, ObstaclesAreOnTheLeft)
+  {
+    const std::string shape = "Obstacles/body/Shape=";
+    const auto        line  = obstacle({shape + "linestring (3 0, 2 0, 1 1)"});
+    ASSERT_EQ(line.pieces.size(), 2u);
+    EXPECT_EQ(line.pieces[0].start[0], 3.);
+    EXPECT_FALSE(line.displacement);
+    for (const char *ring : {"(2 2, 3 2, 3 3, 2 3)", "(2 2, 2 3, 3 3, 3 2)"})
+      EXPECT_EQ(twice_area(obstacle({shape + "POLYGON (" + ring + ")"})), 2.);
+    // a closed line is what it is: a container
+    EXPECT_EQ(twice_area(
+                obstacle({shape + "LINESTRING (2 2, 2 3, 3 3, 3 2, 2 2)"})),
+              -2.);
+    const auto disk = obstacle({shape + "CIRCLE (5 5, 0.5)"});
+    ASSERT_EQ(disk.pieces.size(), 2u);
+    // of the square of the four points
+    EXPECT_EQ(twice_area(disk), 1.);
+    EXPECT_EQ(disk.pieces[1].end, disk.pieces[0].start);
+
+    const std::string file_name = NMM_TEST_OUTPUT_DIR "/obstacle.wkt";
+    std::ofstream(file_name) << "hole name=h CIRCLE (0 0, 4)\n";
+    EXPECT_EQ(twice_area(obstacle({"Obstacles/body/File=" + file_name})), -64.);
+  }
+
+
+  TEST(Scene, ObstaclesMove)
+  {
+    const auto body = obstacle({"Obstacles/body/Shape=LINESTRING (3 0, 2 0)",
+                                "Obstacles/body/Displacement=t^2; -3 * t"});
+    ASSERT_TRUE(body.displacement);
+    EXPECT_EQ(body.displacement(2.)[0], 4.);
+    EXPECT_EQ(body.displacement(2.)[1], -6.);
+  }
+
+
+  TEST(Scene, JointsAreOpenedAndTied)
+  {
+    const Scene scene(base_scene,
+                      {"Contact/Enforcement=penalty",
+                       "Contact/Open joints=a",
+                       "Contact/Tied joints=b",
+                       "Geometry/Text=boundary name=square material=rock "
+                       "POLYGON ((0 0, 1 0, 1 1, 0 1)); joint name=a "
+                       "state=closed LINESTRING (0.2 0, 0.2 1); joint name=b "
+                       "LINESTRING (0.4 0, 0.4 1); joint name=c state=closed "
+                       "LINESTRING (0.6 0, 0.6 1)"});
+    const auto  curves = scene.make_geometry().curves();
+    ASSERT_EQ(curves.size(), 4u);
+    EXPECT_EQ(curves[1].state, JointState::open);
+    EXPECT_EQ(curves[2].state, JointState::closed);
+    EXPECT_EQ(curves[3].state, JointState::closed);
+  }
+
+
+  // Cells of slivers are as thin as these, and would make contact as stiff.
+  TEST(Scene, SliversHaveNoPartInContactStiffness)
+  {
+    const Scene        scene(base_scene,
+                      {"Geometry/Text=boundary name=square material=rock "
+                                     "POLYGON ((0 0, 1 0, 1 1, 0 1)); joint name=a "
+                                     "LINESTRING (0 0.3, 1 0.3); joint name=b LINESTRING "
+                                     "(0 0.30000000001, 1 0.30000000001)"});
+    const PhysicalMesh mesh(scene.make_geometry());
+    ASSERT_EQ(mesh.regions().size(), 3u);
+    const OwnMeshes own = make_own_meshes(std::make_unique<MathematicalMesh>(
+                                            scene.make_mathematical_mesh(mesh)),
+                                          mesh);
+    CoverSystem     covers(*own.manifold_mesh, MPI_COMM_SELF);
+    const ContactSurface surface(covers);
+    // blocks 0.3 and 0.7 high with cells of 0.5
+    EXPECT_GT(contact_cell_size(surface), 0.1);
+  }
+
+
+  // What the scene leaves open is chosen for the softest block and the cells at
+  // faces; laws have the section's stiffnesses, but not its strengths.
+  TEST(Scene, ContactLawsAndWhatIsChosen)
+  {
+    const auto make = [](const Words &settings, double &size) {
+      Words all = {"Contact/Enforcement=penalty",
+                   "Contact/Friction angle=45",
+                   "Contact/Cohesion=2",
+                   "Contact/Names=one, two",
+                   "Contact/one/Between=square, any",
+                   "Contact/two/Between=any, any",
+                   "Contact/two/Normal stiffness=0.25",
+                   "Contact/two/Bonded=true",
+                   "Contact/two/Tensile strength=3",
+                   "Contact/two/Normal damping=0",
+                   "Contact/Dilation angle=10",
+                   "Contact/Dilation limit=0.5"};
+      all.insert(all.end(), settings.begin(), settings.end());
+      const Scene            scene(base_scene, all);
+      const PhysicalMesh     mesh(scene.make_geometry());
+      const MathematicalMesh cells = scene.make_mathematical_mesh(mesh);
+      const ManifoldMesh     manifold_mesh(cells, mesh);
+      CoverSystem            covers(manifold_mesh, MPI_COMM_SELF);
+      const ContactSurface   surface(covers);
+      size = contact_cell_size(surface);
+      return scene.make_contact_parameters(surface, scene.make_problem());
+    };
+    double                  size       = 0.;
+    const ContactParameters parameters = make({}, size);
+    // equilateral cells; E = 1
+    EXPECT_NEAR(size, 0.5, 1e-12);
+    EXPECT_NEAR(parameters.normal_stiffness, 60., 1e-10);
+    EXPECT_NEAR(parameters.shear_stiffness, 2., 1e-10);
+    EXPECT_NEAR(parameters.friction, 1., 1e-15);
+    EXPECT_EQ(parameters.cohesion, 2.);
+    EXPECT_NEAR(parameters.dilation,
+                std::tan(10. * dealii::numbers::PI / 180.),
+                1e-15);
+    EXPECT_EQ(parameters.dilation_limit, 0.5);
+    EXPECT_EQ(parameters.pairs[1].law.dilation, 0.);
+    EXPECT_EQ(parameters.integration, ContactIntegration::length);
+    EXPECT_EQ(parameters.penetration_tolerance, 0.);
+    ASSERT_EQ(parameters.pairs.size(), 2u);
+    EXPECT_EQ(parameters.pairs[0].first, "square");
+    EXPECT_EQ(parameters.pairs[0].second, "");
+    EXPECT_EQ(parameters.pairs[0].law.friction, 0.);
+    EXPECT_EQ(parameters.pairs[0].law.cohesion, 0.);
+    EXPECT_NEAR(parameters.pairs[0].law.normal_stiffness, 60., 1e-10);
+    // not stiffer in shear than against penetration
+    EXPECT_EQ(parameters.pairs[1].law.shear_stiffness, 0.25);
+    EXPECT_TRUE(parameters.pairs[1].law.is_bond);
+    EXPECT_EQ(parameters.pairs[1].law.tensile_strength, 3.);
+
+    // springs at vertices stand for a length of 1 m, so to say
+    const ContactParameters points = make({"Contact/Integration=points"}, size);
+    EXPECT_EQ(points.integration, ContactIntegration::points);
+    EXPECT_NEAR(points.normal_stiffness, 30., 1e-10);
+    EXPECT_NEAR(points.shear_stiffness, 1., 1e-10);
+
+    const ContactParameters augmented =
+      make({"Contact/Enforcement=augmented Lagrangian"}, size);
+    EXPECT_NEAR(augmented.normal_stiffness, 20., 1e-10);
+    EXPECT_NEAR(augmented.penetration_tolerance, 5e-6, 1e-15);
+
+    const ContactParameters dynamic = make({"Model/Analysis=dynamic",
+                                            "Materials/rock/Density=1",
+                                            "Time/End time=1",
+                                            "Time/Initial step=0.1",
+                                            "Contact/one/Normal damping=4",
+                                            "Contact/one/Shear damping=5"},
+                                           size);
+    EXPECT_NEAR(dynamic.shear_stiffness, 20., 1e-10);
+    EXPECT_EQ(dynamic.pairs[0].law.normal_damping, 4.);
+    EXPECT_EQ(dynamic.pairs[0].law.shear_damping, 5.);
+    EXPECT_EQ(dynamic.normal_damping, 0.);
+  }
+
+
+  TEST(Scene, PrintedSceneIsTheSameScene)
+  {
+    const Scene scene(base_scene, {"Model/Thickness=0.125"});
+    for (const auto format : {Scene::Format::prm, Scene::Format::json})
+    {
+      std::ostringstream first, second;
+      scene.print(first, format);
+      const std::string file_name =
+        std::string(NMM_TEST_OUTPUT_DIR "/printed") +
+        (format == Scene::Format::prm ? ".prm" : ".json");
+      std::ofstream(file_name) << first.str();
+      const Scene again(file_name);
+      EXPECT_EQ(again.parameters().model.thickness, 0.125);
+      again.print(second, format);
+      EXPECT_EQ(first.str(), second.str());
+    }
+  }
+
+
+  std::string
+  message_of_scene(const std::string &name, const Words &overrides = {})
+  {
+    try
+    {
+      const Scene scene(name, overrides);
+    }
+    catch (const InputError &error)
+    {
+      return error.message();
+    }
+    return "";
+  }
+
+
+  TEST(Scene, NumbersThatCannotBeComputedWithAreRefused)
+  {
+    for (const std::string bad : {"1e-308", "1e-400", "1e-150", "1e150"})
+      for (const std::string parameter :
+           {"Model/Thickness", "Materials/rock/Young's modulus"})
+      {
+        const std::string message =
+          message_of_scene(base_scene, {parameter + "=" + bad});
+        EXPECT_NE(message.find(bad), std::string::npos) << message;
+        EXPECT_NE(message.find(parameter), std::string::npos) << message;
+      }
+    EXPECT_NE(
+      message_of_scene(base_scene, {"Model/Gravity=0, 1e99"}).find("1e99"),
+      std::string::npos);
+    EXPECT_EQ(message_of_scene(base_scene, {"Model/Gravity=0e7, -1e30"}), "");
+  }
+
+
+  // ParameterHandler does not look at values with braces.
+  TEST(Scene, BracesAreNoValue)
+  {
+    const std::string name = NMM_TEST_OUTPUT_DIR "/brace.prm";
+    {
+      std::ofstream file(name);
+      file << std::ifstream(base_scene).rdbuf()
+           << "\nsubsection Model\n  set Analysis = {\nend\n";
+    }
+    const std::string message = message_of_scene(name);
+    EXPECT_NE(message.find("'{'"), std::string::npos) << message;
+    EXPECT_NE(message.find("Model/Analysis"), std::string::npos) << message;
+  }
+
+
+  TEST(Scene, DeeplyNestedJsonIsRefused)
+  {
+    const std::string name = NMM_TEST_OUTPUT_DIR "/nested.json";
+    for (const unsigned int n : {40, 20000, 100000})
+      for (const std::string open : {"[", "{\"a\":"})
+      {
+        std::string text;
+        for (unsigned int i = 0; i < n; ++i)
+          text += open;
+        std::ofstream(name) << text;
+        EXPECT_NE(message_of_scene(name).find("nested more"),
+                  std::string::npos);
+      }
+    std::ofstream(name) << "{\"a\": \"" << std::string(100, '{') << "\"}";
+    EXPECT_EQ(message_of_scene(name).find("nested more"), std::string::npos);
+  }
+
+
+  TEST(Scene, JsonArraysAreLists)
+  {
+    const std::string file_name = NMM_TEST_OUTPUT_DIR "/arrays.json";
+    std::ofstream(file_name)
+      << "{\"Geometry\": {\"Text\": \"boundary CIRCLE (0 0, 1)\"},"
+         " \"Mathematical mesh\": {\"Cell size\": 0.5, \"Offset\": [0.25, 1]},"
+         " \"Output\": {},"
+         " \"Materials\": {\"Names\": [\"a\", \"b\"],"
+         "   \"a\": {\"Young's modulus\": 1}, \"b\": {\"Young's modulus\": "
+         "2}}}";
+    const Scene scene(file_name);
+    EXPECT_EQ(scene.parameters().mathematical_mesh.regular.offset[0], 0.25);
+    ASSERT_EQ(scene.parameters().materials.size(), 2u);
+    EXPECT_EQ(scene.parameters().materials[1].youngs_modulus, 2.);
+  }
+} // namespace

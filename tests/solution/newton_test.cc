@@ -1,0 +1,662 @@
+// NewtonSolver on equations that are known.
+
+#include <nmm/solution/newton_solver.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <utility>
+#include <vector>
+
+using namespace NMM;
+
+namespace
+{
+  /// What all systems here have.
+  class MatrixAndForces : public NonlinearSystem
+  {
+  public:
+    const Vector &
+    residual() const override
+    {
+      return forces;
+    }
+
+    const dealii::TrilinosWrappers::SparseMatrix &
+    tangent() const override
+    {
+      return matrix;
+    }
+
+  protected:
+    dealii::TrilinosWrappers::SparseMatrix matrix;
+    Vector                                 forces;
+  };
+
+
+  /**
+   * A spring that is soft once it has slipped, on both sides, as a point of contact
+   * with friction is: r(u) = 3 u where |u| < 1, u + 2 sign(u) elsewhere. From 2 Newton's
+   * method goes to -2, and from there to 2, with the same |r . du| each time.
+   */
+  class SlippingSpring : public MatrixAndForces
+  {
+  public:
+    SlippingSpring()
+    {
+      dealii::DynamicSparsityPattern pattern(1);
+      pattern.add(0, 0);
+      const dealii::IndexSet all = dealii::complete_index_set(1);
+      matrix.reinit(all, pattern, MPI_COMM_SELF);
+      forces.reinit(all, MPI_COMM_SELF);
+    }
+
+    Deformation
+    assemble(const Vector &u, const Tangent tangent, const Vector *) override
+    {
+      const double x     = u(0);
+      const bool   slips = std::abs(x) >= 1.;
+      forces(0)          = slips ? x + std::copysign(2., x) : 3. * x;
+      if (tangent != Tangent::none)
+      {
+        matrix.set(0, 0, slips ? 1. : 3.);
+        matrix.compress(dealii::VectorOperation::insert);
+      }
+      return Deformation::admissible;
+    }
+
+    bool
+    tangent_is_symmetric() const override
+    {
+      return true;
+    }
+
+    double
+    force_scale() const override
+    {
+      return 1.;
+    }
+  };
+
+
+  /**
+   * A u = b with pairs of unknowns that hang together, unsymmetric, and places of zero value
+   * between all pairs, as for contact that may come. In one group if @p is_chain.
+   */
+  class Pairs : public MatrixAndForces
+  {
+  public:
+    Pairs(const unsigned int n_pairs, const bool is_chain)
+    {
+      const unsigned int             n = 2 * n_pairs;
+      dealii::DynamicSparsityPattern pattern(n);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          pattern.add(i, j);
+      const dealii::IndexSet all = dealii::complete_index_set(n);
+      matrix.reinit(all, pattern, MPI_COMM_SELF);
+      forces.reinit(all, MPI_COMM_SELF);
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        matrix.set(i, i, 4. + i);
+        matrix.set(i, i % 2 == 0 ? i + 1 : i - 1, i % 2 == 0 ? 2. : -3.);
+        if (is_chain && i + 2 < n)
+          matrix.set(i, i + 2, 1.);
+      }
+      matrix.compress(dealii::VectorOperation::insert);
+    }
+
+    /// The solution is (1, 2, 3, ...).
+    Deformation
+    assemble(const Vector &u, const Tangent, const Vector *) override
+    {
+      Vector difference(u);
+      for (unsigned int i = 0; i < u.size(); ++i)
+        difference(i) -= 1. + i;
+      difference.compress(dealii::VectorOperation::add);
+      matrix.vmult(forces, difference);
+      return Deformation::admissible;
+    }
+
+    bool
+    tangent_is_symmetric() const override
+    {
+      return false;
+    }
+
+    double
+    force_scale() const override
+    {
+      return 1e3;
+    }
+  };
+
+
+  // Small groups are KLU's, the chain, of more unknowns than these may have, is
+  // MUMPS'. A linear system takes one iteration, and one to see that.
+  TEST(Newton, FactorizesPairsAndTheirChain)
+  {
+    for (const bool is_chain : {false, true})
+    {
+      const unsigned int                n_pairs = 200;
+      Pairs                             system(n_pairs, is_chain);
+      dealii::AffineConstraints<double> constraints;
+      constraints.close();
+      NonlinearSystem::Vector u(dealii::complete_index_set(2 * n_pairs),
+                                MPI_COMM_SELF);
+      const NewtonReport report = NewtonSolver().solve(system, constraints, u);
+      EXPECT_TRUE(report.converged) << report.reason;
+      EXPECT_LE(report.iterations.size(), 2u);
+      for (unsigned int i = 0; i < u.size(); ++i)
+        // rounding of 400 unknowns of up to 400
+        EXPECT_NEAR(u(i), 1. + i, 1e-10) << (is_chain ? "chain" : "pairs");
+    }
+  }
+
+
+  // Six iterations go round, the seventh is found out and takes half of the way, to 0.
+  TEST(Newton, EndsWhereItWouldGoRound)
+  {
+    SlippingSpring                    system;
+    dealii::AffineConstraints<double> constraints;
+    constraints.close();
+    NonlinearSystem::Vector u(dealii::complete_index_set(1), MPI_COMM_SELF);
+    u(0) = 2.;
+    NewtonParameters parameters;
+    parameters.n_robust_iterations = 0;
+    const NewtonReport report =
+      NewtonSolver(parameters).solve(system, constraints, u);
+    EXPECT_TRUE(report.converged) << report.reason;
+    EXPECT_LE(report.iterations.size(), 9u);
+    EXPECT_NEAR(u(0), 0., 1e-12);
+  }
+
+
+  /**
+   * Blocks of one unknown each: cubic springs r_i = u_i + u_i^3 - f_i, between which
+   * nothing acts but that the first two must not come nearer than @p gap, by a spring
+   * c <u_0 - u_1 - gap>. Only rows of active blocks are made; how many is counted.
+   */
+  class CubicSprings : public MatrixAndForces
+  {
+  public:
+    CubicSprings(const std::vector<double> &f, const double gap)
+      : gap(gap)
+      , f(f)
+    {
+      const unsigned int             n = f.size();
+      dealii::DynamicSparsityPattern pattern(n);
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        pattern.add(i, i);
+        blocks.push_back(i);
+      }
+      pattern.add(0, 1);
+      pattern.add(1, 0);
+      const dealii::IndexSet all = dealii::complete_index_set(n);
+      matrix.reinit(all, pattern, MPI_COMM_SELF);
+      forces.reinit(all, MPI_COMM_SELF);
+    }
+
+    Deformation
+    assemble(const Vector &u, const Tangent tangent, const Vector *) override
+    {
+      const auto is_active = [&](const unsigned int i) {
+        return active.empty() || active[i];
+      };
+      const double overlap = std::max(0., u(0) - u(1) - gap);
+      if (overlap > 0. && is_active(0) != is_active(1))
+      {
+        const unsigned int other = is_active(0) ? 1 : 0;
+        if (held.empty() || !held[other])
+          touched.push_back(other);
+      }
+      for (unsigned int i = 0; i < f.size(); ++i)
+      {
+        // what is not asked for is not right
+        forces(i) = 1e10;
+        if (!is_active(i))
+          continue;
+        ++n_rows;
+        const double sign = i == 0 ? 1. : -1.;
+        forces(i) =
+          u(i) + u(i) * u(i) * u(i) - f[i] + (i < 2 ? sign * c * overlap : 0.);
+        if (tangent == Tangent::none)
+          continue;
+        const double k = i < 2 && overlap > 0. ? c : 0.;
+        matrix.set(i, i, 1. + 3. * u(i) * u(i) + k);
+        if (i < 2)
+          matrix.set(i, 1 - i, -k);
+      }
+      forces.compress(dealii::VectorOperation::insert);
+      matrix.compress(dealii::VectorOperation::insert);
+      return Deformation::admissible;
+    }
+
+    bool
+    tangent_is_symmetric() const override
+    {
+      return false;
+    }
+
+    double
+    force_scale() const override
+    {
+      return 1.;
+    }
+
+    const std::vector<unsigned int> &
+    blocks_of_unknowns() const override
+    {
+      return blocks;
+    }
+
+    const std::vector<bool> &
+    held_blocks() const override
+    {
+      return held;
+    }
+
+    void
+    set_active_blocks(const std::vector<bool> &is_active) override
+    {
+      active = is_active;
+    }
+
+    std::vector<unsigned int>
+    take_touched_blocks() override
+    {
+      return std::exchange(touched, {});
+    }
+
+    std::vector<bool> held;
+    unsigned int      n_rows = 0;
+
+  protected:
+    double            gap;
+    std::vector<bool> active;
+
+  private:
+    static constexpr double c = 100.;
+
+    std::vector<double>       f;
+    std::vector<unsigned int> blocks, touched;
+  };
+
+
+  NewtonReport
+  solve(CubicSprings            &system,
+        NonlinearSystem::Vector &u,
+        const bool               always_search = false)
+  {
+    dealii::AffineConstraints<double> constraints;
+    constraints.close();
+    NewtonParameters parameters;
+    parameters.n_robust_iterations = 0;
+    parameters.max_iterations      = 30;
+    parameters.always_search       = always_search;
+    return NewtonSolver(parameters).solve(system, constraints, u);
+  }
+
+
+  // One of 100 springs is far from its end, the others are there: after the first
+  // iteration its row alone is made.
+  TEST(Newton, GroupsEndOnTheirOwn)
+  {
+    const unsigned int  n = 100;
+    std::vector<double> f(n, 0.);
+    f[7] = 1000. + 10.; // of u = 10
+    CubicSprings            system(f, 1e6);
+    NonlinearSystem::Vector u(dealii::complete_index_set(n), MPI_COMM_SELF);
+    const NewtonReport      report = solve(system, u);
+    ASSERT_TRUE(report.converged) << report.reason;
+    // Newton's method is at 10 to rounding of 1000
+    EXPECT_NEAR(u(7), 10., 1e-12);
+    EXPECT_NEAR(u(8), 0., 1e-12);
+    ASSERT_GT(report.iterations.size(), 5u);
+    EXPECT_EQ(report.iterations[0].active_share, 1.);
+    for (unsigned int i = 1; i < report.iterations.size(); ++i)
+      EXPECT_EQ(report.iterations[i].active_share, 1. / n);
+    // all rows for the first tangent, its residual and the last look, one row each
+    // time in between: two per iteration, and what line searches take
+    EXPECT_LE(system.n_rows,
+              3 * n + 2 * report.iterations.size() + report.n_line_search_cuts);
+  }
+
+
+  // The second spring has converged when the first one comes to press on it.
+  TEST(Newton, WhatIsTouchedWakes)
+  {
+    CubicSprings            system({1010., 0., 0.}, 5.);
+    NonlinearSystem::Vector u(dealii::complete_index_set(3), MPI_COMM_SELF);
+    const NewtonReport      report = solve(system, u);
+    ASSERT_TRUE(report.converged) << report.reason;
+    const double press = 100. * (u(0) - u(1) - 5.);
+    EXPECT_GT(press, 10.);
+    // tolerance 1e-9 of forces of 1, and rounding of 1000
+    EXPECT_NEAR(u(0) + u(0) * u(0) * u(0) + press, 1010., 1e-8);
+    EXPECT_NEAR(u(1) + u(1) * u(1) * u(1), press, 1e-8);
+    EXPECT_NEAR(u(2), 0., 1e-12);
+  }
+
+
+  /// Says which blocks the tangent couples.
+  class SpringsThatTell : public CubicSprings
+  {
+  public:
+    using CubicSprings::CubicSprings;
+
+    Deformation
+    assemble(const Vector &u, const Tangent tangent, const Vector *v) override
+    {
+      if (tangent != Tangent::none)
+      {
+        pairs.clear();
+        if (u(0) - u(1) > gap && (active.empty() || active[0] || active[1]))
+          pairs.assign(2, BlockPair(0, 1));
+      }
+      return CubicSprings::assemble(u, tangent, v);
+    }
+
+    const std::vector<BlockPair> *
+    coupled_blocks() const override
+    {
+      return &pairs;
+    }
+
+  private:
+    std::vector<BlockPair> pairs;
+  };
+
+
+  // Pairs that a system tells by itself make the same groups, and the same corrections,
+  // as the values of its tangent do.
+  TEST(Newton, PairsThatAreTold)
+  {
+    const std::vector<double> f = {1010., 0., 1e5};
+    CubicSprings              searched(f, 5.);
+    SpringsThatTell           told(f, 5.);
+    NonlinearSystem::Vector   u(dealii::complete_index_set(3), MPI_COMM_SELF),
+      v(u);
+    const NewtonReport by_values = solve(searched, u),
+                       by_pairs  = solve(told, v);
+    ASSERT_TRUE(by_pairs.converged) << by_pairs.reason;
+    EXPECT_GT(100. * (v(0) - v(1) - 5.), 10.);
+    ASSERT_EQ(by_pairs.iterations.size(), by_values.iterations.size());
+    for (unsigned int i = 0; i < by_values.iterations.size(); ++i)
+      EXPECT_EQ(by_pairs.iterations[i].active_share,
+                by_values.iterations[i].active_share);
+    EXPECT_EQ(told.n_rows, searched.n_rows);
+    for (unsigned int i = 0; i < 3; ++i)
+      EXPECT_EQ(v(i), u(i));
+  }
+
+
+  // From -30 over 4 the fifth correction goes to 21, through the second spring's place,
+  // which is done by then; but only a share of it is taken.
+  TEST(Newton, WhatIsTouchedInVainIsLeftAlone)
+  {
+    CubicSprings            system({1010., 0., 0.}, 12.);
+    NonlinearSystem::Vector u(dealii::complete_index_set(3), MPI_COMM_SELF);
+    u(0)                      = -30.;
+    const NewtonReport report = solve(system, u, /* always_search = */ true);
+    ASSERT_TRUE(report.converged) << report.reason;
+    EXPECT_NEAR(u(0), 10., 1e-10);
+    EXPECT_GT(report.n_line_search_cuts, 0U);
+    ASSERT_GT(report.iterations.size(), 6u);
+    for (unsigned int i = 1; i < report.iterations.size(); ++i)
+      EXPECT_EQ(report.iterations[i].active_share, 1. / 3.);
+  }
+
+
+  /// The pattern has no place for the contact of the first two before it is needed, and is
+  /// made anew then: other rows are empty until they are assembled again.
+  class GrowingPattern : public CubicSprings
+  {
+  public:
+    using CubicSprings::CubicSprings;
+
+    Deformation
+    assemble(const Vector &u, const Tangent tangent, const Vector *v) override
+    {
+      if (tangent != Tangent::none && version == 0 && !active.empty() &&
+          active[1] && !active[0] && u(0) - u(1) > gap)
+      {
+        ++version;
+        matrix = 0.;
+      }
+      const Deformation state = CubicSprings::assemble(u, tangent, v);
+      // what is pressed on is noticed with the tangent alone
+      if (tangent == Tangent::none)
+        take_touched_blocks();
+      return state;
+    }
+
+    unsigned int
+    pattern_version() const override
+    {
+      return version;
+    }
+
+  private:
+    unsigned int version = 0;
+  };
+
+
+  // The third spring is still being solved when the first one touches the second one,
+  // which is done.
+  TEST(Newton, RowsOfAnotherPatternAreMadeAgain)
+  {
+    GrowingPattern          system({1010., 0., 1e5}, 5.);
+    NonlinearSystem::Vector u(dealii::complete_index_set(3), MPI_COMM_SELF);
+    u(0)                      = -30.;
+    const NewtonReport report = solve(system, u);
+    ASSERT_TRUE(report.converged) << report.reason;
+    EXPECT_EQ(system.pattern_version(), 1U);
+    const double press = 100. * (u(0) - u(1) - 5.);
+    EXPECT_GT(press, 10.);
+    EXPECT_NEAR(u(0) + u(0) * u(0) * u(0) + press, 1010., 1e-8);
+    EXPECT_NEAR(u(1) + u(1) * u(1) * u(1), press, 1e-8);
+    EXPECT_NEAR(u(2) + u(2) * u(2) * u(2), 1e5, 1e-8);
+  }
+
+
+  /**
+   * Blocks in a row, each tied to the next one by a spring c and to its place by a
+   * spring k, and the first one by a cubic spring, too:
+   * k u_i + c (2 u_i - u_{i-1} - u_{i+1}) (+ u_0^3) = f_0. Without k what the first one
+   * does all others do: a tower on soft ground; with k >> c, it is felt nearby, as in a
+   * time step.
+   */
+  class Row : public MatrixAndForces
+  {
+  public:
+    Row(const unsigned int n,
+        const double       k,
+        const double       c,
+        const double       f,
+        const bool         are_told_apart)
+      : k(k)
+      , c(c)
+      , f(f)
+    {
+      dealii::DynamicSparsityPattern pattern(n);
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        for (unsigned int j = i == 0 ? 0 : i - 1; j < std::min(n, i + 2); ++j)
+          pattern.add(i, j);
+        if (are_told_apart)
+          blocks.push_back(i);
+      }
+      const dealii::IndexSet all = dealii::complete_index_set(n);
+      matrix.reinit(all, pattern, MPI_COMM_SELF);
+      forces.reinit(all, MPI_COMM_SELF);
+    }
+
+    Deformation
+    assemble(const Vector &u, const Tangent tangent, const Vector *) override
+    {
+      const unsigned int n = forces.size();
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        // what is not asked for is not right
+        forces(i) = 1e10;
+        if (!active.empty() && !active[i])
+          continue;
+        ++n_rows;
+        double force = k * u(i), stiffness = k;
+        if (i == 0)
+        {
+          force += u(0) + u(0) * u(0) * u(0) - f;
+          stiffness += 1. + 3. * u(0) * u(0);
+        }
+        for (const unsigned int j : {i - 1, i + 1})
+          if (j < n)
+          {
+            force += c * (u(i) - u(j));
+            stiffness += c;
+            if (tangent != Tangent::none)
+              matrix.set(i, j, -c);
+          }
+        forces(i) = force;
+        if (tangent != Tangent::none)
+          matrix.set(i, i, stiffness);
+      }
+      forces.compress(dealii::VectorOperation::insert);
+      matrix.compress(dealii::VectorOperation::insert);
+      return Deformation::admissible;
+    }
+
+    bool
+    tangent_is_symmetric() const override
+    {
+      return false;
+    }
+
+    double
+    force_scale() const override
+    {
+      return 1.;
+    }
+
+    const std::vector<unsigned int> &
+    blocks_of_unknowns() const override
+    {
+      return blocks;
+    }
+
+    void
+    set_active_blocks(const std::vector<bool> &is_active) override
+    {
+      active = is_active;
+    }
+
+    unsigned int n_rows = 0;
+
+  private:
+    double                    k, c, f;
+    std::vector<unsigned int> blocks;
+    std::vector<bool>         active;
+  };
+
+
+  struct RowResult
+  {
+    NewtonReport        report;
+    unsigned int        n_rows = 0;
+    std::vector<double> u;
+  };
+
+
+  RowResult
+  solve_row(const double k,
+            const double c,
+            const bool   are_told_apart,
+            const double residual_tolerance = 1e-9)
+  {
+    constexpr unsigned int  n = 64;
+    Row                     system(n, k, c, 1010., are_told_apart);
+    NonlinearSystem::Vector u(dealii::complete_index_set(n), MPI_COMM_SELF);
+    dealii::AffineConstraints<double> constraints;
+    constraints.close();
+    NewtonParameters parameters;
+    parameters.n_robust_iterations = 0;
+    parameters.max_iterations      = 40;
+    parameters.residual_tolerance  = residual_tolerance;
+    u(0)                           = 20.;
+    RowResult result;
+    result.report = NewtonSolver(parameters).solve(system, constraints, u);
+    result.n_rows = system.n_rows;
+    result.u.assign(u.begin(), u.end());
+    return result;
+  }
+
+
+  // One group: what the cubic spring does is felt by 1/32 of it from each block to the
+  // next, k / c being 30, so 1e13 of it (1e3 N to a tenth of the tolerance of 1e-9 / 8)
+  // after nine, and the rest is left alone after the first iteration, two rings and
+  // the last look apart.
+  TEST(Newton, WhatIsInEquilibriumIsLeftAlone)
+  {
+    const RowResult apart = solve_row(300., 10., true),
+                    whole = solve_row(300., 10., false);
+    ASSERT_TRUE(apart.report.converged) << apart.report.reason;
+    ASSERT_TRUE(whole.report.converged) << whole.report.reason;
+    for (unsigned int i = 0; i < apart.u.size(); ++i)
+      EXPECT_NEAR(apart.u[i], whole.u[i], 1e-11) << i;
+    const unsigned int n = apart.report.iterations.size();
+    EXPECT_LE(n, whole.report.iterations.size() + 2);
+    for (unsigned int i = 1; i < n; ++i)
+      EXPECT_LE(apart.report.iterations[i].active_share, 12. / 64.) << i;
+    // tangent, residual and last look of 64 rows; then 12 rows, and for the residual
+    // one more
+    EXPECT_LE(apart.n_rows,
+              3 * 64 + (n - 1) * 25 + 13 * apart.report.n_line_search_cuts);
+  }
+
+
+  // Forces are small enough from the begin, but not what they would do.
+  TEST(Newton, WhatIsQuietIsCorrectedUntilItsEnergyIs)
+  {
+    const RowResult loose = solve_row(300., 10., true, 1e6);
+    ASSERT_TRUE(loose.report.converged) << loose.report.reason;
+    const RowResult whole = solve_row(300., 10., false);
+    // r . du after a correction du grows as its cube, so du is below 1e-4 of the way of
+    // 17 when that is below 1e-12 of the first one, and du^2 is what is left
+    for (unsigned int i = 0; i < loose.u.size(); ++i)
+      EXPECT_NEAR(loose.u[i], whole.u[i], 3e-6) << i;
+  }
+
+
+  // All move with the first one: two rings are too few, and doubled five times they are
+  // enough.
+  TEST(Newton, WhatIsFeltFarAwayIsCorrectedFarAway)
+  {
+    const RowResult apart = solve_row(0., 1e4, true),
+                    whole = solve_row(0., 1e4, false);
+    ASSERT_TRUE(apart.report.converged) << apart.report.reason;
+    ASSERT_TRUE(whole.report.converged) << whole.report.reason;
+    for (unsigned int i = 0; i < apart.u.size(); ++i)
+    {
+      EXPECT_NEAR(apart.u[i], 10., 1e-10) << i;
+      EXPECT_NEAR(whole.u[i], 10., 1e-10) << i;
+    }
+    EXPECT_LE(apart.report.iterations.size(),
+              whole.report.iterations.size() + 6);
+  }
+
+
+  // It does not move, and is felt: u^3 + u + 100 (u - 5) = 1010.
+  TEST(Newton, WhatIsHeldStays)
+  {
+    CubicSprings            system({1010., 3., 0.}, 5.);
+    NonlinearSystem::Vector u(dealii::complete_index_set(3), MPI_COMM_SELF);
+    system.held               = {false, true, false};
+    const NewtonReport report = solve(system, u);
+    ASSERT_TRUE(report.converged) << report.reason;
+    EXPECT_EQ(u(1), 0.);
+    EXPECT_NEAR(u(0) * u(0) * u(0) + u(0) + 100. * (u(0) - 5.), 1010., 1e-8);
+  }
+} // namespace

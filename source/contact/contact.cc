@@ -103,7 +103,6 @@ namespace NMM
     const double reach = d.reach + d.largest_opening();
     if (d.search.update(reach))
     {
-      d.forget_near_bodies();
       d.searched_nodal = d.nodal;
       d.searched_time  = d.time;
       d.searched_reach = reach;
@@ -114,7 +113,6 @@ namespace NMM
     d.make_points();
     d.note_candidates();
     d.active_points.clear();
-    d.point_to_body.clear();
     d.note_activity();
   }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <contact/contact_data.h>
-#include <numeric>
 #include <utility>
 
 namespace NMM
@@ -51,59 +50,12 @@ namespace NMM
 
 
   void
-  Contact::Data::list_near_bodies()
-  {
-    const auto            &edges = surface->edges();
-    std::vector<BlockPair> pairs;
-    for (unsigned int i = 0; i < search.slaves().size(); ++i)
-    {
-      const unsigned int slave = edges[search.slaves()[i]].body;
-      for (const unsigned int master : search.masters(i))
-        if (pairs.empty() ||
-            pairs.back() != BlockPair(slave, edges[master].body))
-          pairs.emplace_back(slave, edges[master].body);
-    }
-    const auto make_lists = [&](BodyLists &lists) {
-      std::sort(pairs.begin(), pairs.end());
-      pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-      lists.begins.assign(surface->n_bodies() + 1, 0);
-      lists.bodies.clear();
-      for (const auto &[body, other] : pairs)
-      {
-        ++lists.begins[body + 1];
-        lists.bodies.push_back(other);
-      }
-      std::partial_sum(lists.begins.begin(),
-                       lists.begins.end(),
-                       lists.begins.begin());
-    };
-    make_lists(faced_bodies);
-    for (auto &[slave, master] : pairs)
-      std::swap(slave, master);
-    make_lists(near_bodies);
-  }
-
-
-  void
-  Contact::Data::list_bodies_of_points()
-  {
-    const auto &edges = surface->edges();
-    point_to_body.resize(points.size());
-    for (unsigned int q = 0; q < points.size(); ++q)
-      point_to_body[q] = edges[search.slaves()[point_data[q].slave]].body;
-  }
-
-
-  void
   Contact::Data::list_covers_of_bodies()
   {
     const CoverSystem        &covers = surface->cover_system();
     const ManifoldMesh       &mesh   = covers.manifold_mesh();
     std::vector<unsigned int> row_to_block(2 * covers.n_covers());
-    cover_to_body.resize(covers.n_covers());
-    edge_to_body.clear();
-    for (const ContactSurface::Edge &edge : surface->edges())
-      edge_to_body.push_back(edge.body);
+    std::vector<unsigned int> cover_to_body(covers.n_covers());
     for (unsigned int e = 0; e < mesh.n_elements(); ++e)
       for (const unsigned int k : covers.covers(e))
         cover_to_body[k] = row_to_block[2 * k] = row_to_block[2 * k + 1] =

@@ -5,11 +5,10 @@
 
 #include <array>
 #include <contact/contact_crossings.h>
-#include <contact/contact_motion.h>
 #include <contact/contact_points.h>
 #include <contact/contact_search.h>
 #include <contact/contact_terms.h>
-#include <cstdint>
+#include <contact/step_clearances.h>
 #include <linear_algebra/active_items.h>
 #include <linear_algebra/block_system.h>
 #include <linear_algebra/matrix_sum.h>
@@ -42,20 +41,7 @@ namespace NMM
       double opening = 0., by_gap = 1., by_slip = 0.;
     };
 
-    /// Lists of bodies by body, one after the other.
-    struct BodyLists
-    {
-      std::vector<unsigned int> begins, bodies;
-
-      dealii::ArrayView<const unsigned int>
-      operator[](const unsigned int body) const
-      {
-        return {bodies.data() + begins[body], begins[body + 1] - begins[body]};
-      }
-    };
-
-    /// What does not change from one assembly to the next. Points come from all over the
-    /// memory: each as few lines of the cache as can be.
+    /// What does not change from one assembly to the next.
     struct alignas(64) PointData
     {
       /// Position in ContactSearch::slaves().
@@ -99,23 +85,6 @@ namespace NMM
       Dilation dilation;
       /// Of faces_beside.
       unsigned int beside_begin = 0, beside_end = 0;
-    };
-
-    /// All that an assembly asks for of a point that cannot touch, in one line of the
-    /// cache: the rest is far more, and comes from further away.
-    struct alignas(64) Clearance
-    {
-      /// At the begin of the step from touching [m]; 0: not known, or it may.
-      double distance = 0.;
-      /// Where on the edge, and as ContactSearch::clearance() has them.
-      double       s = 0., slack = 0.;
-      unsigned int home = invalid_index;
-      /// In ContactSearch::slaves().
-      unsigned int position      = 0;
-      unsigned int edge          = invalid_index;
-      bool         is_master_end = false;
-      /// It was clear in the last assembly, too, and says so.
-      bool was_clear = false;
     };
 
     void
@@ -280,42 +249,9 @@ namespace NMM
     void
     find_clearances();
 
-    /// A point that was open when the step began cannot have come to touch, by how far
-    /// faces have moved, were that (1 + margin) times as far.
-    bool
-    is_clear(const Clearance &clearance, double margin = 0.);
-
-    /// It does not touch where faces are now, at the end of the step. Takes longer, but less
-    /// long than to find its master.
-    bool
-    is_clear_now(unsigned int q) const;
-
-    /// The same of a point that was clear in the last assembly, too, by a bound that is
-    /// found once for all points of a body. Most points end here.
-    bool
-    is_far(const unsigned int q, const unsigned int body)
-    {
-      return far_distance[q] > 0. && far_distance[q] > motion_bound(body);
-    }
-
-    /// By how much any face of a body moves, at most, against those that it may touch, and
-    /// what that is by rounding.
-    double
-    motion_bound(unsigned int body);
-
-    /// It touches neither at the end of the step nor at the begin.
+    /// A point touches neither at the end of the step nor at its begin.
     void
     note_clear(unsigned int q);
-
-    /// A body moves from one assembly of a step to the next.
-    void
-    note_motion(unsigned int body);
-
-    /// Where neither a body nor what it may touch has moved since find_end() was asked for
-    /// all points of its faces, it need not be asked again: a tangent follows the residual
-    /// at the same displacements.
-    void
-    note_known(double time);
 
     /// @name One point in an assembly
     /// @{
@@ -333,19 +269,10 @@ namespace NMM
     void
     find_ends();
 
-    /// Points come from all over the memory: those that follow the i-th one in a list
-    /// are asked for before it is their turn.
-    void
-    fetch_ahead(const std::vector<unsigned int> &list, unsigned int i) const;
-
     /// Where a point is at the end of a step; false, and open, if it touches neither there
     /// nor at the begin.
     bool
     find_end(unsigned int q);
-
-    /// The same where nothing has moved since.
-    bool
-    find_same_end(unsigned int q);
 
     void
     add_point_between(unsigned int q, bool with_tangent);
@@ -451,19 +378,6 @@ namespace NMM
 
     void
     list_covers_of_bodies();
-
-    void
-    list_near_bodies();
-
-    /// Candidates are others.
-    void
-    forget_near_bodies()
-    {
-      faced_bodies = near_bodies = BodyLists();
-    }
-
-    void
-    list_bodies_of_points();
 
     /// A point presses: on something that is not active?
     void
@@ -598,11 +512,6 @@ namespace NMM
     /// Points that active bodies may have part in, and their covers, rows and edges.
     internal::ActiveItems active_points, active_covers, active_rows,
       active_edges;
-    /// Whose cover or edge it is; on whose face a point was made; whose faces may have a
-    /// body for master, and which masters its own ones may have.
-    std::vector<unsigned int> cover_to_body, edge_to_body, point_to_body;
-    BodyLists                 near_bodies, faced_bodies;
-
     internal::ContactLocalSystem local;
     Matrix                       matrix;
     internal::MatrixAdder        adder;
@@ -618,34 +527,12 @@ namespace NMM
     /// Null: not needed so far.
     std::unique_ptr<internal::ContactCrossings> crossings;
 
-    /// Of a time step: how far points are at its begin from touching, and by how much the
-    /// candidates at each position of ContactSearch::slaves() have moved against each
-    /// other, and at which assembly.
-    internal::ContactMotion motion;
-    std::vector<Clearance>  clearances;
-    /// By point: its clearance, as long as it is clear; 0: ask.
-    std::vector<double> far_distance;
-    /// By body: see motion_bound(), and at which assembly.
-    std::vector<double>       motion_bounds;
-    std::vector<unsigned int> bound_assembly;
-    std::vector<double>       position_motion;
-    std::vector<unsigned int> position_assembly;
-    unsigned int              n_assemblies = 0;
-    /// By body, numbers of assemblies: the last one in which it moved, or what it may touch,
-    /// too, and the one after that which found all points of its faces.
-    std::vector<unsigned int> moved_at, changed_at, found_at;
-    /// Displacements are not those of the last assembly in any of them.
-    bool have_all_moved = false;
-    /// Are they still what was found?
-    std::vector<bool> is_known;
-    double            found_time = 0.;
-    /// By point: what find_end() said.
-    std::vector<std::uint8_t> is_near;
+    /// Which points cannot touch anything in the step, and whether a point was clear in the
+    /// last assembly.
+    internal::StepClearances step_clearances;
+    std::vector<bool>        was_clear;
     /// Active points that touch at the begin or the end of the step.
     std::vector<unsigned int> near_points;
-    /// Active points that are not far.
-    std::vector<unsigned int> asked_points;
-
     /// Of a time step: displacements at its begin, where detect() was called, and when; faces at its end and in its middle, and
     /// the way of obstacles.
     std::vector<double>               nodal_begin;

@@ -418,7 +418,6 @@ namespace NMM
       d.surface->set_displacements(&d.nodal);
       set_time(d.searched_time);
       d.search.search(d.searched_reach);
-      d.forget_near_bodies();
     }
     const auto [first, last]   = d.surface->locally_owned_edges();
     const unsigned int n_edges = d.surface->edges().size();

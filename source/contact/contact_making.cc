@@ -20,7 +20,7 @@ namespace NMM
   {
     points.clear();
     point_data.clear();
-    clearances.clear();
+    step_clearances.disable();
     for (unsigned int i = 0; i < search.slaves().size(); ++i)
       if (search.corner(i) == Kind::along)
         add_points_of(i);
@@ -323,13 +323,13 @@ namespace NMM
   void
   Contact::Data::couple_expected()
   {
-    // times the motion that is expected: how much more there may be
-    constexpr double margin = 1.;
+    // how many times as far as expected anything may move
+    constexpr double margin = 2.;
 
     look_at_candidates();
     std::fill(is_coupled.begin(), is_coupled.end(), false);
     for_each_active_point([&](const unsigned int q) {
-      if (!is_clear(clearances[q], margin))
+      if (!step_clearances.is_clear(q, margin))
         is_coupled[point_data[q].slave] = true;
     });
     is_pattern_of_step = true;

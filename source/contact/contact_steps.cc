@@ -7,7 +7,9 @@
 #include <array>
 #include <cmath>
 #include <contact/contact_data.h>
+#include <limits>
 #include <mechanics/nodal_values.h>
+#include <utility>
 
 namespace NMM
 {
@@ -438,16 +440,6 @@ namespace NMM
   bool
   Contact::Data::find_end(const unsigned int q)
   {
-    Clearance &clearance = clearances[q];
-    const bool was_clear = clearance.was_clear;
-    clearance.was_clear  = is_clear(clearance) || is_clear_now(q);
-    far_distance[q]      = clearance.was_clear ? clearance.distance : 0.;
-    if (clearance.was_clear)
-    {
-      if (!was_clear)
-        note_clear(q);
-      return false;
-    }
     ContactPoint &point = points[q];
     PointData    &fixed = point_data[q];
     fixed.dilation      = Dilation();
@@ -483,21 +475,6 @@ namespace NMM
     point.pressure = point.shear = 0.;
     point.state                  = ContactState::open;
     return false;
-  }
-
-
-  bool
-  Contact::Data::find_same_end(const unsigned int q)
-  {
-    if (!is_near[q])
-      return false;
-    PointData &fixed = point_data[q];
-    // what has found out in the middle of the step that it has no share
-    if (fixed.has_angle && points[q].weight == 0.)
-      return find_end(q);
-    fixed.shear_work = fixed.normal_loss = 0.;
-    fixed.offset_end                     = std::min(0., fixed.gap_end);
-    return true;
   }
 
 
@@ -545,20 +522,13 @@ namespace NMM
   {
     std::vector<double> &at_end = end_state.nodal;
     if (Parallel::n_mpi_processes(communicator) > 1)
-    {
       read_nodal_values(surface->cover_system(), end, at_end);
-      std::fill(changed_at.begin(), changed_at.end(), n_assemblies);
-      have_all_moved = true;
-    }
     else
     {
       const auto from = end.begin();
       active_covers.for_each(at_end.size() / 2, [&](const unsigned int k) {
-        double *to = at_end.data() + 2 * k;
-        if (to[0] != from[2 * k] || to[1] != from[2 * k + 1])
-          note_motion(cover_to_body[k]);
-        to[0] = from[2 * k];
-        to[1] = from[2 * k + 1];
+        at_end[2 * k]     = from[2 * k];
+        at_end[2 * k + 1] = from[2 * k + 1];
       });
     }
     active_covers.for_each(at_end.size() / 2, [&](const unsigned int k) {
@@ -566,7 +536,6 @@ namespace NMM
         middle_state.nodal[i] = 0.5 * (nodal_begin[i] + at_end[i]);
     });
     update_faces();
-    have_all_moved = false;
   }
 
 
@@ -575,13 +544,87 @@ namespace NMM
   {
     surface->set_state(end_state);
     active_edges.for_each(surface->edges().size(), [&](const unsigned int e) {
-      if (!have_all_moved && moved_at[edge_to_body[e]] != n_assemblies)
-        return;
       surface->update(end_state, e);
       surface->update(middle_state, e);
-      motion.move(*surface, e);
     });
-    motion.move_obstacles(*surface);
+    step_clearances.note_motion();
+  }
+
+
+  void
+  Contact::Data::move_as_expected()
+  {
+    active_covers.for_each(nodal_expected.size() / 2,
+                           [&](const unsigned int k) {
+                             for (const unsigned int i : {2 * k, 2 * k + 1})
+                               end_state.nodal[i] = nodal_expected[i];
+                           });
+    update_faces();
+  }
+
+
+  void
+  Contact::Data::find_clearances()
+  {
+    was_clear.assign(points.size(), false);
+    // what slides apart may open faces that are in contact
+    if (!parameters.skip_clear_points || laws.has_dilation())
+      return;
+    const auto               &edges = surface->edges();
+    std::vector<double>       distances(points.size(), 0.);
+    std::vector<unsigned int> point_to_body(points.size());
+    for (unsigned int q = 0; q < points.size(); ++q)
+    {
+      const ContactPoint &point     = points[q];
+      const PointData    &fixed     = point_data[q];
+      const bool          is_corner = fixed.corner < Kind::along;
+      point_to_body[q]              = edges[search.slaves()[fixed.slave]].body;
+      if (fixed.gap_begin < fixed.offset || point.is_bonded ||
+          edges[point.edge].radius != 0.)
+        continue;
+      // without weight it has no share until points are made anew
+      distances[q] =
+        fixed.has_angle && point.weight == 0.
+          ? std::numeric_limits<double>::max()
+          : search.clearance(surface->place(point.edge, point.s).x,
+                             masters_of(q),
+                             is_corner ? ContactSearch::rounding_slack
+                                       : fixed.slack,
+                             is_corner ? ContactSearch::any_edge : fixed.home);
+    }
+    step_clearances.begin(
+      *surface, search, std::move(distances), std::move(point_to_body), reach);
+  }
+
+
+  void
+  Contact::Data::note_clear(const unsigned int q)
+  {
+    PointData &fixed = point_data[q];
+    fixed.dilation   = Dilation();
+    fixed.new_slip = fixed.shear_work = fixed.normal_loss = fixed.offset_end =
+      0.;
+    fixed.master_end    = invalid_index;
+    fixed.gap_end       = reach;
+    ContactPoint &point = points[q];
+    report.n_changes += point.state != ContactState::open;
+    point.pressure = point.shear = 0.;
+    point.state                  = ContactState::open;
+  }
+
+
+  void
+  Contact::Data::find_ends()
+  {
+    near_points.clear();
+    for_each_active_point([&](const unsigned int q) {
+      const bool is_clear = step_clearances.is_clear(q);
+      if (is_clear && !was_clear[q])
+        note_clear(q);
+      was_clear[q] = is_clear;
+      if (!is_clear && find_end(q))
+        near_points.push_back(q);
+    });
   }
 
 
@@ -639,11 +682,9 @@ namespace NMM
       d.move_as_expected();
       d.couple_expected();
     }
-    ++d.n_assemblies;
     d.set_step_states(end);
     d.is_conserving = true;
     d.set_admitted_depth();
-    d.note_known(time);
     d.find_ends();
     if (is_first && d.nodal_expected.empty())
       d.couple_expected();
@@ -659,11 +700,8 @@ namespace NMM
     else if (is_sparse)
       d.couple_all();
     d.block_system->reset(is_sparse);
-    for (unsigned int i = 0; i < d.near_points.size(); ++i)
-    {
-      d.fetch_ahead(d.near_points, i);
-      d.add_point_between(d.near_points[i], with_tangent);
-    }
+    for (const unsigned int q : d.near_points)
+      d.add_point_between(q, with_tangent);
     if (is_sparse)
       d.block_system->transfer(d.matrix, d.residual);
     else

@@ -112,6 +112,9 @@ namespace NMM
     /// Of two blocks the one with the lower number carries the contact points:
     /// the softer or finer one is the better choice. Empty: the block's number.
     std::vector<unsigned int> body_ranks;
+    /// Whether points that cannot touch anything within a time step are left out of its
+    /// assemblies. Without it results are the same, and assemblies take longer.
+    bool skip_clear_points = true;
 
     /// @throws InputError naming the value.
     void

@@ -10,6 +10,7 @@
 
 #include <nmm/base/program.h>
 #include <nmm/contact/contact_statics.h>
+#include <nmm/contact/coulomb_law.h>
 #include <nmm/covers/aggregation.h>
 #include <nmm/covers/cover_system.h>
 #include <nmm/covers/graded_mesh.h>
@@ -433,12 +434,17 @@ namespace StepNMM3
   make_contact_parameters(const Parameters &parameters,
                           const Enforcement enforcement,
                           const double      contact_size,
-                          const double      approach)
+                          const double      approach,
+                          const double      penalty_spring = 0.)
   {
     const bool             is_augmented = enforcement == Enforcement::augmented;
+    NMM::CoulombLaw        law;
     NMM::ContactParameters contact;
-    contact.normal_stiffness =
-      (is_augmented ? 10. : 30.) * parameters.youngs_modulus / contact_size;
+    law.normal_stiffness =
+      penalty_spring > 0. && !is_augmented
+        ? penalty_spring
+        : (is_augmented ? 10. : 30.) * parameters.youngs_modulus / contact_size;
+    contact.law = std::make_shared<NMM::CoulombLaw>(law);
     if (is_augmented)
       contact.penetration_tolerance = 1e-4 * approach;
     contact.reach = 0.05 * parameters.radius;
@@ -659,10 +665,8 @@ namespace StepNMM3
     setup.mesh     = make_mesh_parameters(parameters, size, 0.5 * R, {-R, R});
     setup.problem  = make_press_problem(parameters);
     const double step = parameters.approach / parameters.n_load_steps;
-    setup.contact =
-      make_contact_parameters(parameters, enforcement, size, 10. * step);
-    if (enforcement == Enforcement::penalty)
-      setup.contact.normal_stiffness = parameters.spring;
+    setup.contact     = make_contact_parameters(
+      parameters, enforcement, size, 10. * step, parameters.spring);
     Model model(std::move(setup), result);
 
     const double set_up = timer.cpu_time();

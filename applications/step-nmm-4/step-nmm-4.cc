@@ -9,6 +9,7 @@
 
 #include <nmm/base/program.h>
 #include <nmm/contact/contact.h>
+#include <nmm/contact/coulomb_law.h>
 #include <nmm/covers/aggregation.h>
 #include <nmm/covers/cover_system.h>
 #include <nmm/covers/own_meshes.h>
@@ -151,13 +152,15 @@ namespace StepNMM4
   make_contact_parameters(const Parameters &parameters,
                           const double      friction_angle)
   {
+    NMM::CoulombLaw law;
+    law.normal_stiffness = parameters.spring;
+    law.shear_stiffness  = parameters.spring;
+    law.normal_damping   = parameters.dashpot;
+    law.shear_damping    = parameters.dashpot;
+    law.friction         = std::tan(friction_angle * numbers::PI / 180.);
     NMM::ContactParameters contact;
-    contact.normal_stiffness = parameters.spring;
-    contact.shear_stiffness  = parameters.spring;
-    contact.normal_damping   = parameters.dashpot;
-    contact.shear_damping    = parameters.dashpot;
-    contact.friction         = std::tan(friction_angle * numbers::PI / 180.);
-    contact.reach            = 0.05;
+    contact.law   = std::make_shared<NMM::CoulombLaw>(law);
+    contact.reach = 0.05;
     return contact;
   }
 

@@ -19,6 +19,47 @@ namespace NMM
   {
     /// Pieces of faces that bear nothing, in parts of a cell.
     constexpr double too_short = 1e-3;
+
+
+    /// Strength of a law that depends on the slip, after the slip s that it lets happen itself,
+    /// @f$ S(p, \kappa + s) = |q| - k s @f$, q being the shear if nothing slides and k [Pa/m]
+    /// the stiffness of the spring. The derivative by_slip is that of S by q, times k. Newton's
+    /// method with bisection: the root is between 0 and |q| / k.
+    ContactLaw::Strength
+    strength_after_slip(const ContactLaw &law,
+                        const double      pressure,
+                        const double      slip_before,
+                        const double      trial,
+                        const double      stiffness)
+    {
+      constexpr unsigned int max_iterations = 60;
+      constexpr double       rounding       = 1e-14;
+
+      ContactLaw::Strength strength = law.strength(pressure, slip_before);
+      const double         most     = std::abs(trial) / stiffness;
+      double               slip = 0., low = 0., high = most;
+      if (std::abs(trial) <= strength.value)
+        return strength;
+      for (unsigned int i = 0; i < max_iterations; ++i)
+      {
+        const double excess =
+          std::abs(trial) - stiffness * slip - strength.value;
+        if (std::abs(excess) <= rounding * std::abs(trial))
+          break;
+        (excess > 0. ? low : high) = slip;
+        slip += excess / (stiffness + strength.by_slip);
+        if (!(slip > low && slip < high))
+          slip = 0.5 * (low + high);
+        strength = law.strength(pressure, slip_before + slip);
+      }
+      const double by_spring = strength.by_slip / stiffness;
+      if (by_spring <= -1.)
+        // the shear has jumped: no derivative tells where to
+        return {strength.value, strength.by_pressure, 0.};
+      return {strength.value,
+              strength.by_pressure / (1. + by_spring),
+              strength.by_slip / (1. + by_spring)};
+    }
   } // namespace
 
 
@@ -153,11 +194,11 @@ namespace NMM
     const double      eps   = law.normal_stiffness;
     const Dilation    dilation =
       is_between ? point_data[q].dilation : find_dilation(q, slave, projection);
-    point.opening = dilation.opening;
-    point.pressure =
-      point.multiplier -
-      eps * (projection.gap - point.opening -
-             (is_between ? point_data[q].offset_end : point_data[q].offset));
+    point.opening                     = dilation.opening;
+    const ContactLaw::Response spring = law.pressure(
+      point.opening - projection.gap +
+      (is_between ? point_data[q].offset_end : point_data[q].offset));
+    point.pressure = point.multiplier + spring.value;
     if (!point.is_bonded && point.pressure < -eps * touching * reach)
     {
       point.pressure = point.shear = 0.;
@@ -166,13 +207,13 @@ namespace NMM
     }
     if (!point.is_bonded)
       point.pressure = std::max(point.pressure, 0.);
-    traction.pressure         = point.weight * point.pressure;
-    traction.normal_stiffness = point.weight * eps * dilation.by_gap;
-    traction.pressure_by_slip = -point.weight * eps * dilation.by_slip;
+    traction.pressure = point.weight * point.pressure;
+    traction.normal_stiffness =
+      point.weight * spring.derivative * dilation.by_gap;
+    traction.pressure_by_slip =
+      -point.weight * spring.derivative * dilation.by_slip;
     report.energy +=
-      point.weight *
-      (point.pressure * point.pressure - point.multiplier * point.multiplier) /
-      (2. * eps);
+      normal_energy(q, point.pressure) - normal_energy(q, point.multiplier);
     const bool was_slipping = point.state == ContactState::slip;
     point.state             = ContactState::slip;
     if (law.has_friction())
@@ -182,12 +223,11 @@ namespace NMM
         projection.place.a / projection.place.a.norm();
       traction.normal_distance = distance * projection.normal;
       find_shear(q,
-                 law.shear_stiffness * (distance * tangent),
-                 law.shear_stiffness,
+                 law.shear_spring() * (distance * tangent),
+                 law.shear_spring(),
                  was_slipping,
                  traction);
-      report.energy +=
-        point.weight * point.shear * point.shear / (2. * law.shear_stiffness);
+      report.energy += shear_energy(q, point.shear);
     }
     return traction;
   }
@@ -205,9 +245,9 @@ namespace NMM
           slip = std::max(slip, place.slip);
       });
     slip           = Parallel::max(slip, communicator);
-    double opening = parameters.opening(slip);
+    double opening = parameters.law->opening(slip);
     for (const ContactPair &pair : parameters.pairs)
-      opening = std::max(opening, pair.law.opening(slip));
+      opening = std::max(opening, pair.law->opening(slip));
     return opening;
   }
 
@@ -217,6 +257,9 @@ namespace NMM
                                const ContactSurface::Place &slave,
                                const ContactProjection     &projection)
   {
+    constexpr unsigned int max_iterations = 20;
+    constexpr double       rounding       = 1e-14;
+
     Dilation            result;
     const ContactPoint &point = points[q];
     PointData          &fixed = point_data[q];
@@ -239,27 +282,39 @@ namespace NMM
 
     // shear and pressure if nothing slides
     const Tensor<1, 2> tangent = projection.place.a / projection.place.a.norm();
-    const double       trial =
-      law.shear_stiffness * (way_from_stick(q, slave) * tangent);
-    const double gap      = projection.gap - fixed.offset - result.opening;
-    const double pressure = point.multiplier - law.normal_stiffness * gap;
-    const double excess =
-      std::abs(trial) - law.friction * pressure - law.cohesion;
-    if (excess <= 0.)
-      return result;
-    // |trial| - eps_t s = mu (pressure + eps_n tan psi s) + c
-    const double rise = law.normal_stiffness * law.dilation;
-    const double h    = law.shear_stiffness + law.friction * rise;
-    double       slip = std::min(most, excess / h);
-    if (pressure + rise * slip <= 0.)
+    const double       eps     = law.shear_spring();
+    const double       trial   = eps * (way_from_stick(q, slave) * tangent);
+    const double       closure = result.opening + fixed.offset - projection.gap;
+    // |trial| - eps_t s = S(p(closure + tan psi s), kappa + s), by Newton's method, which ends
+    // after one step if all is linear
+    double slip = 0., by_closure = 0., h = 1.;
+    bool   is_held = true;
+    for (unsigned int i = 0; i < max_iterations; ++i)
     {
-      // nothing holds it
-      slip = std::min(most, std::abs(trial) / law.shear_stiffness);
+      const ContactLaw::Response spring =
+        law.pressure(closure + law.dilation * slip);
+      const double pressure = point.multiplier + spring.value;
+      is_held               = pressure > 0. || i == 0;
+      if (!is_held)
+        break;
+      const ContactLaw::Strength strength =
+        law.strength(pressure, fixed.slip + slip);
+      const double excess = std::abs(trial) - eps * slip - strength.value;
+      if (i == 0 && excess <= 0.)
+        return result;
+      by_closure = strength.by_pressure * spring.derivative;
+      h          = eps + by_closure * law.dilation + strength.by_slip;
+      if (h <= 0. || std::abs(excess) <= rounding * std::abs(trial))
+        break;
+      slip = std::max(0., slip + excess / h);
     }
-    else if (slip < most)
+    slip = std::min(most, slip);
+    if (!is_held)
+      slip = std::min(most, std::abs(trial) / eps);
+    else if (slip < most && h > 0.)
     {
-      result.by_gap  = law.shear_stiffness / h;
-      result.by_slip = -std::copysign(law.dilation * result.by_gap, trial);
+      result.by_gap  = 1. - by_closure * law.dilation / h;
+      result.by_slip = -std::copysign(law.dilation * eps / h, trial);
     }
     fixed.new_slip = slip;
     result.opening += law.dilation * slip;
@@ -275,9 +330,18 @@ namespace NMM
                             ContactTraction   &traction)
   {
     ContactPoint     &point = points[q];
-    const ContactLaw &law   = *point_data[q].law;
-    const double      limit =
-      law.friction * point.pressure + (law.is_bond ? 0. : law.cohesion);
+    PointData        &fixed = point_data[q];
+    const ContactLaw &law   = *fixed.law;
+    // what opens by slip knows already how far it slides
+    const bool finds_slip =
+      law.depends_on_slip() && law.dilation == 0. && !slip_is_frozen;
+    if (finds_slip)
+      fixed.new_slip = 0.;
+    const ContactLaw::Strength strength =
+      finds_slip
+        ? strength_after_slip(law, point.pressure, fixed.slip, trial, stiffness)
+        : law.strength(point.pressure, fixed.slip + fixed.new_slip);
+    const double limit = strength.value;
     // a residual and its tangent are two assemblies at the same displacements
     if (trial != point.spring_shear)
       point.has_turned = std::abs(trial) > limit && was_slipping &&
@@ -293,14 +357,21 @@ namespace NMM
     {
       point.state                  = ContactState::slip;
       point.shear                  = trial > 0. ? limit : -limit;
-      traction.shear_over_pressure = trial > 0. ? law.friction : -law.friction;
+      traction.shear_over_pressure = std::copysign(strength.by_pressure, trial);
+      if (finds_slip)
+      {
+        traction.shear_stiffness = point.weight * strength.by_slip;
+        // a step's shear is that of its middle
+        fixed.new_slip =
+          (is_between ? 2. : 1.) * (std::abs(trial) - limit) / stiffness;
+      }
       // it slides to and fro from one iteration to the next, because the tangent
       // of sliding does not hold it: the secant does
       if (point.has_turned)
       {
         traction.shear_stiffness =
           point.weight * stiffness * limit / std::abs(trial);
-        traction.pressure_by_slip = 0.;
+        traction.pressure_by_slip = traction.shear_over_pressure = 0.;
       }
     }
     traction.shear = point.weight * point.shear;

@@ -413,13 +413,19 @@ namespace NMM
     void
     reduce_report();
 
-    /// What a spring of a point stores under a stress [J/m].
+    /// What the normal spring of a point stores under a pressure, and what the shear spring
+    /// does under a shear [J/m].
     double
-    spring_energy(const unsigned int q,
-                  const double       stress,
-                  const double       stiffness) const
+    normal_energy(const unsigned int q, const double pressure) const
     {
-      return points[q].weight * stress * stress / (2. * stiffness);
+      const ContactLaw &law = *point_data[q].law;
+      return points[q].weight * law.energy(law.penetration(pressure));
+    }
+
+    double
+    shear_energy(const unsigned int q, const double shear) const
+    {
+      return points[q].weight * point_data[q].law->shear_energy(shear);
     }
 
     /// Of a cell at the slave of a point, or of the face if that is shorter [m].
@@ -434,11 +440,15 @@ namespace NMM
     using PairEnergies =
       std::map<std::pair<unsigned int, unsigned int>, std::array<double, 2>>;
 
+    /// Penetrations and shears are multiplied by @p factors of their pair, if there are any.
     PairEnergies
-    pair_energies() const;
+    pair_energies(const PairEnergies *factors = nullptr) const;
 
     std::pair<unsigned int, unsigned int>
     bodies(unsigned int q) const;
+
+    PairEnergies
+    factors_that_keep_energies(const PairEnergies &found) const;
 
     void
     keep_energies();

@@ -66,7 +66,7 @@ namespace NMM
         value = std::max(0., d.multipliers[i] + sums[i] / sums[n + i]);
       const double difference = std::abs(value - d.multipliers[i]);
       const double eps        = sums[n + i] > 0. ? sums[2 * n + i] / sums[n + i]
-                                                 : d.parameters.normal_stiffness;
+                                                 : d.parameters.law->normal_stiffness;
       change                  = std::max(change, difference / eps);
       d.multipliers[i]        = value;
     }
@@ -95,8 +95,7 @@ namespace NMM
     };
     return std::max(ratio(-point.pressure, law->tensile_strength),
                     ratio(std::abs(point.shear),
-                          law->cohesion +
-                            law->friction * std::max(0., point.pressure)));
+                          law->bond_strength(std::max(0., point.pressure))));
   }
 
 
@@ -119,17 +118,17 @@ namespace NMM
       ContactPoint     &point = d.points[q];
       const ContactLaw &law   = *d.point_data[q].law;
       if (point.pressure < 0.)
-        d.broken_energy +=
-          d.spring_energy(q, point.pressure, law.normal_stiffness);
-      const double limit = law.friction * std::max(0., point.pressure);
+        d.broken_energy += d.normal_energy(q, point.pressure);
+      const double limit =
+        law.strength(std::max(0., point.pressure), d.point_data[q].slip).value;
       const double shear =
         std::copysign(std::min(limit, std::abs(point.shear)), point.shear);
-      d.broken_energy += d.spring_energy(q, point.shear, law.shear_stiffness) -
-                         d.spring_energy(q, shear, law.shear_stiffness);
+      d.broken_energy +=
+        d.shear_energy(q, point.shear) - d.shear_energy(q, shear);
       // it slides from now on: the place where it sticks is dragged along
       const double length =
         d.surface->place(point.stick_edge, point.stick_t).a.norm();
-      point.stick_t += (point.shear - shear) / (law.shear_stiffness * length);
+      point.stick_t += (point.shear - shear) / (law.shear_spring() * length);
       point.shear     = shear;
       point.is_bonded = false;
       if (point.pressure < 0.)
@@ -154,12 +153,12 @@ namespace NMM
   {
     ContactPoint &point      = points[q];
     PointData    &fixed      = point_data[q];
-    const double  eps        = fixed.law->shear_stiffness;
+    const double  eps        = fixed.law->shear_spring();
     double        dissipated = 0.;
     if (is_between)
     {
-      const double before = spring_energy(q, fixed.shear_begin, eps);
-      const double after  = spring_energy(q, point.shear, eps);
+      const double before = shear_energy(q, fixed.shear_begin);
+      const double after  = shear_energy(q, point.shear);
       const double most   = std::max(0., before + fixed.shear_work);
       // no more is stored than has been put in: where it touches for the
       // first time the pressure, and with it the strength, has been lower

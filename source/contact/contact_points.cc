@@ -268,72 +268,17 @@ namespace NMM
 
 
   void
-  ContactLaw::check(const std::string &where) const
-  {
-    check_value(normal_stiffness > 0. && std::isfinite(normal_stiffness),
-                "the normal spring's stiffness",
-                normal_stiffness,
-                where,
-                "give a positive one, such as ten times Young's modulus over "
-                "the size of a cell");
-    check_value(shear_stiffness >= 0. && std::isfinite(shear_stiffness),
-                "the shear spring's stiffness",
-                shear_stiffness,
-                where,
-                "give a positive one, or 0 for that of the normal spring");
-    for (const double damping : {normal_damping, shear_damping})
-      check_value(damping >= 0. && std::isfinite(damping),
-                  "the damping",
-                  damping,
-                  where,
-                  "give a number that is at least 0");
-    check_value(friction >= 0. && std::isfinite(friction),
-                "the coefficient of friction",
-                friction,
-                where,
-                "give the tangent of an angle in [0, 90) degrees");
-    check_value(cohesion >= 0. && std::isfinite(cohesion),
-                "the cohesion",
-                cohesion,
-                where,
-                "give a number that is at least 0");
-    check_value(tensile_strength >= 0. && std::isfinite(tensile_strength),
-                "the tensile strength",
-                tensile_strength,
-                where,
-                "give a number that is at least 0");
-    check_value(is_bond || tensile_strength == 0.,
-                "the tensile strength",
-                tensile_strength,
-                where,
-                "only bonded joints bear tension: say that it is a bond");
-    check_value(dilation >= 0. && dilation <= friction,
-                "the tangent of the dilation angle",
-                dilation,
-                where,
-                "give that of an angle from 0 to the friction angle, " +
-                  std::to_string(friction) + " at most");
-    check_value(dilation_limit >= 0. && std::isfinite(dilation_limit),
-                "the slip that dilates",
-                dilation_limit,
-                where,
-                "give a length, or 0 for no limit");
-    check_value(dilation > 0. || dilation_limit == 0.,
-                "the slip that dilates",
-                dilation_limit,
-                where,
-                "give a dilation angle, too");
-  }
-
-
-  void
   ContactParameters::check() const
   {
     const std::string where = "the contact parameters";
-    ContactLaw::check(where);
+    AssertThrow(law != nullptr,
+                InputError("there is no law",
+                           where,
+                           "set ContactParameters::law"));
+    law->check(where);
     for (const ContactPair &pair : pairs)
-      pair.law.check(where + " of \"" + pair.first + "\" and \"" + pair.second +
-                     "\"");
+      pair.law->check(where + " of \"" + pair.first + "\" and \"" +
+                      pair.second + "\"");
     check_value(penetration_tolerance >= 0.,
                 "the penetration that is allowed",
                 penetration_tolerance,
@@ -358,10 +303,10 @@ namespace NMM
   bool
   ContactParameters::has_friction() const
   {
-    bool has = ContactLaw::has_friction();
-    for (const ContactPair &pair : pairs)
-      has = has || pair.law.has_friction();
-    return has;
+    return law->has_friction() ||
+           std::any_of(pairs.begin(), pairs.end(), [](const ContactPair &pair) {
+             return pair.law->has_friction();
+           });
   }
 
 
@@ -370,12 +315,9 @@ namespace NMM
     ContactLaws::ContactLaws(const ContactSurface    &surface,
                              const ContactParameters &parameters)
     {
-      laws.push_back(parameters);
+      laws.push_back(parameters.law);
       for (const ContactPair &pair : parameters.pairs)
         laws.push_back(pair.law);
-      for (ContactLaw &law : laws)
-        if (law.shear_stiffness == 0.)
-          law.shear_stiffness = law.normal_stiffness;
       if (laws.size() == 1)
         return;
 

@@ -76,7 +76,7 @@ namespace NMM
     };
 
 
-    /// The law of each pair of edges, shear stiffnesses resolved.
+    /// The law of each pair of edges.
     class ContactLaws
     {
     public:
@@ -86,24 +86,24 @@ namespace NMM
       const ContactLaw &
       operator()(const unsigned int slave, const unsigned int master) const
       {
-        return laws.size() == 1
-                 ? laws[0]
-                 : laws[law_of_names[edge_names[slave] * n_names +
-                                     edge_names[master]]];
+        return *laws[laws.size() == 1
+                       ? 0
+                       : law_of_names[edge_names[slave] * n_names +
+                                      edge_names[master]]];
       }
 
       bool
       has_dilation() const
       {
-        return std::any_of(laws.begin(), laws.end(), [](const ContactLaw &law) {
-          return law.dilation > 0.;
+        return std::any_of(laws.begin(), laws.end(), [](const auto &law) {
+          return law->dilation > 0.;
         });
       }
 
     private:
-      std::vector<ContactLaw>   laws;
-      std::vector<unsigned int> edge_names, law_of_names;
-      unsigned int              n_names = 0;
+      std::vector<std::shared_ptr<const ContactLaw>> laws;
+      std::vector<unsigned int>                      edge_names, law_of_names;
+      unsigned int                                   n_names = 0;
     };
 
 

@@ -19,36 +19,28 @@ namespace NMM
 
   namespace
   {
-    /// p of a spring whose gap goes from g_0 to g_1: minus the change of its energy
+    /// Mean pressure of a spring whose gap goes from g_0 to g_1, minus the change of its energy
     /// over that of the gap, and the derivative by g_1.
-    void
-    mean_pressure(const double eps,
-                  const bool   bears_tension,
-                  const double g_0,
-                  const double g_1,
-                  double      &pressure,
-                  double      &derivative)
+    ContactLaw::Response
+    mean_pressure(const ContactLaw &law,
+                  const bool        bears_tension,
+                  const double      g_0,
+                  const double      g_1)
     {
+      ContactLaw::Response result;
       if (bears_tension || (g_0 <= 0. && g_1 <= 0.))
+        result = law.mean_pressure(-g_0, -g_1);
+      else if (g_0 < 0. || g_1 < 0.)
       {
-        pressure   = -0.5 * eps * (g_0 + g_1);
-        derivative = -0.5 * eps;
-        return;
+        // it touches at one end only
+        const double change = g_0 - g_1;
+        const double d_0 = std::max(0., -g_0), d_1 = std::max(0., -g_1);
+        result.value = (law.energy(d_1) - law.energy(d_0)) / change;
+        result.derivative =
+          ((d_1 > 0. ? law.pressure(d_1).value : 0.) - result.value) / change;
       }
-      pressure = derivative = 0.;
-      if (g_0 >= 0. && g_1 >= 0.)
-        return;
-      const double change = g_1 - g_0;
-      if (g_1 < 0.)
-      {
-        pressure   = -0.5 * eps * g_1 * g_1 / change;
-        derivative = -0.5 * eps * g_1 * (g_1 - 2. * g_0) / (change * change);
-      }
-      else
-      {
-        pressure   = 0.5 * eps * g_0 * g_0 / change;
-        derivative = -pressure / change;
-      }
+      result.derivative = -result.derivative;
+      return result;
     }
   } // namespace
 
@@ -62,17 +54,25 @@ namespace NMM
 
 
   Contact::Data::PairEnergies
-  Contact::Data::pair_energies() const
+  Contact::Data::pair_energies(const PairEnergies *factors) const
   {
     PairEnergies result;
     for (unsigned int q = 0; q < points.size(); ++q)
       if (points[q].state != ContactState::open)
       {
         const ContactPoint    &point    = points[q];
-        const ContactLaw      &law      = *point_data[q].law;
         std::array<double, 2> &energies = result[bodies(q)];
-        energies[0] += spring_energy(q, point.pressure, law.normal_stiffness);
-        energies[1] += spring_energy(q, point.shear, law.shear_stiffness);
+        if (factors == nullptr)
+        {
+          energies[0] += normal_energy(q, point.pressure);
+          energies[1] += shear_energy(q, point.shear);
+          continue;
+        }
+        const ContactLaw            &law    = *point_data[q].law;
+        const std::array<double, 2> &factor = factors->at(bodies(q));
+        energies[0] += point.weight *
+                       law.energy(factor[0] * law.penetration(point.pressure));
+        energies[1] += shear_energy(q, factor[1] * point.shear);
       }
     if (Parallel::n_mpi_processes(communicator) == 1)
       return result;
@@ -94,6 +94,44 @@ namespace NMM
   }
 
 
+  /// Factors k of penetrations and shears with which each pair of bodies stores no more than
+  /// before: sqrt(E_before / E_found) of linear springs. Energies of others grow faster than
+  /// with the square, so that the same again brings them there.
+  Contact::Data::PairEnergies
+  Contact::Data::factors_that_keep_energies(const PairEnergies &found) const
+  {
+    constexpr unsigned int max_iterations = 50;
+    constexpr double       rounding       = 1e-12;
+
+    PairEnergies factors;
+    for (const auto &[pair, energies] : found)
+      factors[pair] = {{1., 1.}};
+    PairEnergies now        = found;
+    bool         is_reached = false;
+    for (unsigned int i = 0; i < max_iterations && !is_reached; ++i)
+    {
+      is_reached = true;
+      for (auto &[pair, factor] : factors)
+      {
+        const auto before = energies_of_pairs.find(pair);
+        for (unsigned int k = 0; k < 2; ++k)
+        {
+          const double old =
+            before == energies_of_pairs.end() ? 0. : before->second[k];
+          const double energy = now[pair][k];
+          if (energy <= old * (1. + rounding))
+            continue;
+          factor[k] *= std::sqrt(old / energy);
+          is_reached = is_reached && factor[k] == 0.;
+        }
+      }
+      if (!is_reached)
+        now = pair_energies(&factors);
+    }
+    return factors;
+  }
+
+
   void
   Contact::Data::keep_energies()
   {
@@ -109,23 +147,15 @@ namespace NMM
           std::max(0.,
                    energies[i] - (now == found.end() ? 0. : now->second[i]));
     }
+    const PairEnergies factors = factors_that_keep_energies(found);
     for (unsigned int q = 0; q < points.size(); ++q)
     {
       ContactPoint &point = points[q];
       if (point.state == ContactState::open)
         continue;
-      const auto  pair   = bodies(q);
-      const auto &now    = found.at(pair);
-      const auto  before = energies_of_pairs.find(pair);
-      double      keep[2];
-      for (unsigned int i = 0; i < 2; ++i)
-      {
-        const double old =
-          before == energies_of_pairs.end() ? 0. : before->second[i];
-        keep[i] = now[i] > old ? std::sqrt(old / now[i]) : 1.;
-      }
-      PointData &fixed = point_data[q];
-      fixed.offset     = (1. - keep[0]) * (point.gap - point.opening);
+      const std::array<double, 2> &keep  = factors.at(bodies(q));
+      PointData                   &fixed = point_data[q];
+      fixed.offset = (1. - keep[0]) * (point.gap - point.opening);
       if (keep[0] == 0.)
         point.state = ContactState::open;
       if (keep[1] < 1. && point.shear != 0.)
@@ -133,7 +163,7 @@ namespace NMM
         const double length =
           surface->place(point.stick_edge, point.stick_t).a.norm();
         point.stick_t +=
-          (1. - keep[1]) * point.shear / (fixed.law->shear_stiffness * length);
+          (1. - keep[1]) * point.shear / (fixed.law->shear_spring() * length);
         point.shear *= keep[1];
       }
     }
@@ -176,7 +206,7 @@ namespace NMM
       point.stick_t       = point.t;
       if (point.shear != 0.)
         point.stick_t -=
-          point.shear / (d.point_data[q].law->shear_stiffness * length);
+          point.shear / (d.point_data[q].law->shear_spring() * length);
     }
     d.find_clearances();
   }
@@ -265,25 +295,15 @@ namespace NMM
     if (is_lost)
       g_1 = 0.;
 
-    double derivative = 0., by_begin = 0.;
-    mean_pressure(law.normal_stiffness,
-                  point.is_bonded,
-                  g_0,
-                  g_1,
-                  point.pressure,
-                  derivative);
+    const ContactLaw::Response mean =
+      mean_pressure(law, point.is_bonded, g_0, g_1);
+    double derivative = mean.derivative, by_begin = 0.;
+    point.pressure = mean.value;
     if (begin_moves)
-    {
-      double same;
-      mean_pressure(
-        law.normal_stiffness, point.is_bonded, g_1, g_0, same, by_begin);
-    }
+      by_begin = mean_pressure(law, point.is_bonded, g_1, g_0).derivative;
     if (is_lost)
     {
-      fixed.normal_loss =
-        spring_energy(q,
-                      law.normal_stiffness * std::min(0., g_0),
-                      law.normal_stiffness);
+      fixed.normal_loss = point.weight * law.energy(std::max(0., -g_0));
       point.pressure = derivative = by_begin = 0.;
     }
     const double spring = point.pressure;
@@ -425,7 +445,7 @@ namespace NMM
       point.stick_t    = projection.t - 0.5 * slip / length;
     }
     const double by_half_slip =
-      law.shear_stiffness + 2. * law.shear_damping / step;
+      law.shear_spring() + 2. * law.shear_damping / step;
     find_shear(q,
                (is_coming ? 0. : fixed.shear_begin) + 0.5 * by_half_slip * slip,
                by_half_slip,
@@ -495,9 +515,7 @@ namespace NMM
     if (projection.master == invalid_index || point.weight == 0.)
     {
       if (fixed.law != nullptr)
-        fixed.normal_loss = spring_energy(q,
-                                          fixed.law->normal_stiffness * stored,
-                                          fixed.law->normal_stiffness);
+        fixed.normal_loss = points[q].weight * fixed.law->energy(stored);
     }
     else
     {

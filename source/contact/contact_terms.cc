@@ -108,16 +108,15 @@ namespace NMM
       // of the shear, and the share of the pressure that comes from slip
       double       change[ContactKinematics::max] = {};
       const double by_slip                        = traction.pressure_by_slip;
-      const double by_distance = traction.shear_stiffness != 0.
-                                   ? traction.shear_stiffness
-                                   : traction.shear_over_pressure * by_slip;
+      const double by_distance =
+        traction.shear_stiffness + traction.shear_over_pressure * by_slip;
       if (by_distance != 0.)
         add_distance(f, traction, *slave, *stick, by_distance, change);
       if (traction.shear_by_half_slip != 0.)
         for (unsigned int k = 0; k < f.n; ++k)
           change[k] +=
             traction.shear_by_half_slip * traction.half_slip_change[k];
-      if (traction.shear_stiffness == 0.)
+      if (traction.shear_over_pressure != 0.)
         for (unsigned int k = 0; k < f.n; ++k)
           change[k] += traction.shear_over_pressure * pressure_change(k);
       if (by_slip != 0.)

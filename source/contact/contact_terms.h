@@ -81,7 +81,8 @@ namespace NMM
       const double *pressure_change = nullptr;
       /// Shear, positive along tau on the master, times the weight [N/m].
       double shear = 0.;
-      /// Sticking: stiffness, else 0.
+      /// Derivative of the shear by the distance from where it sticks: the spring's stiffness
+      /// where it sticks, what a strength that depends on the slip loses where it slides [N/m^2].
       double shear_stiffness = 0.;
       /// In a time step: what depends on half of the slip instead of on the distance from
       /// where it sticks, and the derivative of that half by the unknowns of slave

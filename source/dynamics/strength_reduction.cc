@@ -8,13 +8,12 @@ namespace NMM
 {
   namespace
   {
-    void
-    reduce(ContactLaw &law, const double factor)
+    std::shared_ptr<const ContactLaw>
+    reduce(const ContactLaw &law, const double factor)
     {
-      law.friction /= factor;
-      law.cohesion /= factor;
-      law.tensile_strength /= factor;
-      law.dilation = std::min(law.dilation, law.friction);
+      std::unique_ptr<ContactLaw> result = law.clone();
+      result->reduce_strength(factor);
+      return result;
     }
 
 
@@ -40,9 +39,9 @@ namespace NMM
                 factor,
                 "give a positive number");
     ContactParameters result = parameters;
-    reduce(result, factor);
+    result.law               = reduce(*result.law, factor);
     for (ContactPair &pair : result.pairs)
-      reduce(pair.law, factor);
+      pair.law = reduce(*pair.law, factor);
     return result;
   }
 

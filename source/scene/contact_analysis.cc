@@ -148,8 +148,8 @@ namespace NMM
       text.precision(3);
       text << surface->edges().size() << " edges of faces, "
            << surface->obstacles().size() << " obstacle(s), normal stiffness "
-           << parameters.normal_stiffness << ' ' << output.stress_unit << '/'
-           << output.length_unit;
+           << parameters.law->normal_stiffness << ' ' << output.stress_unit
+           << '/' << output.length_unit;
       if (parameters.penetration_tolerance > 0.)
         text << ", penetration tolerance " << parameters.penetration_tolerance
              << ' ' << output.length_unit;
@@ -410,7 +410,7 @@ namespace NMM
                           .physical_mesh()
                           .bounding_box()
                           .get_boundary_points();
-      return rounding * contact().parameters().normal_stiffness *
+      return rounding * contact().parameters().law->normal_stiffness *
              std::max(box.first.distance(box.second),
                       std::max(box.first.norm(), box.second.norm()));
     }

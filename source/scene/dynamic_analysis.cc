@@ -107,12 +107,7 @@ namespace NMM
     bool
     DynamicAnalysis::has_friction() const
     {
-      const ContactParameters &laws = contact->contact().parameters();
-      return laws.friction > 0. || std::any_of(laws.pairs.begin(),
-                                               laws.pairs.end(),
-                                               [](const ContactPair &pair) {
-                                                 return pair.law.friction > 0.;
-                                               });
+      return contact->contact().parameters().has_friction();
     }
 
 

@@ -1,4 +1,5 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/contact/coulomb_law.h>
 #include <nmm/scene/parameter_tree.h>
 #include <nmm/scene/scene.h>
 
@@ -174,29 +175,6 @@ namespace NMM
 
   namespace
   {
-    /// Stiffnesses that the scene leaves open are those of @p law.
-    ContactLaw
-    make_law(const ContactLawParameters &parameters, ContactLaw law)
-    {
-      if (parameters.normal_stiffness > 0.)
-        law.normal_stiffness = parameters.normal_stiffness;
-      law.shear_stiffness =
-        parameters.shear_stiffness > 0.
-          ? parameters.shear_stiffness
-          : std::min(law.shear_stiffness, law.normal_stiffness);
-      const double degree  = dealii::numbers::PI / 180.;
-      law.normal_damping   = parameters.normal_damping;
-      law.shear_damping    = parameters.shear_damping;
-      law.friction         = std::tan(parameters.friction_angle * degree);
-      law.dilation         = std::tan(parameters.dilation_angle * degree);
-      law.dilation_limit   = parameters.dilation_limit;
-      law.cohesion         = parameters.cohesion;
-      law.is_bond          = parameters.is_bonded;
-      law.tensile_strength = parameters.tensile_strength;
-      return law;
-    }
-
-
     /// Largest Young's modulus of each block [Pa].
     std::vector<double>
     block_moduli(const PhysicalMesh &mesh, const ElasticityProblem &problem)
@@ -248,7 +226,7 @@ namespace NMM
     // hop slide too far.
     const Analysis analysis = scene_parameters.model.analysis;
     const bool     is_stiff = !is_augmented && analysis == Analysis::statics;
-    ContactLaw     chosen;
+    CoulombLaw     chosen;
     // a spring at a vertex stands for a cell's length, whatever that is
     const double length =
       section.integration == ContactIntegration::points ? 1. : size;
@@ -256,12 +234,10 @@ namespace NMM
     chosen.shear_stiffness =
       (analysis == Analysis::dynamics ? 10. : 1.) * modulus / length;
     ContactParameters parameters;
-    static_cast<ContactLaw &>(parameters) = make_law(section.law, chosen);
+    parameters.law = section.law.make_law(chosen);
     for (const ContactLawParameters &law : section.laws)
       parameters.pairs.push_back(
-        {law.between[0],
-         law.between[1],
-         make_law(law, static_cast<const ContactLaw &>(parameters))});
+        {law.between[0], law.between[1], law.make_law(*parameters.law)});
     if (is_augmented)
       parameters.penetration_tolerance = section.penetration_tolerance > 0.
                                            ? section.penetration_tolerance

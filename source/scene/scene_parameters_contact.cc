@@ -1,6 +1,7 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/scene/scene_parameters.h>
 
+#include <algorithm>
 #include <cmath>
 #include <scene/parsing.h>
 
@@ -18,6 +19,49 @@ namespace NMM
       {"penalty", Enforcement::penalty},
       {"augmented Lagrangian", Enforcement::augmented_lagrangian}};
 
+    using LawParameter = ContactLaw::Parameter;
+
+    /// A parameter of some law, with its default in the unit of scenes.
+    struct DeclaredParameter
+    {
+      std::string law_name, key, documentation;
+      double      default_value;
+    };
+
+
+    /// Those of all laws; what several laws have, several times.
+    std::vector<DeclaredParameter>
+    declared_parameters()
+    {
+      std::vector<DeclaredParameter> result;
+      for (const NamedContactLaw &named : contact_laws())
+      {
+        const std::unique_ptr<ContactLaw> law = named.law->clone();
+        for (const LawParameter &parameter : law->parameters())
+        {
+          AssertThrow(parameter.kind == LawParameter::Kind::number ||
+                        *parameter.value == 0.,
+                      dealii::ExcMessage("Angles are 0 by default."));
+          result.push_back({named.name,
+                            parameter.key,
+                            parameter.documentation,
+                            *parameter.value});
+        }
+      }
+      return result;
+    }
+
+
+    const NamedContactLaw &
+    find_law(const std::string &name)
+    {
+      for (const NamedContactLaw &law : contact_laws())
+        if (law.name == name)
+          return law;
+      return contact_laws().front();
+    }
+
+
     const std::vector<std::pair<std::string, ContactIntegration>> integrations =
       {{"length", ContactIntegration::length},
        {"points", ContactIntegration::points}};
@@ -30,56 +74,26 @@ namespace NMM
   void
   ContactLawParameters::declare(ParameterHandler &prm)
   {
-    prm.declare_entry("Normal stiffness",
-                      "0",
-                      Patterns::Double(),
-                      "Of the springs that keep faces apart: pressure over "
-                      "penetration [Pa/m]. 0: that of section Contact; there "
-                      "10 E/h, static penalty 30 E/h, E of the softest block, "
-                      "h the cell size at faces.");
-    prm.declare_entry("Shear stiffness",
-                      "0",
-                      Patterns::Double(),
-                      "Of the springs that hold faces which stick: shear over "
-                      "elastic slip [Pa/m]. 0: that of section Contact; there "
-                      "E/h, dynamic 10 E/h, but not more than the normal "
-                      "stiffness.");
-    for (const char *direction : {"Normal", "Shear"})
-      prm.declare_entry(std::string(direction) + " damping",
-                        "0",
+    std::string names, text;
+    for (const NamedContactLaw &law : contact_laws())
+    {
+      names += (names.empty() ? "" : "|") + law.name;
+      text += (text.empty() ? "" : "; ") + law.name + ": " + law.documentation;
+    }
+    for (const DeclaredParameter &parameter : declared_parameters())
+      prm.declare_entry(parameter.key,
+                        to_text(parameter.default_value),
                         Patterns::Double(),
-                        "Dynamic analysis, energy momentum: of dashpots beside "
-                        "these springs, stress over velocity; they never pull "
-                        "[Pa s/m].");
-    prm.declare_entry("Friction angle",
-                      "0",
-                      Patterns::Double(),
-                      "Faces slide when shear exceeds pressure times its "
-                      "tangent plus the cohesion; in [0, 90) [degrees].");
-    prm.declare_entry("Cohesion",
-                      "0",
-                      Patterns::Double(),
-                      "Shear strength without pressure, of faces in contact; "
-                      "of bonded ones until they break [Pa].");
+                        parameter.documentation);
+    prm.declare_entry("Law",
+                      contact_laws().front().name,
+                      Patterns::Selection(names),
+                      text + ".");
     prm.declare_entry("Bonded",
                       "false",
                       Patterns::Bool(),
                       "Faces that touch at the start hold together until "
                       "tension or shear exceeds their strength.");
-    prm.declare_entry("Tensile strength",
-                      "0",
-                      Patterns::Double(),
-                      "Bonded: tension at which they break [Pa].");
-    prm.declare_entry("Dilation angle",
-                      "0",
-                      Patterns::Double(),
-                      "Faces that slide part by its tangent times the way they "
-                      "slide; from 0 to the friction angle [degrees].");
-    prm.declare_entry("Dilation limit",
-                      "0",
-                      Patterns::Double(),
-                      "Way of sliding after which they part no further [m]; 0: "
-                      "no limit.");
   }
 
 
@@ -111,16 +125,38 @@ namespace NMM
       for (unsigned int i = 0; i < 2; ++i)
         between[i] = names[i] == any_face ? "" : names[i];
     }
-    normal_stiffness = prm.get_double("Normal stiffness");
-    shear_stiffness  = prm.get_double("Shear stiffness");
-    normal_damping   = prm.get_double("Normal damping");
-    shear_damping    = prm.get_double("Shear damping");
-    friction_angle   = prm.get_double("Friction angle");
-    cohesion         = prm.get_double("Cohesion");
-    is_bonded        = prm.get_bool("Bonded");
-    tensile_strength = prm.get_double("Tensile strength");
-    dilation_angle   = prm.get_double("Dilation angle");
-    dilation_limit   = prm.get_double("Dilation limit");
+    law_name  = prm.get("Law");
+    is_bonded = prm.get_bool("Bonded");
+    for (const DeclaredParameter &parameter : declared_parameters())
+      values[parameter.key] = prm.get_double(parameter.key);
+  }
+
+
+  std::unique_ptr<ContactLaw>
+  ContactLawParameters::parsed_law() const
+  {
+    std::unique_ptr<ContactLaw> law = find_law(law_name).law->clone();
+    law->is_bond                    = is_bonded;
+    for (const LawParameter &parameter : law->parameters())
+      if (const auto given = values.find(parameter.key); given != values.end())
+        *parameter.value =
+          parameter.kind == LawParameter::Kind::tangent
+            ? std::tan(given->second * dealii::numbers::PI / 180.)
+            : given->second;
+    return law;
+  }
+
+
+  std::shared_ptr<const ContactLaw>
+  ContactLawParameters::make_law(const ContactLaw &springs) const
+  {
+    std::unique_ptr<ContactLaw> law = parsed_law();
+    if (law->normal_stiffness == 0.)
+      law->normal_stiffness = springs.normal_stiffness;
+    if (law->shear_stiffness == 0.)
+      law->shear_stiffness =
+        std::min(springs.shear_stiffness, law->normal_stiffness);
+    return law;
   }
 
 
@@ -134,63 +170,62 @@ namespace NMM
   void
   ContactLawParameters::check(const bool may_be_damped) const
   {
-    const auto check_size = [&](const std::string &key,
-                                const double       value,
-                                const std::string &remedy) {
-      AssertThrow(value >= 0. && std::isfinite(value),
-                  InputError("'" + key + "' is " + to_text(value),
-                             place(key),
-                             remedy));
-    };
-    check_size("Normal stiffness",
-               normal_stiffness,
-               "give a positive number, such as ten times Young's modulus over "
-               "the cell size, or 0 to have it chosen");
-    check_size("Shear stiffness",
-               shear_stiffness,
-               "give a positive number, or 0 to have it chosen");
-    for (const auto &[key, value] :
-         {std::make_pair("Normal damping", normal_damping),
-          std::make_pair("Shear damping", shear_damping)})
+    const std::unique_ptr<ContactLaw> law        = parsed_law();
+    const std::vector<LawParameter>   parameters = law->parameters();
+    for (const LawParameter &parameter : parameters)
     {
-      check_size(key, value, "give a number that is at least 0");
-      AssertThrow(may_be_damped || value == 0.,
-                  InputError(std::string("'") + key + " = " + to_text(value) +
-                               "' would not be used",
+      const double value    = values.at(parameter.key);
+      const bool   is_angle = parameter.kind == LawParameter::Kind::tangent;
+      AssertThrow(value >= 0. && std::isfinite(value) &&
+                    !(is_angle && value >= 90.),
+                  InputError("'" + parameter.key + "' is " + to_text(value) +
+                               (is_angle ? " degrees" : ""),
+                             place(parameter.key),
+                             parameter.remedy));
+    }
+    for (const DeclaredParameter &parameter : declared_parameters())
+      AssertThrow(
+        values.at(parameter.key) == parameter.default_value ||
+          std::any_of(parameters.begin(),
+                      parameters.end(),
+                      [&](const LawParameter &own) {
+                        return own.key == parameter.key;
+                      }),
+        InputError("'" + parameter.key + "' would not be used by the law '" +
+                     law_name + "'",
+                   place(parameter.key),
+                   "remove it, or set 'Law = " + parameter.law_name + "'"));
+    for (const char *key : {"Normal damping", "Shear damping"})
+      AssertThrow(may_be_damped || values.at(key) == 0.,
+                  InputError(std::string("'") + key + " = " +
+                               to_text(values.at(key)) + "' would not be used",
                              place(key),
                              "remove it, or set 'Model/Analysis = dynamic' and "
                              "'Time/Scheme = energy momentum'"));
-    }
-    AssertThrow(friction_angle >= 0. && friction_angle < 90.,
-                InputError("the friction angle is " + to_text(friction_angle) +
-                             " degrees",
-                           place("Friction angle"),
-                           "give an angle from 0 up to below 90 degrees"));
-    check_size("Cohesion", cohesion, "give a stress of at least 0");
-    check_size("Tensile strength",
-               tensile_strength,
-               "give a stress of at least 0");
-    AssertThrow(is_bonded || tensile_strength == 0.,
+    AssertThrow(is_bonded || law->tensile_strength == 0.,
                 InputError("a tensile strength of " +
-                             to_text(tensile_strength) +
+                             to_text(law->tensile_strength) +
                              " Pa is given for faces that are not bonded",
                            place("Tensile strength"),
                            "set 'Bonded = true', or remove it"));
-    AssertThrow(dilation_angle >= 0. && dilation_angle <= friction_angle,
-                InputError("the dilation angle is " + to_text(dilation_angle) +
-                             " degrees",
+    AssertThrow(values.at("Dilation angle") <= values.at("Friction angle"),
+                InputError("the dilation angle is " +
+                             to_text(values.at("Dilation angle")) + " degrees",
                            place("Dilation angle"),
                            "give an angle from 0 to the friction angle, which "
                            "is " +
-                             to_text(friction_angle) + " degrees"));
-    check_size("Dilation limit",
-               dilation_limit,
-               "give a length, or 0 for no limit");
-    AssertThrow(dilation_angle > 0. || dilation_limit == 0.,
-                InputError("a dilation limit of " + to_text(dilation_limit) +
+                             to_text(values.at("Friction angle")) +
+                             " degrees"));
+    AssertThrow(law->dilation > 0. || law->dilation_limit == 0.,
+                InputError("a dilation limit of " +
+                             to_text(law->dilation_limit) +
                              " m is given for faces that do not dilate",
                            place("Dilation limit"),
                            "set 'Dilation angle', or remove it"));
+    // stiffnesses that are left open are chosen later
+    if (law->normal_stiffness == 0.)
+      law->normal_stiffness = 1.;
+    law->check("section 'Contact" + (name.empty() ? "" : "/" + name) + "'");
   }
 
 
@@ -306,16 +341,11 @@ namespace NMM
                 InputError("'Integration = points' would not be used by " + by,
                            "parameter 'Contact/Integration'",
                            remedy));
-    expect("Normal stiffness", law.normal_stiffness, 0.);
-    expect("Shear stiffness", law.shear_stiffness, 0.);
-    expect("Normal damping", law.normal_damping, 0.);
-    expect("Shear damping", law.shear_damping, 0.);
-    expect("Friction angle", law.friction_angle, 0.);
-    expect("Cohesion", law.cohesion, 0.);
+    for (const DeclaredParameter &parameter : declared_parameters())
+      expect(parameter.key,
+             law.values.at(parameter.key),
+             parameter.default_value);
     expect("Bonded", law.is_bonded ? 1. : 0., 0.);
-    expect("Tensile strength", law.tensile_strength, 0.);
-    expect("Dilation angle", law.dilation_angle, 0.);
-    expect("Dilation limit", law.dilation_limit, 0.);
     std::vector<std::string> law_names;
     for (const ContactLawParameters &other : laws)
       law_names.push_back(other.name);

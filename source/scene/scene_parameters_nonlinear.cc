@@ -1,4 +1,5 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/contact/coulomb_law.h>
 #include <nmm/scene/scene_parameters.h>
 
 #include <algorithm>
@@ -407,7 +408,7 @@ namespace NMM
                            "set 'Contact/Enforcement = penalty', and a "
                            "friction angle or a cohesion"));
     const auto has_strength = [](const ContactLawParameters &law) {
-      return law.friction_angle > 0. || law.cohesion > 0. || law.is_bonded;
+      return law.make_law(CoulombLaw())->has_friction();
     };
     AssertThrow(has_strength(contact.law) || std::any_of(contact.laws.begin(),
                                                          contact.laws.end(),

@@ -5,6 +5,7 @@
 #include <contact/contact_search.h>
 #include <contact/random_polygons.h>
 #include <contact/step_clearances.h>
+#include <support/coulomb.h>
 
 using namespace NMM;
 using namespace NMM::Test;
@@ -220,7 +221,7 @@ namespace
   {
     constexpr double  h          = 0.01;
     ContactParameters parameters = contact_parameters(1e8, 0.2);
-    parameters.friction          = 0.3;
+    coulomb(parameters).friction = 0.3;
     parameters.skip_clear_points = skip_clear_points;
     bodies.start(parameters);
     Contact   &contact = *bodies.contact;

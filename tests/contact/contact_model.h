@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <mechanics/finite_model.h>
 #include <optional>
+#include <support/coulomb.h>
 
 namespace NMM
 {
@@ -245,8 +246,8 @@ namespace NMM
     contact_parameters(const double normal_stiffness, const double reach = 0.05)
     {
       ContactParameters parameters;
-      parameters.normal_stiffness = normal_stiffness;
-      parameters.reach            = reach;
+      coulomb(parameters).normal_stiffness = normal_stiffness;
+      parameters.reach                     = reach;
       return parameters;
     }
   } // namespace Test

@@ -1,6 +1,7 @@
 // Faces that ride up on each other as they slide.
 
 #include <contact/contact_model.h>
+#include <support/coulomb.h>
 
 using namespace NMM;
 using namespace NMM::Test;
@@ -15,11 +16,11 @@ namespace
   ContactParameters
   dilating(const double limit)
   {
-    ContactParameters parameters = contact_parameters(eps_n, 0.1);
-    parameters.shear_stiffness   = eps_t;
-    parameters.friction          = friction;
-    parameters.dilation          = dilation;
-    parameters.dilation_limit    = limit;
+    ContactParameters parameters        = contact_parameters(eps_n, 0.1);
+    coulomb(parameters).shear_stiffness = eps_t;
+    coulomb(parameters).friction        = friction;
+    coulomb(parameters).dilation        = dilation;
+    coulomb(parameters).dilation_limit  = limit;
     return parameters;
   }
 

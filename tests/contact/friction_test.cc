@@ -1,6 +1,10 @@
 // Statics with friction, wrong input, and that results do not depend on chance.
 
+#include <nmm/contact/barton_bandis_law.h>
+#include <nmm/contact/slip_weakening_law.h>
+
 #include <contact/contact_model.h>
+#include <support/coulomb.h>
 
 using namespace NMM;
 using namespace NMM::Test;
@@ -33,10 +37,10 @@ namespace
                                            condition(Type::traction, "bottom")};
     bodies->problem.boundary_conditions.back().value =
       vector_function([=](const Point<2> &) { return Point<2>(shear, 0.); });
-    ContactParameters parameters = contact_parameters(1e5, 0.1);
-    parameters.shear_stiffness   = 5e4;
-    parameters.friction          = friction;
-    parameters.cohesion          = cohesion;
+    ContactParameters parameters        = contact_parameters(1e5, 0.1);
+    coulomb(parameters).shear_stiffness = 5e4;
+    coulomb(parameters).friction        = friction;
+    coulomb(parameters).cohesion        = cohesion;
     bodies->start(parameters);
     return bodies;
   }
@@ -70,6 +74,84 @@ namespace
   }
 
 
+  /// Direct shear: a block between its fixed top and a floor that rises and then moves to the
+  /// left. Each point that slides bears the strength of its law after the way that it has slid,
+  /// which is what the floor has moved, less what block and shear spring give way; the pressure
+  /// is that of the closure. Newton's method leaves some 1e-9 of the forces.
+  void
+  check_direct_shear(const std::shared_ptr<const ContactLaw> &law,
+                     const double                             rise)
+  {
+    Geometry geometry;
+    add_box(geometry, {0., 0.}, {1., 0.2});
+    Bodies::Options options;
+    options.cell_size = 0.1;
+    options.obstacles = {obstacle("floor", {{3., 0.}, {-1., 0.}})};
+    const auto moved  = [=](const double t) {
+      return Point<2>(t < 0.2 ? 0. : -0.05 * (t - 0.2),
+                      rise * std::min(1., t / 0.2));
+    };
+    options.obstacles[0].displacement = moved;
+    Bodies bodies(std::move(geometry), options);
+    bodies.problem.materials[0].poissons_ratio = 0.;
+    bodies.problem.boundary_conditions = {condition(Type::displacement, "top")};
+    ContactParameters parameters;
+    parameters.law   = law;
+    parameters.reach = 0.1;
+    bodies.start(parameters);
+    unsigned int n = 0;
+    bodies.statics->run(
+      LoadSteps::equal(10), [&](const ContactStep &step, const Vector &) {
+        for (const ContactPoint &point : bodies.contact->points())
+        {
+          if (point.state == ContactState::open || point.weight == 0.)
+            continue;
+          EXPECT_NEAR(point.pressure,
+                      law->pressure(-point.gap).value,
+                      1e-8 * point.pressure);
+          if (point.state != ContactState::slip)
+            continue;
+          const double way =
+            point.x[0] -
+            bodies.surface.reference_place(point.edge, point.s).x[0] -
+            moved(step.load_factor)[0];
+          const double slip = way - std::abs(point.shear) / law->shear_spring();
+          const double strength = law->strength(point.pressure, slip).value;
+          EXPECT_NEAR(std::abs(point.shear), strength, 1e-6 * strength);
+          ++n;
+        }
+      });
+    EXPECT_GT(n, 100U);
+  }
+
+
+  TEST(ContactFriction, DirectShearOfBartonAndBandis)
+  {
+    BartonBandisLaw law;
+    law.normal_stiffness           = 100.;
+    law.shear_stiffness            = 100.;
+    law.joint_roughness            = 10.;
+    law.joint_compressive_strength = 3.;
+    law.residual_angle             = 25.;
+    law.joint_length               = 0.5;
+    law.largest_closure            = 2e-3;
+    check_direct_shear(std::make_shared<BartonBandisLaw>(law), 2e-3);
+  }
+
+
+  TEST(ContactFriction, DirectShearThatWeakens)
+  {
+    SlipWeakeningLaw law;
+    law.normal_stiffness  = 100.;
+    law.shear_stiffness   = 100.;
+    law.friction          = 0.7;
+    law.cohesion          = 0.02;
+    law.residual_friction = 0.4;
+    law.weakening_length  = 0.02;
+    check_direct_shear(std::make_shared<SlipWeakeningLaw>(law), 2e-3);
+  }
+
+
   /// Pushed by displacements of the top: shear that is transmitted is mu N and c A.
   TEST(ContactFriction, SlidesAtTheLimit)
   {
@@ -93,8 +175,8 @@ namespace
       bodies.problem.boundary_conditions = {
         condition(Type::displacement, "top")};
       ContactParameters parameters = contact_parameters(1e6, 0.1);
-      parameters.friction          = friction;
-      parameters.cohesion          = cohesion;
+      coulomb(parameters).friction = friction;
+      coulomb(parameters).cohesion = cohesion;
       bodies.start(parameters);
       unsigned int n = 0;
       bodies.statics->run(
@@ -141,22 +223,24 @@ namespace
       expect_error([&]() { bad.check(); }, words);
     };
     EXPECT_NO_THROW(good.check());
-    with([](ContactParameters &p) { p.normal_stiffness = -1.; },
+    with([](ContactParameters &p) { coulomb(p).normal_stiffness = -1.; },
          "normal spring");
-    with([](ContactParameters &p) { p = ContactParameters(); },
-         "normal spring");
-    with([](ContactParameters &p) { p.shear_stiffness = -1.; }, "shear spring");
-    with([](ContactParameters &p) { p.friction = -0.1; }, "friction");
-    with([](ContactParameters &p) { p.friction = std::nan(""); }, "friction");
-    with([](ContactParameters &p) { p.cohesion = -0.1; }, "cohesion");
-    with([](ContactParameters &p) { p.dilation = 0.1; }, "dilation");
+    with([](ContactParameters &p) { p = ContactParameters(); }, "no law");
+    with([](ContactParameters &p) { coulomb(p).shear_stiffness = -1.; },
+         "shear spring");
+    with([](ContactParameters &p) { coulomb(p).friction = -0.1; }, "friction");
+    with([](ContactParameters &p) { coulomb(p).friction = std::nan(""); },
+         "friction");
+    with([](ContactParameters &p) { coulomb(p).cohesion = -0.1; }, "cohesion");
+    with([](ContactParameters &p) { coulomb(p).dilation = 0.1; }, "dilation");
     with(
       [](ContactParameters &p) {
-        p.friction = 0.3;
-        p.dilation = -0.1;
+        coulomb(p).friction = 0.3;
+        coulomb(p).dilation = -0.1;
       },
       "dilation");
-    with([](ContactParameters &p) { p.dilation_limit = 0.1; }, "dilates");
+    with([](ContactParameters &p) { coulomb(p).dilation_limit = 0.1; },
+         "dilates");
     with([](ContactParameters &p) { p.reach = -0.1; }, "reach");
     with([](ContactParameters &p) { p.penetration_tolerance = -0.1; },
          "penetration");

@@ -2,6 +2,7 @@
 // uniform must stay so across straight and inclined interfaces.
 
 #include <contact/contact_model.h>
+#include <support/coulomb.h>
 
 using namespace NMM;
 using namespace NMM::Test;
@@ -180,7 +181,7 @@ namespace
       EXPECT_LE(error, c.augmented ? 1e-8 : 1e-3);
       // a point that penetrates presses like its spring: none is listed that has no
       // share of the contact
-      const double spring = bodies->contact->parameters().normal_stiffness;
+      const double spring = bodies->contact->parameters().law->normal_stiffness;
       if (!c.augmented)
         for (const ContactPoint &point : bodies->contact->points())
           if (point.master != invalid_index && point.gap < 0.)
@@ -206,7 +207,7 @@ namespace
         condition(Type::pressure, "top", constant(load))};
       bodies->problem.fixed_points = {guide({1., 0.1}, true)};
       ContactParameters parameters = parameters_of(c, *bodies);
-      parameters.friction          = 0.5;
+      coulomb(parameters).friction = 0.5;
       // shear has no multipliers: the elastic slip of 1e-5 moves the blocks'
       // corners apart, 3e-5 of a cell
       NewtonParameters newton = newton_parameters();

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <contact/contact_model.h>
+#include <support/coulomb.h>
 
 using namespace NMM;
 using namespace NMM::Test;
@@ -47,9 +48,9 @@ namespace
     bodies.problem.materials[0].youngs_modulus = modulus;
     bodies.problem.materials[0].density        = weight;
     bodies.problem.gravity                     = Point<2>(0., -1.);
-    ContactParameters parameters = contact_parameters(100. * modulus);
-    parameters.shear_stiffness   = 3. * modulus;
-    parameters.friction          = 0.7;
+    ContactParameters parameters        = contact_parameters(100. * modulus);
+    coulomb(parameters).shear_stiffness = 3. * modulus;
+    coulomb(parameters).friction        = 0.7;
     bodies.start(parameters);
     const auto steps = bodies.statics->run(LoadSteps());
     EXPECT_EQ(steps.size(), 1U) << weight << ' ' << modulus;
@@ -93,9 +94,9 @@ namespace
       bodies.problem.materials[0].density        = 2500.;
       bodies.problem.gravity =
         9.81 * Point<2>(std::sin(15. * degree), -std::cos(15. * degree));
-      ContactParameters parameters = contact_parameters(1e11);
-      parameters.shear_stiffness   = 3e9;
-      parameters.friction          = std::tan(angle * degree);
+      ContactParameters parameters        = contact_parameters(1e11);
+      coulomb(parameters).shear_stiffness = 3e9;
+      coulomb(parameters).friction        = std::tan(angle * degree);
       bodies.start(parameters);
       if (angle < 15.)
         EXPECT_THROW(bodies.statics->run(LoadSteps()), NumericalFailure);

@@ -2,6 +2,7 @@
 
 #include <contact/contact_model.h>
 #include <set>
+#include <support/coulomb.h>
 
 using namespace NMM;
 using namespace NMM::Test;
@@ -145,11 +146,12 @@ namespace
           geometry.add_polygon(
             {{1., 1. + gap}, {2., 1. + gap}, {2., 2.}, {1., 2.}}, "above");
           Bodies bodies(std::move(geometry), one_triangle_each());
-          auto   parameters          = contact_parameters(1e8, reach);
-          parameters.shear_stiffness = 3e7;
-          parameters.friction        = 0.3;
-          parameters.dilation        = dilation;
-          parameters.normal_damping = parameters.shear_damping = 1e4;
+          auto   parameters                   = contact_parameters(1e8, reach);
+          coulomb(parameters).shear_stiffness = 3e7;
+          coulomb(parameters).friction        = 0.3;
+          coulomb(parameters).dilation        = dilation;
+          coulomb(parameters).normal_damping =
+            coulomb(parameters).shear_damping = 1e4;
           bodies.start(parameters);
           const unsigned int above =
             bodies.mesh.block(bodies.mesh.find_element({1.5, 1.5}));
@@ -321,7 +323,7 @@ namespace
     const unsigned int below =
       bodies->mesh.block(bodies->mesh.find_element({1.5, 0.5}));
     ContactParameters parameters = contact_parameters(1e8, reach);
-    parameters.friction          = 0.3;
+    coulomb(parameters).friction = 0.3;
     for (const bool is_held : {false, true})
     {
       dealii::AffineConstraints<double> held;
@@ -618,8 +620,8 @@ namespace
                           {-0.5, lift + 0.25 * slope}},
                          "keel");
     Bodies bodies(std::move(geometry), one_triangle_each());
-    auto   parameters   = contact_parameters(stiffness, reach);
-    parameters.friction = 0.5;
+    auto   parameters            = contact_parameters(stiffness, reach);
+    coulomb(parameters).friction = 0.5;
     bodies.start(parameters);
     const unsigned int keel =
       bodies.mesh.block(bodies.mesh.find_element({0., lift + 0.5}));

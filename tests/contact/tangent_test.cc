@@ -1,7 +1,11 @@
 // Forces and tangent of contact: derivatives against differences, and that the
 // two bodies' forces are in balance.
 
+#include <nmm/contact/barton_bandis_law.h>
+#include <nmm/contact/slip_weakening_law.h>
+
 #include <contact/contact_model.h>
+#include <support/coulomb.h>
 
 using namespace NMM;
 using namespace NMM::Test;
@@ -56,9 +60,25 @@ namespace
       double slide;
       /// Tangent of the dilation angle, and slip after which it ends [m].
       double dilation = 0., dilation_limit = 0.;
+      /// Instead of Coulomb's.
+      std::shared_ptr<const ContactLaw> law = nullptr;
     };
 
-    const unsigned int seed = 20261121;
+    SlipWeakeningLaw weakening;
+    weakening.normal_stiffness  = 1e4;
+    weakening.shear_stiffness   = 3e3;
+    weakening.friction          = 0.3;
+    weakening.cohesion          = 10.;
+    weakening.residual_friction = 0.1;
+    weakening.weakening_length  = 0.05;
+    BartonBandisLaw rough;
+    rough.normal_stiffness           = 1e4;
+    rough.shear_stiffness            = 3e3;
+    rough.joint_roughness            = 8.;
+    rough.joint_compressive_strength = 1e4;
+    rough.residual_angle             = 10.;
+    rough.largest_closure            = 0.05;
+    const unsigned int seed          = 20261121;
     std::mt19937       generator(seed);
     unsigned int       n_samples = 0, n_stick = 0, n_slip = 0, n_open = 0;
     std::normal_distribution<double> random;
@@ -73,19 +93,35 @@ namespace
                           Case{1, 0.3, false, 0.03, 0.2},
                           Case{2, 0.3, false, 0.003, 0.3},
                           Case{2, 0.3, true, 0.003, 0.2},
-                          Case{2, 0.3, false, 0.03, 0.1, 0.005}})
+                          Case{2, 0.3, false, 0.03, 0.1, 0.005},
+                          Case{2,
+                               0.3,
+                               false,
+                               0.03,
+                               0.,
+                               0.,
+                               std::make_shared<SlipWeakeningLaw>(weakening)},
+                          Case{2,
+                               0.3,
+                               false,
+                               0.03,
+                               0.,
+                               0.,
+                               std::make_shared<BartonBandisLaw>(rough)}})
     {
       SCOPED_TRACE("seed " + std::to_string(seed) + ", degree " +
                    std::to_string(c.degree) + ", friction " +
                    std::to_string(c.friction) + ", slide " +
                    std::to_string(c.slide) + ", dilation " +
                    std::to_string(c.dilation));
-      auto              bodies     = nested_arcs(c.degree);
-      ContactParameters parameters = contact_parameters(1e4, 0.1);
-      parameters.shear_stiffness   = 3e3;
-      parameters.friction          = c.friction;
-      parameters.dilation          = c.dilation;
-      parameters.dilation_limit    = c.dilation_limit;
+      auto              bodies            = nested_arcs(c.degree);
+      ContactParameters parameters        = contact_parameters(1e4, 0.1);
+      coulomb(parameters).shear_stiffness = 3e3;
+      coulomb(parameters).friction        = c.friction;
+      coulomb(parameters).dilation        = c.dilation;
+      coulomb(parameters).dilation_limit  = c.dilation_limit;
+      if (c.law != nullptr)
+        parameters.law = c.law;
       if (c.is_augmented)
         parameters.penetration_tolerance = 1e-9;
       bodies->start(parameters);
@@ -161,7 +197,7 @@ namespace
         }
       }
     }
-    EXPECT_EQ(n_samples, 60U);
+    EXPECT_EQ(n_samples, 70U);
     EXPECT_GT(n_stick, 100U);
     EXPECT_GT(n_slip, 100U);
     EXPECT_GT(n_open, 20U);
@@ -233,11 +269,12 @@ namespace
                    std::to_string(c.gap) + ", friction " +
                    std::to_string(c.friction) + ", damping " +
                    std::to_string(c.damping));
-      auto              bodies     = three_blocks();
-      ContactParameters parameters = contact_parameters(1e8, 0.1);
-      parameters.shear_stiffness   = 3e7;
-      parameters.friction          = c.friction;
-      parameters.normal_damping = parameters.shear_damping = c.damping;
+      auto              bodies            = three_blocks();
+      ContactParameters parameters        = contact_parameters(1e8, 0.1);
+      coulomb(parameters).shear_stiffness = 3e7;
+      coulomb(parameters).friction        = c.friction;
+      coulomb(parameters).normal_damping  = coulomb(parameters).shear_damping =
+        c.damping;
       bodies->start(parameters);
       Contact   &contact  = *bodies->contact;
       const auto block_at = [&](const Point<2> &x) {
@@ -325,7 +362,7 @@ namespace
     {
       auto              bodies     = nested_arcs(2);
       ContactParameters parameters = contact_parameters(1e4, 0.1);
-      parameters.friction          = friction;
+      coulomb(parameters).friction = friction;
       bodies->start(parameters);
       Contact           &contact = *bodies->contact;
       const unsigned int inner   = inner_block(*bodies);

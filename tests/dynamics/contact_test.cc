@@ -4,6 +4,7 @@
 
 #include <dynamics/dynamic_model.h>
 #include <gtest/gtest.h>
+#include <support/coulomb.h>
 
 namespace NMM
 {
@@ -51,9 +52,9 @@ namespace NMM
           std::make_unique<ContactSurface>(result.body.model->covers,
                                            std::vector<RigidObstacle>{floor});
         ContactParameters parameters;
-        parameters.normal_stiffness = 10. * E;
-        parameters.friction         = std::tan(friction_angle);
-        parameters.reach            = 0.02;
+        coulomb(parameters).normal_stiffness = 10. * E;
+        coulomb(parameters).friction         = std::tan(friction_angle);
+        parameters.reach                     = 0.02;
         result.make(parameters);
         return result;
       }
@@ -137,8 +138,8 @@ namespace NMM
       bars.body.model->problem.materials = {material("rock", E, 0., E / c / c)};
       bars.surface = std::make_unique<ContactSurface>(bars.body.model->covers);
       ContactParameters parameters;
-      parameters.normal_stiffness = 10. * E;
-      parameters.reach            = 0.02;
+      coulomb(parameters).normal_stiffness = 10. * E;
+      parameters.reach                     = 0.02;
       bars.make(parameters);
 
       TimeIntegrator integrator(*bars.model, TimeScheme::energy_momentum());

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <support/contact_bars/moving_bodies.h>
+#include <support/coulomb.h>
 
 namespace NMM
 {
@@ -25,17 +26,18 @@ namespace NMM
       {
         ContactParameters parameters =
           contact_parameters(10. * rock_modulus, 0.02);
-        parameters.friction =
+        coulomb(parameters).friction =
           std::tan(degrees(is_held ? 80. : slide.friction_angle));
         if (!is_held)
         {
-          parameters.dilation       = std::tan(degrees(slide.dilation_angle));
-          parameters.dilation_limit = slide.limit;
+          coulomb(parameters).dilation =
+            std::tan(degrees(slide.dilation_angle));
+          coulomb(parameters).dilation_limit = slide.limit;
         }
-        parameters.normal_damping =
+        coulomb(parameters).normal_damping =
           2. * slide.dashpot *
-          std::sqrt(parameters.normal_stiffness * rock_density);
-        parameters.shear_damping = parameters.normal_damping;
+          std::sqrt(coulomb(parameters).normal_stiffness * rock_density);
+        coulomb(parameters).shear_damping = coulomb(parameters).normal_damping;
         block.start(parameters, slide.kinematics);
       }
 

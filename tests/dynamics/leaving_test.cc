@@ -6,6 +6,7 @@
 
 #include <dynamics/dynamic_model.h>
 #include <gtest/gtest.h>
+#include <support/coulomb.h>
 
 namespace NMM
 {
@@ -211,10 +212,10 @@ namespace NMM
           std::make_unique<ContactSurface>(result.body.model->covers,
                                            std::vector<RigidObstacle>{floor});
         ContactParameters parameters;
-        parameters.normal_stiffness = 1e9;
-        parameters.normal_damping   = 1e6;
-        parameters.friction         = 0.5;
-        parameters.reach            = 0.02;
+        coulomb(parameters).normal_stiffness = 1e9;
+        coulomb(parameters).normal_damping   = 1e6;
+        coulomb(parameters).friction         = 0.5;
+        parameters.reach                     = 0.02;
         result.body.make_finite();
         result.contact =
           std::make_unique<Contact>(*result.surface,

@@ -2,6 +2,7 @@
 #include <dynamics/block_inertia.h>
 #include <gtest/gtest.h>
 #include <support/contact_bars/moving_bodies.h>
+#include <support/coulomb.h>
 
 namespace NMM
 {
@@ -31,7 +32,7 @@ namespace NMM
         bodies->problem.gravity = Tensor<1, 2>({0., -standard_gravity});
         ContactParameters parameters =
           contact_parameters(10. * rock_modulus, 0.05);
-        parameters.friction = std::tan(degrees(friction_angle));
+        coulomb(parameters).friction = std::tan(degrees(friction_angle));
         bodies->start(parameters, ContactBars::Kinematics::finite);
         bodies->integrate(TimeScheme::energy_momentum(), RayleighDamping());
         return bodies;

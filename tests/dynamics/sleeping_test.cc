@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <gtest/gtest.h>
 #include <support/contact_bars/moving_bodies.h>
+#include <support/coulomb.h>
 
 namespace NMM
 {
@@ -41,9 +42,10 @@ namespace NMM
         bodies->problem.gravity = Tensor<1, 2>({0., -standard_gravity});
         ContactParameters parameters =
           contact_parameters(10. * rock_modulus, 0.05);
-        parameters.friction       = std::tan(degrees(30.));
-        parameters.normal_damping = parameters.shear_damping =
-          0.2 * std::sqrt(parameters.normal_stiffness * rock_density * 0.5);
+        coulomb(parameters).friction       = std::tan(degrees(30.));
+        coulomb(parameters).normal_damping = coulomb(parameters).shear_damping =
+          0.2 *
+          std::sqrt(coulomb(parameters).normal_stiffness * rock_density * 0.5);
         bodies->start(parameters, ContactBars::Kinematics::finite);
         // rock that rings for ever would not sleep
         RayleighDamping damping;

@@ -28,6 +28,7 @@
 #include <set>
 #include <sstream>
 #include <support/contact_bars/moving_bodies.h>
+#include <support/coulomb.h>
 
 using namespace NMM;
 using namespace NMM::ContactBars;
@@ -263,9 +264,9 @@ namespace
     bodies->problem.gravity = Tensor<1, 2>({0., -standard_gravity});
     ContactParameters parameters =
       contact_parameters(10. * youngs_modulus, 0.05);
-    parameters.friction       = std::tan(degrees(30.));
-    parameters.normal_damping = parameters.shear_damping =
-      0.2 * std::sqrt(parameters.normal_stiffness * density * 0.5);
+    coulomb(parameters).friction       = std::tan(degrees(30.));
+    coulomb(parameters).normal_damping = coulomb(parameters).shear_damping =
+      0.2 * std::sqrt(coulomb(parameters).normal_stiffness * density * 0.5);
     static_cast<Bodies &>(*bodies).start(parameters,
                                          /* is_linearized = */ false);
     bodies->mechanics = std::make_unique<TimedElements>(*bodies->elasticity,

@@ -7,8 +7,10 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <sstream>
+#include <support/coulomb.h>
 
 using namespace NMM;
+using NMM::Test::coulomb;
 
 namespace
 {
@@ -238,37 +240,37 @@ namespace
     const ContactParameters parameters = make({}, size);
     // equilateral cells; E = 1
     EXPECT_NEAR(size, 0.5, 1e-12);
-    EXPECT_NEAR(parameters.normal_stiffness, 60., 1e-10);
-    EXPECT_NEAR(parameters.shear_stiffness, 2., 1e-10);
-    EXPECT_NEAR(parameters.friction, 1., 1e-15);
-    EXPECT_EQ(parameters.cohesion, 2.);
-    EXPECT_NEAR(parameters.dilation,
+    EXPECT_NEAR(coulomb(*parameters.law).normal_stiffness, 60., 1e-10);
+    EXPECT_NEAR(coulomb(*parameters.law).shear_stiffness, 2., 1e-10);
+    EXPECT_NEAR(coulomb(*parameters.law).friction, 1., 1e-15);
+    EXPECT_EQ(coulomb(*parameters.law).cohesion, 2.);
+    EXPECT_NEAR(coulomb(*parameters.law).dilation,
                 std::tan(10. * dealii::numbers::PI / 180.),
                 1e-15);
-    EXPECT_EQ(parameters.dilation_limit, 0.5);
-    EXPECT_EQ(parameters.pairs[1].law.dilation, 0.);
+    EXPECT_EQ(coulomb(*parameters.law).dilation_limit, 0.5);
+    EXPECT_EQ(coulomb(*parameters.pairs[1].law).dilation, 0.);
     EXPECT_EQ(parameters.integration, ContactIntegration::length);
     EXPECT_EQ(parameters.penetration_tolerance, 0.);
     ASSERT_EQ(parameters.pairs.size(), 2u);
     EXPECT_EQ(parameters.pairs[0].first, "square");
     EXPECT_EQ(parameters.pairs[0].second, "");
-    EXPECT_EQ(parameters.pairs[0].law.friction, 0.);
-    EXPECT_EQ(parameters.pairs[0].law.cohesion, 0.);
-    EXPECT_NEAR(parameters.pairs[0].law.normal_stiffness, 60., 1e-10);
+    EXPECT_EQ(coulomb(*parameters.pairs[0].law).friction, 0.);
+    EXPECT_EQ(coulomb(*parameters.pairs[0].law).cohesion, 0.);
+    EXPECT_NEAR(coulomb(*parameters.pairs[0].law).normal_stiffness, 60., 1e-10);
     // not stiffer in shear than against penetration
-    EXPECT_EQ(parameters.pairs[1].law.shear_stiffness, 0.25);
-    EXPECT_TRUE(parameters.pairs[1].law.is_bond);
-    EXPECT_EQ(parameters.pairs[1].law.tensile_strength, 3.);
+    EXPECT_EQ(coulomb(*parameters.pairs[1].law).shear_stiffness, 0.25);
+    EXPECT_TRUE(coulomb(*parameters.pairs[1].law).is_bond);
+    EXPECT_EQ(coulomb(*parameters.pairs[1].law).tensile_strength, 3.);
 
     // springs at vertices stand for a length of 1 m, so to say
     const ContactParameters points = make({"Contact/Integration=points"}, size);
     EXPECT_EQ(points.integration, ContactIntegration::points);
-    EXPECT_NEAR(points.normal_stiffness, 30., 1e-10);
-    EXPECT_NEAR(points.shear_stiffness, 1., 1e-10);
+    EXPECT_NEAR(coulomb(*points.law).normal_stiffness, 30., 1e-10);
+    EXPECT_NEAR(coulomb(*points.law).shear_stiffness, 1., 1e-10);
 
     const ContactParameters augmented =
       make({"Contact/Enforcement=augmented Lagrangian"}, size);
-    EXPECT_NEAR(augmented.normal_stiffness, 20., 1e-10);
+    EXPECT_NEAR(coulomb(*augmented.law).normal_stiffness, 20., 1e-10);
     EXPECT_NEAR(augmented.penetration_tolerance, 5e-6, 1e-15);
 
     const ContactParameters dynamic = make({"Model/Analysis=dynamic",
@@ -278,10 +280,10 @@ namespace
                                             "Contact/one/Normal damping=4",
                                             "Contact/one/Shear damping=5"},
                                            size);
-    EXPECT_NEAR(dynamic.shear_stiffness, 20., 1e-10);
-    EXPECT_EQ(dynamic.pairs[0].law.normal_damping, 4.);
-    EXPECT_EQ(dynamic.pairs[0].law.shear_damping, 5.);
-    EXPECT_EQ(dynamic.normal_damping, 0.);
+    EXPECT_NEAR(coulomb(*dynamic.law).shear_stiffness, 20., 1e-10);
+    EXPECT_EQ(coulomb(*dynamic.pairs[0].law).normal_damping, 4.);
+    EXPECT_EQ(coulomb(*dynamic.pairs[0].law).shear_damping, 5.);
+    EXPECT_EQ(coulomb(*dynamic.law).normal_damping, 0.);
   }
 
 

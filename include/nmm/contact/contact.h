@@ -3,6 +3,7 @@
 
 #include <nmm/base/step_fault.h>
 #include <nmm/contact/contact_integration.h>
+#include <nmm/contact/contact_law.h>
 #include <nmm/contact/contact_surface.h>
 #include <nmm/linear_algebra/block_matrix.h>
 
@@ -18,85 +19,19 @@
 
 namespace NMM
 {
-  /// How two faces act on each other.
-  struct ContactLaw
-  {
-    /// Penalty eps_n: pressure over penetration [Pa/m].
-    double normal_stiffness = std::numeric_limits<double>::signaling_NaN();
-    /// eps_t: shear over elastic slip [Pa/m]; 0: that of the normal direction.
-    double shear_stiffness = 0.;
-    /**
-     * Dashpots in time steps that conserve energy: pressure over the rate of
-     * penetration and shear over that of the elastic slip [Pa s/m]. Never tension.
-     * A share xi of the critical one for faces with the mass m per area is
-     * @f$ 2\xi\sqrt{\epsilon m} @f$. Other steps do without.
-     */
-    double normal_damping = 0., shear_damping = 0.;
-    /// Tangent of the friction angle [-]; 0 without cohesion: no friction.
-    double friction = 0.;
-    /// Shear strength without pressure [Pa], while in contact.
-    double cohesion = 0.;
-    /**
-     * A joint whose faces are bonded where they touch when the computation begins.
-     * The bond bears tension up to @p tensile_strength [Pa] and shear up to
-     * p tan phi + c; where one of them is exceeded it breaks, and from then on there
-     * is neither tension nor cohesion.
-     */
-    bool   is_bond          = false;
-    double tensile_strength = 0.;
-    /**
-     * Tangent of the dilation angle psi [-], at most that of the friction angle. Faces
-     * that slide in contact ride up on each other: with the length kappa of the way that
-     * a point has slid, whichever way,
-     * @f[ p = \epsilon_n\langle\delta - g\rangle_+,\quad
-     *     \delta = \tan\psi\,\min(\kappa, \kappa_\mathrm{max}),\quad
-     *     |q| \le p\tan\phi + c, \quad
-     *     q = \epsilon_t (g_t - g_t^\mathrm{slip}),\quad
-     *     \dot\kappa = |\dot g_t^\mathrm{slip}|: @f]
-     * Mohr and Coulomb's strength with a flow rule that is not associated, which
-     * dissipates @f$ (p(\tan\phi-\tan\psi) + c)\,\dot\kappa \ge 0 @f$ (Plesha, Int. J.
-     * Numer. Anal. Methods Geomech. 11 (1987) 345, without wear). Where the normal motion is
-     * held, shear strength grows by
-     * @f$ \epsilon_n\tan\phi\tan\psi @f$ per length of slip. The
-     * opening stays with the point as long as there is a face within reach, and grows
-     * there even if the point itself is open, as long as both bodies touch somewhere.
-     */
-    double dilation = 0.;
-    /// The slip kappa_max beyond which nothing opens any more [m]; 0: no limit.
-    double dilation_limit = 0.;
-
-    /// @throws InputError naming the value and @p where it is.
-    void
-    check(const std::string &where) const;
-
-    bool
-    has_friction() const
-    {
-      return friction > 0. || cohesion > 0. || is_bond;
-    }
-
-    /// delta after the slip kappa [m].
-    double
-    opening(const double slip) const
-    {
-      return dilation *
-             (dilation_limit == 0. ? slip : std::min(slip, dilation_limit));
-    }
-  };
-
-
   /// The law of two faces, which may be the same one.
   struct ContactPair
   {
     /// Names of curves or obstacles; empty: any.
-    std::string first, second;
-    ContactLaw  law;
+    std::string                       first, second;
+    std::shared_ptr<const ContactLaw> law;
   };
 
 
-  /// The law it is itself holds for faces that no pair names.
-  struct ContactParameters : public ContactLaw
+  struct ContactParameters
   {
+    /// Of faces that no pair names.
+    std::shared_ptr<const ContactLaw> law;
     /// The first one that fits holds.
     std::vector<ContactPair> pairs;
     /// Augmented Lagrangian: weighted penetration that is allowed, see Contact

@@ -2,10 +2,13 @@
 #define nmm_scene_scene_parameters_contact_h
 
 #include <nmm/contact/contact_integration.h>
+#include <nmm/contact/contact_law.h>
 
 #include <deal.II/base/parameter_handler.h>
 
 #include <array>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -31,19 +34,11 @@ namespace NMM
     std::string name;
     /// Names of faces, "any" for all. Laws only.
     std::array<std::string, 2> between;
-    /// [Pa/m]; 0: the section's, or chosen, see
-    /// Scene::make_contact_parameters().
-    double normal_stiffness = 0., shear_stiffness = 0.;
-    /// Dashpots [Pa s/m].
-    double normal_damping = 0., shear_damping = 0.;
-    /// [degrees].
-    double friction_angle = 0.;
-    /// [Pa].
-    double cohesion         = 0.;
-    bool   is_bonded        = false;
-    double tensile_strength = 0.;
-    /// [degrees]; [m], 0: no limit.
-    double dilation_angle = 0., dilation_limit = 0.;
+    /// Of contact_laws().
+    std::string law_name;
+    /// What the scene gives, by key: of all laws.
+    std::map<std::string, double> values;
+    bool                          is_bonded = false;
 
     static void
     declare(dealii::ParameterHandler &prm);
@@ -60,7 +55,15 @@ namespace NMM
     void
     check(bool may_be_damped) const;
 
+    /// Stiffnesses that the scene leaves open are those of @p springs.
+    std::shared_ptr<const ContactLaw>
+    make_law(const ContactLaw &springs) const;
+
   private:
+    /// The law with the values of the scene; stiffnesses that are left open are 0.
+    std::unique_ptr<ContactLaw>
+    parsed_law() const;
+
     /// "parameter 'Contact/.../key'".
     std::string
     place(const std::string &key) const;

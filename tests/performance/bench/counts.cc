@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <support/coulomb.h>
 
 namespace NMM
 {
@@ -147,7 +148,7 @@ namespace NMM
                                     model.problem);
         ElasticSystem     system(elasticity, /* is_linearized = */ true);
         ContactParameters parameters;
-        parameters.normal_stiffness = 1e9;
+        coulomb(parameters).normal_stiffness = 1e9;
         Contact        contact(*model.surface, model.constraints, parameters);
         ContactStatics statics(system, contact);
         double         n_iterations = 0.;

@@ -4,6 +4,7 @@
 
 #include "staged_model.h"
 #include "step-nmm-3/study.h"
+#include <support/coulomb.h>
 
 namespace NMM
 {
@@ -175,7 +176,7 @@ namespace NMM
 
         const bool        is_augmented = enforcement == Enforcement::augmented;
         ContactParameters contact_parameters;
-        contact_parameters.normal_stiffness =
+        coulomb(contact_parameters).normal_stiffness =
           (is_augmented ? 10. : 30.) * parameters.youngs_modulus / size;
         if (is_augmented)
           contact_parameters.penetration_tolerance = 1e-4 * hertz.approach;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <support/block_bars/block_bars.h>
+#include <support/coulomb.h>
 
 namespace NMM
 {
@@ -159,7 +160,7 @@ namespace NMM
       ContactParameters parameters =
         contact_parameters(toppling.stiffness * toppling.youngs_modulus / width,
                            0.02 * width);
-      parameters.friction = 1.;
+      coulomb(parameters).friction = 1.;
       RelaxationParameters relaxation;
       relaxation.step             = toppling.step;
       relaxation.tolerance        = 1e-6;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 #include <support/block_bars/block_bars.h>
+#include <support/coulomb.h>
 
 namespace NMM
 {
@@ -53,7 +54,7 @@ namespace NMM
         block.problem.gravity =
           standard_gravity * Tensor<1, 2>({std::sin(angle), -std::cos(angle)});
         ContactParameters parameters = contact_parameters(1e10, 0.05);
-        parameters.friction          = friction * tangent;
+        coulomb(parameters).friction = friction * tangent;
         block.start(parameters, Kinematics::finite);
         block.integrate(TimeScheme::generalized_alpha(0.));
         run += block.run(map.step, 1.);

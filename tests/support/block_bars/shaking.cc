@@ -2,6 +2,7 @@
 #include <cmath>
 #include <random>
 #include <support/block_bars/block_bars.h>
+#include <support/coulomb.h>
 
 namespace NMM
 {
@@ -91,7 +92,7 @@ namespace NMM
       block.problem.gravity =
         standard_gravity * Tensor<1, 2>({std::sin(angle), -std::cos(angle)});
       ContactParameters parameters = contact_parameters(1e10, 0.05);
-      parameters.friction          = std::tan(degrees(motion.friction_angle));
+      coulomb(parameters).friction = std::tan(degrees(motion.friction_angle));
 
       // at rest before the ground moves
       block.start(parameters, Kinematics::small);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <support/block_bars/block_bars.h>
+#include <support/coulomb.h>
 
 namespace NMM
 {
@@ -67,8 +68,8 @@ namespace NMM
       for (const double cohesion : {0., 20e3})
       {
         ContactParameters parameters = contact_parameters(stiffness, 0.05);
-        parameters.friction          = std::tan(degrees(30.));
-        parameters.cohesion          = cohesion;
+        coulomb(parameters).friction = std::tan(degrees(30.));
+        coulomb(parameters).cohesion = cohesion;
         Run                run;
         const SafetyFactor factor = find_factor(slides, wedge, parameters, run);
         measurements.add(3,
@@ -76,8 +77,8 @@ namespace NMM
                            std::to_string(cohesion / 1e3) + " kPa",
                          "factor of safety",
                          factor.value(),
-                         (cohesion * length +
-                          weight * std::cos(angle) * parameters.friction) /
+                         (cohesion * length + weight * std::cos(angle) *
+                                                coulomb(parameters).friction) /
                            (weight * std::sin(angle)),
                          0.,
                          slides.bound,
@@ -148,7 +149,7 @@ namespace NMM
         material("rock", youngs_modulus, 0.2, rock_weight / standard_gravity)};
       blocks.problem.gravity       = standard_gravity * Tensor<1, 2>({0., -1.});
       ContactParameters parameters = contact_parameters(stiffness, 0.05);
-      parameters.friction          = std::tan(degrees(30.));
+      coulomb(parameters).friction = std::tan(degrees(30.));
       Run                run;
       const SafetyFactor factor = find_factor(slides, blocks, parameters, run);
       measurements.add(
@@ -156,7 +157,7 @@ namespace NMM
         "active and passive block",
         "factor of safety",
         factor.value(),
-        parameters.friction /
+        coulomb(parameters).friction /
           mobilized_friction(0.5 * rock_weight * (high * high - tip * tip),
                              alpha,
                              rock_weight * length * 0.5 * (6. + high),

@@ -1,6 +1,7 @@
 #include <deal.II/base/timer.h>
 
 #include <support/contact_bars/contact_bars.h>
+#include <support/coulomb.h>
 
 namespace NMM
 {
@@ -186,8 +187,8 @@ namespace NMM
         ContactParameters parameters =
           contact_parameters(10. * soft_rock_modulus / 0.4, 0.02);
         body.start(parameters, Kinematics::finite);
-        const Vector u      = body.find_rest(0.01);
-        parameters.friction = friction;
+        const Vector u               = body.find_rest(0.01);
+        coulomb(parameters).friction = friction;
         body.start(parameters, Kinematics::finite);
         body.integrate(TimeScheme::energy_momentum(),
                        u,
@@ -421,7 +422,7 @@ namespace NMM
         error = dealii::Utilities::MPI::max(error, corners.communicator);
         // the springs give way by p / eps, and blocks overlap by as much where
         // four of them meet
-        const double      give = p / parameters.normal_stiffness;
+        const double      give = p / coulomb(parameters).normal_stiffness;
         const std::string name = std::string("four blocks pressed together") +
                                  (tolerance > 0. ? "; augmented" : "; penalty");
         measurements.add(7,

@@ -1,4 +1,5 @@
 #include <support/contact_bars/contact_bars.h>
+#include <support/coulomb.h>
 
 namespace NMM
 {
@@ -34,7 +35,7 @@ namespace NMM
       body.start(parameters, Kinematics::finite);
       const Vector u       = body.find_rest(0.05);
       const double sinking = -body.value_at(u, Point<2>(0., 1e-9 * radius))[1];
-      parameters.friction  = disk.friction;
+      coulomb(parameters).friction = disk.friction;
       body.start(parameters, Kinematics::finite);
       const double V     = disk.velocity;
       const double omega = -disk.spin * V / radius;

@@ -4,6 +4,7 @@
 #include <random>
 #include <sstream>
 #include <support/contact_bars/contact_bars.h>
+#include <support/coulomb.h>
 
 namespace NMM
 {
@@ -85,13 +86,14 @@ namespace NMM
           Tensor<1, 2>({gravity * std::sin(tilt), -gravity * std::cos(tilt)});
         ContactParameters parameters =
           contact_parameters(20. * drops.youngs_modulus, 0.05);
-        parameters.friction =
+        coulomb(parameters).friction =
           std::tan((15. + 15. * (random(generator) + 1.)) * pi / 180.);
-        parameters.dilation       = drops.dilation * parameters.friction;
-        parameters.dilation_limit = drops.dilation_limit;
-        parameters.normal_damping = parameters.shear_damping =
+        coulomb(parameters).dilation =
+          drops.dilation * coulomb(parameters).friction;
+        coulomb(parameters).dilation_limit = drops.dilation_limit;
+        coulomb(parameters).normal_damping = coulomb(parameters).shear_damping =
           2. * drops.dashpot *
-          std::sqrt(parameters.normal_stiffness * density * 0.5);
+          std::sqrt(coulomb(parameters).normal_stiffness * density * 0.5);
         bodies.start(parameters, Kinematics::finite);
         bodies.integrate(TimeScheme::energy_momentum());
 
@@ -117,8 +119,9 @@ namespace NMM
         double shortest = std::numeric_limits<double>::max();
         for (const auto &edge : bodies.surface.edges())
           shortest = std::min(shortest, edge.length);
-        result.elastic_overlap = std::sqrt(
-          2. * result.energy / (parameters.normal_stiffness * shortest / 12.));
+        result.elastic_overlap =
+          std::sqrt(2. * result.energy /
+                    (coulomb(parameters).normal_stiffness * shortest / 12.));
         return result;
       }
     } // namespace

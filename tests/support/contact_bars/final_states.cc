@@ -1,4 +1,5 @@
 #include <support/contact_bars/contact_bars.h>
+#include <support/coulomb.h>
 
 namespace NMM
 {
@@ -63,7 +64,7 @@ namespace NMM
         bodies.problem.materials     = {material("rock", E, 0.2, 2500.)};
         bodies.problem.gravity       = Tensor<1, 2>({3., -9.81});
         ContactParameters parameters = contact_parameters(10. * E, 0.05);
-        parameters.friction          = 0.2;
+        coulomb(parameters).friction = 0.2;
         bodies.start(parameters, Kinematics::finite);
         bodies.integrate(TimeScheme::energy_momentum());
         (void)bodies.run(2e-3, 0.1);
@@ -82,7 +83,7 @@ namespace NMM
         bodies.problem.materials     = {material("rock", E, 0.2, 2500.)};
         bodies.problem.gravity       = Tensor<1, 2>({0., -9.81});
         ContactParameters parameters = contact_parameters(10. * E, 0.05);
-        parameters.friction          = 0.2;
+        coulomb(parameters).friction = 0.2;
         bodies.start(parameters, Kinematics::finite);
         bodies.integrate(TimeScheme::energy_momentum(),
                          bodies.zero(),
@@ -112,9 +113,10 @@ namespace NMM
                     "right",
                     constant(-1e4))};
         ContactParameters parameters = contact_parameters(10. * E, 0.05);
-        parameters.is_bond           = true;
-        parameters.friction          = 0.3;
-        parameters.tensile_strength = parameters.cohesion = 1.2e4;
+        coulomb(parameters).is_bond  = true;
+        coulomb(parameters).friction = 0.3;
+        coulomb(parameters).tensile_strength = coulomb(parameters).cohesion =
+          1.2e4;
         bodies.start(parameters, Kinematics::small);
         bodies.integrate(TimeScheme::energy_momentum());
         (void)bodies.run(5e-4, 0.05);

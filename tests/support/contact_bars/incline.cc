@@ -1,4 +1,5 @@
 #include <support/contact_bars/contact_bars.h>
+#include <support/coulomb.h>
 
 namespace NMM
 {
@@ -13,11 +14,11 @@ namespace NMM
       {
         ContactParameters parameters =
           contact_parameters(10. * rock_modulus, 0.02);
-        parameters.friction = std::tan(degrees(friction_angle));
-        parameters.normal_damping =
+        coulomb(parameters).friction = std::tan(degrees(friction_angle));
+        coulomb(parameters).normal_damping =
           2. * incline.dashpot *
-          std::sqrt(parameters.normal_stiffness * rock_density);
-        parameters.shear_damping = parameters.normal_damping;
+          std::sqrt(coulomb(parameters).normal_stiffness * rock_density);
+        coulomb(parameters).shear_damping = coulomb(parameters).normal_damping;
         block.start(parameters, Kinematics::small);
       }
 

@@ -1,6 +1,7 @@
 #include <deal.II/lac/full_matrix.h>
 
 #include <support/contact_bars/contact_bars.h>
+#include <support/coulomb.h>
 
 namespace NMM
 {
@@ -77,9 +78,10 @@ namespace NMM
           (1. - std::cos(dealii::numbers::PI * ramp))};
         return amplitudes;
       };
-      ContactParameters joint = contact_parameters(k, 0.06 * length);
-      joint.is_bond           = true;
-      joint.tensile_strength = joint.cohesion = 1e3 * Z * velocity;
+      ContactParameters joint         = contact_parameters(k, 0.06 * length);
+      coulomb(joint).is_bond          = true;
+      coulomb(joint).tensile_strength = coulomb(joint).cohesion =
+        1e3 * Z * velocity;
       bars.start(joint, Kinematics::small, loading);
       bars.integrate(TimeScheme::energy_momentum());
 

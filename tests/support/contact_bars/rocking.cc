@@ -1,4 +1,5 @@
 #include <support/contact_bars/contact_bars.h>
+#include <support/coulomb.h>
 
 namespace NMM
 {
@@ -56,11 +57,11 @@ namespace NMM
       block.problem.gravity        = Tensor<1, 2>({0., -standard_gravity});
       ContactParameters parameters = contact_parameters(
         rocking.penalty * rocking.youngs_modulus / rocking.cell_size, 0.02 * R);
-      parameters.friction = 1.;
-      parameters.normal_damping =
+      coulomb(parameters).friction = 1.;
+      coulomb(parameters).normal_damping =
         2. * rocking.dashpot *
-        std::sqrt(parameters.normal_stiffness * density * height);
-      parameters.shear_damping = parameters.normal_damping;
+        std::sqrt(coulomb(parameters).normal_stiffness * density * height);
+      coulomb(parameters).shear_damping = coulomb(parameters).normal_damping;
       block.start(parameters, Kinematics::finite);
 
       // turned about the right corner, clockwise

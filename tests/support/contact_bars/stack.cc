@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <support/contact_bars/contact_bars.h>
+#include <support/coulomb.h>
 
 namespace NMM
 {
@@ -38,10 +39,10 @@ namespace NMM
       bodies.problem.gravity = Tensor<1, 2>({0., -standard_gravity});
       ContactParameters parameters =
         contact_parameters(10. * rock_modulus, 0.02);
-      parameters.friction       = std::tan(dealii::numbers::PI / 6.);
-      parameters.normal_damping = parameters.shear_damping =
+      coulomb(parameters).friction       = std::tan(dealii::numbers::PI / 6.);
+      coulomb(parameters).normal_damping = coulomb(parameters).shear_damping =
         2. * stack.dashpot *
-        std::sqrt(parameters.normal_stiffness * rock_density);
+        std::sqrt(coulomb(parameters).normal_stiffness * rock_density);
       Bodies &statics = bodies;
       statics.start(parameters, stack.kinematics == Kinematics::small);
       statics.statics->run(LoadSteps());

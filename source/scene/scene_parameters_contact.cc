@@ -80,15 +80,15 @@ namespace NMM
       names += (names.empty() ? "" : "|") + law.name;
       text += (text.empty() ? "" : "; ") + law.name + ": " + law.documentation;
     }
+    prm.declare_entry("Law",
+                      contact_laws().front().name,
+                      Patterns::Selection(names),
+                      text + ".");
     for (const DeclaredParameter &parameter : declared_parameters())
       prm.declare_entry(parameter.key,
                         to_text(parameter.default_value),
                         Patterns::Double(),
                         parameter.documentation);
-    prm.declare_entry("Law",
-                      contact_laws().front().name,
-                      Patterns::Selection(names),
-                      text + ".");
     prm.declare_entry("Bonded",
                       "false",
                       Patterns::Bool(),

@@ -10,6 +10,8 @@
 #include <deal.II/base/std_cxx20/iota_view.h>
 
 #include <memory>
+#include <new>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -111,19 +113,25 @@ namespace NMM
         many.resize(n);
         return many.data();
       }
-      return reinterpret_cast<ElementEdge *>(storage);
+      auto *const first = reinterpret_cast<ElementEdge *>(storage);
+      std::uninitialized_default_construct_n(first, n);
+      return std::launder(first);
     }
 
     const ElementEdge *
     inside() const
     {
-      return reinterpret_cast<const ElementEdge *>(storage);
+      return std::launder(reinterpret_cast<const ElementEdge *>(storage));
     }
 
     const ElementEdge       *kept = nullptr;
     unsigned int             n    = 0;
     std::vector<ElementEdge> many;
-    /// Not initialized: most elements are whole and have no edges.
+    /// Edges are constructed in here by make() only: most elements are whole and have none.
+    /// Copies are copies of the bytes.
+    static_assert(std::is_trivially_copyable<ElementEdge>::value &&
+                    std::is_trivially_destructible<ElementEdge>::value,
+                  "Edges in the storage are copied and left without calls.");
     alignas(
       ElementEdge) unsigned char storage[max_inside * sizeof(ElementEdge)];
   };

@@ -25,7 +25,8 @@ namespace NMM
     bool
     Measurement::holds() const
     {
-      return bound == 0. || std::abs(error) <= bound;
+      // a run that failed has no error
+      return !std::isnan(error) && (bound == 0. || std::abs(error) <= bound);
     }
 
 

@@ -35,16 +35,11 @@ namespace NMM
       void
       solve_direct(const Matrix       &matrix,
                    const Vector       &rhs,
-                   const CoverSystem  &covers,
                    Vector             &solution,
                    LinearSolverReport &report)
       {
-        dealii::Timer                 timer;
-        DirectSolver                  solver;
-        std::vector<dealii::Point<2>> points;
-        for (const unsigned int k : covers.locally_owned_covers())
-          points.push_back(covers.node(covers.local_cover(k)));
-        solver.set_points(std::move(points));
+        dealii::Timer timer;
+        DirectSolver  solver;
         solver.factorize(matrix);
         report.analysis_time      = solver.analysis_time();
         report.factorization_time = timer.wall_time() - report.analysis_time;
@@ -164,7 +159,7 @@ namespace NMM
         return report;
 
       if (report.direct)
-        solve_direct(matrix, rhs, covers, solution, report);
+        solve_direct(matrix, rhs, solution, report);
       else if (covers.manifold_mesh().mathematical_mesh().degree() == 2)
         solve_iterative<TwoLevelPreconditioner>(
           matrix, rhs, covers, constraints, parameters, solution, report);

@@ -3,7 +3,6 @@
 
 #include <nmm/linear_algebra/block_matrix.h>
 
-#include <deal.II/base/point.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
@@ -60,11 +59,6 @@ namespace NMM
       void
       forget_analysis();
 
-      /// Where this rank's unknowns are, one point for the two of each cover. With these,
-      /// large systems are ordered by nested_dissection(), which the first rank does.
-      void
-      set_points(std::vector<dealii::Point<2>> points);
-
       /// Order the unknowns for the pattern of @p matrix, for MUMPS. @throws
       /// NumericalFailure for lack of memory.
       void
@@ -107,7 +101,7 @@ namespace NMM
       factorize_entries(const dealii::TrilinosWrappers::SparseMatrix &matrix);
 
       void
-      set_controls(const dealii::TrilinosWrappers::SparseMatrix &matrix);
+      set_controls();
 
       struct Data;
       std::unique_ptr<Data> data;

@@ -353,7 +353,7 @@ namespace NMM
       // solution take 1.29 and 1.27 s for 178,000 unknowns of a ring, 4.0 and 3.2 s
       // for 393,000; 2.8 and 4.0 s for 297,000 unknowns of 290 blocks that are tied to
       // each other. METIS_NodeND takes 3.7 and 3.0 s for the last two.
-      constexpr unsigned int n_nested_dissection = 250000;
+      constexpr unsigned int n_nested_dissection = 350000;
       mumps.control(7) = data->n < n_nested_dissection ? 0 : 4;
       // What is left last is factorized as the rest is: ScaLAPACK knows no
       // symmetric indefinite matrices, and has twice the work.

@@ -94,10 +94,10 @@ namespace NMM
       model->forget_tangent();
     }
 
-    const BlockMatrix *
-    block_tangent() const override
+    const BodyMatrix *
+    body_tangent() const override
     {
-      return by_blocks;
+      return body_matrix;
     }
     /// @}
 
@@ -192,7 +192,7 @@ namespace NMM
     /// The model's, to which mass and damping are added; null: matrix is for that.
     dealii::TrilinosWrappers::SparseMatrix *in_place = nullptr;
     /// The same if the model's is a matrix of blocks.
-    BlockMatrix                            *by_blocks = nullptr;
+    BodyMatrix                             *body_matrix = nullptr;
     internal::MatrixAdder                   mass_adder, damping_adder;
     internal::ActiveItems                   active_rows;
     std::unique_ptr<internal::DirectSolver> mass_solver, linear_solver;

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <dmumps_c.h>
-#include <linear_algebra/block_lu.h>
+#include <linear_algebra/body_lu.h>
 #include <linear_algebra/klu_solver.h>
 #include <linear_algebra/mumps_solver.h>
 #include <numeric>
@@ -208,11 +208,11 @@ namespace NMM
       /// Of the last factorization; null: MUMPS has them.
       Factors *factors = nullptr;
       /// See DirectSolver().
-      bool    has_blocks = false;
-      BlockLu block_lu;
+      bool   has_blocks = false;
+      BodyLu body_lu;
       /// What is read of a sparse matrix; null: blocks are not for it. And what was
       /// written to one.
-      std::unique_ptr<BlockMatrix>                            blocks;
+      std::unique_ptr<BodyMatrix>                             blocks;
       std::unique_ptr<dealii::TrilinosWrappers::SparseMatrix> of_blocks;
 
       void
@@ -294,8 +294,8 @@ namespace NMM
     {
       data->has_blocks   = !unknown_to_block.empty();
       data->is_symmetric = symmetry == Symmetry::symmetric;
-      if (BlockMatrix::is_suitable(unknown_to_block))
-        data->blocks = std::make_unique<BlockMatrix>(unknown_to_block);
+      if (BodyMatrix::is_suitable(unknown_to_block))
+        data->blocks = std::make_unique<BodyMatrix>(unknown_to_block);
     }
 
 
@@ -380,9 +380,9 @@ namespace NMM
         for (const unsigned int row : rows)
           is_chosen[data->blocks->block_of(row)] = true;
         data->blocks->read(matrix, is_chosen, couplings);
-        if (data->block_lu.factorize(*data->blocks, rows))
+        if (data->body_lu.factorize(*data->blocks, rows))
         {
-          data->factors = &data->block_lu;
+          data->factors = &data->body_lu;
           return;
         }
       }
@@ -391,13 +391,13 @@ namespace NMM
 
 
     void
-    DirectSolver::factorize(const BlockMatrix               &matrix,
+    DirectSolver::factorize(const BodyMatrix                &matrix,
                             const std::vector<unsigned int> &rows)
     {
       data->rows = rows;
-      if (data->block_lu.factorize(matrix, rows))
+      if (data->body_lu.factorize(matrix, rows))
       {
-        data->factors = &data->block_lu;
+        data->factors = &data->body_lu;
         return;
       }
       forget_analysis();

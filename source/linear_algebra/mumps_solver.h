@@ -1,7 +1,7 @@
 #ifndef nmm_source_linear_algebra_mumps_solver_h
 #define nmm_source_linear_algebra_mumps_solver_h
 
-#include <nmm/linear_algebra/block_matrix.h>
+#include <nmm/linear_algebra/body_matrix.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
@@ -31,7 +31,7 @@ namespace NMM
      * n_distributed unknowns are therefore factorized by the first rank alone, which
      * gives the same bits always and takes no longer.
      *
-     * Small blocks that touch here and there go to BlockLu instead, and what falls apart
+     * Small blocks that touch here and there go to BodyLu instead, and what falls apart
      * into small systems to KluSolver, on one rank.
      *
      * Rows are consecutive per rank.
@@ -48,7 +48,7 @@ namespace NMM
       static constexpr unsigned int n_distributed = 30000;
 
       /// @p unknown_to_block: if it is of blocks that touch here and there, and elsewhere the
-      /// next time. Small ones are then BlockLu's, and with others KLU is tried with large
+      /// next time. Small ones are then BodyLu's, and with others KLU is tried with large
       /// groups, too.
       explicit DirectSolver(
         Symmetry                         symmetry         = Symmetry::symmetric,
@@ -77,7 +77,7 @@ namespace NMM
 
       /// The same of a matrix of small blocks; of a sparse matrix if a block is singular.
       void
-      factorize(const BlockMatrix               &matrix,
+      factorize(const BodyMatrix                &matrix,
                 const std::vector<unsigned int> &rows);
 
       /// @p solution has the layout of @p rhs; may be the same vector. @p blocks: see

@@ -4,7 +4,7 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/base/step_fault.h>
 #include <nmm/base/types.h>
-#include <nmm/linear_algebra/block_matrix.h>
+#include <nmm/linear_algebra/body_matrix.h>
 #include <nmm/materials/hyperelasticity.h>
 
 #include <deal.II/base/index_set.h>
@@ -141,8 +141,8 @@ namespace NMM
      * said above, if that is a matrix of blocks, and tangent() is not made; otherwise
      * null.
      */
-    virtual BlockMatrix *
-    block_tangent()
+    virtual BodyMatrix *
+    body_tangent()
     {
       return nullptr;
     }

@@ -4,8 +4,8 @@
 #include <nmm/dynamics/time_integrator.h>
 
 #include <dynamics/sleeping_blocks.h>
+#include <linear_algebra/direct_solver.h>
 #include <linear_algebra/matrix_sum.h>
-#include <linear_algebra/mumps_solver.h>
 
 namespace NMM
 {
@@ -191,7 +191,7 @@ namespace NMM
     internal::MatrixSum                    matrix;
     /// The model's, to which mass and damping are added; null: matrix is for that.
     dealii::TrilinosWrappers::SparseMatrix *in_place = nullptr;
-    /// The same if the model's is a matrix of blocks.
+    /// The same if the model's is a body matrix.
     BodyMatrix                             *body_matrix = nullptr;
     internal::MatrixAdder                   mass_adder, damping_adder;
     internal::ActiveItems                   active_rows;

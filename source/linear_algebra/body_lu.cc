@@ -383,9 +383,9 @@ namespace NMM
 
 
     void
-    BodyLu::solve(const dealii::TrilinosWrappers::MPI::Vector &rhs,
-                  dealii::TrilinosWrappers::MPI::Vector       &solution,
-                  const std::vector<bool>                     &bodies)
+    BodyLu::solve(const Vector            &rhs,
+                  Vector                  &solution,
+                  const std::vector<bool> &bodies)
     {
       Data         &d      = *data;
       const double *values = d.values.data();

@@ -3,7 +3,7 @@
 
 #include <nmm/linear_algebra/body_matrix.h>
 
-#include <linear_algebra/factors.h>
+#include <linear_algebra/direct_factorization.h>
 #include <memory>
 #include <vector>
 
@@ -28,7 +28,7 @@ namespace NMM
      * m unknowns which are eliminated later; ordering is O(number of bodies). A comparison
      * with KLU is in doc/dependencies.md. One rank.
      */
-    class BodyLu : public Factors
+    class BodyLu : public DirectFactorization<BodyMatrix>
     {
     public:
       BodyLu();
@@ -37,9 +37,9 @@ namespace NMM
       /// Factorize @p rows and columns, ascending, all or none of a body (empty: all).
       /// Returns false if the largest pivot left in a column is below 1e-14 of the
       /// largest entry of its body.
-      [[nodiscard]] bool
+      bool
       factorize(const BodyMatrix                &matrix,
-                const std::vector<unsigned int> &rows);
+                const std::vector<unsigned int> &rows) override;
 
       double
       n_factor_entries() const override;
@@ -47,9 +47,9 @@ namespace NMM
       /// Rows that were not chosen, and those of bodies that are not wanted, keep what they
       /// have in @p solution.
       void
-      solve(const dealii::TrilinosWrappers::MPI::Vector &rhs,
-            dealii::TrilinosWrappers::MPI::Vector       &solution,
-            const std::vector<bool>                     &bodies) override;
+      solve(const Vector            &rhs,
+            Vector                  &solution,
+            const std::vector<bool> &bodies) override;
 
     private:
       struct Data;

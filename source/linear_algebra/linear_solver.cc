@@ -4,8 +4,8 @@
 #include <deal.II/lac/solver_cg.h>
 
 #include <cmath>
+#include <linear_algebra/direct_solver.h>
 #include <linear_algebra/linear_solver.h>
-#include <linear_algebra/mumps_solver.h>
 #include <linear_algebra/two_level_preconditioner.h>
 #include <memory>
 #include <ml_MultiLevelPreconditioner.h>

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <linear_algebra/cover_matrix_assembler.h>
-#include <linear_algebra/mumps_solver.h>
+#include <linear_algebra/direct_solver.h>
 #include <mechanics/curve_conditions.h>
 #include <mechanics/edge_tables.h>
 #include <mechanics/element_tables.h>

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <linear_algebra/mumps_solver.h>
+#include <linear_algebra/direct_solver.h>
 #include <solution/newton_groups.h>
 #include <utility>
 

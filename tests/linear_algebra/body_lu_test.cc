@@ -7,7 +7,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <linear_algebra/body_lu.h>
-#include <linear_algebra/mumps_solver.h>
+#include <linear_algebra/direct_solver.h>
 #include <numeric>
 #include <random>
 

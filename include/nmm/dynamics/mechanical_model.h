@@ -138,7 +138,7 @@ namespace NMM
 
     /**
      * The tangent of the last assemble_between() for a caller who was to add to it, as
-     * said above, if that is a matrix of blocks, and tangent() is not made; otherwise
+     * said above, if that is a body matrix, and tangent() is not made; otherwise
      * null.
      */
     virtual BodyMatrix *

@@ -97,7 +97,7 @@ namespace NMM
     {
     }
 
-    /// The last tangent as a matrix of blocks, those of blocks_of_unknowns(): what is not
+    /// The last tangent as a body matrix, those of blocks_of_unknowns(): what is not
     /// coupled is not in it. tangent() is not asked for then. Null: it is tangent().
     virtual const BodyMatrix *
     body_tangent() const

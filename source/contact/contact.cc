@@ -737,19 +737,19 @@ namespace NMM
     for (unsigned int i = 0; with_tangent && tangent_factor != 1. && i < n * n;
          ++i)
       local.matrix[i] *= tangent_factor;
-    if (with_tangent && by_blocks == nullptr)
+    if (with_tangent && body_matrix == nullptr)
     {
-      block_system->add(covers, local.matrix, local.rhs);
+      assembler->add(covers, local.matrix, local.rhs);
       return;
     }
-    block_system->add_rhs(covers, local.rhs);
+    assembler->add_rhs(covers, local.rhs);
     if (!with_tangent)
       return;
     for (unsigned int i = 0; !is_prescribed.empty() && i < n; ++i)
       if (is_prescribed[2 * covers[i / 2] + i % 2])
         for (unsigned int j = 0; j < n; ++j)
           local.matrix[n * i + j] = local.matrix[n * j + i] = 0.;
-    by_blocks->add(covers, local.matrix);
+    body_matrix->add(covers, local.matrix);
   }
 
 
@@ -787,18 +787,18 @@ namespace NMM
       return;
     }
     d.tangent_factor = 1.;
-    d.by_blocks      = nullptr;
+    d.body_matrix    = nullptr;
     if (with_tangent)
       d.couple_all();
     d.move_to(u);
     d.set_admitted_depth();
-    d.block_system->reset(with_tangent);
+    d.assembler->reset(with_tangent);
     d.for_each_active_point(
       [&](const unsigned int q) { d.add_point(q, with_tangent); });
     if (with_tangent)
-      d.block_system->transfer(d.matrix, d.residual);
+      d.assembler->transfer(d.matrix, d.residual);
     else
-      d.block_system->transfer_rhs(d.residual);
+      d.assembler->transfer_rhs(d.residual);
     d.reduce_report();
   }
 

@@ -22,8 +22,8 @@ namespace NMM
     data->active_covers.select(is_active);
     data->active_edges.select(is_active);
     data->active_rows.select(is_active);
-    if (data->block_system)
-      data->block_system->set_active_rows(is_active);
+    if (data->assembler)
+      data->assembler->set_active_rows(is_active);
   }
 
 

@@ -10,7 +10,7 @@
 #include <contact/contact_terms.h>
 #include <contact/step_clearances.h>
 #include <linear_algebra/active_items.h>
-#include <linear_algebra/block_system.h>
+#include <linear_algebra/cover_matrix_assembler.h>
 #include <linear_algebra/matrix_sum.h>
 #include <map>
 
@@ -469,10 +469,10 @@ namespace NMM
     std::vector<PointData>    point_data;
     /// See ContactSearch::append_faces_beside(): where points were made, and as long as
     /// they are, so that no step has to find out while it goes.
-    std::vector<unsigned int>              faces_beside;
-    std::unique_ptr<internal::BlockSystem> block_system;
-    bool                                   is_idle         = true;
-    unsigned int                           pattern_version = 0;
+    std::vector<unsigned int>                       faces_beside;
+    std::unique_ptr<internal::CoverMatrixAssembler> assembler;
+    bool                                            is_idle         = true;
+    unsigned int                                    pattern_version = 0;
     /// See append_couplings(): of all positions now, and when the pattern was begun.
     std::vector<unsigned int> candidates, coupled_candidates;
     /// By position in ContactSearch::slaves(): is it to be in the pattern of the matrix,
@@ -515,8 +515,8 @@ namespace NMM
     std::vector<unsigned int> touched_bodies;
     std::vector<BlockPair>    coupled_bodies;
     /// See assemble_between().
-    double       tangent_factor = 1.;
-    BlockMatrix *by_blocks      = nullptr;
+    double      tangent_factor = 1.;
+    BodyMatrix *body_matrix    = nullptr;
     /// Unknowns that are prescribed; empty: none is.
     std::vector<bool> is_prescribed;
     /// Points that active bodies may have part in, and their covers, rows and edges.

@@ -213,7 +213,7 @@ namespace NMM
         both.insert(both.end(),
                     covers.covers(edge.neighbor).begin(),
                     covers.covers(edge.neighbor).end());
-        block_system->couple({both.data(), both.size()});
+        assembler->couple({both.data(), both.size()});
       }
   }
 
@@ -226,7 +226,7 @@ namespace NMM
     if (is_idle)
       return;
     are_candidates_known = false;
-    if (block_system != nullptr)
+    if (assembler != nullptr)
       return;
     if (Parallel::n_mpi_processes(communicator) > 1)
     {
@@ -352,20 +352,20 @@ namespace NMM
   {
     has_pattern   = true;
     is_in_pattern = is_coupled;
-    block_system =
-      std::make_unique<BlockSystem>(surface->cover_system(), *constraints);
+    assembler = std::make_unique<CoverMatrixAssembler>(surface->cover_system(),
+                                                       *constraints);
     std::vector<unsigned int> couplings;
     for (unsigned int i = 0; i < is_coupled.size(); ++i)
       if (is_coupled[i])
         append_couplings(i, couplings);
     for (unsigned int i = 0; i < couplings.size(); i += couplings[i] + 1)
-      block_system->couple({couplings.data() + i + 1, couplings[i]});
+      assembler->couple({couplings.data() + i + 1, couplings[i]});
     couple_ties();
-    block_system->ignore_inhomogeneities();
-    block_system->leave_empty_rows();
-    block_system->assemble_in_place();
-    block_system->build();
-    block_system->set_active_rows(is_active);
+    assembler->ignore_inhomogeneities();
+    assembler->leave_empty_rows();
+    assembler->assemble_in_place();
+    assembler->build();
+    assembler->set_active_rows(is_active);
     matrix.clear();
     ++pattern_version;
   }

@@ -672,10 +672,10 @@ namespace NMM
                             const double  time,
                             const bool    with_tangent,
                             const double  tangent_factor,
-                            BlockMatrix  *by_blocks)
+                            BodyMatrix   *body_matrix)
   {
     Data &d          = *data;
-    d.by_blocks      = by_blocks;
+    d.body_matrix    = body_matrix;
     d.report         = ContactReport();
     d.deepest        = 0.;
     d.tangent_factor = tangent_factor;
@@ -693,7 +693,7 @@ namespace NMM
       d.obstacle_changes[i] = d.surface->obstacle_displacement(i);
     d.step                 = time - d.time_begin;
     const bool on_one_rank = Parallel::n_mpi_processes(d.communicator) == 1;
-    const bool is_sparse   = with_tangent && by_blocks == nullptr;
+    const bool is_sparse   = with_tangent && body_matrix == nullptr;
     const bool is_first    = is_sparse && on_one_rank && !d.is_pattern_of_step;
     if (is_first && !d.nodal_expected.empty())
     {
@@ -717,13 +717,13 @@ namespace NMM
       d.couple_near();
     else if (is_sparse)
       d.couple_all();
-    d.block_system->reset(is_sparse);
+    d.assembler->reset(is_sparse);
     for (const unsigned int q : d.near_points)
       d.add_point_between(q, with_tangent);
     if (is_sparse)
-      d.block_system->transfer(d.matrix, d.residual);
+      d.assembler->transfer(d.matrix, d.residual);
     else
-      d.block_system->transfer_rhs(d.residual);
+      d.assembler->transfer_rhs(d.residual);
     d.reduce_report();
   }
 

@@ -23,8 +23,8 @@ namespace NMM
     double tangent_factor  = 1.;
     bool   may_be_added_to = false;
     /// Null: not needed so far. Is the last tangent there?
-    std::unique_ptr<BlockMatrix> blocks;
-    bool                         is_by_blocks = false;
+    std::unique_ptr<BodyMatrix> body_matrix;
+    bool                        has_body_matrix = false;
     /// See set_active_blocks().
     std::vector<bool> active;
     /// Couples nothing but contact any blocks? Not known before the first tangent.
@@ -66,25 +66,25 @@ namespace NMM
       });
       square = dealii::Utilities::MPI::sum(square, sum.get_mpi_communicator());
       scale  = std::hypot(model->force_scale(), std::sqrt(square));
-      if (with_tangent && is_by_blocks)
-        blocks->add(factor, model->tangent());
+      if (with_tangent && has_body_matrix)
+        body_matrix->add(factor, model->tangent());
       else if (with_tangent)
         contact->add_to_tangent(model->tangent(), factor);
     }
 
     /// For the tangent of contact in a step; null: a sparse one.
-    BlockMatrix *
-    begin_blocks()
+    BodyMatrix *
+    begin_body_matrix()
     {
-      is_by_blocks = may_be_added_to && are_blocks_apart &&
-                     (blocks != nullptr ||
-                      BlockMatrix::is_suitable(model->blocks_of_unknowns()));
-      if (!is_by_blocks)
+      has_body_matrix = may_be_added_to && are_blocks_apart &&
+                        (body_matrix != nullptr ||
+                         BodyMatrix::is_suitable(model->blocks_of_unknowns()));
+      if (!has_body_matrix)
         return nullptr;
-      if (blocks == nullptr)
-        blocks = std::make_unique<BlockMatrix>(model->blocks_of_unknowns());
-      blocks->begin_rows(active);
-      return blocks.get();
+      if (body_matrix == nullptr)
+        body_matrix = std::make_unique<BodyMatrix>(model->blocks_of_unknowns());
+      body_matrix->begin_rows(active);
+      return body_matrix.get();
     }
   };
 
@@ -231,14 +231,14 @@ namespace NMM
     if (state == Deformation::admissible && with_tangent && !d.is_apart_known)
       d.find_out_whether_apart();
     if (with_tangent)
-      d.is_by_blocks = false;
+      d.has_body_matrix = false;
     if (state != Deformation::admissible || d.contact->is_idle())
       return state;
     d.contact->assemble_between(placed(end),
                                 t_1,
                                 with_tangent,
                                 d.tangent_factor,
-                                with_tangent ? d.begin_blocks() : nullptr);
+                                with_tangent ? d.begin_body_matrix() : nullptr);
     d.add_contact(with_tangent, d.tangent_factor);
     return state;
   }
@@ -271,10 +271,10 @@ namespace NMM
   }
 
 
-  BlockMatrix *
-  ContactModel::block_tangent()
+  BodyMatrix *
+  ContactModel::body_tangent()
   {
-    return data->is_by_blocks ? data->blocks.get() : nullptr;
+    return data->has_body_matrix ? data->body_matrix.get() : nullptr;
   }
 
 
@@ -282,8 +282,8 @@ namespace NMM
   ContactModel::forget_tangent()
   {
     data->model->forget_tangent();
-    if (data->blocks)
-      data->blocks->clear();
+    if (data->body_matrix)
+      data->body_matrix->clear();
   }
 
 

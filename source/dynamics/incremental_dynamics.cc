@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <limits>
 #include <linear_algebra/matrix_sum.h>
-#include <linear_algebra/mumps_solver.h>
+#include <linear_algebra/direct_solver.h>
 
 namespace NMM
 {

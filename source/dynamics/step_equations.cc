@@ -181,12 +181,12 @@ namespace NMM
     const double k = 1. - scheme.alpha_f;
     const double c = k * scheme.gamma / (scheme.beta * h);
     const double m = (1. - scheme.alpha_m) / (scheme.beta * h * h);
-    by_blocks      = in_place != nullptr ? model->block_tangent() : nullptr;
-    if (by_blocks != nullptr)
+    body_matrix    = in_place != nullptr ? model->body_tangent() : nullptr;
+    if (body_matrix != nullptr)
     {
-      by_blocks->add(m + c * damping.mass, model->mass());
+      body_matrix->add(m + c * damping.mass, model->mass());
       if (damps_by_stiffness() && c != 0.)
-        by_blocks->add(c * damping.stiffness, stiffness_at_rest);
+        body_matrix->add(c * damping.stiffness, stiffness_at_rest);
       return;
     }
     if (in_place != nullptr)

@@ -4,8 +4,8 @@
 #include <nmm/dynamics/time_integrator.h>
 
 #include <dynamics/sleeping_blocks.h>
+#include <linear_algebra/direct_solver.h>
 #include <linear_algebra/matrix_sum.h>
-#include <linear_algebra/mumps_solver.h>
 
 namespace NMM
 {
@@ -94,10 +94,10 @@ namespace NMM
       model->forget_tangent();
     }
 
-    const BlockMatrix *
-    block_tangent() const override
+    const BodyMatrix *
+    body_tangent() const override
     {
-      return by_blocks;
+      return body_matrix;
     }
     /// @}
 
@@ -191,8 +191,8 @@ namespace NMM
     internal::MatrixSum                    matrix;
     /// The model's, to which mass and damping are added; null: matrix is for that.
     dealii::TrilinosWrappers::SparseMatrix *in_place = nullptr;
-    /// The same if the model's is a matrix of blocks.
-    BlockMatrix                            *by_blocks = nullptr;
+    /// The same if the model's is a body matrix.
+    BodyMatrix                             *body_matrix = nullptr;
     internal::MatrixAdder                   mass_adder, damping_adder;
     internal::ActiveItems                   active_rows;
     std::unique_ptr<internal::DirectSolver> mass_solver, linear_solver;

@@ -4,7 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <functional>
 #include <limits>
-#include <linear_algebra/mumps_solver.h>
+#include <linear_algebra/direct_solver.h>
 #include <random>
 
 namespace NMM

@@ -11,15 +11,15 @@ namespace NMM
   {
     namespace
     {
-      /// Sum of products of blocks with pairs of a vector, all four products of a block at
+      /// Sum of products of entries with pairs of a vector, all four products of an entry at
       /// once.
       class Sum
       {
       public:
         void
-        add(const float *block, const float *x)
+        add(const float *entry, const float *x)
         {
-          sum += Eigen::Map<const Eigen::Array4f>(block) *
+          sum += Eigen::Map<const Eigen::Array4f>(entry) *
                  Eigen::Array4f(x[0], x[1], x[0], x[1]);
         }
 
@@ -179,8 +179,8 @@ namespace NMM
       if (rows.size() < 2)
         return;
       const unsigned int n = 2 * rows.size();
-      Eigen::MatrixXd    block(n, n);
-      block.setZero();
+      Eigen::MatrixXd    local(n, n);
+      local.setZero();
       for (unsigned int i = 0; i < rows.size(); ++i)
       {
         unsigned int j = 0;
@@ -190,24 +190,24 @@ namespace NMM
             ++j;
           if (j < rows.size() && rows[j] == columns[k])
             for (unsigned int c = 0; c < 4; ++c)
-              block(2 * i + c / 2, 2 * j + c % 2) = values[4 * k + c];
+              local(2 * i + c / 2, 2 * j + c % 2) = values[4 * k + c];
         }
         if (!addition.empty())
           for (unsigned int c = 0; c < 2; ++c)
-            block(2 * i + c, 2 * i + c) += addition[2 * rows[i] + c];
+            local(2 * i + c, 2 * i + c) += addition[2 * rows[i] + c];
       }
       const Eigen::VectorXd scaling =
-        block.diagonal().cwiseSqrt().cwiseInverse();
-      block = scaling.asDiagonal() * block * scaling.asDiagonal();
-      block.diagonal().array() += shift;
-      const Eigen::LLT<Eigen::MatrixXd> factorization(block);
+        local.diagonal().cwiseSqrt().cwiseInverse();
+      local = scaling.asDiagonal() * local * scaling.asDiagonal();
+      local.diagonal().array() += shift;
+      const Eigen::LLT<Eigen::MatrixXd> factorization(local);
       // a matrix that is no positive definite one is not for this method at all
       if (factorization.info() != Eigen::Success)
         return;
-      block = factorization.solve(Eigen::MatrixXd::Identity(n, n));
-      if (block.cwiseAbs().rowwise().sum().maxCoeff() < least_norm)
+      local = factorization.solve(Eigen::MatrixXd::Identity(n, n));
+      if (local.cwiseAbs().rowwise().sum().maxCoeff() < least_norm)
         return;
-      block = scaling.asDiagonal() * block * scaling.asDiagonal();
+      local = scaling.asDiagonal() * local * scaling.asDiagonal();
 
       Patch patch;
       patch.begin = patch_rows.size();
@@ -216,7 +216,7 @@ namespace NMM
       patch.inverse = patch_inverses.size();
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int j = 0; j < n; ++j)
-          patch_inverses.push_back(0.5 * (block(i, j) + block(j, i)));
+          patch_inverses.push_back(0.5 * (local(i, j) + local(j, i)));
       patches.push_back(patch);
       if (patch_residual.size() < n)
       {

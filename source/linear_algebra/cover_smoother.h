@@ -15,55 +15,57 @@ namespace NMM
   namespace internal
   {
     /**
-     * Smoother of a multigrid method for a symmetric positive definite matrix of 2x2
-     * blocks, a block row for each cover: one Gauss-Seidel sweep over blocks, and exact
-     * solutions on the covers of each cut element, one after the other. The latter because
-     * what a small element holds has hardly any energy of its own while its covers reach out
-     * of the solid: Gauss-Seidel alone takes off 5 % of such an error a sweep, with them
-     * conjugate gradients need a third of the steps.
+     * Smoother of a multigrid method for a symmetric positive definite matrix of 2 x 2
+     * entries, a row of them for each cover. It consists of one Gauss-Seidel sweep over
+     * the rows, and of exact solutions on the covers of each cut element, one element after
+     * the other. The latter are needed because a small element has hardly any energy
+     * while its covers reach far out of the solid: Gauss-Seidel alone takes off 5 % of
+     * such an error in a sweep, and conjugate gradients need three times the iterations.
      *
      * post_smooth() is the transpose of pre_smooth(), so that with any symmetric positive
      * definite coarse correction between them the whole is symmetric and positive
-     * definite. For that on several ranks, each of which sweeps over its own rows, half the
-     * sum of the absolute values that belong to other ranks' columns is added to a row's
-     * diagonal (Baker, Falgout, Kolev & Yang, SIAM J. Sci. Comput. 33 (2011) 2864).
+     * definite. On several ranks each sweeps over its own rows; for the same to hold,
+     * half the sum of the absolute values in other ranks' columns is added to the
+     * diagonal of a row (Baker, Falgout, Kolev & Yang, SIAM J. Sci. Comput. 33 (2011)
+     * 2864).
      *
-     * Memory traffic is all that counts here: values are kept in single precision, 20 bytes
-     * for a block instead of 48 in an Epetra_CrsMatrix, of which the first sweep and its residual
-     * read half each and the last sweep all.
+     * Time is spent on reading memory. Values are therefore kept in single precision: 20
+     * bytes for an entry with its column instead of 48 in an Epetra_CrsMatrix. The first
+     * sweep and its residual read half of the entries each, the last sweep all.
      *
      * Lifetime: the matrix must outlive this object.
      */
     class CoverSmoother
     {
     public:
-      /// Of a matrix of BlockSystem.
+      /// @p matrix: made by CoverMatrixAssembler.
       CoverSmoother(const Epetra_CrsMatrix                  &matrix,
                     const CoverSystem                       &covers,
                     const dealii::AffineConstraints<double> &constraints);
 
-      /// Owned block rows, and columns of other ranks beside those.
+      /// Number of owned covers, which are the rows.
       unsigned int
       n_owned() const;
 
+      /// Number of columns: owned covers, then those of other ranks.
       unsigned int
       n_columns() const;
 
-      /// Unknowns of owned covers, then of others in the order of the matrix's
-      /// columns, to be multiplied by 2.
+      /// Set x = B b and the residual b - A x, where B is this smoother. @p rhs and
+      /// @p residual have two values for each row, @p x two for each column.
       void
       pre_smooth(const std::vector<float> &rhs,
                  std::vector<float>       &x,
                  std::vector<float>       &residual);
 
-      /// Smooth @p x, of which owned unknowns are given.
+      /// Set x = x + B^T (b - A x); given are the values of owned covers.
       void
       post_smooth(const std::vector<float> &rhs, std::vector<float> &x);
 
     private:
       struct Patch
       {
-        /// In patch_rows, and in patch_inverses.
+        /// Its part of patch_rows, and where its inverse begins in patch_inverses.
         unsigned int begin, end;
         std::size_t  inverse;
       };
@@ -81,14 +83,15 @@ namespace NMM
       void
       add_patch(const std::vector<unsigned int> &rows);
 
-      /// product = inverse * r on a patch.
+      /// Set product = inverse * r on a patch.
       void
       solve_patch(const Patch &patch, const float *r, float *product) const;
 
+      /// Get the values of covers of other ranks from those.
       void
       update_ghosts(std::vector<float> &x);
 
-      /// rhs - A x, in a row.
+      /// The two components of b - A x in a row.
       void
       residual_of_row(unsigned int              row,
                       const std::vector<float> &rhs,
@@ -98,10 +101,11 @@ namespace NMM
       const Epetra_CrsMatrix   *matrix;
       unsigned int              n_rows = 0, n_all = 0;
       std::vector<unsigned int> row_begin, columns;
-      /// Of each row: its diagonal block, and the first block of another rank's column.
+      /// For each row the position of its diagonal entry, and of the first entry in a
+      /// column of another rank.
       std::vector<unsigned int> diagonal, owned_end;
       std::vector<float>        values, inverse_diagonal;
-      /// What is added to the diagonal; empty on one rank.
+      /// What is added to the diagonal, empty on one rank; and x before smoothing.
       std::vector<float> addition, start;
 
       std::vector<Patch>        patches;

@@ -29,7 +29,7 @@ namespace NMM
     public:
       static constexpr unsigned int none = -1;
 
-      /// Collective. @p matrix: of second order, of BlockSystem.
+      /// Collective. @p matrix: of second order, of CoverMatrixAssembler.
       LinearCovers(const Epetra_CrsMatrix                  &matrix,
                    const CoverSystem                       &covers,
                    const dealii::AffineConstraints<double> &constraints);

@@ -10,9 +10,9 @@ namespace NMM
 {
   namespace internal
   {
-    /// The arrays of a matrix with a fixed pattern: for owned row r, entries begins[r] to
-    /// begins[r + 1] - 1 of the others; columns in local numbers. Asking
-    /// Epetra_CrsMatrix for each row takes longer than copying a row of a small block.
+    /// Arrays of a matrix whose pattern is fixed: the entries of owned row r are
+    /// begins[r] to begins[r + 1] - 1 of the other two; columns are local numbers.
+    /// Calling Epetra_CrsMatrix for each row takes longer than copying a short row.
     struct MatrixRows
     {
       explicit MatrixRows(const Epetra_CrsMatrix &matrix)

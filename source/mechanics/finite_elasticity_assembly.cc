@@ -31,7 +31,7 @@ namespace NMM
     , points(covers, problem)
     , tables(covers, quadrature)
     , dead_loads(covers, quadrature, problem, curve_conditions)
-    , block_system(covers, constraints)
+    , assembler(covers, constraints)
   {
     if (!may_float)
       check_no_block_floats(covers, problem, curve_conditions, points);
@@ -88,11 +88,11 @@ namespace NMM
         both.insert(both.end(),
                     covers->covers(e).begin(),
                     covers->covers(e).end());
-      block_system.couple({both.data(), both.size()});
+      assembler.couple({both.data(), both.size()});
     }
-    block_system.ignore_inhomogeneities();
-    block_system.assemble_in_place();
-    block_system.build();
+    assembler.ignore_inhomogeneities();
+    assembler.assemble_in_place();
+    assembler.build();
   }
 
 
@@ -100,7 +100,7 @@ namespace NMM
   FiniteElasticity::Data::set_active_blocks(const std::vector<bool> &blocks)
   {
     active_blocks = blocks;
-    block_system.set_active_rows(blocks);
+    assembler.set_active_rows(blocks);
     if (!blocks.empty() && active_elements.empty())
     {
       const ManifoldMesh       &mesh = covers->manifold_mesh();
@@ -409,7 +409,7 @@ namespace NMM
           return;
         const double f[2] = {-factor * load.forces[2 * i],
                              -factor * load.forces[2 * i + 1]};
-        block_system.add_rhs({&k, 1}, f);
+        assembler.add_rhs({&k, 1}, f);
         square += f[0] * f[0] + f[1] * f[1];
         work += f[0] * nodal[2 * k] + f[1] * nodal[2 * k + 1];
       };
@@ -438,7 +438,7 @@ namespace NMM
   Deformation
   FiniteElasticity::Data::assemble(const Task &task)
   {
-    block_system.reset(task.with_tangent);
+    assembler.reset(task.with_tangent);
     energies          = Energies();
     force_square      = 0.;
     largest_jump      = 0.;
@@ -470,9 +470,9 @@ namespace NMM
       dealii::Utilities::MPI::max(largest_jump, covers->communicator());
 
     if (task.with_tangent)
-      block_system.transfer(matrix, residual);
+      assembler.transfer(matrix, residual);
     else
-      block_system.transfer_rhs(residual);
+      assembler.transfer_rhs(residual);
     return Deformation::admissible;
   }
 } // namespace NMM

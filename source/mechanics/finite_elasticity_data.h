@@ -4,7 +4,7 @@
 #include <nmm/mechanics/finite_elasticity.h>
 
 #include <array>
-#include <linear_algebra/block_system.h>
+#include <linear_algebra/cover_matrix_assembler.h>
 #include <mechanics/conserving_terms.h>
 #include <mechanics/curve_conditions.h>
 #include <mechanics/edge_tables.h>
@@ -20,15 +20,15 @@ namespace NMM
   /// (finite_elasticity_assembly.cc).
   struct FiniteElasticity::Data
   {
-    using LocalDisplacement = internal::LocalDisplacement;
-    using LocalSystem       = internal::LocalSystem;
-    using EdgeTables        = internal::EdgeTables;
-    using CurveConditions   = internal::CurveConditions;
-    using PointTerms        = internal::PointTerms;
-    using ElementTables     = internal::ElementTables;
-    using DeadLoads         = internal::DeadLoads;
-    using BlockSystem       = internal::BlockSystem;
-    using ConservingLaw     = internal::ConservingLaw;
+    using LocalDisplacement    = internal::LocalDisplacement;
+    using LocalSystem          = internal::LocalSystem;
+    using EdgeTables           = internal::EdgeTables;
+    using CurveConditions      = internal::CurveConditions;
+    using PointTerms           = internal::PointTerms;
+    using ElementTables        = internal::ElementTables;
+    using DeadLoads            = internal::DeadLoads;
+    using CoverMatrixAssembler = internal::CoverMatrixAssembler;
+    using ConservingLaw        = internal::ConservingLaw;
 
     Data(const CoverSystem                       &covers,
          const QuadratureCollection              &quadrature,
@@ -167,9 +167,9 @@ namespace NMM
               const LocalSystem                    &local)
     {
       if (task.with_tangent)
-        block_system.add(covers, local.matrix, local.rhs);
+        assembler.add(covers, local.matrix, local.rhs);
       else
-        block_system.add_rhs(covers, local.rhs);
+        assembler.add_rhs(covers, local.rhs);
     }
 
     const CoverSystem                       *covers;
@@ -183,7 +183,7 @@ namespace NMM
     ElementTables                            tables;
     std::unique_ptr<EdgeTables>              edges;
     DeadLoads                                dead_loads;
-    BlockSystem                              block_system;
+    CoverMatrixAssembler                     assembler;
     LoadAmplitudes                           amplitudes;
     /// Empty, or by block; and which covers belong to them.
     std::vector<bool> absent_blocks, absent_covers, active_blocks;

@@ -5,8 +5,8 @@
 
 #include <cmath>
 #include <limits>
-#include <linear_algebra/block_system.h>
-#include <linear_algebra/mumps_solver.h>
+#include <linear_algebra/cover_matrix_assembler.h>
+#include <linear_algebra/direct_solver.h>
 #include <mechanics/curve_conditions.h>
 #include <mechanics/edge_tables.h>
 #include <mechanics/element_tables.h>
@@ -154,7 +154,7 @@ namespace NMM
     ElementTables                            tables;
     std::unique_ptr<EdgeTables>              edges;
     DeadLoads                                dead_loads;
-    BlockSystem                              block_system;
+    CoverMatrixAssembler                     assembler;
     DirectSolver                             direct_solver;
 
     /// Cauchy stress per volume point, and per side of each weak point [Pa].
@@ -183,7 +183,7 @@ namespace NMM
     , points(covers, problem)
     , tables(covers, quadrature)
     , dead_loads(covers, quadrature, problem, curve_conditions)
-    , block_system(covers, constraints)
+    , assembler(covers, constraints)
   {
     const ManifoldMesh &mesh = covers.manifold_mesh();
     if (!may_float)
@@ -208,9 +208,9 @@ namespace NMM
     nodal.assign(2 * covers.n_covers(), 0.);
     unsigned int both[LocalSystem::max_covers];
     for (const EdgeTables::Site &tie : edges->ties)
-      block_system.couple(gather(tie, nodal, none, both));
-    block_system.ignore_inhomogeneities();
-    block_system.build();
+      assembler.couple(gather(tie, nodal, none, both));
+    assembler.ignore_inhomogeneities();
+    assembler.build();
 
     const auto [first, last] = covers.locally_owned_elements();
     stress.reserve(tables.n_points());
@@ -424,7 +424,7 @@ namespace NMM
                           u,
                           /* with_tangent = */ true,
                           local);
-      block_system.add(covers->covers(e), local.matrix, local.rhs);
+      assembler.add(covers->covers(e), local.matrix, local.rhs);
     }
     for (const EdgeTables::Site &tie : edges->ties)
     {
@@ -432,12 +432,12 @@ namespace NMM
       local.reset(2 * n_per_cell);
       if (!add_weak_points(tie, load_factor, u, local))
         return false;
-      block_system.add(tie_covers, local.matrix, local.rhs);
+      assembler.add(tie_covers, local.matrix, local.rhs);
     }
     dead_loads.for_each_force(
       [&](const unsigned int k, const Tensor<1, 2> &force) {
         const double f[2] = {-load_factor * force[0], -load_factor * force[1]};
-        block_system.add_rhs({&k, 1}, f);
+        assembler.add_rhs({&k, 1}, f);
       });
     return true;
   }
@@ -554,13 +554,13 @@ namespace NMM
     Data          &d            = *data;
     const MPI_Comm communicator = d.covers->communicator();
     read_nodal_values(*d.covers, d.solution, d.nodal);
-    d.block_system.reset();
+    d.assembler.reset();
     const bool is_good = d.assemble(load_factor);
     AssertThrow(dealii::Utilities::MPI::min(is_good ? 1 : 0, communicator) == 1,
                 NumericalFailure("An element is turned inside out",
                                  "load factor " + std::to_string(load_factor),
                                  "take smaller steps, or finite kinematics"));
-    d.block_system.transfer(d.matrix, d.residual);
+    d.assembler.transfer(d.matrix, d.residual);
     d.correction.reinit(d.residual);
     if (solve)
       solve(d.matrix, d.residual, d.correction);

@@ -1,6 +1,6 @@
 #include <nmm/mechanics/mass_matrix.h>
 
-#include <linear_algebra/block_system.h>
+#include <linear_algebra/cover_matrix_assembler.h>
 #include <mechanics/ghost_terms.h>
 #include <mechanics/local_system.h>
 
@@ -57,10 +57,10 @@ namespace NMM
         if (pair.first >= first && pair.first < last)
           pairs.push_back(pair);
 
-    BlockSystem block_system(covers, constraints);
+    CoverMatrixAssembler assembler(covers, constraints);
     for (const auto &[e, f] : pairs)
-      block_system.couple({covers_of_pair(covers, e, f).data(), 2 * n});
-    block_system.build();
+      assembler.couple({covers_of_pair(covers, e, f).data(), 2 * n});
+    assembler.build();
 
     LocalSystem   local;
     ReferenceMass whole, cut;
@@ -86,7 +86,7 @@ namespace NMM
         for (unsigned int j = 0; j < n; ++j)
           for (unsigned int c = 0; c < 2; ++c)
             local.row(i, c)[2 * j + c] = density * mass->products[i][j];
-      block_system.add(covers.covers(e), local.matrix, local.rhs);
+      assembler.add(covers.covers(e), local.matrix, local.rhs);
     }
     if (!pairs.empty())
     {
@@ -95,14 +95,14 @@ namespace NMM
       {
         local.reset(2 * n);
         ghost_terms.add_mass(pair, local);
-        block_system.add(
-          {covers_of_pair(covers, pair.first, pair.second).data(), 2 * n},
-          local.matrix,
-          local.rhs);
+        assembler.add({covers_of_pair(covers, pair.first, pair.second).data(),
+                       2 * n},
+                      local.matrix,
+                      local.rhs);
       }
     }
 
     dealii::TrilinosWrappers::MPI::Vector rhs;
-    block_system.finish(matrix, rhs);
+    assembler.finish(matrix, rhs);
   }
 } // namespace NMM

@@ -1,7 +1,7 @@
 #include <nmm/mechanics/static_elasticity.h>
 
 #include <base/in_order.h>
-#include <linear_algebra/block_system.h>
+#include <linear_algebra/cover_matrix_assembler.h>
 #include <linear_algebra/linear_solver.h>
 #include <mechanics/boundary_terms.h>
 #include <mechanics/curve_conditions.h>
@@ -91,22 +91,22 @@ namespace NMM
     const PointTerms      points(*covers, *problem);
     check_no_block_floats(*covers, *problem, conditions, points);
 
-    auto        section = time_section(timer, "sparsity");
-    BlockSystem block_system(*covers, *constraints);
+    auto                 section = time_section(timer, "sparsity");
+    CoverMatrixAssembler assembler(*covers, *constraints);
     for_each_tie(*covers,
                  conditions,
                  [&](const unsigned int e, const ElementEdge &edge) {
                    const auto pair = covers_of_pair(*covers, e, edge.neighbor);
-                   block_system.couple({pair.data(), 2 * n_per_cell});
+                   assembler.couple({pair.data(), 2 * n_per_cell});
                  });
     for_each_ghost_pair(*covers,
                         ghost_penalty,
                         [&](const std::pair<unsigned int, unsigned int> &pair) {
                           const auto both =
                             covers_of_pair(*covers, pair.first, pair.second);
-                          block_system.couple({both.data(), 2 * n_per_cell});
+                          assembler.couple({both.data(), 2 * n_per_cell});
                         });
-    block_system.build();
+    assembler.build();
 
     section.reset();
     section = time_section(timer, "assembly");
@@ -133,33 +133,28 @@ namespace NMM
           points.add(e, system);
           ++point_element;
         }
-        block_system.add(covers->covers(e), system.matrix, system.rhs);
+        assembler.add(covers->covers(e), system.matrix, system.rhs);
       });
-    for_each_tie(*covers,
-                 conditions,
-                 [&](const unsigned int e, const ElementEdge &edge) {
-                   const auto pair = covers_of_pair(*covers, e, edge.neighbor);
-                   local.reset(2 * n_per_cell);
-                   edge_terms.add_tie(e, edge, local);
-                   block_system.add({pair.data(), 2 * n_per_cell},
-                                    local.matrix,
-                                    local.rhs);
-                 });
+    for_each_tie(
+      *covers, conditions, [&](const unsigned int e, const ElementEdge &edge) {
+        const auto pair = covers_of_pair(*covers, e, edge.neighbor);
+        local.reset(2 * n_per_cell);
+        edge_terms.add_tie(e, edge, local);
+        assembler.add({pair.data(), 2 * n_per_cell}, local.matrix, local.rhs);
+      });
     const GhostTerms ghost_terms(*covers, *problem);
-    for_each_ghost_pair(*covers,
-                        ghost_penalty,
-                        [&](const std::pair<unsigned int, unsigned int> &pair) {
-                          const auto both =
-                            covers_of_pair(*covers, pair.first, pair.second);
-                          local.reset(2 * n_per_cell);
-                          ghost_terms.add_stiffness(pair, local);
-                          block_system.add({both.data(), 2 * n_per_cell},
-                                           local.matrix,
-                                           local.rhs);
-                        });
+    for_each_ghost_pair(
+      *covers,
+      ghost_penalty,
+      [&](const std::pair<unsigned int, unsigned int> &pair) {
+        const auto both = covers_of_pair(*covers, pair.first, pair.second);
+        local.reset(2 * n_per_cell);
+        ghost_terms.add_stiffness(pair, local);
+        assembler.add({both.data(), 2 * n_per_cell}, local.matrix, local.rhs);
+      });
     section.reset();
     section = time_section(timer, "to Trilinos");
-    block_system.finish(matrix, rhs);
+    assembler.finish(matrix, rhs);
   }
 
 

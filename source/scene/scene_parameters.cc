@@ -224,12 +224,14 @@ namespace NMM
                       selection(solver_types),
                       "direct: MUMPS; iterative: conjugate gradients with "
                       "algebraic multigrid, which needs less memory; "
-                      "automatic: direct below Direct limit unknowns.");
+                      "automatic: direct up to Direct limit unknowns, above "
+                      "it iterative, and direct after all if that does not "
+                      "converge.");
     prm.declare_entry("Direct limit",
                       std::to_string(defaults.direct_limit),
                       Patterns::Integer(0),
-                      "automatic: unknowns from which on the iterative solver "
-                      "is used.");
+                      "automatic: unknowns above which the iterative solver is "
+                      "used.");
     prm.declare_entry("Tolerance",
                       dealii::Patterns::Tools::to_string(defaults.tolerance),
                       Patterns::Double(0, 1),
@@ -237,8 +239,8 @@ namespace NMM
     prm.declare_entry("Maximum iterations",
                       std::to_string(defaults.max_iterations),
                       Patterns::Integer(1),
-                      "iterative: iterations after which it gives up (exit "
-                      "code 3).");
+                      "Iterations after which the iterative solver gives up "
+                      "(exit code 3; automatic: the direct one follows).");
     prm.declare_entry("Condition number",
                       "false",
                       Patterns::Bool(),

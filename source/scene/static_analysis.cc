@@ -36,10 +36,14 @@ namespace NMM
         Stage                    stage(progress, "solution");
         const LinearSolverReport report =
           elasticity->solve(scene.parameters().solver);
-        stage.remark(report.direct
+        const std::string iterations = "conjugate gradients, " +
+                                       std::to_string(report.n_iterations) +
+                                       " iterations";
+        stage.remark(!report.direct ? iterations
+                     : report.n_iterations == 0
                        ? "direct solver"
-                       : "conjugate gradients, " +
-                           std::to_string(report.n_iterations) + " iterations");
+                       : "direct solver, since " + iterations +
+                           " did not converge");
         summary.add("solver_direct", report.direct ? 1. : 0.);
         summary.add("solver_iterations", report.n_iterations);
         summary.add("solver_relative_residual", report.relative_residual);

@@ -288,7 +288,7 @@ namespace NMM
 
     void
     NewtonGroups::unite(const std::vector<bool> &blocks,
-                        const BlockMatrix       &matrix)
+                        const BodyMatrix        &matrix)
     {
       take_neighbours(blocks);
       for (unsigned int b = 0; b < all_blocks.size(); ++b)

@@ -2,7 +2,7 @@
 #define nmm_source_solution_newton_groups_h
 
 #include <nmm/base/types.h>
-#include <nmm/linear_algebra/block_matrix.h>
+#include <nmm/linear_algebra/body_matrix.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
@@ -85,7 +85,7 @@ namespace NMM
 
       /// The same of a matrix that has no other blocks.
       void
-      unite(const std::vector<bool> &blocks, const BlockMatrix &matrix);
+      unite(const std::vector<bool> &blocks, const BodyMatrix &matrix);
 
       /// With which each block was coupled when its rows were new.
       const std::vector<std::vector<unsigned int>> &

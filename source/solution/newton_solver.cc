@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <linear_algebra/mumps_solver.h>
+#include <linear_algebra/direct_solver.h>
 #include <solution/newton_groups.h>
 #include <utility>
 
@@ -221,8 +221,8 @@ namespace NMM
         groups.lose_tangents();
       before = version;
       groups.wake(touched);
-      if (const BlockMatrix *by_blocks = system->block_tangent())
-        groups.unite(blocks, *by_blocks);
+      if (const BodyMatrix *body_matrix = system->body_tangent())
+        groups.unite(blocks, *body_matrix);
       else
         groups.unite(blocks, system->tangent(), system->coupled_blocks());
     } while (!groups.have_tangents());
@@ -265,8 +265,8 @@ namespace NMM
     else if (version != system->pattern_version())
       direct_solver->forget_analysis();
     version = system->pattern_version();
-    if (const BlockMatrix *by_blocks = system->block_tangent())
-      direct_solver->factorize(*by_blocks, groups.corrected().chosen());
+    if (const BodyMatrix *body_matrix = system->body_tangent())
+      direct_solver->factorize(*body_matrix, groups.corrected().chosen());
     else
       direct_solver->factorize(system->tangent(),
                                groups.corrected().chosen(),

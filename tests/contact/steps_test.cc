@@ -319,7 +319,7 @@ namespace
       for (const unsigned int k : bodies->covers.covers(e))
         unknown_to_block[2 * k] = unknown_to_block[2 * k + 1] =
           bodies->mesh.block(e);
-    ASSERT_TRUE(BlockMatrix::is_suitable(unknown_to_block));
+    ASSERT_TRUE(BodyMatrix::is_suitable(unknown_to_block));
     const unsigned int below =
       bodies->mesh.block(bodies->mesh.find_element({1.5, 0.5}));
     ContactParameters parameters = contact_parameters(1e8, reach);
@@ -332,13 +332,13 @@ namespace
           held.add_line(i);
       held.close();
       Contact      contact(bodies->surface, held, parameters);
-      BlockMatrix  blocks(unknown_to_block);
+      BodyMatrix   blocks(unknown_to_block);
       const Vector deep = sunk_by(1.2 * gap);
-      const auto   step = [&](BlockMatrix *by_blocks) {
+      const auto   step = [&](BodyMatrix *body_matrix) {
         contact.detect(sunk_by(0.), reach);
         contact.begin_step(sunk_by(0.), 0.);
         contact.set_time(h);
-        contact.assemble_between(deep, h, true, 0.5, by_blocks);
+        contact.assemble_between(deep, h, true, 0.5, body_matrix);
       };
       step(nullptr);
       Contact::Matrix sparse;

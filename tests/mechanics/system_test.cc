@@ -221,6 +221,32 @@ TEST(System, IterationThatStopsEarlyIsReportedMPI)
 }
 
 
+// Above the limit the automatic choice is iterative; what does not converge is solved
+// directly after all.
+TEST(System, AutomaticSolverMPI)
+{
+  const auto             model = loaded_jointed_box(MPI_COMM_WORLD);
+  LinearSolverParameters parameters;
+  LinearSolverReport     report = model->solve(parameters);
+  EXPECT_TRUE(report.direct);
+  EXPECT_EQ(report.n_iterations, 0u);
+
+  parameters.direct_limit = model->covers.n_global_covers();
+  report                  = model->solve(parameters);
+  EXPECT_FALSE(report.direct);
+  EXPECT_GT(report.n_iterations, 0u);
+
+  parameters.max_iterations = 2;
+  report                    = model->solve(parameters);
+  EXPECT_TRUE(report.direct);
+  EXPECT_EQ(report.n_iterations, 2u);
+  // as in DirectAndIterativeAgreeMPI: rounding
+  EXPECT_LT(report.relative_residual, 1e-12);
+  parameters.direct_limit = 2 * model->covers.n_global_covers();
+  EXPECT_EQ(model->solve(parameters).n_iterations, 0u);
+}
+
+
 namespace
 {
   std::string

@@ -5,7 +5,7 @@
 #include <nmm/contact/contact_integration.h>
 #include <nmm/contact/contact_law.h>
 #include <nmm/contact/contact_surface.h>
-#include <nmm/linear_algebra/block_matrix.h>
+#include <nmm/linear_algebra/body_matrix.h>
 
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
@@ -288,7 +288,7 @@ namespace NMM
      * tangent() is the derivative by the mean displacement at given begin: of forces
      * in the mean position and gaps at the end, so it is not symmetric.
      * Multipliers are not used.
-     * @p tangent_factor: tangent() is that many times the derivative. @p by_blocks: to
+     * @p tangent_factor: tangent() is that many times the derivative. @p body_matrix: to
      * which the tangent is added instead, and tangent() means nothing. On one rank, if
      * constraints couple no unknowns; its blocks are the blocks of the mesh.
      */
@@ -297,7 +297,7 @@ namespace NMM
                      double        time,
                      bool          with_tangent,
                      double        tangent_factor = 1.,
-                     BlockMatrix  *by_blocks      = nullptr);
+                     BodyMatrix   *body_matrix    = nullptr);
 
     /// @name Blocks that are not moved for a while
     /// @{

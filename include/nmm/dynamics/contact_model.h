@@ -109,8 +109,8 @@ namespace NMM
     tangent_to_add_to(double factor) override;
 
     /// If blocks are small, and nothing but contact couples them.
-    BlockMatrix *
-    block_tangent() override;
+    BodyMatrix *
+    body_tangent() override;
 
     void
     forget_tangent() override;

@@ -4,7 +4,7 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/base/step_fault.h>
 #include <nmm/base/types.h>
-#include <nmm/linear_algebra/block_matrix.h>
+#include <nmm/linear_algebra/body_matrix.h>
 #include <nmm/materials/hyperelasticity.h>
 
 #include <deal.II/base/index_set.h>
@@ -138,11 +138,11 @@ namespace NMM
 
     /**
      * The tangent of the last assemble_between() for a caller who was to add to it, as
-     * said above, if that is a matrix of blocks, and tangent() is not made; otherwise
+     * said above, if that is a body matrix, and tangent() is not made; otherwise
      * null.
      */
-    virtual BlockMatrix *
-    block_tangent()
+    virtual BodyMatrix *
+    body_tangent()
     {
       return nullptr;
     }

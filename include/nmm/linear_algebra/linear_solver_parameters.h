@@ -3,43 +3,70 @@
 
 namespace NMM
 {
-  /// How the linear system is solved.
+  /**
+   * How the linear system of a static analysis with small displacements is solved.
+   *
+   * Processor time of a solution of second order, set-up included [s], and memory above
+   * that of the assembled system [MB]. "Jointed" is rock of 290 blocks that are tied to
+   * each other, the beam is 40 times as long as high, the disk 50,000 times as soft as
+   * the box around it:
+   *
+   * |         | unknowns | direct | iterative | direct | iterative |
+   * |---------|---------:|-------:|----------:|-------:|----------:|
+   * | ring    |   91,020 |   0.57 |      0.28 |     99 |         7 |
+   * | ring    |  177,772 |   1.41 |      0.80 |    205 |        11 |
+   * | ring    |  393,284 |   3.06 |      1.73 |    408 |        20 |
+   * | beam    |  111,634 |   0.32 |      0.42 |     78 |        11 |
+   * | disk    |  123,470 |   0.84 |      0.65 |    145 |        10 |
+   * | disk    |  235,442 |   1.86 |      1.36 |    284 |        17 |
+   * | jointed |   72,160 |   0.48 |      1.30 |     65 |         3 |
+   * | jointed |  135,174 |   1.04 |      2.57 |    135 |         4 |
+   * | jointed |  297,242 |   2.76 |      4.35 |    339 |         4 |
+   *
+   * Whole bodies are solved faster by iterations from some 20,000 unknowns on, rock whose
+   * joints are as close as its cells from some 500,000 on. The limit is between these:
+   * neither loses more than half of a few seconds.
+   */
   struct LinearSolverParameters
   {
     enum class Type
     {
-      /// direct below `direct_limit` unknowns, else iterative.
+      /// Direct up to `direct_limit` unknowns, iterative above. If iterations do
+      /// not converge, direct.
       automatic,
       /// MUMPS, symmetric factorization.
       direct,
-      /// Conjugate gradients with ML, rigid-body modes as near-null space.
+      /// Conjugate gradients, preconditioned by TwoLevelPreconditioner for second and
+      /// by ML (smoothed aggregation with rigid-body modes) for first order.
       iterative
     };
     Type type = Type::automatic;
-    /// MUMPS solves what is hard to precondition, too, as long as its factors fit
-    /// into memory, about 2 kB per unknown. Of second order iterations take no
-    /// longer from about 100,000 unknowns on, and less memory: 3.1 s and 530 MB
-    /// instead of 3.9 s and 940 MB at 401,000 unknowns of the ring.
-    unsigned int direct_limit = 1000000;
-    /// Relative residual of the iterative solver.
-    double       tolerance      = 1e-11;
+    /// Unknowns up to which `automatic` is direct; see the table.
+    unsigned int direct_limit = 100000;
+    /// Relative residual |b - A x| / |b| at which iterations end [-].
+    double tolerance = 1e-11;
+    /// Iterations after which they count as not converging.
     unsigned int max_iterations = 1000;
-    /// For programs: is estimate_condition_number() wanted, and from which
-    /// value [-] on should they warn? With double precision about 16 minus the
+    /// For programs: whether to call estimate_condition_number(), and the value [-]
+    /// above which they warn. With double precision about 16 minus the
     /// number's exponent digits are left in the solution.
     bool   estimate_condition = false;
     double condition_limit    = 1e10;
   };
 
+  /// What a solution took.
   struct LinearSolverReport
   {
-    bool         direct            = true;
-    unsigned int n_iterations      = 0;
-    double       relative_residual = 0.;
+    /// The direct solver found the solution. If `n_iterations` is not 0, iterations
+    /// had been tried before and did not converge.
+    bool         direct       = true;
+    unsigned int n_iterations = 0;
+    /// |b - A x| / |b| [-].
+    double relative_residual = 0.;
     /// Entries of the factors, of all ranks; 0: iterative.
     double n_factor_entries = 0.;
-    /// Wall times of ordering and symbolic factorization, of factorization or making the
-    /// preconditioner, and of substitution or iterations [s].
+    /// Wall times of ordering and symbolic factorization, of factorization or of making
+    /// the preconditioner, and of substitution or iterations [s].
     double analysis_time = 0., factorization_time = 0., solution_time = 0.;
   };
 } // namespace NMM

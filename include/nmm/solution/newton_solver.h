@@ -3,7 +3,7 @@
 
 #include <nmm/base/assembly.h>
 #include <nmm/base/types.h>
-#include <nmm/linear_algebra/block_matrix.h>
+#include <nmm/linear_algebra/body_matrix.h>
 
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
@@ -97,10 +97,10 @@ namespace NMM
     {
     }
 
-    /// The last tangent as a matrix of blocks, those of blocks_of_unknowns(): what is not
+    /// The last tangent as a body matrix, those of blocks_of_unknowns(): what is not
     /// coupled is not in it. tangent() is not asked for then. Null: it is tangent().
-    virtual const BlockMatrix *
-    block_tangent() const
+    virtual const BodyMatrix *
+    body_tangent() const
     {
       return nullptr;
     }

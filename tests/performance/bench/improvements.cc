@@ -207,8 +207,6 @@ namespace NMM
            "displacements of first order on the same covers are the coarse "
            "space, cut elements are solved exactly, and the smoother keeps the "
            "matrix in single precision.\n"
-           "- MUMPS: large static systems are ordered by nested dissection "
-           "at the places of their covers instead of by PORD.\n"
            "- Contact and Newton's method: block rows, forces and contact of "
            "groups that are not being solved for are left alone, and systems "
            "of many small groups go to KLU. Steps of heaps are not quite the "

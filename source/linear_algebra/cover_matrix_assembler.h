@@ -1,5 +1,5 @@
-#ifndef nmm_source_linear_algebra_block_system_h
-#define nmm_source_linear_algebra_block_system_h
+#ifndef nmm_source_linear_algebra_cover_matrix_assembler_h
+#define nmm_source_linear_algebra_cover_matrix_assembler_h
 
 #include <nmm/covers/cover_system.h>
 
@@ -20,58 +20,58 @@ namespace NMM
     struct MatrixRows;
 
     /**
-     * The linear system while it is assembled: a row-compressed matrix of 2x2
-     * blocks, one block row per physical cover that this rank's elements touch,
-     * with constraints resolved on the way in.
+     * The linear system that covers assemble into: a row-compressed matrix of 2 x 2
+     * entries, one row for each physical cover that this rank's elements touch, and a
+     * right-hand side. Constraints are resolved on the way in: a cover k with constrained
+     * unknowns is replaced by
+     * @f[ u_k = \sum_r W_{kr} u_r + g_k, @f]
+     * and its own row has a diagonal entry only.
      *
-     * A contribution names covers and a dense local matrix. Covers with
-     * constrained unknowns are replaced by what they are constrained to
-     * (u_k = sum_r W_kr u_r + g_k); their own rows keep a diagonal entry only.
-     * The order of calls is couple()*, build(), add()*, finish(). To assemble
-     * again with the same pattern: couple()*, build(), then any number of times
-     * reset(), add()*, transfer().
+     * Order of calls: couple() for each set of coupled covers, build(), add() for each
+     * contribution, finish(). To assemble several times with the same pattern: couple(),
+     * build(), then each time reset(), add(), transfer().
      *
-     * Against deal.II's DynamicSparsityPattern + AffineConstraints +
-     * TrilinosWrappers::SparseMatrix::add(), all work is per cover instead of
-     * per unknown (a quarter of the entries), rows are written where their
-     * final place in memory is, and nothing is looked up by global number.
+     * Compared with deal.II's DynamicSparsityPattern, AffineConstraints and
+     * TrilinosWrappers::SparseMatrix::add(), all work is per cover instead of per unknown
+     * (a quarter of the entries), and no entry is searched by its global number.
      *
      * Rows of covers that other ranks own are collected here and sent to their
      * owners, the pattern in build(), the values in finish() or transfer().
      */
-    class BlockSystem
+    class CoverMatrixAssembler
     {
     public:
-      BlockSystem(const CoverSystem                       &covers,
-                  const dealii::AffineConstraints<double> &constraints);
+      /// Owned elements are coupled already. @p covers has to outlive this.
+      CoverMatrixAssembler(
+        const CoverSystem                       &covers,
+        const dealii::AffineConstraints<double> &constraints);
 
-      /// From now on constraints are u_k = sum_r W_kr u_r: for unknowns that are
-      /// increments of a solution which satisfies the inhomogeneous ones.
+      /// From now on g_k = 0: for unknowns that are increments of a solution which
+      /// satisfies the inhomogeneous constraints.
       void
       ignore_inhomogeneities();
 
-      /// Rows to which nothing is added stay empty, for matrices that are added to
+      /// Leave rows empty to which nothing is added, for matrices that are added to
       /// others. Otherwise they get a diagonal entry.
       void
       leave_empty_rows();
 
-      /// On one rank, from the second assembly on: add() writes into the matrix that
-      /// transfer() has made, which therefore has to be there, and be the same, as
-      /// long as this; its values are those of the last reset() and what was added since.
+      /// On one rank, write from the second assembly on into the matrix that transfer()
+      /// has made. That matrix has to outlive this; its values are then those of the
+      /// last reset() and of what was added since.
       void
       assemble_in_place();
 
-      /// All pairs of @p covers will be coupled. Owned elements are coupled
-      /// already.
+      /// Couple all pairs of @p covers.
       void
       couple(dealii::ArrayView<const unsigned int> covers);
 
-      /// Make the sparsity pattern.
+      /// Make the sparsity pattern. Collective.
       void
       build();
 
       /**
-       * Add a local matrix, row-major, (2n x 2n), and right-hand side, (2n), to
+       * Add a local matrix, row by row, (2n x 2n), and right-hand side, (2n), to
        * the n @p covers; unknown c of cover i is row 2i + c. A cover may be
        * named twice.
        */
@@ -80,47 +80,47 @@ namespace NMM
           const double                         *matrix,
           const double                         *rhs);
 
-      /// The same without a matrix; for constraints without inhomogeneities.
+      /// Add a right-hand side only; for constraints without inhomogeneities.
       void
       add_rhs(dealii::ArrayView<const unsigned int> covers, const double *rhs);
 
-      /// Exchange with other ranks, hand over to Trilinos and release the memory.
+      /// The same as transfer() to a new matrix, and release the memory. Collective.
       void
       finish(dealii::TrilinosWrappers::SparseMatrix &matrix,
              dealii::TrilinosWrappers::MPI::Vector  &rhs);
 
-      /// From now on rows of covers in other blocks (ManifoldMesh::block()) than
-      /// these are neither reset nor added to nor handed over: in a matrix that is made
-      /// in place they are as they were. Empty: all rows count. One rank.
+      /// From now on reset, add to and transfer rows of covers in these blocks
+      /// (ManifoldMesh::block()) only; empty: all. Other rows of a matrix that is
+      /// assembled in place keep their values. One rank.
       void
       set_active_rows(const std::vector<bool> &blocks);
 
-      /// Start anew with zero values, of the matrix only if @p with_matrix.
+      /// Set all values to zero, those of the matrix only if @p with_matrix.
       void
       reset(bool with_matrix = true);
 
       /**
-       * Exchange with other ranks and hand over to Trilinos. A @p matrix that
-       * is empty gets its pattern here; otherwise it must be one that an earlier
-       * call made, and only its values are written.
+       * Send values to the ranks that own them and copy the result to Trilinos. A
+       * @p matrix that is empty gets its pattern here; otherwise it must be one that an
+       * earlier call made, and only its values are written. Collective.
        */
       void
       transfer(dealii::TrilinosWrappers::SparseMatrix &matrix,
                dealii::TrilinosWrappers::MPI::Vector  &rhs);
 
-      /// The same for the right-hand side alone.
+      /// The same for the right-hand side only.
       void
       transfer_rhs(dealii::TrilinosWrappers::MPI::Vector &rhs);
 
     private:
-      /// u_k += block * u_cover.
+      /// A term W_kr u_r, where r is the cover and W_kr the entry, by rows.
       struct Term
       {
         unsigned int          cover;
-        std::array<double, 4> block;
+        std::array<double, 4> entry;
       };
 
-      /// What constrained covers stand for, one after the other.
+      /// Terms W_kr u_r and g_k of the constrained covers, one cover after the other.
       struct Expansion
       {
         std::vector<unsigned int>          begin;
@@ -132,8 +132,7 @@ namespace NMM
       void
       read_constraints(const dealii::AffineConstraints<double> &constraints);
 
-      /// The free covers that @p covers stand for, each once, in the order in
-      /// which they are met; appended to @p expanded.
+      /// Append to @p expanded the covers r of the terms of @p covers, each once.
       void
       expand(dealii::ArrayView<const unsigned int> covers,
              std::vector<unsigned int>            &expanded) const;
@@ -179,21 +178,21 @@ namespace NMM
       bool
       has_constrained(dealii::ArrayView<const unsigned int> covers) const;
 
-      /// Block of a row, of which entry (c, d) is at [c * stride + d].
+      /// Entry in a row and column, whose component (c, d) is at [c * stride + d].
       double *
-      find_block(unsigned int row, unsigned int column, unsigned int &stride);
+      find_entry(unsigned int row, unsigned int column, unsigned int &stride);
 
-      /// Row of a cover by its global number, owned or in ghost_covers.
+      /// Row of a cover, owned or in ghost_covers, that has this global number.
       unsigned int
       row_of(unsigned int global_cover) const;
 
       const CoverSystem *covers;
-      /// The first owned cover's global number and its number here.
+      /// Global and local number of the first owned cover.
       unsigned int              first_owned, first_owned_here, n_owned;
       std::vector<unsigned int> cover_to_expansion;
       Expansion                 expansion;
 
-      /// Sets of mutually coupled covers; released by build().
+      /// Sets of coupled covers, released by build().
       std::vector<unsigned int> stencil_begin, stencil_covers;
 
       /// Local numbers: owned covers first, then others, ascending.
@@ -202,30 +201,30 @@ namespace NMM
       unsigned int              n_rows            = 0;
       bool                      leaves_empty_rows = false;
 
-      /// Block rows: columns in local numbers, ascending. Values lie as in the
-      /// scalar matrix: both scalar rows of a block row one after the other.
+      /// For each row of entries its columns, local numbers, ascending. Values are in the
+      /// order of the scalar matrix: both scalar rows of a row one after the other.
       std::vector<std::size_t>  row_begin;
       std::vector<unsigned int> columns;
       std::vector<double>       values;
       std::vector<double>       right_hand_side;
-      /// Where values are: in the vector, or in the matrix.
-      double *entries          = nullptr;
-      bool    is_made_in_place = false;
-      /// Block rows that count.
+      /// Where the values are: in the vector above, or in the matrix of transfer().
+      double     *entries          = nullptr;
+      bool        is_made_in_place = false;
       ActiveItems active_rows;
-      /// By block row; empty: all are.
+      /// For each row, whether it is active; empty: all are.
       std::vector<std::uint8_t> is_active_row;
 
-      /// Per rank: rows sent and received, each as cover, n, n columns (global).
+      /// For each rank the rows that are sent and received, each as its cover, the number
+      /// n of columns, and n columns (global numbers).
       std::vector<std::pair<unsigned int, std::vector<unsigned int>>> sent,
         received;
 
-      /// A term of a constrained cover, or the identity of a free one, for the
-      /// free cover at a position in local_covers.
+      /// A term of a constrained cover, or the identity of a free one. The cover r is at
+      /// a position in local_covers.
       struct Part
       {
         unsigned int  position;
-        const double *block;
+        const double *entry;
       };
 
       /// Scratch of add_constrained().

@@ -1,9 +1,11 @@
 #include <nmm/base/exceptions.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <base/disjoint_sets.h>
 #include <klu.h>
-#include <linear_algebra/klu_solver.h>
+#include <linear_algebra/klu_factorization.h>
 #include <linear_algebra/matrix_rows.h>
 #include <numeric>
 #include <vector>
@@ -12,13 +14,13 @@ namespace NMM
 {
   namespace internal
   {
-    struct KluSolver::Data
+    struct KluFactorization::Data
     {
       Data()
       {
         klu_defaults(&common);
-        // forces over displacements everywhere: rows need no scaling, and neither does what
-        // we put together need checking
+        // All rows are forces over displacements, so that none needs scaling; and the
+        // input needs no check.
         common.scale = -1;
       }
 
@@ -38,13 +40,12 @@ namespace NMM
         klu_free_symbolic(&symbolic, &common);
       }
 
-      /// Call action(row, column, value) where the value is not zero, both being of
-      /// @p rows and counted among them, until it returns false. False if it
-      /// did.
+      /// Call action(row, column, value) for each value in chosen rows and columns that is
+      /// not zero, until it returns false. Rows and columns are counted among the chosen
+      /// ones. Returns whether all calls returned true.
       template <typename Action>
       bool
-      for_each_value(const dealii::TrilinosWrappers::SparseMatrix &matrix,
-                     const Action                                 &action) const
+      for_each_value(const Matrix &matrix, const Action &action) const
       {
         const MatrixRows entries(matrix);
         for (unsigned int k = 0; k < rows.size(); ++k)
@@ -59,8 +60,9 @@ namespace NMM
         return true;
       }
 
+      /// Choose the rows @p some (empty: all) of a matrix with @p n rows.
       void
-      number_rows(const unsigned int n, const std::vector<unsigned int> &some)
+      choose_rows(const unsigned int n, const std::vector<unsigned int> &some)
       {
         for (const unsigned int row : rows)
           numbers[row] = left_out;
@@ -75,84 +77,106 @@ namespace NMM
           numbers[rows[k]] = k;
       }
 
+      /// Whether no group of unknowns that are coupled by values has more than
+      /// max_group. Stops at the first that has.
+      bool
+      has_small_groups(const Matrix &matrix);
+
+      /// Read the matrix and order it. Returns the operations of the factorization per
+      /// unknown.
+      double
+      analyze(const Matrix &matrix);
+
       static constexpr unsigned int left_out = -1;
 
+      bool          analysis_is_needed = false;
       klu_common    common;
       klu_symbolic *symbolic = nullptr;
       klu_numeric  *numeric  = nullptr;
-      /// Rows of A, which KLU takes for columns of its transpose.
+      /// The chosen part by rows, which KLU takes for the columns of its transpose.
       std::vector<int>    begins, columns;
       std::vector<double> values;
-      /// Of unknowns that are coupled, and the size of each set at its least member.
+      /// Sets of coupled unknowns, and the size of each set at its least member.
       DisjointSets              groups;
       std::vector<unsigned int> sizes;
-      /// Rows that are solved for, and the number of each row among them.
+      /// Chosen rows, and the position of each row among them.
       std::vector<unsigned int> rows, numbers;
       std::vector<double>       scratch;
     };
 
 
-    KluSolver::KluSolver()
+    KluFactorization::KluFactorization()
       : data(std::make_unique<Data>())
     {
     }
 
 
-    KluSolver::~KluSolver() = default;
+    KluFactorization::~KluFactorization() = default;
+
+
+    void
+    KluFactorization::set_analysis_is_needed(const bool is_needed)
+    {
+      data->analysis_is_needed = is_needed;
+    }
 
 
     bool
-    KluSolver::is_suitable(const dealii::TrilinosWrappers::SparseMatrix &matrix,
-                           const std::vector<unsigned int>              &rows)
+    KluFactorization::Data::has_small_groups(const Matrix &matrix)
     {
-      Data &d = *data;
-      d.number_rows(matrix.m(), rows);
-      d.groups.reinit(d.rows.size());
-      d.sizes.assign(d.rows.size(), 1);
-      return d.for_each_value(
+      groups.reinit(rows.size());
+      sizes.assign(rows.size(), 1);
+      return for_each_value(
         matrix,
         [&](const unsigned int row, const unsigned int column, const double) {
-          const unsigned int a = d.groups.find(row), b = d.groups.find(column);
+          const unsigned int a = groups.find(row), b = groups.find(column);
           if (a == b)
             return true;
-          d.groups.join(a, b);
-          d.sizes[std::min(a, b)] = d.sizes[a] + d.sizes[b];
-          return d.sizes[std::min(a, b)] <= max_group;
+          groups.join(a, b);
+          sizes[std::min(a, b)] = sizes[a] + sizes[b];
+          return sizes[std::min(a, b)] <= max_group;
         });
     }
 
 
     double
-    KluSolver::analyze(const dealii::TrilinosWrappers::SparseMatrix &matrix,
-                       const std::vector<unsigned int>              &rows)
+    KluFactorization::Data::analyze(const Matrix &matrix)
     {
-      Data &d = *data;
-      d.number_rows(matrix.m(), rows);
-      const int n = d.rows.size();
-      d.begins.assign(1, 0);
-      d.columns.clear();
-      d.values.clear();
-      d.for_each_value(matrix,
-                       [&](const unsigned int row,
-                           const unsigned int column,
-                           const double       value) {
-                         d.begins.resize(row + 1, d.columns.size());
-                         d.columns.push_back(column);
-                         d.values.push_back(value);
-                         return true;
-                       });
-      d.begins.resize(n + 1, d.columns.size());
+      const int n = rows.size();
+      begins.assign(1, 0);
+      columns.clear();
+      values.clear();
+      for_each_value(matrix,
+                     [&](const unsigned int row,
+                         const unsigned int column,
+                         const double       value) {
+                       begins.resize(row + 1, columns.size());
+                       columns.push_back(column);
+                       values.push_back(value);
+                       return true;
+                     });
+      begins.resize(n + 1, columns.size());
 
-      d.clear();
-      d.symbolic = klu_analyze(n, d.begins.data(), d.columns.data(), &d.common);
-      return d.symbolic == nullptr || n == 0 ? 0. : d.symbolic->est_flops / n;
+      clear();
+      symbolic = klu_analyze(n, begins.data(), columns.data(), &common);
+      return symbolic == nullptr || n == 0 ? 0. : symbolic->est_flops / n;
     }
 
 
-    void
-    KluSolver::factorize()
+    bool
+    KluFactorization::factorize(const Matrix                    &matrix,
+                                const std::vector<unsigned int> &rows)
     {
       Data &d = *data;
+      if (dealii::Utilities::MPI::n_mpi_processes(
+            matrix.get_mpi_communicator()) > 1)
+        return false;
+      d.choose_rows(matrix.m(), rows);
+      const bool has_small_groups = d.has_small_groups(matrix);
+      if (!has_small_groups && !d.analysis_is_needed)
+        return false;
+      if (d.analyze(matrix) > max_operations && !has_small_groups)
+        return false;
       if (d.symbolic != nullptr)
         d.numeric = klu_factor(d.begins.data(),
                                d.columns.data(),
@@ -169,11 +193,12 @@ namespace NMM
                         "held and has an area above rounding"
                       : "the system may be too large for this machine's "
                         "memory"));
+      return true;
     }
 
 
     double
-    KluSolver::n_factor_entries() const
+    KluFactorization::n_factor_entries() const
     {
       const klu_numeric *factors = data->numeric;
       return factors == nullptr ? 0. : double(factors->lnz) + factors->unz;
@@ -181,9 +206,9 @@ namespace NMM
 
 
     void
-    KluSolver::solve(const dealii::TrilinosWrappers::MPI::Vector &rhs,
-                     dealii::TrilinosWrappers::MPI::Vector       &solution,
-                     const std::vector<bool> & /*blocks*/)
+    KluFactorization::solve(const Vector &rhs,
+                            Vector       &solution,
+                            const std::vector<bool> & /*bodies*/)
     {
       Data &d = *data;
       d.scratch.clear();

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <limits>
-#include <linear_algebra/block_system.h>
+#include <linear_algebra/cover_matrix_assembler.h>
 
 namespace NMM
 {
   namespace internal
   {
-    BlockSystem::BlockSystem(
+    CoverMatrixAssembler::CoverMatrixAssembler(
       const CoverSystem                       &covers,
       const dealii::AffineConstraints<double> &constraints)
       : covers(&covers)
@@ -37,7 +37,7 @@ namespace NMM
 
 
     void
-    BlockSystem::read_constraints(
+    CoverMatrixAssembler::read_constraints(
       const dealii::AffineConstraints<double> &constraints)
     {
       // unknowns of one cover are constrained by neighbouring lines
@@ -72,7 +72,7 @@ namespace NMM
                        [cover](const Term &t) { return t.cover == cover; });
         if (term == terms[x].end())
           term = terms[x].insert(term, Term{cover, {{0., 0., 0., 0.}}});
-        term->block[2 * component + unknown % 2] += weight;
+        term->entry[2 * component + unknown % 2] += weight;
       };
       for (const auto &line : constraints.get_lines())
       {
@@ -97,7 +97,7 @@ namespace NMM
 
 
     void
-    BlockSystem::ignore_inhomogeneities()
+    CoverMatrixAssembler::ignore_inhomogeneities()
     {
       std::fill(expansion.inhomogeneity.begin(),
                 expansion.inhomogeneity.end(),
@@ -106,7 +106,7 @@ namespace NMM
 
 
     bool
-    BlockSystem::has_constrained(
+    CoverMatrixAssembler::has_constrained(
       const dealii::ArrayView<const unsigned int> covers) const
     {
       for (const unsigned int k : covers)
@@ -117,8 +117,9 @@ namespace NMM
 
 
     void
-    BlockSystem::expand(const dealii::ArrayView<const unsigned int> covers,
-                        std::vector<unsigned int> &expanded) const
+    CoverMatrixAssembler::expand(
+      const dealii::ArrayView<const unsigned int> covers,
+      std::vector<unsigned int>                  &expanded) const
     {
       const std::size_t begin = expanded.size();
       const auto        meet  = [&](const unsigned int cover) {
@@ -138,14 +139,14 @@ namespace NMM
 
 
     void
-    BlockSystem::leave_empty_rows()
+    CoverMatrixAssembler::leave_empty_rows()
     {
       leaves_empty_rows = true;
     }
 
 
     void
-    BlockSystem::assemble_in_place()
+    CoverMatrixAssembler::assemble_in_place()
     {
       is_made_in_place =
         dealii::Utilities::MPI::n_mpi_processes(covers->communicator()) == 1;
@@ -153,7 +154,8 @@ namespace NMM
 
 
     void
-    BlockSystem::couple(const dealii::ArrayView<const unsigned int> covers)
+    CoverMatrixAssembler::couple(
+      const dealii::ArrayView<const unsigned int> covers)
     {
       if (has_constrained(covers))
       {
@@ -175,7 +177,7 @@ namespace NMM
 
 
     void
-    BlockSystem::build()
+    CoverMatrixAssembler::build()
     {
       number_rows();
       fill_rows();
@@ -189,7 +191,7 @@ namespace NMM
 
 
     void
-    BlockSystem::number_rows()
+    CoverMatrixAssembler::number_rows()
     {
       cover_to_local.assign(covers->n_covers(), invalid_index);
       for (unsigned int i = 0; i < n_owned; ++i)
@@ -212,7 +214,7 @@ namespace NMM
 
 
     unsigned int
-    BlockSystem::row_of(const unsigned int global_cover) const
+    CoverMatrixAssembler::row_of(const unsigned int global_cover) const
     {
       if (global_cover >= first_owned && global_cover < first_owned + n_owned)
         return global_cover - first_owned;
@@ -225,7 +227,7 @@ namespace NMM
 
     /// Columns in global numbers.
     void
-    BlockSystem::fill_rows()
+    CoverMatrixAssembler::fill_rows()
     {
       // the stencils that each row takes part in
       std::vector<unsigned int> first_stencil(n_rows + 2, 0);
@@ -271,7 +273,7 @@ namespace NMM
 
 
     void
-    BlockSystem::exchange_pattern()
+    CoverMatrixAssembler::exchange_pattern()
     {
       using namespace dealii::Utilities::MPI;
       const std::vector<unsigned int> rank_to_end =
@@ -333,7 +335,7 @@ namespace NMM
 
 
     void
-    BlockSystem::localize_columns()
+    CoverMatrixAssembler::localize_columns()
     {
       if (n_owned == covers->n_global_covers())
         return;
@@ -373,9 +375,9 @@ namespace NMM
 
 
     double *
-    BlockSystem::find_block(const unsigned int row,
-                            const unsigned int column,
-                            unsigned int      &stride)
+    CoverMatrixAssembler::find_entry(const unsigned int row,
+                                     const unsigned int column,
+                                     unsigned int      &stride)
     {
       const auto begin = columns.begin() + row_begin[row];
       const auto end   = columns.begin() + row_begin[row + 1];
@@ -387,9 +389,10 @@ namespace NMM
 
 
     void
-    BlockSystem::add(const dealii::ArrayView<const unsigned int> covers,
-                     const double                               *matrix,
-                     const double                               *rhs)
+    CoverMatrixAssembler::add(
+      const dealii::ArrayView<const unsigned int> covers,
+      const double                               *matrix,
+      const double                               *rhs)
     {
       if (has_constrained(covers))
         add_constrained(covers, matrix, rhs);
@@ -399,10 +402,10 @@ namespace NMM
 
 
     void
-    BlockSystem::add_to_rows(const unsigned int *covers,
-                             const unsigned int  n,
-                             const double       *matrix,
-                             const double       *rhs)
+    CoverMatrixAssembler::add_to_rows(const unsigned int *covers,
+                                      const unsigned int  n,
+                                      const double       *matrix,
+                                      const double       *rhs)
     {
       // insertion sort by local number, so that a row is walked through once
       constexpr unsigned int n_max = 128;
@@ -439,11 +442,11 @@ namespace NMM
             ++p;
             Assert(p < length, dealii::ExcInternalError());
           }
-          const double *block = from + 2 * order[b];
-          first[2 * p] += block[0];
-          first[2 * p + 1] += block[1];
-          second[2 * p] += block[2 * n];
-          second[2 * p + 1] += block[2 * n + 1];
+          const double *entry = from + 2 * order[b];
+          first[2 * p] += entry[0];
+          first[2 * p + 1] += entry[1];
+          second[2 * p] += entry[2 * n];
+          second[2 * p + 1] += entry[2 * n + 1];
         }
         right_hand_side[2 * r] += rhs[2 * order[a]];
         right_hand_side[2 * r + 1] += rhs[2 * order[a] + 1];
@@ -452,8 +455,9 @@ namespace NMM
 
 
     void
-    BlockSystem::add_rhs(const dealii::ArrayView<const unsigned int> covers,
-                         const double                               *rhs)
+    CoverMatrixAssembler::add_rhs(
+      const dealii::ArrayView<const unsigned int> covers,
+      const double                               *rhs)
     {
       for (unsigned int i = 0; i < covers.size(); ++i)
       {
@@ -469,7 +473,7 @@ namespace NMM
         for (unsigned int t = expansion.begin[x]; t < expansion.begin[x + 1];
              ++t)
         {
-          const std::array<double, 4> &w = expansion.terms[t].block;
+          const std::array<double, 4> &w = expansion.terms[t].entry;
           const unsigned int r = cover_to_local[expansion.terms[t].cover];
           right_hand_side[2 * r] += w[0] * f[0] + w[2] * f[1];
           right_hand_side[2 * r + 1] += w[1] * f[0] + w[3] * f[1];
@@ -479,7 +483,7 @@ namespace NMM
 
 
     void
-    BlockSystem::set_active_rows(const std::vector<bool> &blocks)
+    CoverMatrixAssembler::set_active_rows(const std::vector<bool> &blocks)
     {
       if (!blocks.empty() && active_rows.empty())
       {
@@ -498,7 +502,7 @@ namespace NMM
 
 
     void
-    BlockSystem::reset(const bool with_matrix)
+    CoverMatrixAssembler::reset(const bool with_matrix)
     {
       if (with_matrix && active_rows.all())
         std::fill_n(entries, 4 * columns.size(), 0.);
@@ -514,9 +518,9 @@ namespace NMM
     }
 
 
-    /// T^T A T and T^T (f - A g) for u = T z + g.
+    /// Add T^T A T and T^T (f - A g), where u = T z + g.
     void
-    BlockSystem::add_constrained(
+    CoverMatrixAssembler::add_constrained(
       const dealii::ArrayView<const unsigned int> covers,
       const double                               *matrix,
       const double                               *rhs)
@@ -545,7 +549,7 @@ namespace NMM
           for (unsigned int t = expansion.begin[x]; t < expansion.begin[x + 1];
                ++t)
             parts.push_back({position_of(expansion.terms[t].cover),
-                             expansion.terms[t].block.data()});
+                             expansion.terms[t].entry.data()});
           local_inhomogeneity[2 * i]     = expansion.inhomogeneity[x][0];
           local_inhomogeneity[2 * i + 1] = expansion.inhomogeneity[x][1];
         }
@@ -561,7 +565,7 @@ namespace NMM
           const double *a = matrix + 2 * n * i + 2 * j;
           for (unsigned int t = parts_begin[j]; t < parts_begin[j + 1]; ++t)
           {
-            const double *w = parts[t].block;
+            const double *w = parts[t].entry;
             double       *h =
               local_product.data() + 2 * m * i + 2 * parts[t].position;
             h[0] += a[0] * w[0] + a[1] * w[2];
@@ -576,7 +580,7 @@ namespace NMM
             f[c] -= matrix[2 * n * (2 * i + c) + j] * local_inhomogeneity[j];
         for (unsigned int t = parts_begin[i]; t < parts_begin[i + 1]; ++t)
         {
-          const double      *w  = parts[t].block;
+          const double      *w  = parts[t].entry;
           const unsigned int p  = parts[t].position;
           const double      *h0 = local_product.data() + 2 * m * (2 * i);
           const double      *h1 = h0 + 2 * m;
@@ -599,7 +603,7 @@ namespace NMM
 
 
     void
-    BlockSystem::exchange_values(const bool with_matrix)
+    CoverMatrixAssembler::exchange_values(const bool with_matrix)
     {
       using namespace dealii::Utilities::MPI;
 
@@ -615,10 +619,10 @@ namespace NMM
           for (unsigned int j = 0; with_matrix && j < rows[i + 1]; ++j)
           {
             unsigned int  stride;
-            const double *block =
-              find_block(r, row_of(rows[i + 2 + j]), stride);
+            const double *entry =
+              find_entry(r, row_of(rows[i + 2 + j]), stride);
             out.insert(out.end(),
-                       {block[0], block[1], block[stride], block[stride + 1]});
+                       {entry[0], entry[1], entry[stride], entry[stride + 1]});
           }
         }
       const auto from_others =
@@ -634,11 +638,11 @@ namespace NMM
           for (unsigned int j = 0; with_matrix && j < rows[i + 1]; ++j, in += 4)
           {
             unsigned int stride;
-            double      *block = find_block(r, row_of(rows[i + 2 + j]), stride);
-            block[0] += in[0];
-            block[1] += in[1];
-            block[stride] += in[2];
-            block[stride + 1] += in[3];
+            double      *entry = find_entry(r, row_of(rows[i + 2 + j]), stride);
+            entry[0] += in[0];
+            entry[1] += in[1];
+            entry[stride] += in[2];
+            entry[stride + 1] += in[3];
           }
         }
       }
@@ -647,10 +651,10 @@ namespace NMM
 
     /**
      * Rows of constrained unknowns, and of unknowns whose support has no area,
-     * are empty; give them a diagonal of the size of the others.
+     * are empty. They get the mean of the other diagonal entries.
      */
     void
-    BlockSystem::fix_empty_diagonals()
+    CoverMatrixAssembler::fix_empty_diagonals()
     {
       if (leaves_empty_rows)
         return;
@@ -658,8 +662,8 @@ namespace NMM
       const auto            diagonal      = [this](const unsigned int row,
                                    const unsigned int c) -> double                 &{
         unsigned int stride;
-        double      *block = find_block(row, row, stride);
-        return block[c * stride + c];
+        double      *entry = find_entry(row, row, stride);
+        return entry[c * stride + c];
       };
       active_rows.for_each(n_owned, [&](const unsigned int r) {
         for (unsigned int c = 0; c < 2; ++c)

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <base/fetch.h>
 #include <cmath>
-#include <linear_algebra/block_lu.h>
+#include <linear_algebra/body_lu.h>
 #include <numeric>
 #include <utility>
 
@@ -15,17 +15,18 @@ namespace NMM
 {
   namespace internal
   {
-    struct BlockLu::Data
+    struct BodyLu::Data
     {
-      /// A block that is eliminated: A_jj, then A_ij of all later blocks i that it is
-      /// coupled with, in one panel (m x n), then A_jj^-1 A_ji, (n x m); all by columns.
+      /// The values of a body j of n unknowns that is coupled with bodies of m unknowns in
+      /// all that are eliminated later: A_jj (n x n), then A_ij of all later bodies i in
+      /// one panel (m x n), then A_jj^-1 A_ji (n x m); each by columns.
       struct Column
       {
-        unsigned int block = 0, n = 0, m = 0;
-        /// Of later, values, and where its unknowns begin in vectors.
+        unsigned int body = 0, n = 0, m = 0;
+        /// Where its part of later and of values begins, and that of its unknowns in x.
         std::size_t  later_begin = 0, later_end = 0, diagonal = 0;
         unsigned int unknowns = 0;
-        /// In vectors of all unknowns.
+        /// Its first unknown in the vectors of the caller.
         unsigned int first_unknown = 0;
 
         std::size_t
@@ -41,7 +42,7 @@ namespace NMM
         }
       };
 
-      /// A block that is coupled with an earlier one, and where its rows begin in the
+      /// A body that is coupled with an earlier one, and where its rows begin in the
       /// panel of that one.
       struct Later
       {
@@ -51,95 +52,95 @@ namespace NMM
       using Pairs = std::vector<BlockPair>;
 
       void
-      choose_blocks(const BlockMatrix               &matrix,
+      choose_bodies(const BodyMatrix                &matrix,
                     const std::vector<unsigned int> &rows);
 
-      /// Both ways, between chosen blocks, by position in chosen.
+      /// Pairs of coupled chosen bodies, in both directions, by position in chosen.
       Pairs
-      find_pairs(const BlockMatrix &matrix) const;
+      find_pairs(const BodyMatrix &matrix) const;
 
-      /// Positions in chosen as they are eliminated.
+      /// Positions in chosen, in the order of elimination.
       std::vector<unsigned int>
       order(const Pairs &pairs) const;
 
       void
-      make_columns(const BlockMatrix               &matrix,
+      make_columns(const BodyMatrix                &matrix,
                    const Pairs                     &pairs,
                    const std::vector<unsigned int> &order);
 
       void
-      read_values(const BlockMatrix &matrix);
+      read_values(const BodyMatrix &matrix);
 
-      /// Of the block in row @p i and column @p k, in the order of elimination: its first
-      /// entry, and how far apart its columns are.
+      /// First entry of A_ik, and the distance between its columns; i and k are in the
+      /// order of elimination.
       std::pair<double *, unsigned int>
       place(unsigned int i, unsigned int k);
 
+      /// Returns false if A_jj has no sufficient pivots.
       bool
       eliminate(const Column &column);
 
       void
       subtract_products(const Column &column);
 
-      /// Blocks that are solved for, and the position of each block among them.
-      std::vector<unsigned int> chosen, block_to_position;
+      /// Bodies that are solved for, and the position of each body among them.
+      std::vector<unsigned int> chosen, body_to_position;
       std::vector<Column>       columns;
-      /// By position in chosen.
       std::vector<unsigned int> position_to_column;
       std::vector<Later>        later;
       std::vector<double>       values;
       std::vector<int>          pivots;
-      /// Scratch: products, and vectors.
+      /// Scratch: products, the unknowns in the order of elimination, and some of them.
       std::vector<double> products, x, gathered;
-      /// Those that are solved for.
+      /// Columns of the bodies that a solve() is for.
       std::vector<const Column *> wanted;
-      /// Scratch of make_columns(): columns the first later one of which is j are
-      /// first_child[j] and those that next_child leads to from there.
+      /// Scratch of make_columns(): first_child[j], next_child[first_child[j]], ... are the
+      /// columns whose first later column is j.
       std::vector<unsigned int> first_child, next_child, begins, met, found;
       Epetra_BLAS               blas;
       Epetra_LAPACK             lapack;
     };
 
 
-    BlockLu::BlockLu()
+    BodyLu::BodyLu()
       : data(std::make_unique<Data>())
     {
     }
 
 
-    BlockLu::~BlockLu() = default;
+    BodyLu::~BodyLu() = default;
 
 
     void
-    BlockLu::Data::choose_blocks(const BlockMatrix               &matrix,
-                                 const std::vector<unsigned int> &rows)
+    BodyLu::Data::choose_bodies(const BodyMatrix                &matrix,
+                                const std::vector<unsigned int> &rows)
     {
-      block_to_position.resize(matrix.n_blocks(), invalid_index);
-      for (const unsigned int block : chosen)
-        block_to_position[block] = invalid_index;
+      body_to_position.resize(matrix.n_bodies(), invalid_index);
+      for (const unsigned int body : chosen)
+        body_to_position[body] = invalid_index;
       chosen.clear();
-      const auto choose = [this](const unsigned int block) {
-        block_to_position[block] = chosen.size();
-        chosen.push_back(block);
+      const auto choose = [this](const unsigned int body) {
+        body_to_position[body] = chosen.size();
+        chosen.push_back(body);
       };
       if (rows.empty())
-        for (unsigned int block = 0; block < matrix.n_blocks(); ++block)
-          choose(block);
+        for (unsigned int body = 0; body < matrix.n_bodies(); ++body)
+          choose(body);
       for (std::size_t i = 0; i < rows.size();
-           i += matrix.size(matrix.block_of(rows[i])))
-        choose(matrix.block_of(rows[i]));
+           i += matrix.size(matrix.body_of(rows[i])))
+        choose(matrix.body_of(rows[i]));
     }
 
 
-    BlockLu::Data::Pairs
-    BlockLu::Data::find_pairs(const BlockMatrix &matrix) const
+    BodyLu::Data::Pairs
+    BodyLu::Data::find_pairs(const BodyMatrix &matrix) const
     {
       Pairs result;
       for (unsigned int p = 0; p < chosen.size(); ++p)
         matrix.for_each_in_row(chosen[p],
-                               [&](const unsigned int block, const double *) {
+                               [&](const unsigned int body, const double *) {
                                  const unsigned int other =
-                                   block_to_position[block];
+                                   body_to_position[body];
                                  if (other == invalid_index || other == p)
                                    return;
                                  result.emplace_back(p, other);
@@ -152,7 +153,7 @@ namespace NMM
 
 
     std::vector<unsigned int>
-    BlockLu::Data::order(const Pairs &pairs) const
+    BodyLu::Data::order(const Pairs &pairs) const
     {
       const unsigned int                 n = chosen.size();
       std::vector<Eigen::Triplet<float>> triplets;
@@ -170,9 +171,9 @@ namespace NMM
 
 
     void
-    BlockLu::Data::make_columns(const BlockMatrix               &matrix,
-                                const Pairs                     &pairs,
-                                const std::vector<unsigned int> &order)
+    BodyLu::Data::make_columns(const BodyMatrix                &matrix,
+                               const Pairs                     &pairs,
+                               const std::vector<unsigned int> &order)
     {
       const unsigned int n = chosen.size();
       columns.assign(n, Column());
@@ -184,8 +185,8 @@ namespace NMM
         ++begins[p + 1];
       std::partial_sum(begins.begin(), begins.end(), begins.begin());
 
-      // what an eliminated block couples is coupled from then on: the first of those
-      // takes over the others
+      // Bodies that are coupled with an eliminated one are coupled with each other from
+      // then on: the first of them takes over the others.
       first_child.assign(n, invalid_index);
       next_child.assign(n, invalid_index);
       met.assign(n, invalid_index);
@@ -195,9 +196,9 @@ namespace NMM
       for (unsigned int j = 0; j < n; ++j)
       {
         Column &column       = columns[j];
-        column.block         = chosen[order[j]];
-        column.n             = matrix.size(column.block);
-        column.first_unknown = matrix.begin(column.block);
+        column.body          = chosen[order[j]];
+        column.n             = matrix.size(column.body);
+        column.first_unknown = matrix.begin(column.body);
         column.unknowns      = n_unknowns;
         n_unknowns += column.n;
         found.clear();
@@ -240,7 +241,7 @@ namespace NMM
 
 
     std::pair<double *, unsigned int>
-    BlockLu::Data::place(const unsigned int i, const unsigned int k)
+    BodyLu::Data::place(const unsigned int i, const unsigned int k)
     {
       const Column &column = columns[std::min(i, k)];
       if (i == k)
@@ -262,19 +263,19 @@ namespace NMM
 
 
     void
-    BlockLu::Data::read_values(const BlockMatrix &matrix)
+    BodyLu::Data::read_values(const BodyMatrix &matrix)
     {
       for (unsigned int j = 0; j < columns.size(); ++j)
       {
         if (j + 1 < columns.size())
           matrix.for_each_in_row(
-            columns[j + 1].block,
+            columns[j + 1].body,
             [&](const unsigned int other, const double *from) {
               fetch(from, std::size_t(columns[j + 1].n) * matrix.size(other));
             });
         matrix.for_each_in_row(
-          columns[j].block, [&](const unsigned int other, const double *from) {
-            const unsigned int p = block_to_position[other];
+          columns[j].body, [&](const unsigned int other, const double *from) {
+            const unsigned int p = body_to_position[other];
             if (p == invalid_index)
               return;
             const unsigned int k      = position_to_column[p];
@@ -289,9 +290,9 @@ namespace NMM
 
 
     bool
-    BlockLu::Data::eliminate(const Column &column)
+    BodyLu::Data::eliminate(const Column &column)
     {
-      // of the largest entry of the block
+      // in terms of the largest entry of A_jj [-]
       constexpr double least_pivot = 1e-14;
 
       const int n = column.n, m = column.m;
@@ -324,7 +325,7 @@ namespace NMM
 
 
     void
-    BlockLu::Data::subtract_products(const Column &column)
+    BodyLu::Data::subtract_products(const Column &column)
     {
       const int n = column.n, m = column.m;
       products.resize(std::size_t(m) * m);
@@ -359,11 +360,11 @@ namespace NMM
 
 
     bool
-    BlockLu::factorize(const BlockMatrix               &matrix,
-                       const std::vector<unsigned int> &rows)
+    BodyLu::factorize(const BodyMatrix                &matrix,
+                      const std::vector<unsigned int> &rows)
     {
       Data &d = *data;
-      d.choose_blocks(matrix, rows);
+      d.choose_bodies(matrix, rows);
       const Data::Pairs pairs = d.find_pairs(matrix);
       d.make_columns(matrix, pairs, d.order(pairs));
       d.read_values(matrix);
@@ -375,16 +376,16 @@ namespace NMM
 
 
     double
-    BlockLu::n_factor_entries() const
+    BodyLu::n_factor_entries() const
     {
       return data->values.size();
     }
 
 
     void
-    BlockLu::solve(const dealii::TrilinosWrappers::MPI::Vector &rhs,
-                   dealii::TrilinosWrappers::MPI::Vector       &solution,
-                   const std::vector<bool>                     &blocks)
+    BodyLu::solve(const Vector            &rhs,
+                  Vector                  &solution,
+                  const std::vector<bool> &bodies)
     {
       Data         &d      = *data;
       const double *values = d.values.data();
@@ -392,7 +393,7 @@ namespace NMM
       const auto    to     = solution.begin();
       d.wanted.clear();
       for (const Data::Column &column : d.columns)
-        if (blocks.empty() || blocks[column.block])
+        if (bodies.empty() || bodies[column.body])
         {
           d.wanted.push_back(&column);
           std::copy_n(from + column.first_unknown,

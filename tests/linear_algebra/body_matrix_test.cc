@@ -1,5 +1,5 @@
-// Matrices of blocks that are there when they are needed, against dense ones.
-#include <nmm/linear_algebra/block_matrix.h>
+// Matrices of bodies that are there when they are needed, against dense ones.
+#include <nmm/linear_algebra/body_matrix.h>
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
@@ -17,13 +17,13 @@ namespace
 
 
   /// Of two, four and two unknowns.
-  const std::vector<unsigned int> three_blocks = {0, 0, 1, 1, 1, 1, 2, 2};
+  const std::vector<unsigned int> three_bodies = {0, 0, 1, 1, 1, 1, 2, 2};
 
 
   Eigen::MatrixXd
-  dense(const BlockMatrix &matrix)
+  dense(const BodyMatrix &matrix)
   {
-    const unsigned int n      = matrix.begin(matrix.n_blocks());
+    const unsigned int n      = matrix.begin(matrix.n_bodies());
     const Matrix       sparse = matrix.sparse();
     Eigen::MatrixXd    result = Eigen::MatrixXd::Zero(n, n);
     for (const auto &entry : sparse)
@@ -33,7 +33,7 @@ namespace
 
 
   std::vector<unsigned int>
-  columns(const BlockMatrix &matrix, const unsigned int row)
+  columns(const BodyMatrix &matrix, const unsigned int row)
   {
     std::vector<unsigned int> result;
     matrix.for_each_in_row(row, [&](const unsigned int column, const double *) {
@@ -43,14 +43,14 @@ namespace
   }
 
 
-  // Local matrices of covers of two blocks, of one of them twice, go where they belong,
-  // unknown by unknown; a block that nothing is added to is not there.
-  TEST(BlockMatrix, LocalMatricesAreAdded)
+  // Local matrices of covers of two bodies, of one of them twice, go where they belong,
+  // unknown by unknown; a body that nothing is added to is not there.
+  TEST(BodyMatrix, LocalMatricesAreAdded)
   {
     std::mt19937                           generator(5);
     std::uniform_real_distribution<double> random(-1., 1.);
     SCOPED_TRACE("seed 5");
-    BlockMatrix matrix(three_blocks);
+    BodyMatrix matrix(three_bodies);
     matrix.begin_rows({});
     Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(8, 8);
     for (const std::vector<unsigned int> &covers :
@@ -78,11 +78,11 @@ namespace
   }
 
 
-  // A matrix can be made by parts: only rows of blocks that were begun last are added to,
+  // A matrix can be made by parts: only rows of bodies that were begun last are added to,
   // others are as they were.
-  TEST(BlockMatrix, IsMadeByParts)
+  TEST(BodyMatrix, IsMadeByParts)
   {
-    BlockMatrix               matrix(three_blocks);
+    BodyMatrix                matrix(three_bodies);
     const std::vector<double> ones(36, 1.);
     const unsigned int        covers[3] = {0, 1, 3};
     matrix.begin_rows({true, false, true});
@@ -113,18 +113,18 @@ namespace
   }
 
 
-  // Sparse matrices: what couples no blocks can be added, what does can be read as far as
+  // Sparse matrices: what couples no bodies can be added, what does can be read as far as
   // it is said to couple them.
-  TEST(BlockMatrix, SparseMatrices)
+  TEST(BodyMatrix, SparseMatrices)
   {
     const auto sparse = [](const bool couples, const double size) {
       dealii::DynamicSparsityPattern pattern(8);
       const auto                     for_each = [&](const auto &action) {
         for (unsigned int i = 0; i < 8; ++i)
           for (unsigned int j = 0; j < 8; ++j)
-            // with gaps in the rows of a block
+            // with gaps in the rows of a body
             if (couples ||
-                (three_blocks[i] == three_blocks[j] && (i + j) % 3 != 1))
+                (three_bodies[i] == three_bodies[j] && (i + j) % 3 != 1))
               action(i, j);
       };
       for_each(
@@ -140,14 +140,14 @@ namespace
     const auto entry = [](const unsigned int i, const unsigned int j) {
       return 8. * i + j + 1.;
     };
-    BlockMatrix matrix(three_blocks);
+    BodyMatrix matrix(three_bodies);
     matrix.read(sparse(true, 1.), {true, true, false}, {{1}, {}, {0}});
     matrix.add(0.5, sparse(false, 4.));
     const Eigen::MatrixXd found = dense(matrix);
     for (unsigned int i = 0; i < 8; ++i)
       for (unsigned int j = 0; j < 8; ++j)
       {
-        const unsigned int row = three_blocks[i], column = three_blocks[j];
+        const unsigned int row = three_bodies[i], column = three_bodies[j];
         // 0 and 1 are coupled, and 0 with 2, the rows of which do not count
         const bool is_there =
           row < 2 && (row == column || row + column == 1 || row + column == 2);
@@ -161,17 +161,17 @@ namespace
   }
 
 
-  // Blocks that are large, or whose unknowns are scattered, are for others.
-  TEST(BlockMatrix, IsForSmallBlocksInOrder)
+  // Bodies that are large, or whose unknowns are scattered, are for others.
+  TEST(BodyMatrix, IsForSmallBodiesInOrder)
   {
-    std::vector<unsigned int> blocks(BlockMatrix::max_block, 0);
-    EXPECT_TRUE(BlockMatrix::is_suitable(blocks));
-    blocks.push_back(1);
-    EXPECT_TRUE(BlockMatrix::is_suitable(blocks));
-    blocks.push_back(0);
-    EXPECT_FALSE(BlockMatrix::is_suitable(blocks));
-    EXPECT_FALSE(BlockMatrix::is_suitable(
-      std::vector<unsigned int>(BlockMatrix::max_block + 1, 0)));
-    EXPECT_FALSE(BlockMatrix::is_suitable({}));
+    std::vector<unsigned int> bodies(BodyMatrix::max_body, 0);
+    EXPECT_TRUE(BodyMatrix::is_suitable(bodies));
+    bodies.push_back(1);
+    EXPECT_TRUE(BodyMatrix::is_suitable(bodies));
+    bodies.push_back(0);
+    EXPECT_FALSE(BodyMatrix::is_suitable(bodies));
+    EXPECT_FALSE(BodyMatrix::is_suitable(
+      std::vector<unsigned int>(BodyMatrix::max_body + 1, 0)));
+    EXPECT_FALSE(BodyMatrix::is_suitable({}));
   }
 } // namespace

@@ -2,7 +2,7 @@
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_Map.h>
 #include <algorithm>
-#include <linear_algebra/block_system.h>
+#include <linear_algebra/cover_matrix_assembler.h>
 #include <linear_algebra/matrix_rows.h>
 
 namespace NMM
@@ -24,8 +24,8 @@ namespace NMM
 
 
     void
-    BlockSystem::finish(dealii::TrilinosWrappers::SparseMatrix &matrix,
-                        dealii::TrilinosWrappers::MPI::Vector  &rhs)
+    CoverMatrixAssembler::finish(dealii::TrilinosWrappers::SparseMatrix &matrix,
+                                 dealii::TrilinosWrappers::MPI::Vector  &rhs)
     {
       matrix.clear();
       transfer(matrix, rhs);
@@ -35,8 +35,9 @@ namespace NMM
 
 
     void
-    BlockSystem::transfer(dealii::TrilinosWrappers::SparseMatrix &matrix,
-                          dealii::TrilinosWrappers::MPI::Vector  &rhs)
+    CoverMatrixAssembler::transfer(
+      dealii::TrilinosWrappers::SparseMatrix &matrix,
+      dealii::TrilinosWrappers::MPI::Vector  &rhs)
     {
       if (dealii::Utilities::MPI::n_mpi_processes(covers->communicator()) > 1)
         exchange_values(true);
@@ -56,7 +57,8 @@ namespace NMM
 
 
     void
-    BlockSystem::transfer_rhs(dealii::TrilinosWrappers::MPI::Vector &rhs)
+    CoverMatrixAssembler::transfer_rhs(
+      dealii::TrilinosWrappers::MPI::Vector &rhs)
     {
       if (dealii::Utilities::MPI::n_mpi_processes(covers->communicator()) > 1)
         exchange_values(false);
@@ -69,7 +71,7 @@ namespace NMM
      * numbers: TrilinosWrappers::SparsityPattern would look up every column.
      */
     void
-    BlockSystem::make_matrix(
+    CoverMatrixAssembler::make_matrix(
       dealii::TrilinosWrappers::SparseMatrix &matrix) const
     {
       const dealii::IndexSet owned = covers->locally_owned_dofs(2);
@@ -116,7 +118,7 @@ namespace NMM
 
 
     void
-    BlockSystem::copy_values(const MatrixRows &to) const
+    CoverMatrixAssembler::copy_values(const MatrixRows &to) const
     {
       // both have the same order
       active_rows.for_each(n_owned, [&](const unsigned int r) {
@@ -130,7 +132,8 @@ namespace NMM
 
 
     void
-    BlockSystem::copy_rhs(dealii::TrilinosWrappers::MPI::Vector &rhs) const
+    CoverMatrixAssembler::copy_rhs(
+      dealii::TrilinosWrappers::MPI::Vector &rhs) const
     {
       if (rhs.size() != 2 * covers->n_global_covers())
         rhs.reinit(covers->locally_owned_dofs(2), covers->communicator());

@@ -58,7 +58,7 @@ namespace NMM
     Case
     make_scene_case(std::uint64_t seed);
 
-    /// Runs the driver. Wrong are exit codes other than 0, 2 and 3, files written with
+    /// Runs the scene as the program nmm does. Wrong are exit codes other than 0, 2 and 3, files written with
     /// 2, and tables with values that are not finite with 0.
     std::string
     run_scene_case(const Case &c);

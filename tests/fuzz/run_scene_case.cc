@@ -1,13 +1,15 @@
-#include "driver.h"
+#include <nmm/base/program.h>
+#include <nmm/output/progress.h>
+#include <nmm/scene/run_scene.h>
+
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <fuzz/fuzz.h>
-#include <iostream>
-#include <mpi.h>
+#include <ostream>
 #include <sstream>
-#include <stdexcept>
+#include <streambuf>
 #include <string>
 #include <unistd.h>
 #include <vector>
@@ -20,61 +22,102 @@ namespace NMM
     {
       namespace fs = std::filesystem;
 
-      const std::string time_is_up = "the time for a case is up";
+      /// A mutated scene may ask for more steps than there is time for, which is no
+      /// mistake.
+      class TimeIsUp
+      {
+      };
 
 
       /**
-       * What the driver writes to std::cout and std::cerr. A mutated scene may ask for
-       * more steps than there is time for, which is no mistake: a line after more than
-       * a second ends the run with an exception that no handler takes for one of the
-       * program's. What says nothing for long is a hang, which is for nmm-fuzz to see.
+       * A terminal that shows nothing. After two seconds the next report of how far a
+       * stage has come ends the run with TimeIsUp; what reports nothing for long is a
+       * hang, which is for nmm-fuzz to see. Reports begin by emptying the line and what
+       * destructors say does not. The exception leaves by way of a stream that is tied
+       * to the terminal's, since that one must stay good for destructors.
        */
-      class Output : public std::streambuf
+      class Terminal : public std::streambuf
       {
       public:
-        Output()
-          : start(std::chrono::steady_clock::now())
-          , cout_buffer(std::cout.rdbuf(this))
-          , cerr_buffer(std::cerr.rdbuf(this))
+        Terminal()
+          : stream(this)
+          , clock(*this)
+          , clock_stream(&clock)
         {
-          std::cout.exceptions(std::ios::badbit);
+          clock_stream.exceptions(std::ios::badbit);
+          stream.tie(&clock_stream);
         }
 
-        ~Output() override
+        std::ostream &
+        out()
         {
-          std::cout.rdbuf(cout_buffer);
-          std::cerr.rdbuf(cerr_buffer);
-          std::cout.exceptions(std::ios::goodbit);
-          std::cout.clear();
-          std::cerr.clear();
+          return stream;
         }
-
-        std::string text;
 
       protected:
+        std::streamsize
+        xsputn(const char *text, const std::streamsize n) override
+        {
+          line_is_empty = std::string(text, n) == "\r\033[K";
+          return n;
+        }
+
         int_type
         overflow(const int_type c) override
         {
-          using Seconds = std::chrono::duration<double>;
-          if (!is_up &&
-              Seconds(std::chrono::steady_clock::now() - start).count() > 1.)
-          {
-            is_up = true;
-            throw std::runtime_error(time_is_up);
-          }
-          if (c != traits_type::eof())
-            text += traits_type::to_char_type(c);
+          line_is_empty = false;
           return traits_type::not_eof(c);
         }
 
       private:
-        const std::chrono::steady_clock::time_point start;
-        bool                                        is_up = false;
-        std::streambuf                             *cout_buffer, *cerr_buffer;
+        class Clock : public std::streambuf
+        {
+        public:
+          explicit Clock(Terminal &terminal)
+            : terminal(terminal)
+          {
+          }
+
+        protected:
+          int
+          sync() override
+          {
+            using Seconds = std::chrono::duration<double>;
+            if (terminal.line_is_empty &&
+                Seconds(std::chrono::steady_clock::now() - start).count() > 2.)
+            {
+              terminal.stream.tie(nullptr);
+              throw TimeIsUp();
+            }
+            return 0;
+          }
+
+        private:
+          Terminal                                   &terminal;
+          const std::chrono::steady_clock::time_point start =
+            std::chrono::steady_clock::now();
+        };
+
+        bool         line_is_empty = false;
+        std::ostream stream;
+        Clock        clock;
+        std::ostream clock_stream;
       };
 
 
-      /// The first table below @p folder with a value that is not finite, or "".
+      bool
+      is_finite(const std::vector<std::string> &row)
+      {
+        return std::none_of(row.begin(),
+                            row.end(),
+                            [](const std::string &word) {
+                              return word == "nan" || word == "-nan" ||
+                                     word == "inf" || word == "-inf";
+                            });
+      }
+
+
+      /// The first row of a table in @p folder with a value that is not finite, or "".
       std::string
       find_non_finite(const fs::path &folder)
       {
@@ -82,13 +125,19 @@ namespace NMM
           if (entry.path().extension() == ".csv")
           {
             std::ifstream in(entry.path());
+            std::size_t   inside = 0;
             for (std::string line; std::getline(in, line);)
             {
-              std::istringstream fields(line);
+              std::vector<std::string> row;
+              std::istringstream       fields(line);
               for (std::string field; std::getline(fields, field, ',');)
-                if (field == "nan" || field == "-nan" || field == "inf" ||
-                    field == "-inf")
-                  return entry.path().filename().string() + ": " + line;
+                row.push_back(field);
+              if (inside == 0 && row.size() > 5 && row[5] == "inside")
+                inside = 5;
+              const bool is_outside =
+                inside > 0 && row.size() > inside && row[inside] == "0";
+              if (!is_outside && !is_finite(row))
+                return entry.path().filename().string() + ": " + line;
             }
           }
         return "";
@@ -103,36 +152,33 @@ namespace NMM
         fs::temp_directory_path() / ("nmm-fuzz-" + std::to_string(getpid()));
       fs::remove_all(folder);
       write(c, folder.string());
-      const fs::path           results = folder / "results";
-      std::vector<std::string> words   = {"nmm",
-                                          "--output",
-                                          results.string(),
-                                          (folder / "case.prm").string()};
-      std::vector<char *>      argv;
-      for (std::string &word : words)
-        argv.push_back(word.data());
-      argv.push_back(nullptr);
-
-      int         code;
-      std::string output;
-      {
-        Output captured;
-        code   = run_driver(words.size(), argv.data(), MPI_COMM_WORLD);
-        output = captured.text;
-      }
+      SceneRunOptions options;
+      options.output         = (folder / "results").string();
+      bool        has_output = false;
       std::string failure;
-      if (code == 0)
+      try
       {
-        if (const std::string value = find_non_finite(results); !value.empty())
-          failure = "exit code 0, but " + value;
+        Terminal    terminal;
+        Progress    progress(terminal.out(), true, MPI_COMM_WORLD);
+        const Scene scene((folder / "case.prm").string(), {});
+        run_scene(scene, options, progress, MPI_COMM_WORLD, has_output);
+        if (const std::string row = find_non_finite(options.output);
+            !row.empty())
+          failure = "exit code 0, but " + row;
       }
-      else if (code == 2)
+      catch (const TimeIsUp &)
       {
-        if (fs::exists(results))
-          failure = "exit code 2, but something is written: " + output;
       }
-      else if (code != 3 && output.find(time_is_up) == std::string::npos)
-        failure = "exit code " + std::to_string(code) + ": " + output;
+      catch (...)
+      {
+        const ProgramEnd end = explain_exception(has_output);
+        if (end.code == ExitCode::input_error && fs::exists(options.output))
+          failure = "exit code 2, but results are written: " + end.message;
+        else if (end.code != ExitCode::input_error &&
+                 end.code != ExitCode::numerical_failure)
+          failure = "exit code " + std::to_string(static_cast<int>(end.code)) +
+                    ": " + end.message;
+      }
       fs::remove_all(folder);
       return failure;
     }

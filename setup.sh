@@ -257,7 +257,7 @@ command_fuzz()
 {
   local generator failed=()
   configure_and_build release program_nmm-fuzz
-  for generator in geometry; do
+  for generator in geometry scene; do
     say "Random inputs: $generator"
     build/release/bin/nmm-fuzz "$generator" "$1" "$2" || failed+=("$generator")
   done

@@ -8,6 +8,7 @@
 #include "geometry/loops.h"
 #include "geometry/messages.h"
 #include "geometry/outline.h"
+#include "geometry/overlaps.h"
 #include "geometry/tiny_faces.h"
 #include "geometry/trimming.h"
 #include <algorithm>
@@ -87,14 +88,18 @@ namespace NMM
   void
   PhysicalMesh::Data::take_curves(Geometry &geometry)
   {
-    curves                      = std::move(geometry.curves());
+    curves = std::move(geometry.curves());
+    for (const Curve &curve : curves)
+      curve.check();
+    const std::string overlaps = internal::unite_overlaps(curves);
+    if (!overlaps.empty())
+      notices.push_back(overlaps);
     bool         has_boundary   = false;
     unsigned int n_straightened = 0, first_straightened = 0;
     std::map<std::string, unsigned int> name_to_curve;
     for (unsigned int c = 0; c < curves.size(); ++c)
     {
       const Curve &curve = curves[c];
-      curve.check();
       has_boundary  = has_boundary || curve.role == CurveRole::boundary;
       const auto it = name_to_curve.insert({curve.name, c}).first;
       AssertThrow(curves[it->second].role == curve.role,

@@ -14,7 +14,8 @@ namespace NMM
     generators()
     {
       static const std::vector<Generator> all = {
-        {"geometry", &make_geometry_case, &run_geometry_case}};
+        {"geometry", &make_geometry_case, &run_geometry_case},
+        {"scene", &make_scene_case, &run_scene_case}};
       return all;
     }
 

@@ -17,7 +17,7 @@ namespace NMM
   {
     struct Case
     {
-      /// The kinds of curves in it, for the message if the case fails.
+      /// What is in it, for the message if the case fails.
       std::string description;
       /// Names and contents of files; case.prm is a scene that does what run() does,
       /// as far as a scene can.
@@ -54,6 +54,14 @@ namespace NMM
 
     std::string
     run_geometry_case(const Case &c);
+
+    Case
+    make_scene_case(std::uint64_t seed);
+
+    /// Runs the scene as the program nmm does. Wrong are exit codes other than 0, 2 and 3, files written with
+    /// 2, and tables with values that are not finite with 0.
+    std::string
+    run_scene_case(const Case &c);
   } // namespace Fuzz
 } // namespace NMM
 

@@ -3,19 +3,22 @@
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <fuzz/fuzz.h>
 #include <iomanip>
 #include <iostream>
+#include <thread>
 #include <unistd.h>
 
 namespace
 {
   const char *const usage =
     "Usage: nmm-fuzz GENERATOR N [SEED [FOLDER]]\n\n"
-    "Runs N cases of a generator (geometry) with the seeds SEED (1), SEED + 1, "
+    "Runs N cases of a generator (geometry, scene) with the seeds SEED (1), "
+    "SEED + 1, "
     "... A\n"
     "case that fails, crashes or takes more than 10 s is written to\n"
     "FOLDER/GENERATOR-SEED (output/fuzz) as a scene.\n\n"
@@ -26,18 +29,39 @@ namespace
   NMM::Fuzz::Case current;
   std::string     current_folder;
 
+  void
+  report(const std::string &what)
+  {
+    std::cout << current_folder << ": " << what << " (" << current.description
+              << ")" << std::endl;
+    NMM::Fuzz::write(current, current_folder);
+    _exit(1);
+  }
+
+
   // Not everything in here may be done in a signal handler by the letter; all that can be
   // lost is the message about a failure.
   void
   report_signal(const int signal)
   {
     std::signal(signal, SIG_DFL);
-    std::cout << current_folder << ": "
-              << (signal == SIGALRM ? "no end after 10 s" : "signal ")
-              << (signal == SIGALRM ? "" : std::to_string(signal)) << " ("
-              << current.description << ")" << std::endl;
-    NMM::Fuzz::write(current, current_folder);
-    _exit(1);
+    report("signal " + std::to_string(signal));
+  }
+
+
+  /// Tenths of a second since the case began, while this process was not stopped.
+  std::atomic<unsigned int> tenths(0);
+
+  /// A thread, as memory may be allocated in one, which a signal handler must not.
+  void
+  watch()
+  {
+    while (true)
+    {
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      if (++tenths > 10 * seconds_at_most)
+        report("no end after " + std::to_string(seconds_at_most) + " s");
+    }
   }
 } // namespace
 
@@ -53,8 +77,9 @@ main(int argc, char **argv)
   const auto start = std::chrono::steady_clock::now();
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   dealii::deal_II_exceptions::disable_abort_on_exception();
-  for (const int signal : {SIGALRM, SIGSEGV, SIGFPE, SIGABRT, SIGBUS})
+  for (const int signal : {SIGSEGV, SIGFPE, SIGABRT, SIGBUS})
     std::signal(signal, report_signal);
+  std::thread(watch).detach();
 
   const std::string   name  = argv[1];
   const unsigned long n     = std::strtoul(argv[2], nullptr, 10);
@@ -68,9 +93,8 @@ main(int argc, char **argv)
     {
       current        = generator.make(seed);
       current_folder = folder + "/" + name + "-" + std::to_string(seed);
-      alarm(seconds_at_most);
+      tenths         = 0;
       const std::string failure = NMM::Fuzz::check(generator, current);
-      alarm(0);
       if (failure.empty())
         continue;
       ++n_failed;

@@ -117,3 +117,65 @@ TEST(TinyFaces, StraightArcs)
       "boundary name=b LINESTRING (1 0, 1 1, 0 1, 0 0)");
   EXPECT_NEAR(total_area(segment), 1. + 2. / 3. * c * s, 1e-14);
 }
+
+
+// Collinear lines with rounded digits, one of which ends inside the block: a strip that is
+// open there is no face of its own. All of them are one joint of two blocks' length.
+TEST(TinyFaces, LinesThatEndOnOthers)
+{
+  const auto mesh =
+    mesh_of(unit_square +
+            "joint name=a LINESTRING (0 0.1, 0.7 0.38)\n"
+            "joint name=b LINESTRING (0.30000000000000004 0.22000000000000006, "
+            "1 0.5)\n"
+            "joint name=c LINESTRING (0.5 0.30000000000000004, "
+            "0.6 0.3399999999999999)");
+  EXPECT_EQ(mesh.regions().size(), 2u);
+  EXPECT_EQ(mesh.n_blocks(), 2u);
+  EXPECT_EQ(mesh.dangling_ends().n_kept, 0u);
+  EXPECT_EQ(n_notices_with(mesh, "within rounding"), 1u);
+  EXPECT_EQ(n_notices_with(mesh, "'a' and joint 'b' coincide"), 1u);
+  EXPECT_EQ(n_notices_with(mesh, "'a' and joint 'c' coincide"), 1u);
+  EXPECT_EQ(n_notices_with(mesh, apart), 0u);
+  // a dozen roundings of numbers up to 1
+  EXPECT_NEAR(total_area(mesh), 1., 1e-14);
+}
+
+
+// What is exact stays as it is drawn: ends on other lines and short of them, crossings at
+// small angles, and lines just further apart than rounding (32 epsilon).
+TEST(TinyFaces, LinesThatMerelyMeet)
+{
+  const auto n_pieces = [](const std::string &lines) {
+    const auto mesh = mesh_of(unit_square + lines);
+    EXPECT_EQ(n_notices_with(mesh, "within rounding"), 0u) << lines;
+    return mesh.pieces().size();
+  };
+  const std::string line = "joint name=a LINESTRING (0.1 0.5, 0.9 0.5)\n";
+  EXPECT_EQ(n_pieces(line + "joint LINESTRING (0.5 0, 0.5 0.5)"), 6u);
+  EXPECT_EQ(n_pieces(line + "joint LINESTRING (0.5 0, 0.5 0.4999999999999999)"),
+            6u);
+  EXPECT_EQ(n_pieces(line + "joint LINESTRING (0 0.49999999999999, "
+                            "1 0.50000000000001)"),
+            6u);
+  EXPECT_EQ(n_pieces(line + "joint LINESTRING (0.3 0.50000000000001, "
+                            "0.7 0.50000000000001)"),
+            6u);
+  // the same corner, two sides of a joint beside one that is folded sharply
+  EXPECT_EQ(n_pieces("joint LINESTRING (0.1 0.5, 0.9 0.5, 0.1 0.51)"), 6u);
+}
+
+
+// A joint along a side and beyond its corner: the boundary gets no vertex, and the joint
+// separates where it is inside.
+TEST(TinyFaces, LinesAlongBoundaries)
+{
+  const std::string angle =
+    "boundary POLYGON ((0 0, 0.3 0.1, 1 0.1, 1 1, 0 1))\n";
+  const auto mesh = mesh_of(
+    angle + "joint name=a LINESTRING (0.03 0.010000000000000002, 0.9 0.3)");
+  EXPECT_EQ(mesh.n_blocks(), 1u);
+  EXPECT_EQ(n_notices_with(mesh, "runs along a boundary"), 1u);
+  EXPECT_EQ(n_notices_with(mesh, "within rounding"), 1u);
+  EXPECT_EQ(mesh.dangling_ends().n_kept, 1u);
+}

@@ -1,0 +1,287 @@
+#include "geometry/overlaps.h"
+
+#include "geometry/messages.h"
+#include "geometry/piece_geometry.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace NMM
+{
+  namespace internal
+  {
+    namespace
+    {
+      using Point = dealii::Point<2>;
+
+      /// A segment of a curve, with what was put in as further vertices.
+      struct Chain
+      {
+        unsigned int       curve, piece;
+        std::vector<Point> vertices;
+        Point              lower, upper;
+      };
+
+
+      /// Where a point is beside the segment from a to b.
+      struct Projection
+      {
+        Projection(const Point &a, const Point &b, const Point &x)
+        {
+          const double length = a.distance(b);
+          along               = (x - a) * (b - a) / length;
+          if (along <= 0.)
+            distance = x.distance(a);
+          else if (along >= length)
+            distance = x.distance(b);
+          else
+            distance = std::abs((b[0] - a[0]) * (x[1] - a[1]) -
+                                (b[1] - a[1]) * (x[0] - a[0])) /
+                       length;
+          is_between = along > 0. && along < length;
+        }
+
+        double along, distance;
+        bool   is_between;
+      };
+
+
+      class Overlaps
+      {
+      public:
+        explicit Overlaps(std::vector<Curve> &curves);
+
+        std::string
+        unite();
+
+      private:
+        /// No boundary and no hole.
+        bool
+        is_line(const Chain &chain) const;
+        bool
+        may_overlap(const Chain &a, const Chain &b) const;
+        /// Put ends into each other's chain until they coincide; was there any?
+        bool
+        unite(Chain &a, Chain &b);
+        /// The same for one segment of each, which begin at these vertices.
+        bool
+        unite(Chain &a, unsigned int i, Chain &b, unsigned int j);
+        void
+        store();
+
+        std::vector<Curve> &curves;
+        std::vector<Chain>  chains;
+      };
+
+
+      Overlaps::Overlaps(std::vector<Curve> &curves)
+        : curves(curves)
+      {
+        for (unsigned int c = 0; c < curves.size(); ++c)
+          for (unsigned int p = 0; p < curves[c].pieces.size(); ++p)
+          {
+            const CurvePiece &piece = curves[c].pieces[p];
+            if (piece.kind != CurvePiece::Kind::segment)
+              continue;
+            Chain chain = {c, p, {piece.start, piece.end}, {}, {}};
+            for (unsigned int d = 0; d < 2; ++d)
+            {
+              chain.lower[d] = std::min(piece.start[d], piece.end[d]);
+              chain.upper[d] = std::max(piece.start[d], piece.end[d]);
+            }
+            chains.push_back(chain);
+          }
+        std::stable_sort(chains.begin(),
+                         chains.end(),
+                         [](const Chain &a, const Chain &b) {
+                           return a.lower[0] < b.lower[0];
+                         });
+      }
+
+
+      /// delta of the class comment for two boxes.
+      double
+      rounding(const Point &lower_a,
+               const Point &upper_a,
+               const Point &lower_b,
+               const Point &upper_b)
+      {
+        double largest = 0.;
+        for (unsigned int d = 0; d < 2; ++d)
+          largest = std::max({largest,
+                              std::abs(std::max(lower_a[d], lower_b[d])),
+                              std::abs(std::min(upper_a[d], upper_b[d]))});
+        return 32. * std::numeric_limits<double>::epsilon() * largest;
+      }
+
+
+      bool
+      Overlaps::is_line(const Chain &chain) const
+      {
+        const CurveRole role = curves[chain.curve].role;
+        return role == CurveRole::joint || role == CurveRole::interface;
+      }
+
+
+      bool
+      Overlaps::may_overlap(const Chain &a, const Chain &b) const
+      {
+        const double delta = rounding(a.lower, a.upper, b.lower, b.upper);
+        for (unsigned int d = 0; d < 2; ++d)
+          if (a.lower[d] > b.upper[d] + delta ||
+              b.lower[d] > a.upper[d] + delta)
+            return false;
+        return a.curve != b.curve || is_line(a);
+      }
+
+
+      bool
+      Overlaps::unite(Chain             &a,
+                      const unsigned int i,
+                      Chain             &b,
+                      const unsigned int j)
+      {
+        Chain                     *chains[2] = {&a, &b};
+        const unsigned int         first[2]  = {i, j};
+        const std::array<Point, 2> ends[2]   = {
+            {{a.vertices[i], a.vertices[i + 1]}},
+            {{b.vertices[j], b.vertices[j + 1]}}};
+        const double delta = rounding(a.lower, a.upper, b.lower, b.upper);
+
+        std::vector<Point> contacts;
+        // (segment that gets a vertex, vertex)
+        std::vector<std::pair<unsigned int, Point>> missing;
+        for (unsigned int side = 0; side < 2; ++side)
+          for (const Point &end : ends[1 - side])
+          {
+            const Projection place(ends[side][0], ends[side][1], end);
+            if (!(place.distance <= delta))
+              continue;
+            contacts.push_back(end);
+            // a boundary would run along itself between two ends at one place
+            if (!is_line(*chains[side]) &&
+                std::min(end.distance(ends[side][0]),
+                         end.distance(ends[side][1])) <= 2. * delta)
+              continue;
+            const std::vector<Point> &known = chains[side]->vertices;
+            if (place.is_between &&
+                std::find(known.begin(), known.end(), end) == known.end() &&
+                !lies_exactly_on(
+                  CurvePiece::segment(ends[side][0], ends[side][1]), end))
+              missing.emplace_back(side, end);
+          }
+        double length = 0.;
+        for (const Point &x : contacts)
+          for (const Point &y : contacts)
+            length = std::max(length, x.distance(y));
+        if (missing.empty() || !(length > 16. * delta))
+          return false;
+        auto &[side, vertex]         = missing.front();
+        std::vector<Point> &vertices = chains[side]->vertices;
+        vertices.insert(vertices.begin() + first[side] + 1, vertex);
+        return true;
+      }
+
+
+      bool
+      Overlaps::unite(Chain &a, Chain &b)
+      {
+        bool       is_changed = false;
+        const auto unite_next = [&]() {
+          for (unsigned int i = 0; i + 1 < a.vertices.size(); ++i)
+            for (unsigned int j = 0; j + 1 < b.vertices.size(); ++j)
+              if (unite(a, i, b, j))
+                return true;
+          return false;
+        };
+        // a chain gets an end once at most
+        while (unite_next())
+          is_changed = true;
+        return is_changed;
+      }
+
+
+      std::string
+      Overlaps::unite()
+      {
+        std::vector<std::pair<unsigned int, unsigned int>> pairs;
+        for (unsigned int i = 0; i < chains.size(); ++i)
+          for (unsigned int j = i + 1; j < chains.size(); ++j)
+          {
+            const double delta = rounding(chains[i].lower,
+                                          chains[i].upper,
+                                          chains[j].lower,
+                                          chains[j].upper);
+            if (chains[j].lower[0] > chains[i].upper[0] + delta)
+              break;
+            if (may_overlap(chains[i], chains[j]) &&
+                unite(chains[i], chains[j]))
+              pairs.emplace_back(i, j);
+          }
+        if (pairs.empty())
+          return "";
+        // what was bent may now run along others
+        for (bool is_changed = true; is_changed;)
+        {
+          is_changed = false;
+          for (unsigned int i = 0; i < chains.size(); ++i)
+            for (unsigned int j = i + 1; j < chains.size(); ++j)
+              if (chains[i].vertices.size() + chains[j].vertices.size() > 4 &&
+                  may_overlap(chains[i], chains[j]))
+                is_changed = unite(chains[i], chains[j]) || is_changed;
+        }
+        store();
+
+        const auto &[i, j]  = pairs.front();
+        const Curve &first  = curves[chains[i].curve];
+        const Curve &second = curves[chains[j].curve];
+        const Chain &bent   = chains[chains[i].vertices.size() > 2 ? i : j];
+        return (pairs.size() == 1
+                  ? ""
+                  : std::to_string(pairs.size()) +
+                      " pairs of segments, the first of them of ") +
+               describe(first) + " and " + describe(second) + " at " +
+               describe_place(second, bent.vertices[1]) +
+               ", run along each other within rounding: there they are one";
+      }
+
+
+      void
+      Overlaps::store()
+      {
+        std::vector<std::vector<std::vector<Point>>> vertices(curves.size());
+        for (unsigned int c = 0; c < curves.size(); ++c)
+          vertices[c].resize(curves[c].pieces.size());
+        for (const Chain &chain : chains)
+          if (chain.vertices.size() > 2)
+            vertices[chain.curve][chain.piece] = chain.vertices;
+        for (unsigned int c = 0; c < curves.size(); ++c)
+        {
+          std::vector<CurvePiece> pieces;
+          for (unsigned int p = 0; p < curves[c].pieces.size(); ++p)
+          {
+            const std::vector<Point> &x = vertices[c][p];
+            if (x.empty())
+              pieces.push_back(curves[c].pieces[p]);
+            for (unsigned int i = 0; i + 1 < x.size(); ++i)
+            {
+              pieces.push_back(CurvePiece::segment(x[i], x[i + 1]));
+              pieces.back().is_straightened =
+                i == 0 && curves[c].pieces[p].is_straightened;
+            }
+          }
+          curves[c].pieces = std::move(pieces);
+        }
+      }
+    } // namespace
+
+
+    std::string
+    unite_overlaps(std::vector<Curve> &curves)
+    {
+      return Overlaps(curves).unite();
+    }
+  } // namespace internal
+} // namespace NMM

@@ -1,0 +1,42 @@
+#ifndef nmm_source_geometry_overlaps_h
+#define nmm_source_geometry_overlaps_h
+
+#include <nmm/geometry/curve.h>
+
+#include <string>
+#include <vector>
+
+namespace NMM
+{
+  namespace internal
+  {
+    /**
+     * Make segments that run along each other within rounding coincide exactly: the
+     * ends of each become vertices of the other one. Exact lines that are drawn
+     * twice, with rounded digits, cross or leave each other and enclose strips. A
+     * strip that is closed is found by its area (TinyFaces); one that opens into a
+     * block, because a line ends there, is part of a large face and is found here.
+     *
+     * An end is on a segment if its distance is at most
+     * @f[ \delta = 32\,\varepsilon M, @f]
+     * M being the largest coordinate in the common part of both bounding boxes: a
+     * strip of the length l and that width encloses @f$ l\,\delta @f$, which is what
+     * area_rounding() says of its two long sides. Two segments run along each other if
+     * two of their four ends are on the other one and further apart than
+     * @f$ 16\,\delta @f$; the distance of segments is convex, so that all between
+     * them is within @f$ \delta @f$, too. (A joint that merely ends within rounding
+     * of another one is left as it is, as all topology is.) Vertices do not move;
+     * segments are bent by @f$ \delta @f$ at most each time one is put in.
+     *
+     * Arcs and circles are left alone, and so are two parts of one boundary or hole,
+     * which must not overlap; nor does a boundary or hole get a vertex within
+     * @f$ 2\,\delta @f$ of one that it has.
+     * Cost: O(n log n + pairs of segments whose boxes intersect).
+     * @return a sentence for people, empty if nothing was changed.
+     */
+    std::string
+    unite_overlaps(std::vector<Curve> &curves);
+  } // namespace internal
+} // namespace NMM
+
+#endif

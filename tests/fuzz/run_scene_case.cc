@@ -1,0 +1,186 @@
+#include <nmm/base/program.h>
+#include <nmm/output/progress.h>
+#include <nmm/scene/run_scene.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <fuzz/fuzz.h>
+#include <ostream>
+#include <sstream>
+#include <streambuf>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+namespace NMM
+{
+  namespace Fuzz
+  {
+    namespace
+    {
+      namespace fs = std::filesystem;
+
+      /// A mutated scene may ask for more steps than there is time for, which is no
+      /// mistake.
+      class TimeIsUp
+      {
+      };
+
+
+      /**
+       * A terminal that shows nothing. After two seconds the next report of how far a
+       * stage has come ends the run with TimeIsUp; what reports nothing for long is a
+       * hang, which is for nmm-fuzz to see. Reports begin by emptying the line and what
+       * destructors say does not. The exception leaves by way of a stream that is tied
+       * to the terminal's, since that one must stay good for destructors.
+       */
+      class Terminal : public std::streambuf
+      {
+      public:
+        Terminal()
+          : stream(this)
+          , clock(*this)
+          , clock_stream(&clock)
+        {
+          clock_stream.exceptions(std::ios::badbit);
+          stream.tie(&clock_stream);
+        }
+
+        std::ostream &
+        out()
+        {
+          return stream;
+        }
+
+      protected:
+        std::streamsize
+        xsputn(const char *text, const std::streamsize n) override
+        {
+          line_is_empty = std::string(text, n) == "\r\033[K";
+          return n;
+        }
+
+        int_type
+        overflow(const int_type c) override
+        {
+          line_is_empty = false;
+          return traits_type::not_eof(c);
+        }
+
+      private:
+        class Clock : public std::streambuf
+        {
+        public:
+          explicit Clock(Terminal &terminal)
+            : terminal(terminal)
+          {
+          }
+
+        protected:
+          int
+          sync() override
+          {
+            using Seconds = std::chrono::duration<double>;
+            if (terminal.line_is_empty &&
+                Seconds(std::chrono::steady_clock::now() - start).count() > 2.)
+            {
+              terminal.stream.tie(nullptr);
+              throw TimeIsUp();
+            }
+            return 0;
+          }
+
+        private:
+          Terminal                                   &terminal;
+          const std::chrono::steady_clock::time_point start =
+            std::chrono::steady_clock::now();
+        };
+
+        bool         line_is_empty = false;
+        std::ostream stream;
+        Clock        clock;
+        std::ostream clock_stream;
+      };
+
+
+      bool
+      is_finite(const std::vector<std::string> &row)
+      {
+        return std::none_of(row.begin(),
+                            row.end(),
+                            [](const std::string &word) {
+                              return word == "nan" || word == "-nan" ||
+                                     word == "inf" || word == "-inf";
+                            });
+      }
+
+
+      /// The first row of a table in @p folder with a value that is not finite, or "".
+      std::string
+      find_non_finite(const fs::path &folder)
+      {
+        for (const auto &entry : fs::recursive_directory_iterator(folder))
+          if (entry.path().extension() == ".csv")
+          {
+            std::ifstream in(entry.path());
+            std::size_t   inside = 0;
+            for (std::string line; std::getline(in, line);)
+            {
+              std::vector<std::string> row;
+              std::istringstream       fields(line);
+              for (std::string field; std::getline(fields, field, ',');)
+                row.push_back(field);
+              if (inside == 0 && row.size() > 5 && row[5] == "inside")
+                inside = 5;
+              const bool is_outside =
+                inside > 0 && row.size() > inside && row[inside] == "0";
+              if (!is_outside && !is_finite(row))
+                return entry.path().filename().string() + ": " + line;
+            }
+          }
+        return "";
+      }
+    } // namespace
+
+
+    std::string
+    run_scene_case(const Case &c)
+    {
+      const fs::path folder =
+        fs::temp_directory_path() / ("nmm-fuzz-" + std::to_string(getpid()));
+      fs::remove_all(folder);
+      write(c, folder.string());
+      SceneRunOptions options;
+      options.output         = (folder / "results").string();
+      bool        has_output = false;
+      std::string failure;
+      try
+      {
+        Terminal    terminal;
+        Progress    progress(terminal.out(), true, MPI_COMM_WORLD);
+        const Scene scene((folder / "case.prm").string(), {});
+        run_scene(scene, options, progress, MPI_COMM_WORLD, has_output);
+        if (const std::string row = find_non_finite(options.output);
+            !row.empty())
+          failure = "exit code 0, but " + row;
+      }
+      catch (const TimeIsUp &)
+      {
+      }
+      catch (...)
+      {
+        const ProgramEnd end = explain_exception(has_output);
+        if (end.code == ExitCode::input_error && fs::exists(options.output))
+          failure = "exit code 2, but results are written: " + end.message;
+        else if (end.code != ExitCode::input_error &&
+                 end.code != ExitCode::numerical_failure)
+          failure = "exit code " + std::to_string(static_cast<int>(end.code)) +
+                    ": " + end.message;
+      }
+      fs::remove_all(folder);
+      return failure;
+    }
+  } // namespace Fuzz
+} // namespace NMM

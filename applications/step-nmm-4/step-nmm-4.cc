@@ -209,7 +209,7 @@ namespace StepNMM4
     make_row(const NMM::TimeIntegrator &integrator) const;
 
     NMM::PictureData
-    draw(const Vector &u, const NMM::OutputParameters &output) const;
+    draw(const Vector &u, const NMM::PictureParameters &output) const;
 
     /// Root of the mean area [m].
     double
@@ -450,7 +450,7 @@ namespace StepNMM4
 
 
   NMM::PictureData
-  Slope::draw(const Vector &u, const NMM::OutputParameters &output) const
+  Slope::draw(const Vector &u, const NMM::PictureParameters &output) const
   {
     const NMM::DisplacementField field(*covers, problem, u);
     const NMM::StressRecovery    recovery(field, aggregation);

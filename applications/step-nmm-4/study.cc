@@ -422,7 +422,7 @@ namespace StepNMM4
   }
 
 
-  const NMM::OutputParameters &
+  const NMM::PictureParameters &
   Film::output() const
   {
     return parameters;

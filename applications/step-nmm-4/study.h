@@ -134,7 +134,7 @@ namespace StepNMM4
     Film(const Parameters &parameters, const Outcome &outcome);
 
     /// How pictures are coloured.
-    const NMM::OutputParameters &
+    const NMM::PictureParameters &
     output() const;
 
     void
@@ -147,7 +147,7 @@ namespace StepNMM4
     finish();
 
   private:
-    NMM::OutputParameters           parameters;
+    NMM::PictureParameters          parameters;
     std::string                     prefix, title;
     std::unique_ptr<NMM::Animation> animation;
     unsigned int                    n_stages = 0;

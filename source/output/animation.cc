@@ -1,12 +1,16 @@
 #include <nmm/base/program.h>
 #include <nmm/output/animation.h>
 
+#include <deal.II/base/utilities.h>
+
 #include <algorithm>
-#include <array>
+#include <boost/serialization/array.hpp>
+#include <boost/serialization/vector.hpp>
 #include <cmath>
-#include <cstring>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iomanip>
 #include <sstream>
 
@@ -14,181 +18,8 @@ namespace NMM
 {
   namespace
   {
-    using dealii::Point;
-    using Vertex = PictureData::Vertex;
-
-    constexpr char         frame_magic[]     = "NMMfram3";
-    constexpr std::size_t  frame_magic_size  = 8;
-    constexpr std::size_t  frame_header_size = frame_magic_size + 2 * 8;
-    constexpr unsigned int max_places        = 12;
-
-
-    /// Numbers one after the other in native byte order.
-    class Packer
-    {
-    public:
-      template <typename T>
-      void
-      add(const T value)
-      {
-        char bytes[sizeof(T)];
-        std::memcpy(bytes, &value, sizeof(T));
-        buffer.append(bytes, sizeof(T));
-      }
-
-      std::string buffer;
-    };
-
-
-    class Unpacker
-    {
-    public:
-      explicit Unpacker(const std::string &buffer)
-        : buffer(&buffer)
-      {
-      }
-
-      template <typename T>
-      T
-      get()
-      {
-        AssertThrow(position + sizeof(T) <= buffer->size(),
-                    InputError("a damaged frame",
-                               "the file of a moving picture's frames",
-                               "remove the file and run again"));
-        T value;
-        std::memcpy(&value, buffer->data() + position, sizeof(T));
-        position += sizeof(T);
-        return value;
-      }
-
-    private:
-      const std::string *buffer;
-      std::size_t        position = 0;
-    };
-
-
-    /// The place relative to @p origin, so that single precision will do.
-    void
-    add(Packer &packer, const Vertex &vertex, const Point<2> &origin)
-    {
-      for (unsigned int d = 0; d < 2; ++d)
-        packer.add(static_cast<float>(vertex.position[d] - origin[d]));
-      for (unsigned int d = 0; d < 2; ++d)
-        packer.add(static_cast<float>(vertex.displacement[d]));
-    }
-
-
-    Vertex
-    get_vertex(Unpacker &unpacker, const Point<2> &origin)
-    {
-      Vertex vertex;
-      for (unsigned int d = 0; d < 2; ++d)
-        vertex.position[d] = origin[d] + unpacker.get<float>();
-      for (unsigned int d = 0; d < 2; ++d)
-        vertex.displacement[d] = unpacker.get<float>();
-      return vertex;
-    }
-
-
-    std::string
-    pack(const PictureData &data)
-    {
-      const Point<2> origin = data.triangles.empty()
-                                ? Point<2>()
-                                : data.triangles[0].vertices[0].position;
-      Packer         packer;
-      packer.add(origin[0]);
-      packer.add(origin[1]);
-      packer.add(static_cast<std::uint64_t>(data.triangles.size()));
-      for (const PictureData::Triangle &triangle : data.triangles)
-        for (unsigned int i = 0; i < 6; ++i)
-        {
-          add(packer, triangle.vertices[i], origin);
-          packer.add(static_cast<float>(triangle.values[i]));
-        }
-      for (const auto *lines : {&data.outlines,
-                                &data.interfaces,
-                                &data.mesh_lines,
-                                &data.obstacles})
-      {
-        packer.add(static_cast<std::uint64_t>(lines->size()));
-        for (const PictureData::Polyline &line : *lines)
-        {
-          packer.add(static_cast<std::uint32_t>(line.size()));
-          for (const Vertex &vertex : line)
-            add(packer, vertex, origin);
-        }
-      }
-      packer.add(static_cast<std::uint64_t>(data.contacts.size()));
-      for (const PictureData::Bar &bar : data.contacts)
-      {
-        add(packer, bar.foot, origin);
-        for (unsigned int d = 0; d < 2; ++d)
-          packer.add(static_cast<float>(bar.traction[d]));
-        packer.add(static_cast<std::uint32_t>(bar.kind));
-      }
-      packer.add(static_cast<std::uint64_t>(data.layers.size()));
-      for (const PictureData::Layer &layer : data.layers)
-      {
-        packer.add(static_cast<std::uint32_t>(layer.quantity));
-        for (const auto &values : layer.values)
-          for (const double value : values)
-            packer.add(static_cast<float>(value));
-      }
-      return packer.buffer;
-    }
-
-
-    PictureData
-    unpack(const std::string &buffer)
-    {
-      Unpacker       unpacker(buffer);
-      PictureData    data;
-      const double   x = unpacker.get<double>(), y = unpacker.get<double>();
-      const Point<2> origin(x, y);
-      for (auto n = unpacker.get<std::uint64_t>(); n > 0; --n)
-      {
-        PictureData::Triangle triangle;
-        for (unsigned int i = 0; i < 6; ++i)
-        {
-          triangle.vertices[i] = get_vertex(unpacker, origin);
-          triangle.values[i]   = unpacker.get<float>();
-        }
-        data.triangles.push_back(triangle);
-      }
-      for (auto *lines : {&data.outlines,
-                          &data.interfaces,
-                          &data.mesh_lines,
-                          &data.obstacles})
-        for (auto n = unpacker.get<std::uint64_t>(); n > 0; --n)
-        {
-          lines->emplace_back();
-          for (auto k = unpacker.get<std::uint32_t>(); k > 0; --k)
-            lines->back().push_back(get_vertex(unpacker, origin));
-        }
-      for (auto n = unpacker.get<std::uint64_t>(); n > 0; --n)
-      {
-        PictureData::Bar bar;
-        bar.foot = get_vertex(unpacker, origin);
-        for (unsigned int d = 0; d < 2; ++d)
-          bar.traction[d] = unpacker.get<float>();
-        bar.kind =
-          static_cast<PictureData::Bar::Kind>(unpacker.get<std::uint32_t>());
-        data.contacts.push_back(bar);
-      }
-      for (auto n = unpacker.get<std::uint64_t>(); n > 0; --n)
-      {
-        PictureData::Layer layer;
-        layer.quantity = static_cast<Quantity>(unpacker.get<std::uint32_t>());
-        layer.values.resize(data.triangles.size());
-        for (auto &values : layer.values)
-          for (double &value : values)
-            value = unpacker.get<float>();
-        data.layers.push_back(std::move(layer));
-      }
-      return data;
-    }
+    constexpr unsigned int max_places = 12;
+    const std::string      head       = "time,frame";
 
 
     /// Put the values of @p quantity into the triangles, if they are in a layer.
@@ -204,8 +35,7 @@ namespace NMM
 
     /// In the range of the picture's own values, unless a range @p is_given or that
     /// of @p frame is not known (then the picture's parameters have one), and of its
-    /// own bars. What the single precision of frames cannot tell from a constant, or
-    /// from nothing, stays as it is.
+    /// own bars. Values that differ by rounding errors alone do not fill the range.
     PictureFrame
     own_frame(const PictureData  &data,
               const PictureFrame &frame,
@@ -288,39 +118,22 @@ namespace NMM
   Animation::Animation(std::string name, const double keep_until)
     : file_name(std::move(name))
   {
-    find_records(keep_until);
-    // makes the file if there is none
-    std::ofstream file(file_name, std::ios::binary | std::ios::app);
-    AssertThrow(file.good(), OutputFailure(file_name));
-    file.close();
-    std::filesystem::resize_file(file_name, static_cast<std::uintmax_t>(end));
-  }
-
-
-  void
-  Animation::find_records(const double keep_until)
-  {
-    std::ifstream file(file_name, std::ios::binary | std::ios::ate);
-    if (!file.good())
-      return;
-    const std::streamoff size = file.tellg();
-    std::string          header(frame_header_size, '\0');
-    while (end + static_cast<std::streamoff>(frame_header_size) <= size)
-    {
-      file.seekg(end);
-      file.read(header.data(), frame_header_size);
-      if (!file.good() || header.compare(0, frame_magic_size, frame_magic) != 0)
-        break;
-      Record record;
-      std::memcpy(&record.time, header.data() + frame_magic_size, 8);
-      std::memcpy(&record.n_bytes, header.data() + frame_magic_size + 8, 8);
-      record.position = end + static_cast<std::streamoff>(frame_header_size);
-      if (!(record.time <= keep_until) ||
-          record.n_bytes > static_cast<std::uint64_t>(size - record.position))
-        break;
-      records.push_back(record);
-      end = record.position + static_cast<std::streamoff>(record.n_bytes);
-    }
+    const auto time_of = [](const std::string &row) {
+      return std::strtod(row.c_str(), nullptr);
+    };
+    std::function<bool(const std::string &)> is_kept;
+    std::string                              line;
+    // frames of other versions are dropped
+    if (std::getline(std::ifstream(file_name), line) && line == head)
+      is_kept = [&](const std::string &row) {
+        return time_of(row) <= keep_until;
+      };
+    rows.emplace(file_name, head + "\n", is_kept);
+    std::ifstream file(file_name);
+    std::getline(file, line);
+    for (auto position = file.tellg(); std::getline(file, line);
+         position      = file.tellg())
+      records.push_back({time_of(line), position});
   }
 
 
@@ -331,22 +144,15 @@ namespace NMM
                 InputError("a frame of an earlier time",
                            "the moving picture",
                            "add frames in the order of their times"));
-    const std::string body = pack(data);
-    Packer            header;
-    header.buffer.assign(frame_magic, frame_magic_size);
-    header.add(time);
-    header.add(static_cast<std::uint64_t>(body.size()));
-
-    std::ofstream file(file_name, std::ios::binary | std::ios::app);
-    file.write(header.buffer.data(),
-               static_cast<std::streamsize>(header.buffer.size()));
-    file.write(body.data(), static_cast<std::streamsize>(body.size()));
-    file.close();
-    AssertThrow(file.good(), OutputFailure(file_name));
-    records.push_back({time,
-                       end + static_cast<std::streamoff>(header.buffer.size()),
-                       body.size()});
-    end = records.back().position + static_cast<std::streamoff>(body.size());
+    const std::vector<char> bytes = dealii::Utilities::pack(data);
+    std::ostringstream      row;
+    row << std::setprecision(17) << time << ','
+        << dealii::Utilities::encode_base64({bytes.begin(), bytes.end()})
+        << '\n';
+    const auto position =
+      static_cast<std::streamoff>(std::filesystem::file_size(file_name));
+    rows->append(row.str());
+    records.push_back({time, position});
   }
 
 
@@ -357,47 +163,23 @@ namespace NMM
   }
 
 
-  double
-  Animation::last_time() const
-  {
-    return records.back().time;
-  }
-
-
-  void
-  Animation::remove_last_frame()
-  {
-    end =
-      records.back().position - static_cast<std::streamoff>(frame_header_size);
-    records.pop_back();
-    std::filesystem::resize_file(file_name, static_cast<std::uintmax_t>(end));
-  }
-
-
   PictureData
   Animation::read(const Record &record) const
   {
-    std::ifstream file(file_name, std::ios::binary);
-    std::string   buffer(record.n_bytes, '\0');
+    if (record.data != nullptr)
+      return *record.data;
+    std::ifstream file(file_name);
+    std::string   row;
     file.seekg(record.position);
-    file.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
+    std::getline(file, row);
     AssertThrow(file.good(),
                 InputError("the file '" + file_name + "' cannot be read",
                            "the moving picture",
                            "leave it in its place while the analysis runs"));
-    return unpack(buffer);
-  }
-
-
-  std::vector<Animation::Record>
-  Animation::chosen_records(const unsigned int max_frames) const
-  {
-    if (records.size() <= max_frames)
-      return records;
-    std::vector<Record> chosen;
-    for (std::size_t k = 0; k < max_frames; ++k)
-      chosen.push_back(records[k * (records.size() - 1) / (max_frames - 1)]);
-    return chosen;
+    const std::vector<unsigned char> bytes =
+      dealii::Utilities::decode_base64(row.substr(row.find(',') + 1));
+    return dealii::Utilities::unpack<PictureData>(
+      std::vector<char>(bytes.begin(), bytes.end()));
   }
 
 
@@ -428,13 +210,21 @@ namespace NMM
   void
   Animation::write(std::ostream              &out,
                    const std::string         &title,
-                   const OutputParameters    &parameters,
-                   const AnimationParameters &animation) const
+                   const PictureParameters   &parameters,
+                   const AnimationParameters &animation,
+                   const LastFrame           &last) const
   {
     animation.check();
     AssertThrow(!records.empty(),
                 InputError("no frames", "the moving picture", "add one"));
-    const std::vector<Record> chosen = chosen_records(animation.max_frames);
+    std::vector<Record> all = records, chosen;
+    if (last.second != nullptr && last.first > all.back().time)
+      all.push_back({last.first, 0, last.second});
+    const std::size_t n_shown =
+      std::min<std::size_t>(all.size(), animation.max_frames);
+    for (std::size_t k = 0; k < n_shown; ++k)
+      chosen.push_back(
+        all[k * (all.size() - 1) / std::max<std::size_t>(1, n_shown - 1)]);
 
     double scale = parameters.deformation_scale;
     if (scale < 0.)
@@ -463,9 +253,9 @@ namespace NMM
         extents[q].add(data, scale);
       }
     }
-    std::vector<PictureFrame>     frames(quantities.size());
-    std::vector<OutputParameters> of_frames(quantities.size(), parameters);
-    std::vector<std::string>      names;
+    std::vector<PictureFrame>      frames(quantities.size());
+    std::vector<PictureParameters> of_frames(quantities.size(), parameters);
+    std::vector<std::string>       names;
     for (std::size_t q = 0; q < quantities.size(); ++q)
     {
       frames[q].view = animation.view ? *animation.view : extents[q].view(0.01);
@@ -511,6 +301,7 @@ namespace NMM
   void
   Animation::discard()
   {
+    rows.reset();
     std::filesystem::remove(file_name);
     records.clear();
   }

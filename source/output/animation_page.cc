@@ -1,9 +1,11 @@
-#include <nmm/base/exceptions.h>
 #include <nmm/output/animation.h>
 
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/utilities.h>
+
 #include <algorithm>
-#include <cmath>
 #include <iomanip>
+#include <limits>
 #include <sstream>
 
 namespace NMM
@@ -192,46 +194,6 @@ window.onload = () => { show(0); play(true); };
       return result.str();
     }
 
-
-    std::string
-    base64(const std::string &bytes)
-    {
-      constexpr const char *digits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-      std::string text;
-      text.reserve((bytes.size() + 2) / 3 * 4);
-      for (std::size_t i = 0; i < bytes.size(); i += 3)
-      {
-        const std::size_t n      = std::min<std::size_t>(3, bytes.size() - i);
-        std::uint32_t     triple = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-          triple = (triple << 8) |
-                   (k < n ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-        for (std::size_t k = 0; k < 4; ++k)
-          text += k <= n ? digits[(triple >> (18 - 6 * k)) & 63u] : '=';
-      }
-      return text;
-    }
-
-
-    /// Width and height from a PNG's header.
-    std::pair<std::uint32_t, std::uint32_t>
-    png_size(const std::string &png)
-    {
-      const std::string signature = "\x89PNG\r\n\x1a\n";
-      AssertThrow(png.size() > 24 &&
-                    png.compare(0, signature.size(), signature) == 0,
-                  InputError("no PNG file",
-                             "a frame of a moving picture",
-                             "give the bytes of a PNG file"));
-      const auto number = [&](const std::size_t first) {
-        std::uint32_t value = 0;
-        for (std::size_t i = first; i < first + 4; ++i)
-          value = (value << 8) | static_cast<unsigned char>(png[i]);
-        return value;
-      };
-      return {number(16), number(20)};
-    }
   } // namespace
 
 
@@ -258,37 +220,9 @@ window.onload = () => { show(0); play(true); };
                            const std::vector<std::string> &png,
                            const std::vector<std::string> &own)
   {
-    AssertThrow(std::isfinite(time) && time >= last_time,
-                InputError("time " + std::to_string(time) + " after " +
-                             std::to_string(last_time),
-                           "a frame of a moving picture",
-                           "add frames in the order of their times"));
-    AssertThrow(!png.empty() && png.size() == n_choices,
-                InputError(std::to_string(png.size()) + " pictures",
-                           "a frame of a moving picture",
-                           "give " + std::to_string(n_choices) +
-                             ", one for each choice"));
-    AssertThrow(own.empty() || own.size() == n_choices,
-                InputError(std::to_string(own.size()) +
-                             " pictures in the frame's own range",
-                           "a frame of a moving picture",
-                           "give none or " + std::to_string(n_choices) +
-                             ", one for each choice"));
-    if (n_written == 0)
-      size = png_size(png.front());
-    const auto text = [](const auto &s) {
-      return std::to_string(s.first) + " x " + std::to_string(s.second);
-    };
-    for (const auto *pictures : {&png, &own})
-      for (const std::string &picture : *pictures)
-        AssertThrow((pictures == &own && picture.empty()) ||
-                      png_size(picture) == size,
-                    InputError(text(png_size(picture)) + " pixels instead of " +
-                                 text(size),
-                               "a frame of a moving picture",
-                               "draw all frames with the same view"));
-    last_time = time;
-    ++n_written;
+    AssertDimension(png.size(), n_choices);
+    Assert(own.empty() || own.size() == n_choices,
+           dealii::ExcDimensionMismatch(own.size(), n_choices));
     *out << "<script>frame({\"time\":"
          << std::setprecision(std::numeric_limits<double>::max_digits10) << time
          << ",\"label\":" << json(label) << ",\"png\":";
@@ -311,14 +245,11 @@ window.onload = () => { show(0); play(true); };
   {
     *out << '[';
     for (std::size_t c = 0; c < pictures.size(); ++c)
-      *out << (c > 0 ? ",\"" : "\"") << base64(pictures[c]) << '"';
+      *out << (c > 0 ? ",\"" : "\"")
+           << dealii::Utilities::encode_base64(
+                {pictures[c].begin(), pictures[c].end()})
+           << '"';
     *out << ']';
   }
 
-
-  unsigned int
-  AnimationPage::n_frames() const
-  {
-    return n_written;
-  }
 } // namespace NMM

@@ -1,13 +1,12 @@
-#include <nmm/base/program.h>
 #include <nmm/output/contact_output.h>
-#include <nmm/output/vtu.h>
 
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <cstdlib>
+#include <filesystem>
 #include <iomanip>
 #include <regex>
 #include <sstream>
@@ -242,6 +241,7 @@ namespace NMM
     , value_name(std::move(value_name))
     , with_table(with_table)
     , with_fields(with_fields)
+    , files(directory, "contacts")
   {
   }
 
@@ -251,53 +251,27 @@ namespace NMM
   {
     return value_name +
            ",x,y,reference_x,reference_y,slave,master,gap,pressure,shear,"
-           "state,weight,bonded";
+           "state,weight,bonded\n";
   }
 
 
   void
   ContactSeries::resume(const double last)
   {
-    const double limit = last + 1e-9 * std::abs(last);
-    std::string  kept, line;
-    files.clear();
+    files.resume(last);
     written.clear();
-    {
-      std::ifstream    in(directory->path() / "contacts.pvd");
-      const std::regex entry(
-        "timestep=\"([^\"]*)\".*file=\"(contacts-[^\"]*)\"");
-      std::smatch match;
-      while (std::getline(in, line))
-        if (std::regex_search(line, match, entry) &&
-            std::stod(match[1]) <= limit)
-          files.emplace_back(std::stod(match[1]), match[2]);
-    }
-    if (!files.empty())
-      write_list();
-    std::ifstream in(directory->path() / table_name);
-    if (!with_table || !std::getline(in, line) || line != header())
+    const auto path = directory->path() / table_name;
+    if (!with_table || !std::filesystem::exists(path))
       return;
-    while (std::getline(in, line) && !in.eof())
-    {
-      std::istringstream row(line);
-      double             value;
-      if (!(row >> value) || value > limit)
-        continue;
+    table.emplace(path.string(), header(), [&](const std::string &row) {
+      const double value = std::strtod(row.c_str(), nullptr);
       // The earlier run's end is no state of the series.
-      const auto is_same = [&](const auto &file) {
-        return std::abs(file.first - value) <= 1e-9 * std::abs(value);
-      };
-      if (with_fields && std::none_of(files.begin(), files.end(), is_same))
-        continue;
+      if (value > last || (with_fields && !files.has(value)))
+        return false;
       if (written.empty() || written.back() != value)
         written.push_back(value);
-      kept += line + "\n";
-    }
-    in.close();
-    directory->write_text(table_name, [&](std::ostream &out) {
-      out << header() << '\n' << kept;
+      return true;
     });
-    has_table = true;
   }
 
 
@@ -307,23 +281,20 @@ namespace NMM
   {
     if (!with_table || (!written.empty() && written.back() == value))
       return;
-    const std::string name = (directory->path() / table_name).string();
-    std::ofstream     out(name, has_table ? std::ios::app : std::ios::trunc);
-    if (!has_table)
-      out << header() << '\n';
-    has_table = true;
+    if (!table)
+      table.emplace((directory->path() / table_name).string(), header());
     written.push_back(value);
-    out << std::setprecision(12);
+    std::ostringstream rows;
+    rows << std::setprecision(12);
     for (const ContactSample &point : points)
-      out << value << ',' << point.x[0] << ',' << point.x[1] << ','
-          << point.reference[0] << ',' << point.reference[1] << ','
-          << quoted(surface->name(point.slave)) << ','
-          << quoted(surface->name(point.master)) << ',' << point.gap << ','
-          << point.pressure << ',' << point.shear << ','
-          << to_string(point.state) << ',' << point.weight << ','
-          << point.is_bonded << '\n';
-    out.close();
-    AssertThrow(out.good(), OutputFailure(name));
+      rows << value << ',' << point.x[0] << ',' << point.x[1] << ','
+           << point.reference[0] << ',' << point.reference[1] << ','
+           << quoted(surface->name(point.slave)) << ','
+           << quoted(surface->name(point.master)) << ',' << point.gap << ','
+           << point.pressure << ',' << point.shear << ','
+           << to_string(point.state) << ',' << point.weight << ','
+           << point.is_bonded << '\n';
+    table->append(rows.str());
   }
 
 
@@ -385,13 +356,6 @@ namespace NMM
 
 
   void
-  ContactSeries::write_list() const
-  {
-    write_series(files, *directory, "contacts.pvd");
-  }
-
-
-  void
   ContactSeries::write(const double                      value,
                        const std::string                &base,
                        const std::vector<ContactSample> &points)
@@ -400,8 +364,7 @@ namespace NMM
     if (!with_fields)
       return;
     write_points(base + ".vtp", points);
-    files.emplace_back(value, base + ".vtp");
-    write_list();
+    files.add(value, base + ".vtp");
   }
 
 
@@ -413,8 +376,6 @@ namespace NMM
     if (!with_fields)
       return;
     write_points("contacts.vtp", points);
-    if (files.empty() || files.back().first != value)
-      files.emplace_back(value, "contacts.vtp");
-    write_list();
+    files.finish(value, "contacts.vtp");
   }
 } // namespace NMM

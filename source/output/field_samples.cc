@@ -1,3 +1,4 @@
+#include <nmm/base/exceptions.h>
 #include <nmm/output/field_samples.h>
 
 #include <deal.II/base/mpi.h>
@@ -8,6 +9,50 @@
 
 namespace NMM
 {
+  const std::vector<Quantity> &
+  all_quantities()
+  {
+    static const std::vector<Quantity> all = []() {
+      std::vector<Quantity> result;
+      for (int q = 0; q <= static_cast<int>(Quantity::material); ++q)
+        result.push_back(static_cast<Quantity>(q));
+      return result;
+    }();
+    return all;
+  }
+
+
+  std::string
+  to_string(const Quantity quantity)
+  {
+    static const char *const names[] = {"von Mises stress",
+                                        "stress xx",
+                                        "stress yy",
+                                        "stress xy",
+                                        "first principal stress",
+                                        "second principal stress",
+                                        "radial stress",
+                                        "hoop stress",
+                                        "displacement",
+                                        "displacement x",
+                                        "displacement y",
+                                        "velocity",
+                                        "velocity x",
+                                        "velocity y",
+                                        "block",
+                                        "material"};
+    return names[static_cast<int>(quantity)];
+  }
+
+
+  bool
+  is_velocity(const Quantity quantity)
+  {
+    return quantity == Quantity::velocity || quantity == Quantity::velocity_x ||
+           quantity == Quantity::velocity_y;
+  }
+
+
   double
   von_mises_stress(const FieldSample::Stress &stress)
   {
@@ -202,21 +247,11 @@ namespace NMM
 
 
   double
-  quantity_value(const FieldSample      &sample,
-                 const ElementIds       &ids,
-                 const dealii::Point<2> &x,
-                 const OutputParameters &parameters)
-  {
-    return quantity_value(sample, ids, x, parameters, parameters.quantity);
-  }
-
-
-  double
-  quantity_value(const FieldSample      &sample,
-                 const ElementIds       &ids,
-                 const dealii::Point<2> &x,
-                 const OutputParameters &parameters,
-                 const Quantity          quantity)
+  quantity_value(const FieldSample       &sample,
+                 const ElementIds        &ids,
+                 const dealii::Point<2>  &x,
+                 const PictureParameters &parameters,
+                 const Quantity           quantity)
   {
     const FieldSample::Stress &stress =
       parameters.recovered ? sample.recovered : sample.direct;

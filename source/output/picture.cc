@@ -205,9 +205,9 @@ namespace NMM
 
 
     std::string
-    subtitle(const PictureData      &data,
-             const OutputParameters &parameters,
-             const int               exponent)
+    subtitle(const PictureData       &data,
+             const PictureParameters &parameters,
+             const int                exponent)
     {
       const Quantity     quantity = parameters.quantity;
       std::ostringstream text;
@@ -237,9 +237,9 @@ namespace NMM
 
     /// Values at the ends of the colour bar.
     std::pair<double, double>
-    value_range(const PictureExtents   &extents,
-                const OutputParameters &parameters,
-                const PictureFrame     &frame)
+    value_range(const PictureExtents    &extents,
+                const PictureParameters &parameters,
+                const PictureFrame      &frame)
     {
       if (frame.range)
         return *frame.range;
@@ -402,11 +402,11 @@ namespace NMM
 
     /// What bars mean, right-adjusted beside the subtitle.
     void
-    draw_legend_of_bars(cairo_t                *cr,
-                        const PictureData      &data,
-                        const Layout           &layout,
-                        const double            largest,
-                        const OutputParameters &parameters)
+    draw_legend_of_bars(cairo_t                 *cr,
+                        const PictureData       &data,
+                        const Layout            &layout,
+                        const double             largest,
+                        const PictureParameters &parameters)
     {
       const double      u        = layout.unit;
       const int         exponent = choose_exponent(0., largest);
@@ -487,11 +487,11 @@ namespace NMM
 
 
     Surface
-    draw(const PictureData      &data,
-         const OutputParameters &parameters,
-         const std::string      &title,
-         const PictureFrame     &frame,
-         const unsigned int      n_colours)
+    draw(const PictureData       &data,
+         const PictureParameters &parameters,
+         const std::string       &title,
+         const PictureFrame      &frame,
+         const unsigned int       n_colours)
     {
       PictureExtents extents;
       extents.add(data, data.deformation_scale);
@@ -621,11 +621,11 @@ namespace NMM
 
 
   void
-  draw_picture(const PictureData      &data,
-               const OutputParameters &parameters,
-               const std::string      &title,
-               const std::string      &file_name,
-               const PictureFrame     &frame)
+  draw_picture(const PictureData       &data,
+               const PictureParameters &parameters,
+               const std::string       &title,
+               const std::string       &file_name,
+               const PictureFrame      &frame)
   {
     const Surface        surface = draw(data, parameters, title, frame, 1024);
     const cairo_status_t status =
@@ -635,11 +635,11 @@ namespace NMM
 
 
   std::string
-  draw_picture_in_memory(const PictureData      &data,
-                         const OutputParameters &parameters,
-                         const std::string      &title,
-                         const PictureFrame     &frame,
-                         const unsigned int      n_colours)
+  draw_picture_in_memory(const PictureData       &data,
+                         const PictureParameters &parameters,
+                         const std::string       &title,
+                         const PictureFrame      &frame,
+                         const unsigned int       n_colours)
   {
     const Surface surface = draw(data, parameters, title, frame, n_colours);
     std::string   bytes;

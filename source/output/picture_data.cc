@@ -15,9 +15,9 @@ namespace NMM
     using Vertex   = PictureData::Vertex;
 
     double
-    choose_scale(const CoverSystem      &covers,
-                 const FieldTriangles   &triangles,
-                 const OutputParameters &parameters)
+    choose_scale(const CoverSystem       &covers,
+                 const FieldTriangles    &triangles,
+                 const PictureParameters &parameters)
     {
       if (parameters.deformation_scale >= 0.)
         return parameters.deformation_scale;
@@ -214,10 +214,10 @@ namespace NMM
 
 
   PictureData
-  make_picture_data(const CoverSystem      &covers,
-                    const FieldTriangles   &triangles,
-                    const FieldEvaluator   *evaluator,
-                    const OutputParameters &parameters)
+  make_picture_data(const CoverSystem       &covers,
+                    const FieldTriangles    &triangles,
+                    const FieldEvaluator    *evaluator,
+                    const PictureParameters &parameters)
   {
     const ManifoldMesh &mesh = covers.manifold_mesh();
     PictureData         data;
@@ -235,7 +235,8 @@ namespace NMM
         const FieldSample &sample = triangles.samples[t][i];
         const Point<2>    &x      = triangles.nodes[t][i];
         triangle.vertices[i]      = {x, sample.displacement};
-        triangle.values[i]        = quantity_value(sample, ids, x, parameters);
+        triangle.values[i] =
+          quantity_value(sample, ids, x, parameters, parameters.quantity);
       }
       data.triangles.push_back(triangle);
       for (PictureData::Layer &layer : data.layers)

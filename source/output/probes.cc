@@ -65,13 +65,13 @@ namespace NMM
   } // namespace
 
 
-  ProbePoints::ProbePoints(const ManifoldMesh                 &mesh,
-                           const std::vector<ProbeParameters> &probes)
+  ProbePoints::ProbePoints(const ManifoldMesh       &mesh,
+                           const std::vector<Probe> &probes)
   {
     const auto &box = mesh.physical_mesh().bounding_box().get_boundary_points();
     const double tolerance = 1e-9 * box.first.distance(box.second);
 
-    for (const ProbeParameters &probe : probes)
+    for (const Probe &probe : probes)
     {
       const unsigned int n      = probe.is_line ? probe.n_points : 1;
       unsigned int       inside = 0;

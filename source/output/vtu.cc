@@ -3,15 +3,18 @@
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>
 
-#include <cstdint>
-#include <numeric>
-#include <output/vtu_array.h>
+#include <algorithm>
+#include <cmath>
+#include <fstream>
 #include <regex>
 #include <sstream>
 #include <tuple>
 
 namespace NMM
 {
+  namespace DataOutBase = dealii::DataOutBase;
+  namespace Parallel    = dealii::Utilities::MPI;
+
   namespace
   {
     /// deal.II's have the date, by which the files of equal runs would differ.
@@ -55,141 +58,74 @@ namespace NMM
     }
 
 
+    /// Neighbours of the same name are the components of a vector.
     VectorRanges
-    vector_ranges(const bool has_velocity)
+    vector_ranges(const std::vector<std::string> &names)
     {
-      const auto vector = [](const unsigned int first, const char *name) {
-        return std::make_tuple(
-          first,
-          first + 1,
-          std::string(name),
-          dealii::DataComponentInterpretation::component_is_part_of_vector);
-      };
-      VectorRanges ranges = {vector(0, "displacement")};
-      if (has_velocity)
-        ranges.push_back(
-          vector(field_names(has_velocity).size() - 2, "velocity"));
+      VectorRanges ranges;
+      for (unsigned int f = 0; f + 1 < names.size(); ++f)
+        if (names[f] == names[f + 1])
+          ranges.emplace_back(
+            f,
+            f + 1,
+            names[f],
+            dealii::DataComponentInterpretation::component_is_part_of_vector);
       return ranges;
     }
 
 
-    /// Fields at the nodes of all triangles, one after the other, in the order of
-    /// field_names().
-    std::vector<std::vector<float>>
-    tabulate(const CoverSystem &covers, const FieldTriangles &triangles)
+    /// A triangle with the fields at its nodes, in the order of field_names(), and,
+    /// last, the places of these.
+    std::vector<DataOutBase::Patch<2, 2>>
+    make_patches(const CoverSystem &covers, const FieldTriangles &triangles)
     {
-      const ManifoldMesh &mesh = covers.manifold_mesh();
-      const std::size_t   n    = 6 * triangles.nodes.size();
-      const auto          rank = static_cast<float>(
-        dealii::Utilities::MPI::this_mpi_process(covers.communicator()));
-      std::vector<std::vector<float>> fields(
-        field_names(triangles.has_velocity).size(), std::vector<float>(n));
-      for (std::size_t k = 0; k < n; ++k)
+      const unsigned int rank =
+        Parallel::this_mpi_process(covers.communicator());
+      const unsigned int n_rows =
+        field_names(triangles.has_velocity).size() + 2;
+      std::vector<DataOutBase::Patch<2, 2>> patches(triangles.nodes.size());
+      for (unsigned int t = 0; t < patches.size(); ++t)
       {
-        const FieldSample &sample = triangles.samples[k / 6][k % 6];
-        const ElementIds   ids = element_ids(mesh, triangles.elements[k / 6]);
-        const auto         principal = principal_stresses(sample.recovered);
-        unsigned int       field     = 0;
-        const auto         add       = [&](const double value) {
-          fields[field++][k] = static_cast<float>(value);
-        };
-        add(sample.displacement[0]);
-        add(sample.displacement[1]);
-        for (const FieldSample::Stress *stress :
-             {&sample.direct, &sample.recovered})
-        {
-          add(stress->in_plane[0][0]);
-          add(stress->in_plane[1][1]);
-          add(stress->in_plane[0][1]);
-          add(stress->zz);
-        }
-        add(von_mises_stress(sample.recovered));
-        add(principal[0]);
-        add(principal[1]);
-        add(ids.block);
-        add(ids.region);
-        add(ids.material);
-        add(rank);
-        for (unsigned int d = 0; d < 2 && triangles.has_velocity; ++d)
-          add(sample.velocity[d]);
-        AssertDimension(field, fields.size());
-      }
-      return fields;
-    }
-
-
-    /// VTK's vectors have three components.
-    std::vector<float>
-    make_vectors(const std::vector<float> &x, const std::vector<float> &y)
-    {
-      std::vector<float> vectors(3 * x.size(), 0.f);
-      for (std::size_t k = 0; k < x.size(); ++k)
-      {
-        vectors[3 * k]     = x[k];
-        vectors[3 * k + 1] = y[k];
-      }
-      return vectors;
-    }
-
-
-    void
-    write_mesh(const std::vector<QuadraticTriangle> &triangles,
-               internal::VtuArrayWriter             &arrays,
-               std::ostream                         &out)
-    {
-      constexpr std::uint8_t lagrange_triangle = 69;
-      const std::size_t      n                 = triangles.size();
-      std::vector<float>     points(18 * n, 0.f);
-      for (std::size_t t = 0; t < n; ++t)
+        DataOutBase::Patch<2, 2> &patch = patches[t];
+        patch.reference_cell            = dealii::ReferenceCells::Triangle;
+        patch.patch_index               = t;
+        patch.points_are_available      = true;
+        patch.data.reinit(n_rows, 6);
+        const ElementIds ids =
+          element_ids(covers.manifold_mesh(), triangles.elements[t]);
         for (unsigned int i = 0; i < 6; ++i)
-          for (unsigned int d = 0; d < 2; ++d)
-            points[18 * t + 3 * i + d] = static_cast<float>(triangles[t][i][d]);
-      std::vector<std::int32_t> connectivity(6 * n), offsets(n);
-      std::iota(connectivity.begin(), connectivity.end(), 0);
-      for (std::size_t t = 0; t < n; ++t)
-        offsets[t] = static_cast<std::int32_t>(6 * (t + 1));
-      out << "  <Points>\n";
-      arrays.write("Float32", "", 3, points);
-      out << "  </Points>\n  <Cells>\n";
-      arrays.write("Int32", "connectivity", 1, connectivity);
-      arrays.write("Int32", "offsets", 1, offsets);
-      arrays.write("UInt8",
-                   "types",
-                   1,
-                   std::vector<std::uint8_t>(n, lagrange_triangle));
-      out << "  </Cells>\n";
-    }
-
-
-    void
-    write_piece(const CoverSystem    &covers,
-                const FieldTriangles &triangles,
-                std::ostream         &out)
-    {
-      internal::VtuArrayWriter arrays(out);
-      const std::size_t        n = triangles.nodes.size();
-      out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" "
-             "version=\"0.1\" compressor=\"vtkZLibDataCompressor\" "
-             "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n"
-             "<Piece NumberOfPoints=\""
-          << 6 * n << "\" NumberOfCells=\"" << n << "\">\n";
-      write_mesh(triangles.nodes, arrays, out);
-
-      const auto names  = field_names(triangles.has_velocity);
-      const auto fields = tabulate(covers, triangles);
-      out << "  <PointData>\n";
-      for (unsigned int f = 0; f < names.size(); ++f)
-        if (f + 1 < names.size() && names[f] == names[f + 1])
         {
-          arrays.write("Float32",
-                       names[f],
-                       3,
-                       make_vectors(fields[f], fields[f + 1]));
-          ++f;
+          const FieldSample &sample    = triangles.samples[t][i];
+          const auto         principal = principal_stresses(sample.recovered);
+          unsigned int       row       = 0;
+          const auto         add       = [&](const double value) {
+            patch.data(row++, i) = static_cast<float>(value);
+          };
+          add(sample.displacement[0]);
+          add(sample.displacement[1]);
+          for (const FieldSample::Stress *stress :
+               {&sample.direct, &sample.recovered})
+          {
+            add(stress->in_plane[0][0]);
+            add(stress->in_plane[1][1]);
+            add(stress->in_plane[0][1]);
+            add(stress->zz);
+          }
+          add(von_mises_stress(sample.recovered));
+          add(principal[0]);
+          add(principal[1]);
+          add(ids.block);
+          add(ids.region);
+          add(ids.material);
+          add(rank);
+          for (unsigned int d = 0; d < 2 && triangles.has_velocity; ++d)
+            add(sample.velocity[d]);
+          for (unsigned int d = 0; d < 2; ++d)
+            add(triangles.nodes[t][i][d]);
+          AssertDimension(row, n_rows);
         }
-        else
-          arrays.write("Float32", names[f], 1, fields[f]);
-      out << "  </PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+      }
+      return patches;
     }
   } // namespace
 
@@ -200,18 +136,24 @@ namespace NMM
                         const OutputDirectory &directory,
                         const std::string     &base)
   {
-    const MPI_Comm     communicator = covers.communicator();
-    const unsigned int rank =
-      dealii::Utilities::MPI::this_mpi_process(communicator);
-    const unsigned int n_ranks =
-      dealii::Utilities::MPI::n_mpi_processes(communicator);
+    const MPI_Comm        communicator = covers.communicator();
+    const unsigned int    rank    = Parallel::this_mpi_process(communicator);
+    const unsigned int    n_ranks = Parallel::n_mpi_processes(communicator);
+    const auto            names   = field_names(triangles.has_velocity);
+    DataOutBase::VtkFlags flags;
+    flags.print_date_and_time = false;
+    flags.compression_level   = DataOutBase::VtkFlags::best_speed;
 
     const auto piece_name = [&](const unsigned int r) {
       return n_ranks == 1 ? base + ".vtu"
                           : base + "." + std::to_string(r) + ".vtu";
     };
     directory.write_text(piece_name(rank), [&](std::ostream &out) {
-      write_piece(covers, triangles, out);
+      DataOutBase::write_vtu(make_patches(covers, triangles),
+                             names,
+                             vector_ranges(names),
+                             flags,
+                             out);
     });
     if (n_ranks == 1)
       return piece_name(0);
@@ -222,35 +164,70 @@ namespace NMM
         for (unsigned int r = 0; r < n_ranks; ++r)
           pieces.push_back(piece_name(r));
         std::ostringstream text;
-        dealii::DataOutBase::write_pvtu_record(
-          text,
-          pieces,
-          field_names(triangles.has_velocity),
-          vector_ranges(triangles.has_velocity),
-          dealii::DataOutBase::VtkFlags());
+        DataOutBase::write_pvtu_record(
+          text, pieces, names, vector_ranges(names), flags);
         out << without_comments(text.str());
       });
     return base + ".pvtu";
   }
 
 
-  void
-  write_series(const std::vector<std::pair<double, std::string>> &states,
-               const OutputDirectory                             &directory)
+  FileSeries::FileSeries(const OutputDirectory &directory, std::string base)
+    : directory(&directory)
+    , base(std::move(base))
   {
-    write_series(states, directory, "fields.pvd");
   }
 
 
   void
-  write_series(const std::vector<std::pair<double, std::string>> &states,
-               const OutputDirectory                             &directory,
-               const std::string                                 &name)
+  FileSeries::resume(const double last)
   {
-    directory.write_text(name, [&](std::ostream &out) {
+    std::ifstream    in(directory->path() / (base + ".pvd"));
+    const std::regex entry("timestep=\"([^\"]*)\".*file=\"(" + base +
+                           "-[^\"]*)\"");
+    std::smatch      match;
+    states.clear();
+    for (std::string line; std::getline(in, line);)
+      if (std::regex_search(line, match, entry) && std::stod(match[1]) <= last)
+        states.emplace_back(std::stod(match[1]), match[2]);
+    if (!states.empty())
+      write_list();
+  }
+
+
+  void
+  FileSeries::add(const double value, const std::string &file)
+  {
+    states.emplace_back(value, file);
+    write_list();
+  }
+
+
+  void
+  FileSeries::finish(const double value, const std::string &file)
+  {
+    if (!has(value))
+      states.emplace_back(value, file);
+    write_list();
+  }
+
+
+  bool
+  FileSeries::has(const double value) const
+  {
+    return std::any_of(states.begin(), states.end(), [&](const auto &state) {
+      return std::abs(state.first - value) <= 1e-9 * std::abs(value);
+    });
+  }
+
+
+  void
+  FileSeries::write_list() const
+  {
+    directory->write_text(base + ".pvd", [&](std::ostream &out) {
       std::ostringstream text;
       text.precision(12);
-      dealii::DataOutBase::write_pvd_record(text, states);
+      DataOutBase::write_pvd_record(text, states);
       out << without_comments(text.str());
     });
   }

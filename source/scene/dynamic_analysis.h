@@ -2,11 +2,10 @@
 #define nmm_source_scene_dynamic_analysis_h
 
 #include <nmm/dynamics/elastic_models.h>
-#include <nmm/dynamics/history.h>
 #include <nmm/dynamics/incremental_dynamics.h>
 #include <nmm/dynamics/leaving_blocks.h>
 #include <nmm/dynamics/step_control.h>
-#include <nmm/scene/time_table.h>
+#include <nmm/output/csv_series.h>
 
 #include <memory>
 #include <scene/probe_history.h>
@@ -67,10 +66,9 @@ namespace NMM
       std::unique_ptr<DisplacementField> velocity_field;
 
       /// On the first rank.
-      std::unique_ptr<History>      history;
-      std::unique_ptr<TimeTable>    incremental_history;
+      std::unique_ptr<CsvSeries>    history;
       std::unique_ptr<ProbeHistory> probe_history;
-      std::unique_ptr<TimeTable>    departures;
+      std::unique_ptr<CsvSeries>    departures;
 
       /// To go back to if a step fails half-way.
       DynamicState last_good;
@@ -111,11 +109,12 @@ namespace NMM
       void
       open_departures(int continue_after);
 
-      /// Names and values of what histories have of blocks that have left.
+      /// Columns of history.csv after time and step, and their values in the state
+      /// reached by @p record.
       std::vector<std::string>
-      further_columns() const;
+      history_columns() const;
       std::vector<double>
-      further_values() const;
+      history_values(const StepRecord &record) const;
 
       /// From the scene's list. @throws InputError for a block that does not
       /// exist.

@@ -36,23 +36,17 @@ namespace NMM
           probe_history->open(
             (directory->path() / "probes-history.csv").string(),
             continue_after);
-        if (incremental)
-          incremental_history = std::make_unique<TimeTable>(
-            name,
-            "# per unit thickness: energies [J/m], angular momentum about the "
-            "origin [kg m/s]; time and size [s], displacement [m], area [m^2]",
-            std::vector<std::string>{"size",
-                                     "max_displacement",
-                                     "kinetic",
-                                     "strain",
-                                     "angular_momentum",
-                                     "area"},
-            MPI_COMM_SELF);
-        else
-          history = std::make_unique<History>(name,
-                                              MPI_COMM_SELF,
-                                              continue_after,
-                                              further_columns());
+        history = std::make_unique<CsvSeries>(
+          name,
+          incremental
+            ? "# per unit thickness: energies [J/m], angular momentum about "
+              "the "
+              "origin [kg m/s]; time and size [s], displacement [m], area [m^2]"
+            : "# per unit thickness: energies [J/m], linear momentum [kg/s], "
+              "angular momentum about the origin [kg m/s]; time and size [s], "
+              "displacement and error [m]",
+          history_columns(),
+          continue_after);
         open_departures(continue_after);
         if (is_continued)
           directory->resume();
@@ -118,22 +112,89 @@ namespace NMM
     }
 
 
-    void
-    DynamicAnalysis::write_rows(const StepRecord &record)
+    std::vector<std::string>
+    DynamicAnalysis::history_columns() const
     {
-      std::vector<double> row = further_values();
+      if (incremental)
+        return {"size",
+                "max_displacement",
+                "kinetic",
+                "strain",
+                "angular_momentum",
+                "area"};
+      std::vector<std::string> columns = {"size",
+                                          "iterations",
+                                          "lost_iterations",
+                                          "max_displacement",
+                                          "error",
+                                          "kinetic",
+                                          "strain",
+                                          "conditions",
+                                          "dissipated",
+                                          "external_work",
+                                          "balance",
+                                          "momentum_x",
+                                          "momentum_y",
+                                          "angular_momentum"};
+      if (contact)
+        for (const std::string &column : contact->columns())
+          columns.push_back(column);
+      if (leaving)
+        columns.insert(columns.end(), {"blocks_left", "left_energy"});
+      if (scene.parameters().time.sleep.speed > 0.)
+        columns.push_back("blocks_asleep");
+      return columns;
+    }
+
+
+    std::vector<double>
+    DynamicAnalysis::history_values(const StepRecord &record) const
+    {
+      const StepReport &report = record.report;
       if (incremental)
       {
         const DisplacementField current(*covers, problem, displacement());
-        row = {record.report.step,
-               record.report.max_displacement,
-               incremental_dynamics->kinetic_energy(),
-               CurrentStress::incremental_strain_energy(
-                 current, *quadrature, problem, incremental->stresses()),
-               incremental_dynamics->angular_momentum(),
-               CurrentStress::area(current, *quadrature)};
+        return {report.step,
+                report.max_displacement,
+                incremental_dynamics->kinetic_energy(),
+                CurrentStress::incremental_strain_energy(
+                  current, *quadrature, problem, incremental->stresses()),
+                incremental_dynamics->angular_momentum(),
+                CurrentStress::area(current, *quadrature)};
       }
-      std::vector<double> probe_values;
+      const Account      &account = integrator->account();
+      std::vector<double> values  = {report.step,
+                                     double(report.n_iterations),
+                                     double(record.n_lost_iterations),
+                                     report.max_displacement,
+                                     report.error,
+                                     account.kinetic,
+                                     account.strain,
+                                     account.conditions,
+                                     account.dissipated,
+                                     account.external_work,
+                                     account.balance,
+                                     account.linear_momentum[0],
+                                     account.linear_momentum[1],
+                                     account.angular_momentum};
+      if (contact)
+        for (const double value : contact->numbers(/* thickness = */ 1.))
+          values.push_back(value);
+      if (leaving)
+        values.insert(values.end(),
+                      {double(integrator->state().left_blocks.size()),
+                       account.left});
+      if (scene.parameters().time.sleep.speed > 0.)
+        values.push_back(integrator->n_asleep());
+      return values;
+    }
+
+
+    void
+    DynamicAnalysis::write_rows(const StepRecord &record)
+    {
+      const std::vector<double> row = history_values(record);
+      std::vector<double>       probe_values;
       if (!probe_history->is_empty())
       {
         // Without unknowns of other ranks.
@@ -142,10 +203,7 @@ namespace NMM
         probe_values = probe_history->evaluate(owned, velocity());
       }
       on_first_rank([&]() {
-        if (incremental)
-          incremental_history->write(time(), step_number(), row);
-        else
-          history->write(*integrator, record, row);
+        history->append(time(), step_number(), row);
         probe_history->write(time(), step_number(), probe_values);
       });
     }

@@ -39,14 +39,11 @@ namespace NMM
     DynamicAnalysis::open_departures(const int continue_after)
     {
       if (leaving)
-        departures = std::make_unique<TimeTable>(
+        departures = std::make_unique<CsvSeries>(
           (directory->path() / "left-blocks.csv").string(),
           "# time [s]; a point of the block in the undeformed solid and the "
-          "middle "
-          "of "
-          "the box around it where it left [m]; per unit thickness: energies "
-          "that "
-          "left with it [J/m], momentum [kg/s]",
+          "middle of the box around it where it left [m]; per unit thickness: "
+          "energies that left with it [J/m], momentum [kg/s]",
           std::vector<std::string>{"block",
                                    "reference_x",
                                    "reference_y",
@@ -56,7 +53,6 @@ namespace NMM
                                    "kinetic",
                                    "momentum_x",
                                    "momentum_y"},
-          MPI_COMM_SELF,
           continue_after);
     }
 
@@ -83,50 +79,19 @@ namespace NMM
             return r.block == departure.block;
           });
         on_first_rank([&]() {
-          departures->write(time(),
-                            step_number(),
-                            {static_cast<double>(departure.block),
-                             region->inside[0],
-                             region->inside[1],
-                             middle[0],
-                             middle[1],
-                             after.left - before.left,
-                             before.kinetic - after.kinetic,
-                             momentum[0],
-                             momentum[1]});
+          departures->append(time(),
+                             step_number(),
+                             {static_cast<double>(departure.block),
+                              region->inside[0],
+                              region->inside[1],
+                              middle[0],
+                              middle[1],
+                              after.left - before.left,
+                              before.kinetic - after.kinetic,
+                              momentum[0],
+                              momentum[1]});
         });
       }
-    }
-
-
-    std::vector<std::string>
-    DynamicAnalysis::further_columns() const
-    {
-      std::vector<std::string> columns;
-      if (contact)
-        columns = contact->columns();
-      if (leaving)
-        columns.insert(columns.end(), {"blocks_left", "left_energy"});
-      if (scene.parameters().time.sleep.speed > 0.)
-        columns.push_back("blocks_asleep");
-      return columns;
-    }
-
-
-    std::vector<double>
-    DynamicAnalysis::further_values() const
-    {
-      std::vector<double> values;
-      if (contact)
-        values = contact->numbers(/* thickness = */ 1.);
-      if (leaving)
-        values.insert(values.end(),
-                      {static_cast<double>(
-                         integrator->state().left_blocks.size()),
-                       integrator->account().left});
-      if (scene.parameters().time.sleep.speed > 0.)
-        values.push_back(integrator->n_asleep());
-      return values;
     }
 
   } // namespace internal

@@ -384,7 +384,7 @@ namespace NMM
     {
       out << "step,load_factor,iterations,cuts,relative_residual,strain_energy,"
              "max_displacement";
-      for (const ProbeParameters &probe : scene.parameters().probes)
+      for (const Probe &probe : scene.parameters().probes)
         if (!probe.is_line)
           out << ',' << probe.name << "_x," << probe.name << "_y";
       if (contact)

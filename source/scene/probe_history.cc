@@ -9,9 +9,9 @@ namespace NMM
 
     using namespace NMM;
 
-    ProbeHistory::ProbeHistory(const CoverSystem                  &covers,
-                               const ProbePoints                  &points,
-                               const std::vector<ProbeParameters> &probes)
+    ProbeHistory::ProbeHistory(const CoverSystem        &covers,
+                               const ProbePoints        &points,
+                               const std::vector<Probe> &probes)
       : communicator(covers.communicator())
     {
       const ManifoldMesh     &mesh         = covers.manifold_mesh();
@@ -52,11 +52,10 @@ namespace NMM
         for (const char *suffix : {"_x", "_y", "_vx", "_vy"})
           columns.push_back(name + suffix);
       table =
-        std::make_unique<TimeTable>(file_name,
+        std::make_unique<CsvSeries>(file_name,
                                     "# time [s]; displacement _x, _y [m] and "
                                     "velocity _vx, _vy [m/s] of probes",
                                     columns,
-                                    communicator,
                                     continue_after);
     }
 
@@ -84,7 +83,7 @@ namespace NMM
                         const std::vector<double> &values)
     {
       if (table)
-        table->write(time, step, values);
+        table->append(time, step, values);
     }
 
   } // namespace internal

@@ -2,8 +2,8 @@
 #define nmm_source_scene_probe_history_h
 
 #include <nmm/covers/cover_system.h>
+#include <nmm/output/csv_series.h>
 #include <nmm/output/probes.h>
-#include <nmm/scene/time_table.h>
 
 #include <deal.II/lac/trilinos_vector.h>
 
@@ -25,15 +25,15 @@ namespace NMM
     public:
       using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
-      ProbeHistory(const CoverSystem                  &covers,
-                   const ProbePoints                  &points,
-                   const std::vector<ProbeParameters> &probes);
+      ProbeHistory(const CoverSystem        &covers,
+                   const ProbePoints        &points,
+                   const std::vector<Probe> &probes);
 
       /// Is there a probe that is a point?
       bool
       is_empty() const;
 
-      /// On the first rank. See TimeTable.
+      /// On the first rank. See CsvSeries.
       void
       open(const std::string &file_name, int continue_after);
 
@@ -57,7 +57,7 @@ namespace NMM
       std::vector<std::string> names;
       /// Per probe, of covers this rank owns.
       std::vector<std::vector<Term>> terms;
-      std::unique_ptr<TimeTable>     table;
+      std::unique_ptr<CsvSeries>     table;
     };
 
   } // namespace internal

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <output/shapes.h>
+#include <scene/shapes.h>
 #include <set>
 
 // Contact: which faces, how they act on each other, rigid obstacles.

@@ -4,7 +4,7 @@
 #include <nmm/scene/scene.h>
 
 #include <algorithm>
-#include <output/shapes.h>
+#include <scene/shapes.h>
 
 // The solid: what bounds it, what joints cut it, which places have names.
 namespace NMM

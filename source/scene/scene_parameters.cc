@@ -388,8 +388,6 @@ namespace NMM
                      has_contact);
     newton.check(model.kinematics, model.analysis, has_contact);
     output.check();
-    for (const ProbeParameters &probe : probes)
-      probe.check();
     exact_solution.check();
     check_kinematics();
     check_contact();

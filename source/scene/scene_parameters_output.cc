@@ -14,23 +14,12 @@ namespace NMM
 
   namespace
   {
-    const std::vector<std::pair<std::string, Quantity>> quantities = {
-      {"von Mises stress", Quantity::von_mises},
-      {"stress xx", Quantity::stress_xx},
-      {"stress yy", Quantity::stress_yy},
-      {"stress xy", Quantity::stress_xy},
-      {"first principal stress", Quantity::first_principal},
-      {"second principal stress", Quantity::second_principal},
-      {"radial stress", Quantity::radial_stress},
-      {"hoop stress", Quantity::hoop_stress},
-      {"displacement", Quantity::displacement},
-      {"displacement x", Quantity::displacement_x},
-      {"displacement y", Quantity::displacement_y},
-      {"velocity", Quantity::velocity},
-      {"velocity x", Quantity::velocity_x},
-      {"velocity y", Quantity::velocity_y},
-      {"block", Quantity::block},
-      {"material", Quantity::material}};
+    const std::vector<std::pair<std::string, Quantity>> quantities = []() {
+      std::vector<std::pair<std::string, Quantity>> result;
+      for (const Quantity quantity : all_quantities())
+        result.emplace_back(to_string(quantity), quantity);
+      return result;
+    }();
 
     const std::vector<std::pair<std::string, bool>> stress_choices =
       {{"recovered", true}, {"direct", false}};
@@ -43,26 +32,6 @@ namespace NMM
                          {"thick ring",
                           ExactSolutionParameters::Type::thick_ring}};
   } // namespace
-
-
-  const std::string &
-  to_string(const Quantity quantity)
-  {
-    return std::find_if(quantities.begin(),
-                        quantities.end(),
-                        [&](const auto &entry) {
-                          return entry.second == quantity;
-                        })
-      ->first;
-  }
-
-
-  bool
-  is_velocity(const Quantity quantity)
-  {
-    return quantity == Quantity::velocity || quantity == Quantity::velocity_x ||
-           quantity == Quantity::velocity_y;
-  }
 
 
   void
@@ -244,30 +213,27 @@ namespace NMM
   }
 
 
-  void
-  ProbeParameters::parse(ParameterHandler &prm)
+  Probe
+  ProbeParameters::parse(ParameterHandler &prm, const std::string &name)
   {
-    is_line  = get_selection(prm, "Type", probe_types);
-    point    = get_point(prm, "Point");
-    from     = get_point(prm, "From");
-    to       = get_point(prm, "To");
-    n_points = prm.get_integer("Number of points");
-  }
-
-
-  void
-  ProbeParameters::check() const
-  {
+    Probe probe;
+    probe.name     = name;
+    probe.is_line  = get_selection(prm, "Type", probe_types);
+    probe.point    = get_point(prm, "Point");
+    probe.from     = get_point(prm, "From");
+    probe.to       = get_point(prm, "To");
+    probe.n_points = prm.get_integer("Number of points");
     AssertThrow(
-      !is_line || from != to,
+      !probe.is_line || probe.from != probe.to,
       InputError("the line of a probe has no length, from and to are " +
-                   to_string(from),
+                   to_string(probe.from),
                  "section 'Probes/" + name + "'",
                  "give two different points, or 'Type = point'"));
     AssertThrow(name.find_first_of(",\"") == std::string::npos,
                 InputError("the name '" + name + "' contains a quotation mark",
                            "parameter 'Probes/Names'",
                            "it has to fit in a CSV file"));
+    return probe;
   }
 
 
@@ -506,7 +472,12 @@ namespace NMM
       joint_sets.push_back(JointSetParameters::parse(prm, name));
     });
     prm.leave_subsection();
-    parse_list(prm, "Probes", names.probes, probes);
+    prm.enter_subsection("Probes");
+    probes.clear();
+    for_each_name(prm, names.probes, [&](const std::string &name) {
+      probes.push_back(ProbeParameters::parse(prm, name));
+    });
+    prm.leave_subsection();
     parse_list(prm, "Obstacles", names.obstacles, obstacles);
     prm.enter_subsection("Contact");
     contact.parse(prm, names.contact_laws);

@@ -4,10 +4,8 @@
 #include <deal.II/base/mpi.h>
 
 #include <cmath>
-#include <fstream>
 #include <iomanip>
 #include <limits>
-#include <regex>
 #include <scene/state_series.h>
 #include <sstream>
 
@@ -79,6 +77,7 @@ namespace NMM
       , covers(&covers)
       , contact(contact)
       , directory(&directory)
+      , files(directory, "fields")
     {
       const SceneParameters &parameters = scene.parameters();
       if (contact != nullptr && is_first_rank(covers))
@@ -97,24 +96,12 @@ namespace NMM
     void
     StateSeries::resume(const double last)
     {
-      files.clear();
       if (!is_first_rank(*covers))
         return;
-      std::ifstream    in(directory->path() / "fields.pvd");
-      const std::regex entry("timestep=\"([^\"]*)\".*file=\"(fields-[^\"]*)\"");
-      const double     limit = last + 1e-9 * std::abs(last);
-      std::smatch      match;
-      for (std::string line; std::getline(in, line);)
-        if (std::regex_search(line, match, entry))
-        {
-          const double value = std::stod(match[1]);
-          if (value <= limit)
-            files.emplace_back(value, match[2]);
-        }
-      if (!files.empty())
-        write_list();
+      const double limit = last + 1e-9 * std::abs(last);
+      files.resume(limit);
       if (contact_series)
-        contact_series->resume(last);
+        contact_series->resume(limit);
       const OutputParameters &output = scene->parameters().output;
       if (output.animation && output.picture && output.fields_every > 0)
         open_animation(limit);
@@ -139,9 +126,8 @@ namespace NMM
                                                        "fields" + suffix.str());
         // Every rank's piece is there before the list names it.
         MPI_Barrier(covers->communicator());
-        files.emplace_back(value, name);
         if (is_first_rank(*covers))
-          write_list();
+          files.add(value, name);
       }
       if (contact != nullptr)
       {
@@ -194,26 +180,21 @@ namespace NMM
       if (shows_true_size(*scene) && output.deformation_scale < 0.)
         output.deformation_scale = 1.;
       // A run that continues this one has no such state in its series.
-      const bool is_added = last != nullptr && !last->triangles.empty() &&
-                            value > animation->last_time();
-      if (is_added)
-        animation->add_frame(value, *last);
+      if (last != nullptr && last->triangles.empty())
+        last = nullptr;
       directory->write_text("animation.html", [&](std::ostream &out) {
-        animation->write(out, scene->title(), output, parameters);
+        animation->write(
+          out, scene->title(), output, parameters, {value, last});
       });
-      if (is_added)
-        animation->remove_last_frame();
     }
 
 
     void
     StateSeries::finish(const double value, const std::string &file_name)
     {
-      if (files.empty() || files.back().first != value)
-        files.emplace_back(value, file_name);
       MPI_Barrier(covers->communicator());
       if (is_first_rank(*covers))
-        write_list();
+        files.finish(value, file_name);
     }
 
 
@@ -227,12 +208,6 @@ namespace NMM
         contact_series->finish(value, points);
     }
 
-
-    void
-    StateSeries::write_list() const
-    {
-      write_series(files, *directory);
-    }
 
   } // namespace internal
 } // namespace NMM

@@ -10,8 +10,6 @@
 #include <memory>
 #include <scene/contact_analysis.h>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace NMM
 {
@@ -77,19 +75,16 @@ namespace NMM
       write_animation(double value, const PictureData *last);
 
     private:
-      void
-      write_list() const;
-
       /// Begin to keep frames, after those of an earlier run up to @p last.
       void
       open_animation(double last);
 
-      const Scene                                *scene;
-      const CoverSystem                          *covers;
-      const ContactAnalysis                      *contact;
-      const OutputDirectory                      *directory;
-      std::vector<std::pair<double, std::string>> files;
+      const Scene           *scene;
+      const CoverSystem     *covers;
+      const ContactAnalysis *contact;
+      const OutputDirectory *directory;
       /// On the first rank.
+      FileSeries                     files;
       std::unique_ptr<Animation>     animation;
       std::unique_ptr<ContactSeries> contact_series;
     };

@@ -229,7 +229,7 @@ namespace NMM
         angle_about(inner.center, inner.start) + 0.5 * swept_angle(inner);
       const dealii::Tensor<1, 2> radial({std::cos(middle), std::sin(middle)});
       const dealii::Tensor<1, 2> hoop({-radial[1], radial[0]});
-      ProbeParameters            line;
+      Probe                      line;
       line.is_line = true;
       line.from    = ring.center() + ring.inner_radius() * radial;
       line.to      = ring.center() + ring.outer_radius() * radial;

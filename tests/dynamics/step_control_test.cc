@@ -1,7 +1,7 @@
-// Choice of the step, failure below the least one, relaxation to rest, history.
+// Choice of the step, failure below the least one, relaxation to rest.
 
 #include <nmm/base/program.h>
-#include <nmm/dynamics/history.h>
+#include <nmm/dynamics/step_control.h>
 #include <nmm/mechanics/nonlinear_statics.h>
 
 #include <dynamics/dynamic_model.h>
@@ -249,45 +249,4 @@ namespace
     EXPECT_GT(n_shrunk, 0u);
   }
 
-
-  TEST(History, RowPerStepAndContinuation)
-  {
-    const std::string file = NMM_TEST_OUTPUT_DIR "/history.csv";
-    Body              body = cantilever();
-    body.make_small();
-    TimeIntegrator integrator(*body.mechanics, TimeScheme::newmark());
-    const auto     rows = [&] {
-      std::ifstream            in(file);
-      std::vector<std::string> lines;
-      for (std::string line; std::getline(in, line);)
-        lines.push_back(line);
-      return lines;
-    };
-    std::vector<std::string> before;
-    {
-      History history(file, MPI_COMM_WORLD);
-      history.write(integrator, StepRecord());
-      StepControl(steps(0.01)).run(integrator, 0.05, [&](const StepRecord &r) {
-        history.write(integrator, r);
-        // complete after each row: a kill here would lose nothing
-        EXPECT_EQ(rows().size(), 3 + integrator.state().step);
-        return true;
-      });
-      before = rows();
-    }
-    ASSERT_EQ(before.size(), 8u);
-    EXPECT_EQ(before[0][0], '#');
-    const auto n_columns = std::count(before[1].begin(), before[1].end(), ',');
-    for (unsigned int i = 2; i < before.size(); ++i)
-      EXPECT_EQ(std::count(before[i].begin(), before[i].end(), ','), n_columns);
-    {
-      History history(file, MPI_COMM_WORLD, 2);
-    }
-    const std::vector<std::string> after = rows();
-    ASSERT_EQ(after.size(), 5u);
-    for (unsigned int i = 0; i < after.size(); ++i)
-      EXPECT_EQ(after[i], before[i]);
-    EXPECT_THROW(History("no/such/folder/history.csv", MPI_COMM_WORLD),
-                 OutputFailure);
-  }
 } // namespace

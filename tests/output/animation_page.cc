@@ -36,7 +36,7 @@ namespace
     for (unsigned int i = 0; i < 6; ++i)
       triangle.values[i] = largest * triangle.vertices[i].position[0];
     data.triangles = {triangle};
-    OutputParameters parameters;
+    PictureParameters parameters;
     parameters.picture_width = 400;
     PictureFrame frame;
     frame.range = {{0., 4.}};

@@ -150,7 +150,7 @@ namespace
     EXPECT_EQ(extents.largest_traction(), std::hypot(3., 8.));
 
     // each part is seen
-    OutputParameters parameters;
+    PictureParameters parameters;
     parameters.picture_width = 300;
     const auto draw          = [&](const PictureData &what) {
       return draw_picture_in_memory(what, parameters, "contact");

@@ -64,15 +64,12 @@ namespace
     sample.velocity     = dealii::Tensor<1, 2>({-5., 12.});
     const ElementIds ids{2, 3, 1};
 
-    OutputParameters parameters;
+    PictureParameters parameters;
     parameters.center = dealii::Point<2>(1., 1.);
     const auto value_along =
       [&](const Quantity quantity, const double x, const double y) {
-        parameters.quantity = quantity;
-        return quantity_value(sample,
-                              ids,
-                              dealii::Point<2>(1. + x, 1. + y),
-                              parameters);
+        return quantity_value(
+          sample, ids, dealii::Point<2>(1. + x, 1. + y), parameters, quantity);
       };
     EXPECT_NEAR(value_along(Quantity::radial_stress, c, s), 1., 1e-15);
     EXPECT_NEAR(value_along(Quantity::hoop_stress, c, s), 0., 1e-15);

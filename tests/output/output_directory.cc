@@ -1,11 +1,13 @@
 #include <nmm/base/program.h>
+#include <nmm/output/csv_series.h>
 #include <nmm/output/output_directory.h>
-#include <nmm/scene/time_table.h>
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 #include <sys/resource.h>
@@ -82,10 +84,10 @@ namespace
     const OutputDirectory directory(fresh("full"));
     directory.create();
     directory.write_text("a.csv", [](std::ostream &out) { out << "whole"; });
-    TimeTable table((directory.path() / "table.csv").string(),
-                    "",
+    CsvSeries table((directory.path() / "table.csv").string(),
+                    "#",
                     {"value"},
-                    MPI_COMM_SELF);
+                    -1);
     rlimit    limit;
     getrlimit(RLIMIT_FSIZE, &limit);
     const rlim_t unlimited = limit.rlim_cur;
@@ -98,7 +100,7 @@ namespace
                                       }),
                  OutputFailure);
     EXPECT_THROW(for (unsigned int step = 0; step < 100; ++step)
-                   table.write(0.1 * step, step, {1.}),
+                   table.append(0.1 * step, step, {1.}),
                  OutputFailure);
     limit.rlim_cur = unlimited;
     setrlimit(RLIMIT_FSIZE, &limit);
@@ -107,6 +109,45 @@ namespace
     std::ifstream(directory.path() / "a.csv") >> content;
     EXPECT_EQ(content, "whole");
     EXPECT_EQ(n_files(directory.path()), 2u);
+  }
+
+
+  TEST(CsvSeries, RowPerStepAndContinuation)
+  {
+    const fs::path folder = fresh("series");
+    fs::create_directories(folder);
+    const std::string              file    = (folder / "history.csv").string();
+    const std::vector<std::string> columns = {"a", "b"};
+    const auto                     content = [&]() {
+      std::ifstream in(file);
+      return std::string(std::istreambuf_iterator<char>(in), {});
+    };
+    std::string expected = "# units\ntime,step,a,b\n";
+    {
+      CsvSeries series(file, "# units", columns, -1);
+      for (unsigned int step = 0; step < 5; ++step)
+      {
+        series.append(0.5 * step, step, {0.1, -2.});
+        // complete after each row: a kill here would lose nothing
+        const std::string all = content();
+        EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 3 + step);
+        if (step == 2)
+          expected = all;
+      }
+    }
+    EXPECT_EQ(expected.substr(expected.size() - 27),
+              "1,2,0.10000000000000001,-2\n");
+    // the row that a kill has cut is of a step to be kept
+    std::ofstream(file, std::ios::app) << "0.25,1,0.";
+    {
+      const CsvSeries series(file, "# units", columns, 2);
+    }
+    EXPECT_EQ(content(), expected);
+    EXPECT_THROW(CsvSeries(file, "# units", {"a", "c"}, 2), InputError);
+    EXPECT_EQ(content(), expected);
+    EXPECT_EQ(n_files(folder), 1u);
+    EXPECT_THROW(CsvSeries("no/such/folder/history.csv", "", columns, -1),
+                 OutputFailure);
   }
 
 

@@ -72,7 +72,7 @@ namespace
       std::filesystem::remove(name);
       if (with_triangle)
         data.triangles.push_back(flat);
-      draw_picture(data, OutputParameters(), "degenerate", name);
+      draw_picture(data, PictureParameters(), "degenerate", name);
       char          signature[4] = {};
       std::ifstream file(name, std::ios::binary);
       file.read(signature, 4);

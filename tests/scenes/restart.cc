@@ -400,7 +400,7 @@ namespace
       ASSERT_TRUE(fs::exists(checkpoint));
       last    = fs::last_write_time(checkpoint);
       restart = {"--restart", checkpoint};
-      // What a run leaves in its last moments, see TimeTable and History.
+      // What a run leaves in its last moments, see CsvSeries.
       std::ofstream(killed + "/history.csv", std::ios::app) << "1.99,99999,0.0";
       std::ofstream(killed + "/probes-history.csv", std::ios::app) << "1.9";
     }

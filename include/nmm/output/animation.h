@@ -1,9 +1,10 @@
 #ifndef nmm_output_animation_h
 #define nmm_output_animation_h
 
+#include <nmm/output/csv_series.h>
 #include <nmm/output/picture.h>
 
-#include <cstdint>
+#include <ios>
 #include <limits>
 #include <optional>
 #include <ostream>
@@ -37,18 +38,15 @@ namespace NMM
                   const std::string              &title,
                   const std::vector<std::string> &choices = {""});
 
-    /// @p png are the bytes of PNG files, one for each choice, of the same size
-    /// in pixels as the first frame's; @p time must not be less than the last
-    /// one's. @p own: the same in the frame's own range of values, empty where that
-    /// makes no difference. @throws InputError otherwise.
+    /// @p png are the bytes of PNG files, one for each choice, all frames' of the same
+    /// size in pixels; @p time must not be less than the last one's, see Animation.
+    /// @p own: none, or the same in the frame's own range of values, empty where that
+    /// makes no difference.
     void
     add_frame(double                          time,
               const std::string              &label,
               const std::vector<std::string> &png,
               const std::vector<std::string> &own = {});
-
-    unsigned int
-    n_frames() const;
 
   private:
     void
@@ -56,9 +54,6 @@ namespace NMM
 
     std::ostream *out;
     std::size_t   n_choices;
-    unsigned int  n_written = 0;
-    double        last_time = -std::numeric_limits<double>::infinity();
-    std::pair<std::uint32_t, std::uint32_t> size;
   };
 
 
@@ -88,14 +83,17 @@ namespace NMM
   /**
    * A moving picture in the making. Frames are kept in a file while the analysis
    * goes on, as view, colours and the factor on displacements that suit all of
-   * them are known only at the end. In single precision: about 0.1 kB per
-   * triangle and frame. Memory: one frame.
+   * them are known only at the end: a CsvSeries with a row per frame, its time and its
+   * PictureData as Boost's archive, compressed and in base64. Memory: one frame.
    *
    * For use on one rank.
    */
   class Animation
   {
   public:
+    /// Time and picture; null: there is none.
+    using LastFrame = std::pair<double, const PictureData *>;
+
     /**
      * Keeps frames in @p file_name. If there are such already, of times up to
      * @p keep_until, they are the first ones (a run that continues); a frame that
@@ -113,14 +111,6 @@ namespace NMM
     unsigned int
     n_frames() const;
 
-    /// There must be one.
-    double
-    last_time() const;
-
-    /// Take the last frame away.
-    void
-    remove_last_frame();
-
     /**
      * Draw all frames: displacements times `parameters.deformation_scale` or, if
      * that is negative, the factor for the largest one in any frame; colours of
@@ -129,13 +119,16 @@ namespace NMM
      * @p parameters and its `animation_quantities`, as far as all frames have
      * them, each of these in the range of all frames; and, for each frame, the range
      * of its own values, if none is given, and of its own contact bars.
+     * @p last: a further frame at the end, if its time is later than that of the last
+     * one that is kept.
      * @throws InputError if there are no frames.
      */
     void
     write(std::ostream              &out,
           const std::string         &title,
-          const OutputParameters    &parameters,
-          const AnimationParameters &animation = {}) const;
+          const PictureParameters   &parameters,
+          const AnimationParameters &animation = {},
+          const LastFrame           &last      = {}) const;
 
     /// Remove the file. No more calls after that.
     void
@@ -144,13 +137,11 @@ namespace NMM
   private:
     struct Record
     {
-      double         time;
-      std::streamoff position;
-      std::uint64_t  n_bytes;
+      double time;
+      /// Of its row in the file; or what is not in the file.
+      std::streamoff     position;
+      const PictureData *data = nullptr;
     };
-
-    void
-    find_records(double keep_until);
 
     PictureData
     read(const Record &record) const;
@@ -160,13 +151,9 @@ namespace NMM
     common_quantities(const std::vector<Record>   &records,
                       const std::vector<Quantity> &quantities) const;
 
-    /// The records that write() shows.
-    std::vector<Record>
-    chosen_records(unsigned int max_frames) const;
-
-    std::string         file_name;
-    std::vector<Record> records;
-    std::streamoff      end = 0;
+    std::string              file_name;
+    std::optional<CsvSeries> rows;
+    std::vector<Record>      records;
   };
 } // namespace NMM
 

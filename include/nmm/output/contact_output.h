@@ -2,11 +2,12 @@
 #define nmm_output_contact_output_h
 
 #include <nmm/contact/contact.h>
-#include <nmm/output/output_directory.h>
+#include <nmm/output/csv_series.h>
 #include <nmm/output/picture.h>
+#include <nmm/output/vtu.h>
 
+#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace NMM
@@ -85,7 +86,8 @@ namespace NMM
                   bool                   with_table,
                   bool                   with_fields);
 
-    /// Keep what an earlier run wrote of states up to @p last.
+    /// Keep what an earlier run wrote of states up to @p last, but for its end.
+    /// @throws InputError if its table has other columns.
     void
     resume(double last);
 
@@ -108,18 +110,16 @@ namespace NMM
     write_points(const std::string                &name,
                  const std::vector<ContactSample> &points) const;
 
-    void
-    write_list() const;
-
     std::string
     header() const;
 
-    const ContactSurface                       *surface;
-    const OutputDirectory                      *directory;
-    std::string                                 value_name;
-    bool                                        with_table, with_fields;
-    bool                                        has_table = false;
-    std::vector<std::pair<double, std::string>> files;
+    const ContactSurface  *surface;
+    const OutputDirectory *directory;
+    std::string            value_name;
+    bool                   with_table, with_fields;
+    FileSeries             files;
+    /// From its first state on.
+    std::optional<CsvSeries> table;
     /// Values of states in the table.
     std::vector<double> written;
   };

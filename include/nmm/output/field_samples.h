@@ -4,7 +4,7 @@
 #include <nmm/covers/triangulate.h>
 #include <nmm/mechanics/displacement_field.h>
 #include <nmm/mechanics/stress_recovery.h>
-#include <nmm/scene/scene_parameters.h>
+#include <nmm/output/picture_parameters.h>
 
 #include <array>
 #include <functional>
@@ -133,20 +133,13 @@ namespace NMM
   ElementIds
   element_ids(const ManifoldMesh &mesh, unsigned int element);
 
-  /// The number a picture is coloured by, at @p x [m] of an element:
-  /// parameters.quantity, or @p quantity.
+  /// The number a picture is coloured by, at @p x [m] of an element.
   double
-  quantity_value(const FieldSample      &sample,
-                 const ElementIds       &ids,
-                 const dealii::Point<2> &x,
-                 const OutputParameters &parameters);
-
-  double
-  quantity_value(const FieldSample      &sample,
-                 const ElementIds       &ids,
-                 const dealii::Point<2> &x,
-                 const OutputParameters &parameters,
-                 Quantity                quantity);
+  quantity_value(const FieldSample       &sample,
+                 const ElementIds        &ids,
+                 const dealii::Point<2>  &x,
+                 const PictureParameters &parameters,
+                 Quantity                 quantity);
 } // namespace NMM
 
 #endif

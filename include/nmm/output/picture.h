@@ -29,6 +29,13 @@ namespace NMM
       {
         return position + scale * displacement;
       }
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, unsigned int)
+      {
+        archive &position &displacement;
+      }
     };
 
     /// Vertices in the order of QuadraticTriangle.
@@ -36,6 +43,13 @@ namespace NMM
     {
       std::array<Vertex, 6> vertices;
       std::array<double, 6> values;
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, unsigned int)
+      {
+        archive &vertices &values;
+      }
     };
     using Polyline = std::vector<Vertex>;
 
@@ -53,6 +67,13 @@ namespace NMM
       /// On the face [Pa].
       dealii::Tensor<1, 2> traction;
       Kind                 kind = sticks;
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, unsigned int)
+      {
+        archive &foot &traction &kind;
+      }
     };
 
     std::vector<Triangle> triangles;
@@ -66,12 +87,28 @@ namespace NMM
     {
       Quantity                           quantity;
       std::vector<std::array<double, 6>> values;
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, unsigned int)
+      {
+        archive &quantity &values;
+      }
     };
-    /// Those of OutputParameters::animation_quantities.
+    /// Those of PictureParameters::animation_quantities.
     std::vector<Layer> layers;
 
     /// Factor on displacements [-].
     double deformation_scale = 0.;
+
+    /// For Boost's archives, in which an animation keeps its frames.
+    template <typename Archive>
+    void
+    serialize(Archive &archive, unsigned int)
+    {
+      archive &triangles &outlines &interfaces &mesh_lines &obstacles &contacts
+        &layers &deformation_scale;
+    }
   };
 
 
@@ -85,7 +122,7 @@ namespace NMM
     /// Part of the plane that is shown, lower and upper corner [m]; else that of
     /// the deformed triangles. What is outside is cut off.
     std::optional<std::pair<dealii::Point<2>, dealii::Point<2>>> view;
-    /// Values at the ends of the colour bar; else those of OutputParameters.
+    /// Values at the ends of the colour bar; else those of PictureParameters.
     std::optional<std::pair<double, double>> range;
     /// Traction that the longest bar of contact stands for [Pa]; else the largest
     /// one there is.
@@ -149,10 +186,10 @@ namespace NMM
 
   /// Collect what all ranks have to draw on rank 0. Arcs are sampled finely.
   PictureData
-  make_picture_data(const CoverSystem      &covers,
-                    const FieldTriangles   &triangles,
-                    const FieldEvaluator   *evaluator,
-                    const OutputParameters &parameters);
+  make_picture_data(const CoverSystem       &covers,
+                    const FieldTriangles    &triangles,
+                    const FieldEvaluator    *evaluator,
+                    const PictureParameters &parameters);
 
   /**
    * Draw a PNG: the triangles with smooth shading in a perceptually uniform
@@ -161,20 +198,20 @@ namespace NMM
    * @throws OutputFailure.
    */
   void
-  draw_picture(const PictureData      &data,
-               const OutputParameters &parameters,
-               const std::string      &title,
-               const std::string      &file_name,
-               const PictureFrame     &frame = {});
+  draw_picture(const PictureData       &data,
+               const PictureParameters &parameters,
+               const std::string       &title,
+               const std::string       &file_name,
+               const PictureFrame      &frame = {});
 
   /// The same as the bytes of a PNG file. Without alpha channel, and with
   /// @p n_colours steps of the colour map: fewer make a smaller file.
   std::string
-  draw_picture_in_memory(const PictureData      &data,
-                         const OutputParameters &parameters,
-                         const std::string      &title,
-                         const PictureFrame     &frame     = {},
-                         unsigned int            n_colours = 1024);
+  draw_picture_in_memory(const PictureData       &data,
+                         const PictureParameters &parameters,
+                         const std::string       &title,
+                         const PictureFrame      &frame     = {},
+                         unsigned int             n_colours = 1024);
 
   /// Colour of @p value in [0, 1] as red, green, blue in [0, 1] (viridis).
   std::array<double, 3>

@@ -10,6 +10,16 @@
 
 namespace NMM
 {
+  /// A point, or points along a line, at which the solution is written.
+  struct Probe
+  {
+    std::string      name;
+    bool             is_line = false;
+    dealii::Point<2> point, from, to;
+    unsigned int     n_points = 101;
+  };
+
+
   /**
    * The points of all probes, with the element each lies in. A point within
    * 1e-9 of the solid's size of an element counts as in it, since a point on an
@@ -22,8 +32,7 @@ namespace NMM
      * @throws InputError for a point probe outside the solid and for a line that
      * meets it nowhere.
      */
-    ProbePoints(const ManifoldMesh                 &mesh,
-                const std::vector<ProbeParameters> &probes);
+    ProbePoints(const ManifoldMesh &mesh, const std::vector<Probe> &probes);
 
     struct Entry
     {

@@ -12,12 +12,12 @@ namespace NMM
 {
   /**
    * Write @p base .vtu, in parallel one .<rank>.vtu each and .pvtu: manifold
-   * elements as triangles with six nodes (VTK's Lagrange
-   * triangle of order 2) with displacement, direct and recovered stress, von
+   * elements as triangles with six nodes (VTK's quadratic
+   * triangle) with displacement, direct and recovered stress, von
    * Mises and principal stresses (of the recovered stress), block, region and
    * material numbers and the rank. Numbers are single precision. ParaView's "Warp
    * by vector" of the displacement shows the deformed shape. Returns the name of
-   * the file, for write_series(); collective, but does not wait for other ranks'
+   * the file, for FileSeries; collective, but does not wait for other ranks'
    * files.
    *
    * Cost: some half a microsecond and 85 bytes per node; arrays that hardly shrink are
@@ -30,16 +30,42 @@ namespace NMM
                         const OutputDirectory &directory,
                         const std::string     &base);
 
-  /// fields.pvd of states at times (or load factors). On one rank only.
-  void
-  write_series(const std::vector<std::pair<double, std::string>> &states,
-               const OutputDirectory                             &directory);
 
-  /// The same of other files, in a list called @p name.
-  void
-  write_series(const std::vector<std::pair<double, std::string>> &states,
-               const OutputDirectory                             &directory,
-               const std::string                                 &name);
+  /**
+   * Files of states of a run, and the list of them for ParaView, @p base .pvd, which
+   * at any time names those that are there. For use on one rank.
+   *
+   * Lifetime: the directory must outlive this object.
+   */
+  class FileSeries
+  {
+  public:
+    FileSeries(const OutputDirectory &directory, std::string base);
+
+    /// Keep what an earlier run listed of files "base-..." of states up to @p last.
+    void
+    resume(double last);
+
+    /// The state @p value (time or load factor) is in @p file.
+    void
+    add(double value, const std::string &file);
+
+    /// The same for the last state, unless it is listed already.
+    void
+    finish(double value, const std::string &file);
+
+    /// Is a file of the state @p value listed, but for rounding?
+    bool
+    has(double value) const;
+
+  private:
+    void
+    write_list() const;
+
+    const OutputDirectory                      *directory;
+    std::string                                 base;
+    std::vector<std::pair<double, std::string>> states;
+  };
 } // namespace NMM
 
 #endif

@@ -7,6 +7,7 @@
 #include <nmm/mechanics/elasticity_problem.h>
 #include <nmm/mechanics/nonlinear_statics.h>
 #include <nmm/mechanics/static_elasticity.h>
+#include <nmm/output/probes.h>
 #include <nmm/scene/scene_parameters_contact.h>
 #include <nmm/scene/scene_parameters_covers.h>
 #include <nmm/scene/scene_parameters_dynamics.h>
@@ -191,36 +192,8 @@ namespace NMM
   };
 
 
-  /// What a picture can be coloured by.
-  enum class Quantity
-  {
-    von_mises,
-    stress_xx,
-    stress_yy,
-    stress_xy,
-    first_principal,
-    second_principal,
-    radial_stress,
-    hoop_stress,
-    displacement,
-    displacement_x,
-    displacement_y,
-    velocity,
-    velocity_x,
-    velocity_y,
-    block,
-    material
-  };
-
-  /// Its name, e.g. "von Mises stress".
-  const std::string &
-  to_string(Quantity quantity);
-
-  /// Is it a component of the velocity, or its length?
-  bool
-  is_velocity(Quantity quantity);
-
-  struct OutputParameters
+  /// Which files are written, and how pictures look.
+  struct OutputParameters : PictureParameters
   {
     bool fields = true;
     /// Fields and pictures of every so many steps too; 0: of the last one alone.
@@ -230,25 +203,9 @@ namespace NMM
     /// A checkpoint after every so many steps; 0: none.
     unsigned int checkpoint_every = 0;
     /// With a series of pictures: animation.html as well.
-    bool animation = true;
-    /// What its page can be coloured by beside `quantity`, by choice.
-    std::vector<Quantity> animation_quantities;
-    bool                  picture = true;
-    std::string           title;
-    Quantity              quantity = Quantity::von_mises;
-    /// Colour by the recovered instead of the direct stress.
-    bool recovered = true;
-    /// Centre of the polar coordinates of radial and hoop stress [m].
-    dealii::Point<2> center;
-    /// Factor on displacements in the picture [-]; negative: chosen so that the
-    /// largest displacement is 5 % of the solid's size, 1 unless kinematics
-    /// is small.
-    double deformation_scale = -1.;
-    /// Values at the ends of the colour bar; equal: those of the solution.
-    double       range_min = 0., range_max = 0.;
-    bool         mesh_lines    = true;
-    unsigned int picture_width = 1600;
-    std::string  length_unit = "m", stress_unit = "Pa";
+    bool        animation = true;
+    bool        picture   = true;
+    std::string title;
 
     static void
     declare(dealii::ParameterHandler &prm);
@@ -259,20 +216,13 @@ namespace NMM
   };
 
 
-  /// A point, or points along a line, at which the solution is written.
   struct ProbeParameters
   {
-    std::string      name;
-    bool             is_line = false;
-    dealii::Point<2> point, from, to;
-    unsigned int     n_points = 101;
-
     static void
     declare(dealii::ParameterHandler &prm);
-    void
-    parse(dealii::ParameterHandler &prm);
-    void
-    check() const;
+    /// @throws InputError for a line without length.
+    static Probe
+    parse(dealii::ParameterHandler &prm, const std::string &name);
   };
 
 
@@ -349,7 +299,7 @@ namespace NMM
     LoadStepParameters                     load_steps;
     NewtonSectionParameters                newton;
     OutputParameters                       output;
-    std::vector<ProbeParameters>           probes;
+    std::vector<Probe>                     probes;
     ExactSolutionParameters                exact_solution;
 
     static void

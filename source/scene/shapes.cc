@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <output/shapes.h>
+#include <scene/shapes.h>
 
 namespace NMM
 {

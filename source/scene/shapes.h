@@ -1,5 +1,5 @@
-#ifndef nmm_source_output_shapes_h
-#define nmm_source_output_shapes_h
+#ifndef nmm_source_scene_shapes_h
+#define nmm_source_scene_shapes_h
 
 #include <nmm/geometry/geometry.h>
 

@@ -1,0 +1,111 @@
+#include <nmm/base/program.h>
+#include <nmm/output/csv_series.h>
+
+#include <cstdio>
+#include <iomanip>
+#include <sstream>
+
+namespace NMM
+{
+  namespace
+  {
+    std::string
+    head_of_steps(const std::string              &comment,
+                  const std::vector<std::string> &columns)
+    {
+      std::string head = comment + "\ntime,step";
+      for (const std::string &column : columns)
+        head += "," + column;
+      return head + "\n";
+    }
+
+
+    std::function<bool(const std::string &)>
+    rows_up_to(const int last_step)
+    {
+      if (last_step < 0)
+        return {};
+      return [last_step](const std::string &text) {
+        std::istringstream row(text);
+        double             time;
+        char               comma;
+        int                step;
+        return (row >> time >> comma >> step) && step <= last_step;
+      };
+    }
+
+
+    /// The file @p file_name, read to the end of @p head.
+    std::ifstream
+    open_below(const std::string &file_name, const std::string &head)
+    {
+      std::ifstream      in(file_name);
+      std::istringstream expected(head);
+      std::string        line, expected_line;
+      while (std::getline(expected, expected_line))
+        AssertThrow(std::getline(in, line) && line == expected_line,
+                    InputError("this is no table to continue: its columns "
+                               "are others",
+                               file_name,
+                               "continue with the scene it was written with, "
+                               "or in another folder"));
+      return in;
+    }
+  } // namespace
+
+
+  CsvSeries::CsvSeries(std::string                                     name,
+                       const std::string                              &head,
+                       const std::function<bool(const std::string &)> &is_kept)
+    : file_name(std::move(name))
+  {
+    std::ifstream earlier;
+    if (is_kept)
+      earlier = open_below(file_name, head);
+    const std::string temporary = file_name + ".part";
+    std::ofstream     file(temporary, std::ios::trunc);
+    file << head;
+    for (std::string line; is_kept && std::getline(earlier, line);)
+      if (!earlier.eof() && is_kept(line))
+        file << line << '\n';
+    file.close();
+    AssertThrow(file.good() &&
+                  std::rename(temporary.c_str(), file_name.c_str()) == 0,
+                OutputFailure(file_name));
+    out.open(file_name, std::ios::app);
+    AssertThrow(out.good(), OutputFailure(file_name));
+  }
+
+
+  CsvSeries::CsvSeries(std::string                     file_name,
+                       const std::string              &comment,
+                       const std::vector<std::string> &columns,
+                       const int                       continue_after)
+    : CsvSeries(std::move(file_name),
+                head_of_steps(comment, columns),
+                rows_up_to(continue_after))
+  {
+  }
+
+
+  void
+  CsvSeries::append(const std::string &rows)
+  {
+    out << rows << std::flush;
+    AssertThrow(out.good(), OutputFailure(file_name));
+  }
+
+
+  void
+  CsvSeries::append(const double               time,
+                    const unsigned int         step,
+                    const std::vector<double> &values)
+  {
+    std::ostringstream row;
+    row << std::setprecision(17) << time << ',' << step;
+    for (const double value : values)
+      row << ',' << value;
+    row << '\n';
+    append(row.str());
+  }
+} // namespace NMM

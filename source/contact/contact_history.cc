@@ -338,122 +338,101 @@ namespace NMM
   }
 
 
-  std::vector<double>
+  namespace
+  {
+    /// Those of all ranks, one after the other.
+    template <typename Item>
+    void
+    gather(const MPI_Comm communicator, std::vector<Item> &items)
+    {
+      if (Parallel::n_mpi_processes(communicator) == 1)
+        return;
+      std::vector<Item> all;
+      for (const auto &part : Parallel::all_gather(communicator, items))
+        all.insert(all.end(), part.begin(), part.end());
+      items = std::move(all);
+    }
+  } // namespace
+
+
+  ContactHistory
   Contact::history() const
   {
-    const Data         &d = *data;
-    std::vector<double> mine;
+    const Data    &d = *data;
+    ContactHistory result;
+    result.has_accepted_state     = !d.is_virgin;
+    result.is_conserving          = d.is_conserving;
+    result.multipliers            = d.multipliers;
+    result.searched_displacements = d.searched_nodal;
+    result.searched_time          = d.searched_time;
+    result.searched_reach         = d.searched_reach;
     d.stick_places.for_each(
       [&](const unsigned int key, const std::vector<StickPlace> &places) {
         for (const StickPlace &place : places)
-          for (const double x : {double(key),
-                                 place.s,
-                                 double(place.edge),
-                                 place.t,
-                                 double(place.is_bonded),
-                                 place.slip})
-            mine.push_back(x);
+          result.sticks.push_back(
+            {key, place.s, place.edge, place.t, place.is_bonded, place.slip});
       });
-    // of the same length: entrances and energies have no edge to stick to;
-    // energies are the same on all ranks
-    if (Parallel::this_mpi_process(d.communicator) == 0)
-      for (const auto &[pair, energies] : d.energies_of_pairs)
-        for (const double x : {double(pair.first),
-                               double(pair.second),
-                               -2.,
-                               energies[0],
-                               energies[1],
-                               0.})
-          mine.push_back(x);
-    for (const auto &[key, master] : d.entrances)
-      for (const double x : {double(key), 0., -1., double(master), 0., 0.})
-        mine.push_back(x);
-    if (Parallel::this_mpi_process(d.communicator) == 0)
-      for (unsigned int edge = 0; edge < d.touching.size(); ++edge)
-        for (const unsigned int other : d.touching[edge])
-          for (const double x : {double(edge), 0., -3., double(other), 0., 0.})
-            mine.push_back(x);
-    std::vector<double> result{double(d.is_virgin) + 2. * d.is_conserving,
-                               double(d.multipliers.size()),
-                               double(d.searched_nodal.size()),
-                               d.searched_time,
-                               d.searched_reach};
-    result.insert(result.end(), d.multipliers.begin(), d.multipliers.end());
-    result.insert(result.end(),
-                  d.searched_nodal.begin(),
-                  d.searched_nodal.end());
-    for (const auto &part : Parallel::all_gather(d.communicator, mine))
-      result.insert(result.end(), part.begin(), part.end());
+    result.entrances.assign(d.entrances.begin(), d.entrances.end());
+    gather(d.communicator, result.sticks);
+    gather(d.communicator, result.entrances);
+    // these are the same on all ranks
+    for (unsigned int edge = 0; edge < d.touching.size(); ++edge)
+      for (const unsigned int other : d.touching[edge])
+        result.touching.emplace_back(edge, other);
+    for (const auto &[pair, energies] : d.energies_of_pairs)
+      result.pair_energies.push_back({pair.first, pair.second, energies});
     return result;
   }
 
 
   void
-  Contact::restore_history(const std::vector<double> &history)
+  Contact::restore_history(const ContactHistory &history)
   {
-    Data &d = *data;
-    d.stick_places.clear();
-    d.entrances.clear();
-    d.touching.clear();
-    d.energies_of_pairs.clear();
-    if (history.empty())
-      return;
-    constexpr unsigned int head  = 5;
-    const auto             flags = static_cast<unsigned int>(history[0]);
-    d.is_virgin                  = (flags & 1U) != 0;
-    d.is_conserving              = (flags & 2U) != 0;
+    Data              &d       = *data;
+    const unsigned int n_edges = d.surface->edges().size();
+    d.is_virgin                = !history.has_accepted_state;
+    d.is_conserving            = history.is_conserving;
     d.search.begin(ContactSearch::Begin::unknown);
-    const auto n_multipliers = static_cast<unsigned int>(history[1]);
-    const auto n_nodal       = static_cast<unsigned int>(history[2]);
-    if (n_multipliers == d.multipliers.size())
-      std::copy_n(history.begin() + head, n_multipliers, d.multipliers.begin());
-    if (n_nodal > 0)
+    if (history.multipliers.size() == d.multipliers.size())
+      d.multipliers = history.multipliers;
+    if (!history.searched_displacements.empty())
     {
-      const auto begin = history.begin() + head + n_multipliers;
-      d.searched_nodal.assign(begin, begin + n_nodal);
-      d.searched_time  = history[3];
-      d.searched_reach = history[4];
+      d.searched_nodal = history.searched_displacements;
+      d.searched_time  = history.searched_time;
+      d.searched_reach = history.searched_reach;
       d.nodal          = d.searched_nodal;
       d.surface->set_displacements(&d.nodal);
       set_time(d.searched_time);
       d.search.search(d.searched_reach);
     }
-    const auto [first, last]   = d.surface->locally_owned_edges();
-    const unsigned int n_edges = d.surface->edges().size();
+    // corners of masters are with the slave's rank, which is not known here
+    const auto [first, last] = d.surface->locally_owned_edges();
     const bool has_obstacles = Parallel::this_mpi_process(d.communicator) == 0;
-    for (std::size_t i = head + n_multipliers + n_nodal; i + 5 < history.size();
-         i += 6)
-    {
-      if (history[i + 2] == -2.)
-      {
-        d.energies_of_pairs[{static_cast<unsigned int>(history[i]),
-                             static_cast<unsigned int>(history[i + 1])}] = {
-          {history[i + 3], history[i + 4]}};
-        continue;
-      }
-      const auto         key  = static_cast<unsigned int>(history[i]);
-      const unsigned int edge = key % n_edges;
-      if (history[i + 2] == -3.)
-      {
-        d.touching.resize(n_edges);
-        d.touching[key].push_back(static_cast<unsigned int>(history[i + 3]));
-        continue;
-      }
-      // corners of masters are with the slave's rank
-      if (key / n_edges <= Data::master_ends &&
-          !(edge >= first && edge < last) &&
-          !(has_obstacles && d.surface->is_rigid(edge)))
-        continue;
-      if (history[i + 2] < 0.)
-        d.entrances[key] = static_cast<unsigned int>(history[i + 3]);
-      else
-        d.stick_places.append(key,
-                              {history[i + 1],
-                               static_cast<unsigned int>(history[i + 2]),
-                               history[i + 3],
-                               history[i + 4] != 0.,
-                               history[i + 5]});
-    }
+    const auto is_mine =
+      [&, first = first, last = last](const unsigned int place) {
+        const unsigned int edge = place % n_edges;
+        return place / n_edges > Data::master_ends ||
+               (edge >= first && edge < last) ||
+               (has_obstacles && d.surface->is_rigid(edge));
+      };
+    d.stick_places.clear();
+    for (const ContactHistory::Stick &stick : history.sticks)
+      if (is_mine(stick.place))
+        d.stick_places.append(
+          stick.place,
+          {stick.s, stick.edge, stick.t, stick.is_bonded, stick.slip});
     d.stick_places.sort();
+    d.entrances.clear();
+    for (const auto &[place, edge] : history.entrances)
+      if (is_mine(place))
+        d.entrances[place] = edge;
+    d.touching.clear();
+    if (!history.touching.empty())
+      d.touching.resize(n_edges);
+    for (const auto &[edge, other] : history.touching)
+      d.touching[edge].push_back(other);
+    d.energies_of_pairs.clear();
+    for (const ContactHistory::PairEnergy &pair : history.pair_energies)
+      d.energies_of_pairs[{pair.first, pair.second}] = pair.energies;
   }
 } // namespace NMM

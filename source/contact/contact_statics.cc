@@ -324,12 +324,12 @@ namespace NMM
     for (const double asked : steps.load_factors)
       while (d.load_factor < asked)
       {
-        const double remaining = asked - d.load_factor;
-        const bool   is_last   = length >= remaining * (1. - 1e-9);
-        const double next      = is_last ? asked : d.load_factor + length;
-        Vector       u(d.solution);
-        ContactStep  step;
-        const std::vector<double> history = d.contact->history();
+        const double         remaining = asked - d.load_factor;
+        const bool           is_last   = length >= remaining * (1. - 1e-9);
+        const double         next = is_last ? asked : d.load_factor + length;
+        Vector               u(d.solution);
+        ContactStep          step;
+        const ContactHistory history = d.contact->history();
         if (d.try_step(next, u, step))
         {
           step.dissipated = d.contact->accept();

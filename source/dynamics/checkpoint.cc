@@ -23,7 +23,7 @@ namespace NMM
 
     constexpr char checkpoint_magic[8] =
       {'N', 'M', 'M', 'S', 'T', 'A', 'T', 'E'};
-    constexpr std::uint32_t version = 6;
+    constexpr std::uint32_t version = 7;
 
     std::uint64_t
     sum(const char *bytes, const std::size_t n)
@@ -208,10 +208,9 @@ namespace NMM
     for (const auto &entry : state.rest)
       for (const double x : entry)
         put(bytes, x);
-    const std::vector<double> internal = model.internal_state();
+    const Bytes internal = model.internal_state();
     put(bytes, static_cast<std::uint64_t>(internal.size()));
-    for (const double x : internal)
-      put(bytes, x);
+    bytes.insert(bytes.end(), internal.begin(), internal.end());
     const std::uint64_t length =
       bytes.size() - length_position; // with the sum instead of itself
     std::memcpy(bytes.data() + length_position, &length, sizeof(length));
@@ -301,16 +300,16 @@ namespace NMM
     for (auto &entry : state.rest)
       for (double &x : entry)
         x = get<double>(position);
-    std::vector<double> internal(get<std::uint64_t>(position));
-    if (position + (internal.size() + 1) * sizeof(double) !=
-        bytes.data() + bytes.size())
-      refuse("The checkpoint has " + std::to_string(internal.size()) +
-               " numbers of contact, which is not what its length says",
+    const auto n_internal = get<std::uint64_t>(position);
+    if (n_internal !=
+        static_cast<std::uint64_t>(bytes.data() + bytes.size() - position) -
+          sizeof(std::uint64_t))
+      refuse("The checkpoint has " + std::to_string(n_internal) +
+               " bytes of contact, which is not what its length says",
              filename,
              "take another one, or start anew");
-    for (double &x : internal)
-      x = get<double>(position);
-    integrator.model().restore_internal_state(internal);
+    integrator.model().restore_internal_state(
+      Bytes(position, position + n_internal));
     integrator.restore(state);
   }
 } // namespace NMM

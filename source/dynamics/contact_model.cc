@@ -1,6 +1,7 @@
 #include <nmm/dynamics/contact_model.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
@@ -400,17 +401,19 @@ namespace NMM
   }
 
 
-  std::vector<double>
+  std::vector<char>
   ContactModel::internal_state() const
   {
-    return data->contact->history();
+    return dealii::Utilities::pack(data->contact->history(),
+                                   /* allow_compression = */ false);
   }
 
 
   void
-  ContactModel::restore_internal_state(const std::vector<double> &state)
+  ContactModel::restore_internal_state(const std::vector<char> &state)
   {
-    data->contact->restore_history(state);
+    data->contact->restore_history(dealii::Utilities::unpack<ContactHistory>(
+      state, /* allow_compression = */ false));
     data->is_detected = false;
   }
 

@@ -534,26 +534,23 @@ namespace NMM
     }
 
 
-    std::vector<double>
+    std::vector<char>
     AccountedContactModel::internal_state() const
     {
-      std::vector<double> state = ContactModel::internal_state();
-      state.push_back(work);
-      return state;
+      return dealii::Utilities::pack(
+        std::make_pair(work, ContactModel::internal_state()),
+        /* allow_compression = */ false);
     }
 
 
     void
     AccountedContactModel::restore_internal_state(
-      const std::vector<double> &state)
+      const std::vector<char> &state)
     {
-      std::vector<double> of_contact = state;
-      work                           = 0.;
-      if (!of_contact.empty())
-      {
-        work = of_contact.back();
-        of_contact.pop_back();
-      }
+      const auto [saved_work, of_contact] =
+        dealii::Utilities::unpack<std::pair<double, std::vector<char>>>(
+          state, /* allow_compression = */ false);
+      work = saved_work;
       ContactModel::restore_internal_state(of_contact);
     }
 

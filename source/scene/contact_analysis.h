@@ -198,11 +198,11 @@ namespace NMM
       double
       accept_step(const Vector &end, double t) override;
 
-      std::vector<double>
+      std::vector<char>
       internal_state() const override;
 
       void
-      restore_internal_state(const std::vector<double> &state) override;
+      restore_internal_state(const std::vector<char> &state) override;
 
       /// What friction, dashpots and breaking bonds have dissipated so far [J/m].
       double

@@ -43,9 +43,9 @@ namespace NMM
       std::unique_ptr<ElasticModel>         model;
 
       /// What each trial starts from, if not from nothing.
-      Vector              settled;
-      std::vector<double> settled_contact;
-      unsigned int        n_start_steps = 0;
+      Vector         settled;
+      ContactHistory settled_contact;
+      unsigned int   n_start_steps = 0;
 
       SafetyFactor result;
       /// Of trials so far.

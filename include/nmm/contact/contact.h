@@ -2,6 +2,7 @@
 #define nmm_contact_contact_h
 
 #include <nmm/base/step_fault.h>
+#include <nmm/contact/contact_history.h>
 #include <nmm/contact/contact_integration.h>
 #include <nmm/contact/contact_law.h>
 #include <nmm/contact/contact_surface.h>
@@ -333,8 +334,8 @@ namespace NMM
     StepFault
     find_fault(const Vector &end);
 
-    /// Multipliers and places of sticking of all ranks.
-    std::vector<double>
+    /// What is remembered of the last accepted state. Collective.
+    ContactHistory
     history() const;
 
     /**
@@ -347,7 +348,7 @@ namespace NMM
 
     /// Take over what history() returned, on any number of ranks.
     void
-    restore_history(const std::vector<double> &history);
+    restore_history(const ContactHistory &history);
 
     const ContactParameters &
     parameters() const;

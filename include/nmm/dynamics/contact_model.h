@@ -152,11 +152,11 @@ namespace NMM
     double
     accept_step(const Vector &end, double t) override;
 
-    std::vector<double>
+    std::vector<char>
     internal_state() const override;
 
     void
-    restore_internal_state(const std::vector<double> &state) override;
+    restore_internal_state(const std::vector<char> &state) override;
 
     void
     set_absent_blocks(const std::vector<bool> &is_absent) override;

@@ -244,15 +244,15 @@ namespace NMM
       return 0.;
     }
 
-    /// All that a continuation needs beside u; the same on all ranks.
-    virtual std::vector<double>
+    /// All that a continuation needs beside u, as bytes; the same on all ranks.
+    virtual std::vector<char>
     internal_state() const
     {
       return {};
     }
 
     virtual void
-    restore_internal_state(const std::vector<double> & /*state*/)
+    restore_internal_state(const std::vector<char> & /*state*/)
     {
     }
     /// @}

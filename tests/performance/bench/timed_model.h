@@ -190,14 +190,14 @@ namespace NMM
         return model->accept_step(end, t);
       }
 
-      std::vector<double>
+      std::vector<char>
       internal_state() const override
       {
         return model->internal_state();
       }
 
       void
-      restore_internal_state(const std::vector<double> &state) override
+      restore_internal_state(const std::vector<char> &state) override
       {
         model->restore_internal_state(state);
       }

@@ -80,13 +80,13 @@ namespace NMM
             const dealii::TrilinosWrappers::MPI::Vector &src) const;
 
     private:
-      mutable CoverSmoother                                smoother;
-      LinearCovers                                         linear_covers;
-      std::unique_ptr<Epetra_FECrsMatrix>                  coarse_matrix;
+      mutable CoverSmoother smoother;
+      LinearCovers          linear_covers;
+      /// Null if no cover takes part.
+      std::unique_ptr<Epetra_CrsMatrix>                    coarse_matrix;
       std::unique_ptr<ML_Epetra::MultiLevelPreconditioner> coarse;
 
-      mutable std::vector<float>             rhs, x, residual;
-      mutable std::unique_ptr<Epetra_Vector> coarse_rhs, coarse_x;
+      mutable std::vector<float> rhs, x, residual;
     };
   } // namespace internal
 } // namespace NMM

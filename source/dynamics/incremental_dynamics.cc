@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <linear_algebra/matrix_sum.h>
 #include <linear_algebra/direct_solver.h>
+#include <linear_algebra/matrix_sum.h>
 
 namespace NMM
 {

@@ -9,16 +9,15 @@ namespace NMM
   namespace internal
   {
     /**
-     * What belongs to blocks (rows, elements, points of contact), and of that what
-     * belongs to the blocks that count at present, ascending; all of it unless said
-     * otherwise. Choosing some takes as long as they are many, but for a bit per item and
-     * block.
+     * Items of blocks (rows, elements, contact points), and those of them that belong to the
+     * active blocks, ascending. All blocks are active at first.
+     * Cost of select(): O(active items), and a bit for each item and block.
      */
     class ActiveItems
     {
     public:
-      /// Items 0 to @p n - 1. @p for_each calls its argument with each item and block
-      /// that belong together; an item may belong to several blocks or none.
+      /// Set the items 0 to @p n - 1. @p for_each has to call its argument with each pair of
+      /// an item and a block it belongs to; an item may belong to several blocks or none.
       template <typename ForEach>
       void
       reinit(const unsigned int n, const ForEach &for_each)
@@ -40,7 +39,7 @@ namespace NMM
         select({});
       }
 
-      /// Each item belongs to one block.
+      /// The same if each item belongs to one block.
       void
       reinit(const std::vector<unsigned int> &item_to_block)
       {
@@ -50,7 +49,7 @@ namespace NMM
         });
       }
 
-      /// Nothing is known until reinit().
+      /// Forget the items until the next reinit().
       void
       clear()
       {
@@ -58,13 +57,14 @@ namespace NMM
         is_all   = true;
       }
 
+      /// Whether items are not known.
       bool
       empty() const
       {
         return !is_known;
       }
 
-      /// From now on those of @p blocks count; empty: all.
+      /// Activate @p blocks; empty: all.
       void
       select(const std::vector<bool> &blocks)
       {
@@ -81,20 +81,21 @@ namespace NMM
             active.push_back(64 * word + __builtin_ctzll(bits[word]));
       }
 
+      /// Whether all blocks are active.
       bool
       all() const
       {
         return is_all;
       }
 
-      /// Those that count, unless all do.
+      /// Active items; undefined if all are.
       const std::vector<unsigned int> &
       chosen() const
       {
         return active;
       }
 
-      /// Call action(item), the items being 0 to @p n - 1 if all count.
+      /// Call action(item) for active items, which are 0 to @p n - 1 if all are.
       template <typename Action>
       void
       for_each(const unsigned int n, const Action &action) const

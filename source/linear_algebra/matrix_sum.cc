@@ -25,7 +25,7 @@ namespace NMM
         for (int i = to_rows.begins[r]; i < to_rows.begins[r + 1]; ++i)
           row.emplace_back(to_columns[to_rows.columns[i]],
                            i - to_rows.begins[r]);
-        // as they are on one rank
+        // They are sorted on one rank.
         if (!std::is_sorted(row.begin(), row.end()))
           std::sort(row.begin(), row.end());
         for (int i = from_rows.begins[r]; i < from_rows.begins[r + 1]; ++i)
@@ -38,7 +38,7 @@ namespace NMM
                         "The pattern is not within that of the stiffness."));
           places.push_back(place->second);
         }
-        // as those of a block with an element of its own are: no places are kept
+        // Rows of a block that has a mesh of its own are consecutive in both matrices.
         bool are_consecutive = true;
         for (std::size_t i = begin + 1; i < places.size(); ++i)
           are_consecutive = are_consecutive && places[i] == places[i - 1] + 1;

@@ -11,16 +11,17 @@ namespace NMM
   namespace internal
   {
     /**
-     * Adds a matrix to another one whose pattern it lies within, again and again with
-     * other values: where the entries go is looked up once.
+     * Adds a sparse matrix to another one, whose pattern contains its own. Where each entry
+     * goes is found in the first call and kept, so that further calls with other values
+     * cost one addition per entry. (Epetra searches each entry in its row each time.)
      */
     class MatrixAdder
     {
     public:
       using Matrix = dealii::TrilinosWrappers::SparseMatrix;
 
-      /// to += factor from, in @p rows. @p version: another number if one of them has
-      /// another pattern.
+      /// Add @p factor times @p from to @p to in the active @p rows. @p version has to
+      /// change when one of both patterns does.
       void
       add(double             factor,
           const Matrix      &from,
@@ -32,8 +33,8 @@ namespace NMM
       void
       find_places(const Matrix &from, const Matrix &to);
 
-      /// Where its entries go in the other one's row: one after the other from the first one
-      /// on, or, if that is negative, each to a place of its own.
+      /// Positions of the entries of a row in the row of the other matrix: consecutive
+      /// ones from first on, or, if that is negative, those in places from begin on.
       struct PlacesOfRow
       {
         std::size_t begin;
@@ -47,14 +48,14 @@ namespace NMM
     };
 
 
-    /// k K + m M + c C for matrices whose patterns lie within that of K.
+    /// The sum k K + m M + c C, with the pattern of K, which has to contain the others.
     class MatrixSum
     {
     public:
       using Matrix = dealii::TrilinosWrappers::SparseMatrix;
 
-      /// @p damping may be null. @p version: another number if K has another
-      /// pattern. Of @p rows only.
+      /// Assemble the active @p rows. @p damping may be null. @p version has to change when
+      /// the pattern of K does.
       void
       assemble(const Matrix      &stiffness,
                double             k,

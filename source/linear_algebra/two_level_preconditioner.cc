@@ -1,3 +1,4 @@
+#include <Epetra_Vector.h>
 #include <Teuchos_ParameterList.hpp>
 #include <algorithm>
 #include <linear_algebra/two_level_preconditioner.h>
@@ -72,16 +73,16 @@ namespace NMM
       , x(2 * smoother.n_columns())
       , residual(2 * smoother.n_owned())
     {
-      if (linear_covers.n_unknowns() == 0)
+      if (linear_covers.interpolation().NumGlobalCols() == 0)
         return;
       coarse_matrix = linear_covers.multiply(matrix.trilinos_matrix());
       coarse        = make_aggregation_multigrid(
         *coarse_matrix,
-        rigid_body_modes(covers, constraints, linear_covers.covers_of_rows()),
+        rigid_body_modes(covers,
+                         constraints,
+                         linear_covers.covers_of_unknowns()),
         2,
         20.);
-      coarse_rhs = std::make_unique<Epetra_Vector>(linear_covers.map());
-      coarse_x   = std::make_unique<Epetra_Vector>(linear_covers.map());
     }
 
 
@@ -97,9 +98,14 @@ namespace NMM
       smoother.pre_smooth(rhs, x, residual);
       if (coarse)
       {
-        linear_covers.restrict_to(residual, *coarse_rhs);
-        coarse->ApplyInverse(*coarse_rhs, *coarse_x);
-        linear_covers.add_interpolated(*coarse_x, x);
+        const Epetra_CrsMatrix &P = linear_covers.interpolation();
+        Epetra_Vector fine(P.RangeMap()), r(P.DomainMap()), v(P.DomainMap());
+        std::copy(residual.begin(), residual.end(), fine.Values());
+        P.Multiply(true, fine, r);
+        coarse->ApplyInverse(r, v);
+        P.Multiply(false, v, fine);
+        for (int i = 0; i < fine.MyLength(); ++i)
+          x[i] += fine[i];
       }
       smoother.post_smooth(rhs, x);
       std::copy(x.begin(), x.begin() + rhs.size(), dst.begin());

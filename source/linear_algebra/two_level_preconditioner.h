@@ -44,18 +44,18 @@ namespace NMM
      * same covers (LinearCovers), for which one cycle of ML is the solver, and
      * CoverSmoother::post_smooth(). It is symmetric and positive definite.
      *
-     * Wall time of a solution by conjugate gradients, set-up included [s], and iterations,
-     * with this and with smoothed aggregation (ML, rigid-body modes) of the matrix of
-     * second order, in one run; the problems are those of LinearSolverParameters:
+     * Processor time of a solution by conjugate gradients, set-up included [s], and
+     * iterations, with this and with smoothed aggregation (ML, rigid-body modes) of the
+     * matrix of second order, by turns; the problems are those of
+     * LinearSolverParameters:
      *
      * |         | unknowns | this |     | ML   |     |
      * |---------|---------:|-----:|----:|-----:|----:|
-     * | ring    |   91,020 | 0.24 |  21 | 1.00 |  44 |
-     * | ring    |  177,772 | 0.67 |  29 | 2.34 |  50 |
-     * | ring    |  393,284 | 1.53 |  25 | 8.14 |  52 |
-     * | beam    |  111,634 | 0.74 |  26 | 3.51 |  62 |
-     * | jointed |  135,174 | 2.05 |  64 | 14.7 | 327 |
-     * | jointed |  297,242 | 3.84 |  54 | 20.4 | 148 |
+     * | ring    |   91,020 | 0.36 |  21 | 1.20 |  45 |
+     * | ring    |  177,772 | 0.98 |  29 | 3.61 |  51 |
+     * | ring    |  393,284 | 1.99 |  25 | 9.06 |  52 |
+     * | beam    |  111,634 | 0.57 |  26 | 2.19 |  61 |
+     * | jointed |  135,174 | 2.87 |  64 | 14.7 | 327 |
      *
      * Aggregation of the matrix of second order reads it ten times in an iteration
      * instead of three times: it has 22 non-zeros per row and needs four sweeps before and
@@ -80,13 +80,13 @@ namespace NMM
             const dealii::TrilinosWrappers::MPI::Vector &src) const;
 
     private:
-      mutable CoverSmoother                                smoother;
-      LinearCovers                                         linear_covers;
-      std::unique_ptr<Epetra_FECrsMatrix>                  coarse_matrix;
+      mutable CoverSmoother smoother;
+      LinearCovers          linear_covers;
+      /// Null if no cover takes part.
+      std::unique_ptr<Epetra_CrsMatrix>                    coarse_matrix;
       std::unique_ptr<ML_Epetra::MultiLevelPreconditioner> coarse;
 
-      mutable std::vector<float>             rhs, x, residual;
-      mutable std::unique_ptr<Epetra_Vector> coarse_rhs, coarse_x;
+      mutable std::vector<float> rhs, x, residual;
     };
   } // namespace internal
 } // namespace NMM

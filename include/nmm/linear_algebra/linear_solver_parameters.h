@@ -13,19 +13,18 @@ namespace NMM
    *
    * |         | unknowns | direct | iterative | direct | iterative |
    * |---------|---------:|-------:|----------:|-------:|----------:|
-   * | ring    |   91,020 |   0.57 |      0.28 |     99 |         7 |
-   * | ring    |  177,772 |   1.41 |      0.80 |    205 |        11 |
-   * | ring    |  393,284 |   3.06 |      1.73 |    408 |        20 |
-   * | beam    |  111,634 |   0.32 |      0.42 |     78 |        11 |
-   * | disk    |  123,470 |   0.84 |      0.65 |    145 |        10 |
-   * | disk    |  235,442 |   1.86 |      1.36 |    284 |        17 |
-   * | jointed |   72,160 |   0.48 |      1.30 |     65 |         3 |
-   * | jointed |  135,174 |   1.04 |      2.57 |    135 |         4 |
-   * | jointed |  297,242 |   2.76 |      4.35 |    339 |         4 |
+   * | ring    |   91,020 |   0.57 |      0.36 |     99 |        22 |
+   * | ring    |  177,772 |   1.41 |      0.98 |    205 |        39 |
+   * | ring    |  393,284 |   3.06 |      1.99 |    408 |        80 |
+   * | beam    |  111,634 |   0.32 |      0.57 |     78 |        28 |
+   * | disk    |  123,470 |   0.84 |      0.65 |    145 |           |
+   * | disk    |  235,442 |   1.86 |      1.36 |    284 |           |
+   * | jointed |   72,160 |   0.48 |      1.30 |     65 |           |
+   * | jointed |  135,174 |   1.04 |      2.87 |    135 |        32 |
+   * | jointed |  297,242 |   2.76 |      4.35 |    339 |           |
    *
    * Whole bodies are solved faster by iterations from some 20,000 unknowns on, rock whose
-   * joints are as close as its cells from some 500,000 on. The limit is between these:
-   * neither loses more than half of a few seconds.
+   * joints are as close as its cells from some 500,000 on. The limit is between these.
    */
   struct LinearSolverParameters
   {

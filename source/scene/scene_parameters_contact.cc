@@ -7,20 +7,19 @@
 // Contact: faces, laws, obstacles.
 namespace NMM
 {
-  using dealii::ParameterHandler;
   namespace Patterns = dealii::Patterns;
   using namespace internal;
 
   namespace
   {
-    const std::vector<std::pair<std::string, Enforcement>> enforcements = {
+    const Words<Enforcement> enforcements = {
       {"none", Enforcement::none},
       {"penalty", Enforcement::penalty},
       {"augmented Lagrangian", Enforcement::augmented_lagrangian}};
 
-    const std::vector<std::pair<std::string, ContactIntegration>> integrations =
-      {{"length", ContactIntegration::length},
-       {"points", ContactIntegration::points}};
+    const Words<ContactIntegration> integrations = {
+      {"length", ContactIntegration::length},
+      {"points", ContactIntegration::points}};
 
     constexpr const char *any_face = "any";
   } // namespace
@@ -28,99 +27,74 @@ namespace NMM
 
   // Limits are checked in check(), whose messages say what to do.
   void
-  ContactLawParameters::declare(ParameterHandler &prm)
-  {
-    prm.declare_entry("Normal stiffness",
-                      "0",
-                      Patterns::Double(),
-                      "Of the springs that keep faces apart: pressure over "
-                      "penetration [Pa/m]. 0: that of section Contact; there "
-                      "10 E/h, static penalty 30 E/h, E of the softest block, "
-                      "h the cell size at faces.");
-    prm.declare_entry("Shear stiffness",
-                      "0",
-                      Patterns::Double(),
-                      "Of the springs that hold faces which stick: shear over "
-                      "elastic slip [Pa/m]. 0: that of section Contact; there "
-                      "E/h, dynamic 10 E/h, but not more than the normal "
-                      "stiffness.");
-    for (const char *direction : {"Normal", "Shear"})
-      prm.declare_entry(std::string(direction) + " damping",
-                        "0",
-                        Patterns::Double(),
-                        "Dynamic analysis, energy momentum: of dashpots beside "
-                        "these springs, stress over velocity; they never pull "
-                        "[Pa s/m].");
-    prm.declare_entry("Friction angle",
-                      "0",
-                      Patterns::Double(),
-                      "Faces slide when shear exceeds pressure times its "
-                      "tangent plus the cohesion; in [0, 90) [degrees].");
-    prm.declare_entry("Cohesion",
-                      "0",
-                      Patterns::Double(),
-                      "Shear strength without pressure, of faces in contact; "
-                      "of bonded ones until they break [Pa].");
-    prm.declare_entry("Bonded",
-                      "false",
-                      Patterns::Bool(),
-                      "Faces that touch at the start hold together until "
-                      "tension or shear exceeds their strength.");
-    prm.declare_entry("Tensile strength",
-                      "0",
-                      Patterns::Double(),
-                      "Bonded: tension at which they break [Pa].");
-    prm.declare_entry("Dilation angle",
-                      "0",
-                      Patterns::Double(),
-                      "Faces that slide part by its tangent times the way they "
-                      "slide; from 0 to the friction angle [degrees].");
-    prm.declare_entry("Dilation limit",
-                      "0",
-                      Patterns::Double(),
-                      "Way of sliding after which they part no further [m]; 0: "
-                      "no limit.");
-  }
-
-
-  void
-  ContactLawParameters::declare_law(ParameterHandler &prm)
-  {
-    prm.declare_entry("Between",
-                      "",
-                      Patterns::List(Patterns::Anything(), 0),
-                      "Two names of boundaries, holes, joints or obstacles, or "
-                      "any. Both may be the same: the faces of a joint.");
-    declare(prm);
-  }
-
-
-  void
-  ContactLawParameters::parse(ParameterHandler &prm)
+  ContactLawParameters::list_entries(Entries &entries)
   {
     if (!name.empty())
     {
-      const std::vector<std::string> names = get_names(prm, "Between");
-      AssertThrow(names.size() == 2,
-                  InputError("'" + prm.get("Between") + "' is " +
-                               std::to_string(names.size()) +
-                               " name(s) instead of two",
-                             place("Between"),
-                             "name the two faces the law holds between, or "
-                             "write any"));
-      for (unsigned int i = 0; i < 2; ++i)
+      std::vector<std::string> names;
+      entries.add("Between",
+                  names,
+                  "Two names of boundaries, holes, joints or obstacles, or "
+                  "any. Both may be the same: the faces of a joint.");
+      AssertThrow(
+        !entries.are_parsed() || names.size() == 2,
+        InputError("'" + join(names) + "' is " + std::to_string(names.size()) +
+                     " name(s) instead of two",
+                   place("Between"),
+                   "name the two faces the law holds between, or write any"));
+      for (unsigned int i = 0; i < names.size(); ++i)
         between[i] = names[i] == any_face ? "" : names[i];
     }
-    normal_stiffness = prm.get_double("Normal stiffness");
-    shear_stiffness  = prm.get_double("Shear stiffness");
-    normal_damping   = prm.get_double("Normal damping");
-    shear_damping    = prm.get_double("Shear damping");
-    friction_angle   = prm.get_double("Friction angle");
-    cohesion         = prm.get_double("Cohesion");
-    is_bonded        = prm.get_bool("Bonded");
-    tensile_strength = prm.get_double("Tensile strength");
-    dilation_angle   = prm.get_double("Dilation angle");
-    dilation_limit   = prm.get_double("Dilation limit");
+
+    entries.add(
+      "Normal stiffness",
+      normal_stiffness,
+      Patterns::Double(),
+      "Of the springs that keep faces apart: pressure over penetration [Pa/m]. "
+      "0: that of section Contact; there 10 E/h, static penalty 30 E/h, E of "
+      "the softest block, h the cell size at faces.");
+    entries.add("Shear stiffness",
+                shear_stiffness,
+                Patterns::Double(),
+                "Of the springs that hold faces which stick: shear over "
+                "elastic slip [Pa/m]. 0: that of section Contact; there E/h, "
+                "dynamic 10 E/h, but not more than the normal stiffness.");
+    for (const auto &[key, value] :
+         {std::make_pair("Normal damping", &normal_damping),
+          std::make_pair("Shear damping", &shear_damping)})
+      entries.add(key,
+                  *value,
+                  Patterns::Double(),
+                  "Dynamic analysis, energy momentum: of dashpots beside these "
+                  "springs, stress over velocity; they never pull [Pa s/m].");
+    entries.add("Friction angle",
+                friction_angle,
+                Patterns::Double(),
+                "Faces slide when shear exceeds pressure times its tangent "
+                "plus the cohesion; in [0, 90) [degrees].");
+    entries.add("Cohesion",
+                cohesion,
+                Patterns::Double(),
+                "Shear strength without pressure, of faces in contact; of "
+                "bonded ones until they break [Pa].");
+    entries.add("Bonded",
+                is_bonded,
+                "Faces that touch at the start hold together until tension or "
+                "shear exceeds their strength.");
+    entries.add("Tensile strength",
+                tensile_strength,
+                Patterns::Double(),
+                "Bonded: tension at which they break [Pa].");
+    entries.add("Dilation angle",
+                dilation_angle,
+                Patterns::Double(),
+                "Faces that slide part by its tangent times the way they "
+                "slide; from 0 to the friction angle [degrees].");
+    entries.add(
+      "Dilation limit",
+      dilation_limit,
+      Patterns::Double(),
+      "Way of sliding after which they part no further [m]; 0: no limit.");
   }
 
 
@@ -176,13 +150,13 @@ namespace NMM
                              " Pa is given for faces that are not bonded",
                            place("Tensile strength"),
                            "set 'Bonded = true', or remove it"));
-    AssertThrow(dilation_angle >= 0. && dilation_angle <= friction_angle,
-                InputError("the dilation angle is " + to_text(dilation_angle) +
-                             " degrees",
-                           place("Dilation angle"),
-                           "give an angle from 0 to the friction angle, which "
-                           "is " +
-                             to_text(friction_angle) + " degrees"));
+    AssertThrow(
+      dilation_angle >= 0. && dilation_angle <= friction_angle,
+      InputError("the dilation angle is " + to_text(dilation_angle) +
+                   " degrees",
+                 place("Dilation angle"),
+                 "give an angle from 0 to the friction angle, which is " +
+                   to_text(friction_angle) + " degrees"));
     check_size("Dilation limit",
                dilation_limit,
                "give a length, or 0 for no limit");
@@ -195,138 +169,62 @@ namespace NMM
 
 
   void
-  ContactSectionParameters::declare(ParameterHandler               &prm,
-                                    const std::vector<std::string> &law_names)
+  ContactSectionParameters::list_entries(
+    Entries                        &entries,
+    const std::vector<std::string> &law_names)
   {
-    const ContactSectionParameters defaults;
-    prm.declare_entry("Enforcement",
-                      "none",
-                      selection(enforcements),
-                      "none: faces do not feel each other; penalty: springs "
-                      "keep them apart, all analyses; augmented Lagrangian: "
-                      "static analysis, pressures on top of the springs until "
-                      "the penetration is below its tolerance.");
-    prm.declare_entry("Penetration tolerance",
-                      "0",
-                      Patterns::Double(),
-                      "augmented Lagrangian: mean penetration that is allowed "
-                      "[m]; 0: 1e-5 of the cell size at faces.");
-    prm.declare_entry("Reach",
-                      "0",
-                      Patterns::Double(),
-                      "Distance within which faces are looked at [m]; 0: a "
-                      "tenth of the longest edge of an element. Time steps "
-                      "look further where something moves fast.");
-    prm.declare_entry(
-      "Largest penetration",
-      "0",
-      Patterns::Double(),
-      "A step fails in which faces are deeper in each other [m]; "
-      "0: the cell size at faces.");
-    prm.declare_entry("Number of points",
-                      std::to_string(defaults.n_points),
-                      Patterns::Integer(2, 20),
-                      "Contact points on each piece of an edge "
-                      "(Gauss-Lobatto).");
-    prm.declare_entry("Integration",
-                      "length",
-                      selection(integrations),
-                      "length: springs along faces; points: springs at "
-                      "vertices, whose stiffness is a force over a length per "
-                      "thickness [N/m^2] (0: chosen with h = 1 m), cohesion "
-                      "and strength forces per thickness [N/m].");
-    prm.declare_entry("Open joints",
-                      "",
-                      Patterns::List(Patterns::Anything(), 0),
-                      "Joints whose faces are in contact here, though the "
-                      "geometry says closed (tied).");
-    prm.declare_entry("Tied joints",
-                      "",
-                      Patterns::List(Patterns::Anything(), 0),
-                      "Joints that are tied here, though the geometry says "
-                      "open.");
-    ContactLawParameters::declare(prm);
-    prm.declare_entry("Names",
-                      "",
-                      Patterns::List(Patterns::Anything(), 0),
-                      "Names of laws between certain faces, each with a "
-                      "subsection of its own; the first one that fits holds, "
-                      "and the values of this section for all other faces.");
-    for (const std::string &name : law_names)
-    {
-      prm.enter_subsection(name);
-      ContactLawParameters::declare_law(prm);
-      prm.leave_subsection();
-    }
-  }
-
-
-  void
-  ContactSectionParameters::parse(ParameterHandler               &prm,
-                                  const std::vector<std::string> &law_names)
-  {
-    enforcement           = get_selection(prm, "Enforcement", enforcements);
-    penetration_tolerance = prm.get_double("Penetration tolerance");
-    reach                 = prm.get_double("Reach");
-    max_penetration       = prm.get_double("Largest penetration");
-    n_points              = prm.get_integer("Number of points");
-    integration           = get_selection(prm, "Integration", integrations);
-    open_joints           = get_names(prm, "Open joints");
-    tied_joints           = get_names(prm, "Tied joints");
-    law.parse(prm);
-    laws.clear();
-    for (const std::string &name : law_names)
-    {
-      laws.emplace_back();
-      laws.back().name = name;
-      prm.enter_subsection(name);
-      laws.back().parse(prm);
-      prm.leave_subsection();
-    }
-  }
-
-
-  void
-  ContactSectionParameters::check_unused() const
-  {
-    const ContactSectionParameters defaults;
-    const std::string              remedy =
-      "remove it, or set 'Contact/Enforcement = penalty'";
-    const std::string by     = "a scene without contact";
-    const auto        expect = [&](const std::string &key,
-                            const double       value,
-                            const double       default_value) {
-      expect_default("Contact", key, value, default_value, by, remedy);
-    };
-    expect("Penetration tolerance", penetration_tolerance, 0.);
-    expect("Reach", reach, 0.);
-    expect("Largest penetration", max_penetration, 0.);
-    expect("Number of points", n_points, defaults.n_points);
-    AssertThrow(integration == ContactIntegration::length,
-                InputError("'Integration = points' would not be used by " + by,
-                           "parameter 'Contact/Integration'",
-                           remedy));
-    expect("Normal stiffness", law.normal_stiffness, 0.);
-    expect("Shear stiffness", law.shear_stiffness, 0.);
-    expect("Normal damping", law.normal_damping, 0.);
-    expect("Shear damping", law.shear_damping, 0.);
-    expect("Friction angle", law.friction_angle, 0.);
-    expect("Cohesion", law.cohesion, 0.);
-    expect("Bonded", law.is_bonded ? 1. : 0., 0.);
-    expect("Tensile strength", law.tensile_strength, 0.);
-    expect("Dilation angle", law.dilation_angle, 0.);
-    expect("Dilation limit", law.dilation_limit, 0.);
-    std::vector<std::string> law_names;
-    for (const ContactLawParameters &other : laws)
-      law_names.push_back(other.name);
-    for (const auto &[key, list] : {std::make_pair("Open joints", open_joints),
-                                    std::make_pair("Tied joints", tied_joints),
-                                    std::make_pair("Names", law_names)})
-      AssertThrow(list.empty(),
-                  InputError("'" + list.front() + "' would not be used by " +
-                               by,
-                             std::string("parameter 'Contact/") + key + "'",
-                             remedy));
+    entries.add(
+      "Enforcement",
+      enforcement,
+      enforcements,
+      "none: faces do not feel each other; penalty: springs keep them apart, "
+      "all analyses; augmented Lagrangian: static analysis, pressures on top "
+      "of the springs until the penetration is below its tolerance.");
+    entries.add("Penetration tolerance",
+                penetration_tolerance,
+                Patterns::Double(),
+                "augmented Lagrangian: mean penetration that is allowed [m]; "
+                "0: 1e-5 of the cell size at faces.");
+    entries.add("Reach",
+                reach,
+                Patterns::Double(),
+                "Distance within which faces are looked at [m]; 0: a tenth of "
+                "the longest edge of an element. Time steps look further where "
+                "something moves fast.");
+    entries.add("Largest penetration",
+                max_penetration,
+                Patterns::Double(),
+                "A step fails in which faces are deeper in each other [m]; 0: "
+                "the cell size at faces.");
+    entries.add("Number of points",
+                n_points,
+                Patterns::Integer(2, 20),
+                "Contact points on each piece of an edge (Gauss-Lobatto).");
+    entries.add(
+      "Integration",
+      integration,
+      integrations,
+      "length: springs along faces; points: springs at vertices, whose "
+      "stiffness is a force over a length per thickness [N/m^2] (0: chosen "
+      "with h = 1 m), cohesion and strength forces per thickness [N/m].");
+    entries.add("Open joints",
+                open_joints,
+                "Joints whose faces are in contact here, though the geometry "
+                "says closed (tied).");
+    entries.add("Tied joints",
+                tied_joints,
+                "Joints that are tied here, though the geometry says open.");
+    law.list_entries(entries);
+    entries.subsections(law_names,
+                        laws,
+                        "Names of laws between certain faces, each with a "
+                        "subsection of its own; the first one that fits holds, "
+                        "and the values of this section for all other faces.",
+                        [&](ContactLawParameters &one,
+                            const std::string    &name) {
+                          one.name = name;
+                          one.list_entries(entries);
+                        });
   }
 
 
@@ -337,15 +235,26 @@ namespace NMM
   {
     if (!is_present())
     {
-      check_unused();
+      ContactSectionParameters standard;
+      Entries given(Entries::Stage::note), defaults(Entries::Stage::note);
+      std::vector<std::string> law_names;
+      for (const ContactLawParameters &other : laws)
+        law_names.push_back(other.name);
+      ContactSectionParameters(*this).list_entries(given, law_names);
+      standard.list_entries(defaults, {});
+      expect_defaults("Contact",
+                      given,
+                      defaults,
+                      "a scene without contact",
+                      "remove it, or set 'Contact/Enforcement = penalty'");
       return;
     }
     const bool is_augmented = enforcement == Enforcement::augmented_lagrangian;
-    AssertThrow(kinematics != Kinematics::incremental,
-                InputError("contact is not available with incremental "
-                           "kinematics",
-                           "parameter 'Contact/Enforcement'",
-                           "set 'Model/Kinematics' to small or finite"));
+    AssertThrow(
+      kinematics != Kinematics::incremental,
+      InputError("contact is not available with incremental kinematics",
+                 "parameter 'Contact/Enforcement'",
+                 "set 'Model/Kinematics' to small or finite"));
     AssertThrow(!is_augmented || analysis == Analysis::statics,
                 InputError("'augmented Lagrangian' is not available with a " +
                              to_string(analysis) + " analysis",
@@ -360,11 +269,12 @@ namespace NMM
                      "remove it, or set 'Enforcement = augmented Lagrangian'");
     if (integration == ContactIntegration::points)
     {
-      AssertThrow(!is_augmented,
-                  InputError("'augmented Lagrangian' is not available with "
-                             "springs at points",
-                             "parameter 'Contact/Enforcement'",
-                             "set it to penalty, or 'Integration = length'"));
+      AssertThrow(
+        !is_augmented,
+        InputError(
+          "'augmented Lagrangian' is not available with springs at points",
+          "parameter 'Contact/Enforcement'",
+          "set it to penalty, or 'Integration = length'"));
       const ContactSectionParameters defaults;
       expect_default("Contact",
                      "Number of points",
@@ -388,43 +298,28 @@ namespace NMM
 
 
   void
-  ObstacleParameters::declare(ParameterHandler &prm)
+  ObstacleParameters::list_entries(Entries &entries)
   {
-    prm.declare_entry(
-      "Shape",
-      "",
-      Patterns::Anything(),
-      "A shape as in geometry files: LINESTRING (...), "
-      "CIRCULARSTRING (...), COMPOUNDCURVE (...) with the rigid "
-      "body on the left, or POLYGON (...), CURVEPOLYGON (...), "
-      "CIRCLE (...), which is rigid inside. Either this or "
-      "File.");
-    prm.declare_entry("File",
-                      "",
-                      Patterns::Anything(),
-                      "Geometry file, relative to the folder of the scene "
-                      "file, with a record of one curve.");
-    prm.declare_entry("Displacement",
-                      "",
-                      Patterns::Anything(),
-                      "'ux; uy' [m], each an expression of t, or 'file: "
-                      "name'; t is the time [s], or the load factor of a "
-                      "static analysis. Empty: at rest.");
-    prm.declare_entry("Release time",
-                      "-1",
-                      Patterns::Double(),
-                      "Dynamic analysis: it is gone from this time on [s]. "
-                      "Negative: never.");
-  }
-
-
-  void
-  ObstacleParameters::parse(ParameterHandler &prm)
-  {
-    shape        = dealii::Utilities::trim(prm.get("Shape"));
-    file         = dealii::Utilities::trim(prm.get("File"));
-    displacement = dealii::Utilities::trim(prm.get("Displacement"));
-    release_time = prm.get_double("Release time");
+    entries.add("Shape",
+                shape,
+                "A shape as in geometry files: LINESTRING (...), "
+                "CIRCULARSTRING (...), COMPOUNDCURVE (...) with the rigid body "
+                "on the left, or POLYGON (...), CURVEPOLYGON (...), CIRCLE "
+                "(...), which is rigid inside. Either this or File.");
+    entries.add("File",
+                file,
+                "Geometry file, relative to the folder of the scene file, with "
+                "a record of one curve.");
+    entries.add(
+      "Displacement",
+      displacement,
+      "'ux; uy' [m], each an expression of t, or 'file: name'; t is the time "
+      "[s], or the load factor of a static analysis. Empty: at rest.");
+    entries.add(
+      "Release time",
+      release_time,
+      Patterns::Double(),
+      "Dynamic analysis: it is gone from this time on [s]. Negative: never.");
   }
 
 
@@ -446,13 +341,12 @@ namespace NMM
                      "remove it, or set 'Model/Analysis = dynamic'");
     const bool is_relaxed =
       analysis == Analysis::relaxation || analysis == Analysis::safety_factor;
-    AssertThrow(!is_relaxed || displacement.empty(),
-                InputError("the displacement '" + displacement +
-                             "' would not be used by a " + to_string(analysis) +
-                             (analysis == Analysis::relaxation ? ""
-                                                               : " analysis"),
-                           "parameter 'Obstacles/" + name + "/Displacement'",
-                           "remove it, or set 'Model/Analysis' to static or "
-                           "dynamic"));
+    AssertThrow(
+      !is_relaxed || displacement.empty(),
+      InputError("the displacement '" + displacement +
+                   "' would not be used by a " + to_string(analysis) +
+                   (analysis == Analysis::relaxation ? "" : " analysis"),
+                 "parameter 'Obstacles/" + name + "/Displacement'",
+                 "remove it, or set 'Model/Analysis' to static or dynamic"));
   }
 } // namespace NMM

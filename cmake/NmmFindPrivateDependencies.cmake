@@ -7,7 +7,6 @@
 find_package(CGAL 5.5 REQUIRED QUIET)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE QUIET)
 find_package(PkgConfig REQUIRED QUIET)
-find_package(ZLIB REQUIRED QUIET)
 pkg_check_modules(cairo REQUIRED QUIET IMPORTED_TARGET cairo)
 pkg_check_modules(dxflib QUIET IMPORTED_TARGET dxflib)
 if(NOT dxflib_FOUND)

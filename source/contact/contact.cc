@@ -756,8 +756,9 @@ namespace NMM
   void
   Contact::Data::reduce_report()
   {
-    report.n_points = points.size();
-    report.n_open   = report.n_points - report.n_stick - report.n_slip;
+    report.is_between = is_between;
+    report.n_points   = points.size();
+    report.n_open     = report.n_points - report.n_stick - report.n_slip;
     if (Parallel::n_mpi_processes(communicator) == 1)
       return;
     for (unsigned int *count : {&report.n_points,

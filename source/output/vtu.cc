@@ -142,7 +142,7 @@ namespace NMM
     const auto            names   = field_names(triangles.has_velocity);
     DataOutBase::VtkFlags flags;
     flags.print_date_and_time = false;
-    flags.compression_level   = DataOutBase::VtkFlags::best_speed;
+    flags.compression_level   = DataOutBase::VtkFlags::no_compression;
 
     const auto piece_name = [&](const unsigned int r) {
       return n_ranks == 1 ? base + ".vtu"

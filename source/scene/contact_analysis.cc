@@ -13,8 +13,6 @@ namespace NMM
 {
   namespace internal
   {
-
-    using namespace NMM;
     namespace Parallel = dealii::Utilities::MPI;
 
     ContactAnalysis::ContactAnalysis(const Scene        &scene,
@@ -483,29 +481,6 @@ namespace NMM
     }
 
 
-    Deformation
-    AccountedContactModel::assemble(const Vector &u,
-                                    const double  t,
-                                    const Tangent tangent,
-                                    const Vector *increment)
-    {
-      is_between = false;
-      return ContactModel::assemble(u, t, tangent, increment);
-    }
-
-
-    Deformation
-    AccountedContactModel::assemble_between(const Vector &begin,
-                                            const Vector &end,
-                                            const double  t_0,
-                                            const double  t_1,
-                                            const Tangent tangent)
-    {
-      is_between = true;
-      return ContactModel::assemble_between(begin, end, t_0, t_1, tangent);
-    }
-
-
     StepFault
     AccountedContactModel::find_fault(const Vector &end)
     {
@@ -515,7 +490,7 @@ namespace NMM
       double penetration = contact().report().largest_penetration;
       // In conserving steps it is the mean of begin and end; this is a bound from below
       // of that at the end, since different points may be the deepest.
-      if (is_between)
+      if (contact().report().is_between)
         penetration =
           2. * penetration - analysis->last_state().report.largest_penetration;
       fault.reason = analysis->find_deep_penetration(penetration);
@@ -560,6 +535,5 @@ namespace NMM
     {
       return work;
     }
-
   } // namespace internal
 } // namespace NMM

@@ -16,13 +16,12 @@ namespace NMM
 {
   namespace internal
   {
-
     /**
- * Contact of a scene: the surface and the contact itself, and what is told of them
- * step by step. All functions are collective.
- *
- * Lifetime: the arguments must outlive this object.
- */
+     * Contact of a scene: the surface and the contact itself, and what is told of them
+     * step by step. All functions are collective.
+     *
+     * Lifetime: the arguments must outlive this object.
+     */
     class ContactAnalysis
     {
     public:
@@ -177,19 +176,6 @@ namespace NMM
                  double        t,
                  double        h) override;
 
-      Deformation
-      assemble(const Vector &u,
-               double        t,
-               Tangent       tangent,
-               const Vector *increment = nullptr) override;
-
-      Deformation
-      assemble_between(const Vector &begin,
-                       const Vector &end,
-                       double        t_0,
-                       double        t_1,
-                       Tangent       tangent) override;
-
       /// As in ContactModel; and faces may not be deeper in each other than the scene
       /// allows.
       StepFault
@@ -211,10 +197,7 @@ namespace NMM
     private:
       ContactAnalysis *analysis;
       double           work = 0.;
-      /// Was the last assembly one between two states?
-      bool is_between = false;
     };
-
   } // namespace internal
 } // namespace NMM
 

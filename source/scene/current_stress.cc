@@ -9,8 +9,6 @@ namespace NMM
 {
   namespace internal
   {
-
-    using namespace NMM;
     using dealii::Point;
     using dealii::Tensor;
     using Stress = dealii::SymmetricTensor<2, 2>;
@@ -251,6 +249,5 @@ namespace NMM
         return dealii::Utilities::MPI::sum(sum, covers.communicator());
       }
     } // namespace CurrentStress
-
-  } // namespace internal
+  }   // namespace internal
 } // namespace NMM

@@ -11,7 +11,6 @@ namespace NMM
 {
   namespace internal
   {
-
     /// Stress in large displacements: Cauchy stress [Pa] on the axes x, y, as a
     /// FieldEvaluator wants it.
     namespace CurrentStress
@@ -43,8 +42,7 @@ namespace NMM
       area(const DisplacementField    &field,
            const QuadratureCollection &quadrature);
     } // namespace CurrentStress
-
-  } // namespace internal
+  }   // namespace internal
 } // namespace NMM
 
 #endif

@@ -11,9 +11,7 @@ namespace NMM
 {
   namespace internal
   {
-
     // Set-up and course of the run; what is written is in dynamic_output.cc.
-    using namespace NMM;
     using dealii::Point;
     using dealii::Tensor;
     using Stage = Progress::Stage;
@@ -405,6 +403,5 @@ namespace NMM
       relevant = integrator->state().u;
       return relevant;
     }
-
   } // namespace internal
 } // namespace NMM

@@ -18,12 +18,11 @@ namespace NMM
 {
   namespace internal
   {
-
     /**
- * Motion in time, or relaxation to rest, of small, finite or incremental
- * kinematics. Histories, series and checkpoints are written as the run goes; if
- * it fails, the last good state is what is written.
- */
+     * Motion in time, or relaxation to rest, of small, finite or incremental
+     * kinematics. Histories, series and checkpoints are written as the run goes; if
+     * it fails, the last good state is what is written.
+     */
     class DynamicAnalysis : public SceneAnalysis
     {
     public:
@@ -219,7 +218,6 @@ namespace NMM
       std::string
       unsolved_note() const override;
     };
-
   } // namespace internal
 } // namespace NMM
 

@@ -13,9 +13,6 @@ namespace NMM
 {
   namespace internal
   {
-
-    using namespace NMM;
-
     void
     DynamicAnalysis::open_files()
     {
@@ -441,6 +438,5 @@ namespace NMM
       note << "solved up to t = " << time() << " s";
       return note.str();
     }
-
   } // namespace internal
 } // namespace NMM

@@ -7,10 +7,7 @@ namespace NMM
 {
   namespace internal
   {
-
     // Blocks that leave the scene.
-    using namespace NMM;
-
     void
     DynamicAnalysis::make_leaving()
     {
@@ -93,6 +90,5 @@ namespace NMM
         });
       }
     }
-
   } // namespace internal
 } // namespace NMM

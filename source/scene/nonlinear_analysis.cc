@@ -12,8 +12,6 @@ namespace NMM
 {
   namespace internal
   {
-
-    using namespace NMM;
     using dealii::Point;
     using dealii::Tensor;
     using Stage        = Progress::Stage;
@@ -404,6 +402,5 @@ namespace NMM
         out << '\n';
       }
     }
-
   } // namespace internal
 } // namespace NMM

@@ -18,12 +18,11 @@ namespace NMM
 {
   namespace internal
   {
-
     /**
- * Large displacements under growing load, by FiniteElasticity and Newton's
- * method or by IncrementalElasticity; contact, with small or large displacements. If a load step fails, the last one that
- * converged is what is written.
- */
+     * Large displacements under growing load, by FiniteElasticity and Newton's
+     * method or by IncrementalElasticity; contact, with small or large displacements. If a load step fails, the last one that
+     * converged is what is written.
+     */
     class NonlinearAnalysis : public SceneAnalysis
     {
     public:
@@ -115,7 +114,6 @@ namespace NMM
       void
       write_history(std::ostream &out) const;
     };
-
   } // namespace internal
 } // namespace NMM
 

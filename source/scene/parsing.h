@@ -1,110 +1,242 @@
 #ifndef nmm_source_scene_parsing_h
 #define nmm_source_scene_parsing_h
 
-#include <nmm/scene/scene_parameters_dynamics.h>
-
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/point.h>
-#include <deal.II/base/utilities.h>
 
-#include <array>
-#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace NMM
 {
   namespace internal
   {
-    /// Pattern of a point or vector "x, y".
-    inline dealii::Patterns::List
-    vector_pattern()
+    /// Words of a choice, with what they stand for.
+    template <typename Value>
+    using Words = std::vector<std::pair<std::string, Value>>;
+
+
+    /// The word for @p value.
+    template <typename Value>
+    const std::string &
+    word_of(const Value &value, const Words<Value> &words)
     {
-      return dealii::Patterns::List(dealii::Patterns::Double(), 2, 2, ",");
+      for (const auto &word : words)
+        if (word.second == value)
+          return word.first;
+      AssertThrow(false, dealii::ExcInternalError());
+      return words.front().first;
     }
 
 
-    inline dealii::Point<2>
-    get_point(const dealii::ParameterHandler &prm, const std::string &key)
+    /**
+     * The entries of a section, which the struct that owns them lists once, in
+     * `list_entries()`. That declares them, with the values of the struct as
+     * defaults; or parses them into it; or notes them, for expect_defaults().
+     *
+     * @code
+     *   void GeometryParameters::list_entries(Entries &entries)
+     *   {
+     *     entries.add("File", file, "Geometry file.");
+     *     entries.add("Small block area", small_block, Patterns::Double(0), "...");
+     *   }
+     * @endcode
+     */
+    class Entries
     {
-      const std::vector<double> numbers = dealii::Utilities::string_to_double(
-        dealii::Utilities::split_string_list(prm.get(key), ','));
-      return {numbers[0], numbers[1]};
-    }
-
-
-    /// A point, or nothing where the text is @p word.
-    inline std::optional<dealii::Point<2>>
-    get_optional_point(const dealii::ParameterHandler &prm,
-                       const std::string              &key,
-                       const std::string              &word,
-                       const std::string              &section)
-    {
-      const std::string text = prm.get(key);
-      if (text == word)
-        return std::nullopt;
-      try
+    public:
+      enum class Stage
       {
-        const std::vector<double> numbers = dealii::Utilities::string_to_double(
-          dealii::Utilities::split_string_list(text, ','));
-        if (numbers.size() == 2 && std::isfinite(numbers[0]) &&
-            std::isfinite(numbers[1]))
-          return dealii::Point<2>(numbers[0], numbers[1]);
-      }
-      catch (const dealii::ExceptionBase &)
+        declare,
+        parse,
+        note
+      };
+
+      explicit Entries(Stage stage, dealii::ParameterHandler *prm = nullptr);
+
+      /// Does the struct get its values from a scene? Then it may check them.
+      bool
+      are_parsed() const;
+
+      /// What is not a number yet has to be set: its default is 0, which the struct's
+      /// checks refuse.
+      void
+      add(const std::string              &key,
+          double                         &value,
+          const dealii::Patterns::Double &pattern,
+          const std::string              &help);
+
+      void
+      add(const std::string               &key,
+          unsigned int                    &value,
+          const dealii::Patterns::Integer &pattern,
+          const std::string               &help);
+
+      void
+      add(const std::string &key, bool &value, const std::string &help);
+
+      /// Without blanks around it.
+      void
+      add(const std::string &key, std::string &value, const std::string &help);
+
+      /// Numbers separated by commas.
+      void
+      add(const std::string            &key,
+          std::vector<double>          &values,
+          const dealii::Patterns::List &pattern,
+          const std::string            &help);
+
+      /// A point or vector "x, y".
+      void
+      add(const std::string    &key,
+          dealii::Tensor<1, 2> &value,
+          const std::string    &help);
+
+      /// A point, or nothing where the text is @p word. @p section is for the message.
+      void
+      add(const std::string               &key,
+          std::optional<dealii::Point<2>> &value,
+          const std::string               &word,
+          const std::string               &section,
+          const std::string               &help);
+
+      /// Names separated by commas.
+      void
+      add(const std::string        &key,
+          std::vector<std::string> &names,
+          const std::string        &help);
+
+      template <typename Value>
+      void
+      add(const std::string  &key,
+          Value              &value,
+          const Words<Value> &words,
+          const std::string  &help)
       {
+        const std::string text =
+          entry(key, word_of(value, words), selection(words), help);
+        for (const auto &word : words)
+          if (word.first == text)
+            value = word.second;
       }
-      AssertThrow(false,
-                  InputError("'" + text + "' is no point",
-                             "parameter '" + section + "/" + key + "'",
-                             "give two numbers 'x, y', or " +
-                               (word.empty() ? "nothing" : "'" + word + "'")));
-      return std::nullopt;
-    }
+
+      /// Several of the words.
+      template <typename Value>
+      void
+      add(const std::string  &key,
+          std::vector<Value> &values,
+          const Words<Value> &words,
+          const std::string  &help)
+      {
+        entry(key, "", dealii::Patterns::List(selection(words), 0), help);
+        if (!are_parsed())
+          return;
+        values.clear();
+        for (const std::string &name : names_of(key))
+          for (const auto &word : words)
+            if (word.first == name)
+              values.push_back(word.second);
+      }
+
+      /// The section @p name, whose entries @p list lists.
+      template <typename List>
+      void
+      section(const std::string &name, const List &list)
+      {
+        prm->enter_subsection(name);
+        list();
+        prm->leave_subsection();
+      }
+
+      template <typename Parameters>
+      void
+      section(const std::string &name, Parameters *parameters)
+      {
+        section(name, [&]() { parameters->list_entries(*this); });
+      }
+
+      /// An entry `Names`, and a subsection for each of @p names, whose entries
+      /// list(one, name) lists.
+      template <typename Parameters, typename List>
+      void
+      subsections(const std::vector<std::string> &names,
+                  std::vector<Parameters>        &all,
+                  const std::string              &help,
+                  const List                     &list)
+      {
+        std::vector<std::string> names_in_file = names;
+        add("Names", names_in_file, help);
+        if (stage == Stage::note)
+          return;
+        all.clear();
+        for (const std::string &name : names)
+        {
+          all.emplace_back();
+          section(name, [&]() { list(all.back(), name); });
+        }
+      }
+
+      /// The same in a section @p name of structs that keep their own names.
+      template <typename Parameters>
+      void
+      section_of_subsections(const std::string              &name,
+                             const std::vector<std::string> &names,
+                             std::vector<Parameters>        &all,
+                             const std::string              &help)
+      {
+        section(name, [&]() {
+          subsections(names,
+                      all,
+                      help,
+                      [&](Parameters &one, const std::string &name) {
+                        one.name = name;
+                        one.list_entries(*this);
+                      });
+        });
+      }
+
+      /// Keys and values that were noted.
+      const std::vector<std::pair<std::string, std::string>> &
+      noted() const;
+
+    private:
+      Stage                                            stage;
+      dealii::ParameterHandler                        *prm;
+      std::vector<std::pair<std::string, std::string>> notes;
+
+      /// The value in the scene, or @p value where none is read.
+      std::string
+      entry(const std::string                   &key,
+            const std::string                   &value,
+            const dealii::Patterns::PatternBase &pattern,
+            const std::string                   &help);
+
+      std::vector<std::string>
+      names_of(const std::string &key) const;
+
+      template <typename Value>
+      static dealii::Patterns::Selection
+      selection(const Words<Value> &words)
+      {
+        std::string text;
+        for (const auto &word : words)
+          text += (text.empty() ? "" : "|") + word.first;
+        return dealii::Patterns::Selection(text);
+      }
+    };
 
 
     /// A list of names without empty ones.
-    inline std::vector<std::string>
-    get_names(const dealii::ParameterHandler &prm, const std::string &key)
-    {
-      std::vector<std::string> names;
-      for (const std::string &name :
-           dealii::Utilities::split_string_list(prm.get(key), ','))
-        if (!name.empty())
-          names.push_back(name);
-      return names;
-    }
+    std::vector<std::string>
+    get_names(const dealii::ParameterHandler &prm, const std::string &key);
 
+    /// Separated by commas.
+    std::string
+    join(const std::vector<std::string> &words);
 
-    /// Pattern of a selection from the words of @p map.
-    template <typename Enum>
-    dealii::Patterns::Selection
-    selection(const std::vector<std::pair<std::string, Enum>> &words)
-    {
-      std::string text;
-      for (const auto &word : words)
-        text += (text.empty() ? "" : "|") + word.first;
-      return dealii::Patterns::Selection(text);
-    }
-
-
-    template <typename Enum>
-    Enum
-    get_selection(const dealii::ParameterHandler                  &prm,
-                  const std::string                               &key,
-                  const std::vector<std::pair<std::string, Enum>> &words)
-    {
-      const std::string text = prm.get(key);
-      for (const auto &word : words)
-        if (word.first == text)
-          return word.second;
-      AssertThrow(false, dealii::ExcInternalError());
-      return words.front().second;
-    }
-
-
-    /// With 12 digits.
+    /// With 10 digits.
     std::string
     to_text(double value);
 
@@ -118,19 +250,27 @@ namespace NMM
                    const std::string &by,
                    const std::string &remedy);
 
-    /// Entry `Analysis` of the model.
+    /// The same for all noted entries of a section.
     void
-    declare_analysis(dealii::ParameterHandler &prm);
+    expect_defaults(const std::string &section,
+                    const Entries     &given,
+                    const Entries     &defaults,
+                    const std::string &by,
+                    const std::string &remedy);
 
-    Analysis
-    get_analysis(const dealii::ParameterHandler &prm);
-
-    /// Entry `Components` of conditions and fixed points.
+    template <typename Parameters>
     void
-    declare_components(dealii::ParameterHandler &prm);
-
-    std::array<bool, 2>
-    get_components(const dealii::ParameterHandler &prm);
+    expect_defaults(const std::string &section,
+                    Parameters         given,
+                    const std::string &by,
+                    const std::string &remedy)
+    {
+      Parameters standard;
+      Entries    values(Entries::Stage::note), defaults(Entries::Stage::note);
+      given.list_entries(values);
+      standard.list_entries(defaults);
+      expect_defaults(section, values, defaults, by, remedy);
+    }
   } // namespace internal
 } // namespace NMM
 

@@ -6,9 +6,6 @@ namespace NMM
 {
   namespace internal
   {
-
-    using namespace NMM;
-
     ProbeHistory::ProbeHistory(const CoverSystem        &covers,
                                const ProbePoints        &points,
                                const std::vector<Probe> &probes)
@@ -85,6 +82,5 @@ namespace NMM
       if (table)
         table->append(time, step, values);
     }
-
   } // namespace internal
 } // namespace NMM

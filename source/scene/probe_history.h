@@ -15,11 +15,10 @@ namespace NMM
 {
   namespace internal
   {
-
     /**
- * probes-history.csv: displacement [m] and velocity [m/s] of the probes that are
- * points, a row per time step. All functions are collective.
- */
+     * probes-history.csv: displacement [m] and velocity [m/s] of the probes that are
+     * points, a row per time step. All functions are collective.
+     */
     class ProbeHistory
     {
     public:
@@ -59,7 +58,6 @@ namespace NMM
       std::vector<std::vector<Term>> terms;
       std::unique_ptr<CsvSeries>     table;
     };
-
   } // namespace internal
 } // namespace NMM
 

@@ -12,8 +12,6 @@ namespace NMM
 {
   namespace internal
   {
-
-    using namespace NMM;
     using Stage = Progress::Stage;
     using Start = SafetyFactorSectionParameters::Start;
 
@@ -276,6 +274,5 @@ namespace NMM
         note << verb(shown.outcome) << " at all factors tried";
       return note.str();
     }
-
   } // namespace internal
 } // namespace NMM

@@ -13,16 +13,15 @@ namespace NMM
 {
   namespace internal
   {
-
     /**
- * The factor by which the strength of all contacts can be divided before blocks move:
- * trials of relaxation, each from the same state, between which the factor is
- * bracketed and bisected. What is shown is how it goes: the displacements of the
- * trial with the smallest factor that moves; if none moves, those at the largest
- * factor; if a trial fails, which ends the search, its last good state.
- *
- * safety_factor.csv has a row per trial and is complete after each of them.
- */
+     * The factor by which the strength of all contacts can be divided before blocks move:
+     * trials of relaxation, each from the same state, between which the factor is
+     * bracketed and bisected. What is shown is how it goes: the displacements of the
+     * trial with the smallest factor that moves; if none moves, those at the largest
+     * factor; if a trial fails, which ends the search, its last good state.
+     *
+     * safety_factor.csv has a row per trial and is complete after each of them.
+     */
     class SafetyFactorAnalysis : public SceneAnalysis
     {
     public:
@@ -90,7 +89,6 @@ namespace NMM
       std::string
       unsolved_note() const override;
     };
-
   } // namespace internal
 } // namespace NMM
 

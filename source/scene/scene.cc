@@ -329,8 +329,10 @@ namespace NMM
     problem.gravity     = model.gravity;
     problem.body_force = make_function(model.body_force, 2, "Model/Body force");
     problem.materials  = scene_parameters.materials;
-    problem.point_forces = scene_parameters.point_forces;
-    problem.fixed_points = scene_parameters.fixed_points;
+    for (const PointForceParameters &force : scene_parameters.point_forces)
+      problem.point_forces.push_back(force.force);
+    for (const FixedPointParameters &point : scene_parameters.fixed_points)
+      problem.fixed_points.push_back(point.point);
 
     for (const auto &parameters : scene_parameters.boundary_conditions)
     {

@@ -13,8 +13,6 @@ namespace NMM
 {
   namespace internal
   {
-
-    using namespace NMM;
     using Stage = Progress::Stage;
 
     SceneAnalysis::SceneAnalysis(const Scene   &scene,
@@ -412,6 +410,5 @@ namespace NMM
         directory->write_text("summary.csv",
                               [&](std::ostream &out) { summary.write(out); });
     }
-
   } // namespace internal
 } // namespace NMM

@@ -25,15 +25,14 @@ namespace NMM
 {
   namespace internal
   {
-
     /**
- * A scene's analysis, from geometry to files: what all kinds have in common. The
- * order is fixed: build(), print_report(), open(), solve(), verify(), write(). All
- * input errors come out of build(), so that nothing is written for a scene that is
- * wrong.
- *
- * Lifetime: the scene and the progress display must outlive it.
- */
+     * A scene's analysis, from geometry to files: what all kinds have in common. The
+     * order is fixed: build(), print_report(), open(), solve(), verify(), write(). All
+     * input errors come out of build(), so that nothing is written for a scene that is
+     * wrong.
+     *
+     * Lifetime: the scene and the progress display must outlive it.
+     */
     class SceneAnalysis
     {
     public:
@@ -160,7 +159,6 @@ namespace NMM
       void
       write_summary();
     };
-
   } // namespace internal
 } // namespace NMM
 

@@ -163,15 +163,15 @@ namespace NMM
           functions->conditions,
           functions->n_conditions,
           condition.boundaries.size());
-    for (const TimeDependence &time : p.force_times)
-      add(time,
+    for (const PointForceParameters &force : p.point_forces)
+      add(force.time,
           "Point forces",
           Release::Kind::fixed_point,
           functions->forces,
           functions->n_forces,
           1);
-    for (const TimeDependence &time : p.fixed_point_times)
-      add(time,
+    for (const FixedPointParameters &point : p.fixed_points)
+      add(point.time,
           "Fixed points",
           Release::Kind::fixed_point,
           functions->fixed_points,

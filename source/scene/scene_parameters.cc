@@ -16,74 +16,57 @@ namespace NMM
 
   namespace
   {
-    const std::vector<std::pair<std::string, LocalSize::Kind>>
-      local_size_types = {{"point", LocalSize::Kind::point},
-                          {"box", LocalSize::Kind::box},
-                          {"curve", LocalSize::Kind::curve}};
+    const Words<LocalSize::Kind> local_size_types = {
+      {"point", LocalSize::Kind::point},
+      {"box", LocalSize::Kind::box},
+      {"curve", LocalSize::Kind::curve}};
 
-    const std::vector<std::pair<std::string, MathematicalMeshParameters::Type>>
-      mesh_types = {{"regular", MathematicalMeshParameters::Type::regular},
-                    {"graded", MathematicalMeshParameters::Type::graded},
-                    {"gmsh", MathematicalMeshParameters::Type::gmsh}};
+    const Words<MathematicalMeshParameters::Type> mesh_types = {
+      {"regular", MathematicalMeshParameters::Type::regular},
+      {"graded", MathematicalMeshParameters::Type::graded},
+      {"gmsh", MathematicalMeshParameters::Type::gmsh}};
 
-    const std::vector<std::pair<std::string, MeshPattern>> mesh_patterns = {
+    const Words<MeshPattern> mesh_patterns = {
       {"equilateral", MeshPattern::equilateral},
       {"right-angled", MeshPattern::right_angled}};
 
-    const std::vector<std::pair<std::string, LinearSolverParameters::Type>>
-      solver_types = {{"automatic", LinearSolverParameters::Type::automatic},
-                      {"direct", LinearSolverParameters::Type::direct},
-                      {"iterative", LinearSolverParameters::Type::iterative}};
+    const Words<LinearSolverParameters::Type> solver_types = {
+      {"automatic", LinearSolverParameters::Type::automatic},
+      {"direct", LinearSolverParameters::Type::direct},
+      {"iterative", LinearSolverParameters::Type::iterative}};
   } // namespace
 
 
   void
-  LocalSizeParameters::declare(ParameterHandler &prm)
+  LocalSizeParameters::list_entries(Entries           &entries,
+                                    LocalSize         &local_size,
+                                    const std::string &name)
   {
-    prm.declare_entry("Type",
-                      "point",
-                      selection(local_size_types),
-                      "Fine at a point, in a box or along a curve.");
-    prm.declare_entry("Point",
-                      "0, 0",
-                      vector_pattern(),
-                      "Type point: x, y [m].");
-    prm.declare_entry("Lower corner",
-                      "0, 0",
-                      vector_pattern(),
-                      "Type box: its lower left corner x, y [m].");
-    prm.declare_entry("Upper corner",
-                      "0, 0",
-                      vector_pattern(),
-                      "Type box: its upper right corner x, y [m].");
-    prm.declare_entry("Curve",
-                      "",
-                      Patterns::Anything(),
-                      "Type curve: name of a curve of the geometry.");
-    prm.declare_entry("Size",
-                      "0",
-                      Patterns::Double(0),
-                      "Edge length of triangles there, > 0 [m].");
-    prm.declare_entry("Growth",
-                      "0.2",
-                      Patterns::Double(0, 1),
-                      "Increase of the edge length per distance from there "
-                      "[-]: small values grade gently.");
-  }
-
-
-  LocalSize
-  LocalSizeParameters::parse(ParameterHandler &prm, const std::string &name)
-  {
-    LocalSize local_size;
-    local_size.kind   = get_selection(prm, "Type", local_size_types);
-    local_size.point  = get_point(prm, "Point");
-    local_size.lower  = get_point(prm, "Lower corner");
-    local_size.upper  = get_point(prm, "Upper corner");
-    local_size.curve  = prm.get("Curve");
-    local_size.size   = prm.get_double("Size");
-    local_size.growth = prm.get_double("Growth");
-
+    entries.add("Type",
+                local_size.kind,
+                local_size_types,
+                "Fine at a point, in a box or along a curve.");
+    entries.add("Point", local_size.point, "Type point: x, y [m].");
+    entries.add("Lower corner",
+                local_size.lower,
+                "Type box: its lower left corner x, y [m].");
+    entries.add("Upper corner",
+                local_size.upper,
+                "Type box: its upper right corner x, y [m].");
+    entries.add("Curve",
+                local_size.curve,
+                "Type curve: name of a curve of the geometry.");
+    entries.add("Size",
+                local_size.size,
+                Patterns::Double(0),
+                "Edge length of triangles there, > 0 [m].");
+    entries.add("Growth",
+                local_size.growth,
+                Patterns::Double(0, 1),
+                "Increase of the edge length per distance from there [-]: "
+                "small values grade gently.");
+    if (!entries.are_parsed())
+      return;
     const std::string section = "section 'Mathematical mesh/" + name + "'";
     AssertThrow(local_size.size > 0.,
                 InputError("the local size is " +
@@ -95,99 +78,70 @@ namespace NMM
                 InputError("a local size along a curve without its name",
                            section,
                            "set 'Curve' to a curve of the geometry"));
-    AssertThrow(local_size.kind != LocalSize::Kind::box ||
-                  (local_size.lower[0] < local_size.upper[0] &&
-                   local_size.lower[1] < local_size.upper[1]),
-                InputError("the box of a local size is empty, from " +
-                             to_string(local_size.lower) + " to " +
-                             to_string(local_size.upper),
-                           section,
-                           "give a lower corner left of and below the upper "
-                           "one"));
-    return local_size;
+    AssertThrow(
+      local_size.kind != LocalSize::Kind::box ||
+        (local_size.lower[0] < local_size.upper[0] &&
+         local_size.lower[1] < local_size.upper[1]),
+      InputError("the box of a local size is empty, from " +
+                   to_string(local_size.lower) + " to " +
+                   to_string(local_size.upper),
+                 section,
+                 "give a lower corner left of and below the upper one"));
   }
 
 
   void
-  MathematicalMeshParameters::declare(
-    ParameterHandler               &prm,
+  MathematicalMeshParameters::list_entries(
+    Entries                        &entries,
     const std::vector<std::string> &local_size_names)
   {
-    prm.declare_entry("Type",
-                      "regular",
-                      selection(mesh_types),
-                      "regular: equal triangles over the bounding box; graded: "
-                      "triangles that follow the local sizes in Names; gmsh: "
-                      "read from a file. None needs to fit the geometry.");
-    prm.declare_entry("Degree",
-                      "2",
-                      Patterns::Integer(1, 2),
-                      "Polynomial degree of the weight functions: 2 is the "
-                      "second-order method with six-node triangles.");
-    prm.declare_entry("Cell size",
-                      "0",
-                      Patterns::Double(0),
-                      "regular: edge length of the triangles (equilateral) or "
-                      "squares (right-angled); graded: the largest edge length "
-                      "[m]. Must be set for both.");
-    prm.declare_entry("Pattern",
-                      "equilateral",
-                      selection(mesh_patterns),
-                      "regular: equilateral triangles, or squares halved along "
-                      "a diagonal.");
-    prm.declare_entry("Offset",
-                      "0, 0",
-                      vector_pattern(),
-                      "regular: a node of the mesh lies at the centre of the "
-                      "bounding box plus this, before rotation [m].");
-    prm.declare_entry("Rotation",
-                      "0",
-                      Patterns::Double(),
-                      "regular: the mesh is turned counter-clockwise about the "
-                      "centre of the bounding box [degrees].");
-    prm.declare_entry("Whole box",
-                      "false",
-                      Patterns::Bool(),
-                      "regular: keep also the cells that surely lie outside "
-                      "the solid.");
-    prm.declare_entry("Gmsh file",
-                      "",
-                      Patterns::Anything(),
-                      "gmsh: triangle mesh that covers the solid, relative to "
-                      "the folder of the scene file.");
-    prm.declare_entry("Names",
-                      "",
-                      Patterns::List(Patterns::Anything(), 0),
-                      "graded: names of the local sizes, each with a "
-                      "subsection of its own.");
-    for (const std::string &name : local_size_names)
-    {
-      prm.enter_subsection(name);
-      LocalSizeParameters::declare(prm);
-      prm.leave_subsection();
-    }
-  }
-
-
-  void
-  MathematicalMeshParameters::parse(ParameterHandler &prm)
-  {
-    type              = get_selection(prm, "Type", mesh_types);
-    degree            = prm.get_integer("Degree");
-    regular.cell_size = prm.get_double("Cell size");
-    regular.pattern   = get_selection(prm, "Pattern", mesh_patterns);
-    regular.offset    = get_point(prm, "Offset");
-    regular.rotation  = prm.get_double("Rotation");
-    regular.whole_box = prm.get_bool("Whole box");
-    gmsh_file         = prm.get("Gmsh file");
-    graded.cell_size  = regular.cell_size;
-    graded.local_sizes.clear();
-    for (const std::string &name : get_names(prm, "Names"))
-    {
-      prm.enter_subsection(name);
-      graded.local_sizes.push_back(LocalSizeParameters::parse(prm, name));
-      prm.leave_subsection();
-    }
+    entries.add("Type",
+                type,
+                mesh_types,
+                "regular: equal triangles over the bounding box; graded: "
+                "triangles that follow the local sizes in Names; gmsh: read "
+                "from a file. None needs to fit the geometry.");
+    entries.add("Degree",
+                degree,
+                Patterns::Integer(1, 2),
+                "Polynomial degree of the weight functions: 2 is the "
+                "second-order method with six-node triangles.");
+    entries.add("Cell size",
+                regular.cell_size,
+                Patterns::Double(0),
+                "regular: edge length of the triangles (equilateral) or "
+                "squares (right-angled); graded: the largest edge length [m]. "
+                "Must be set for both.");
+    entries.add(
+      "Pattern",
+      regular.pattern,
+      mesh_patterns,
+      "regular: equilateral triangles, or squares halved along a diagonal.");
+    entries.add("Offset",
+                regular.offset,
+                "regular: a node of the mesh lies at the centre of the "
+                "bounding box plus this, before rotation [m].");
+    entries.add("Rotation",
+                regular.rotation,
+                Patterns::Double(),
+                "regular: the mesh is turned counter-clockwise about the "
+                "centre of the bounding box [degrees].");
+    entries.add(
+      "Whole box",
+      regular.whole_box,
+      "regular: keep also the cells that surely lie outside the solid.");
+    entries.add("Gmsh file",
+                gmsh_file,
+                "gmsh: triangle mesh that covers the solid, relative to the "
+                "folder of the scene file.");
+    entries.subsections(
+      local_size_names,
+      graded.local_sizes,
+      "graded: names of the local sizes, each with a subsection of its own.",
+      [&](LocalSize &local_size, const std::string &name) {
+        LocalSizeParameters::list_entries(entries, local_size, name);
+      });
+    graded.cell_size = regular.cell_size;
   }
 
 
@@ -216,60 +170,42 @@ namespace NMM
 
 
   void
-  SolverParameters::declare(ParameterHandler &prm)
+  SolverParameters::list_entries(Entries                &entries,
+                                 LinearSolverParameters &parameters)
   {
-    const LinearSolverParameters defaults;
-    prm.declare_entry("Type",
-                      "automatic",
-                      selection(solver_types),
-                      "direct: MUMPS; iterative: conjugate gradients with "
-                      "algebraic multigrid, which needs less memory; "
-                      "automatic: direct up to Direct limit unknowns, above "
-                      "it iterative, and direct after all if that does not "
-                      "converge.");
-    prm.declare_entry("Direct limit",
-                      std::to_string(defaults.direct_limit),
-                      Patterns::Integer(0),
-                      "automatic: unknowns above which the iterative solver is "
-                      "used.");
-    prm.declare_entry("Tolerance",
-                      dealii::Patterns::Tools::to_string(defaults.tolerance),
-                      Patterns::Double(0, 1),
-                      "iterative: relative residual at which it ends [-].");
-    prm.declare_entry("Maximum iterations",
-                      std::to_string(defaults.max_iterations),
-                      Patterns::Integer(1),
-                      "Iterations after which the iterative solver gives up "
-                      "(exit code 3; automatic: the direct one follows).");
-    prm.declare_entry("Condition number",
-                      "false",
-                      Patterns::Bool(),
-                      "Estimate the condition number of the matrix after "
-                      "diagonal scaling and the place where it is weakest; "
-                      "costs about two more solutions.");
-    prm.declare_entry("Condition number limit",
-                      dealii::Patterns::Tools::to_string(
-                        defaults.condition_limit),
-                      Patterns::Double(1),
-                      "A condition number above this is warned of [-].");
-  }
-
-
-  LinearSolverParameters
-  SolverParameters::parse(ParameterHandler &prm)
-  {
-    LinearSolverParameters parameters;
-    parameters.type               = get_selection(prm, "Type", solver_types);
-    parameters.direct_limit       = prm.get_integer("Direct limit");
-    parameters.tolerance          = prm.get_double("Tolerance");
-    parameters.max_iterations     = prm.get_integer("Maximum iterations");
-    parameters.estimate_condition = prm.get_bool("Condition number");
-    parameters.condition_limit    = prm.get_double("Condition number limit");
-    AssertThrow(parameters.tolerance > 0.,
+    entries.add("Type",
+                parameters.type,
+                solver_types,
+                "direct: MUMPS; iterative: conjugate gradients with algebraic "
+                "multigrid, which needs less memory; automatic: direct up to "
+                "Direct limit unknowns, above it iterative, and direct after "
+                "all if that does not converge.");
+    entries.add(
+      "Direct limit",
+      parameters.direct_limit,
+      Patterns::Integer(0),
+      "automatic: unknowns above which the iterative solver is used.");
+    entries.add("Tolerance",
+                parameters.tolerance,
+                Patterns::Double(0, 1),
+                "iterative: relative residual at which it ends [-].");
+    entries.add("Maximum iterations",
+                parameters.max_iterations,
+                Patterns::Integer(1),
+                "iterative: iterations after which it gives up (exit code 3).");
+    entries.add(
+      "Condition number",
+      parameters.estimate_condition,
+      "Estimate the condition number of the matrix after diagonal scaling and "
+      "the place where it is weakest; costs about two more solutions.");
+    entries.add("Condition number limit",
+                parameters.condition_limit,
+                Patterns::Double(1),
+                "A condition number above this is warned of [-].");
+    AssertThrow(!entries.are_parsed() || parameters.tolerance > 0.,
                 InputError("the tolerance of the solver is 0",
                            "parameter 'Solver/Tolerance'",
                            "give a positive number such as 1e-11"));
-    return parameters;
   }
 
 
@@ -349,12 +285,12 @@ namespace NMM
                     InputError("the name '" + name + "' is given twice",
                                where,
                                "give each name once"));
-        AssertThrow(name.find_first_of("/=") == std::string::npos,
-                    InputError("the name '" + name +
-                                 "' contains a slash or an equals sign",
-                               where,
-                               "use letters, digits, spaces, dots and "
-                               "hyphens"));
+        AssertThrow(
+          name.find_first_of("/=") == std::string::npos,
+          InputError("the name '" + name +
+                       "' contains a slash or an equals sign",
+                     where,
+                     "use letters, digits, spaces, dots and hyphens"));
       }
     }
   }
@@ -370,11 +306,12 @@ namespace NMM
       region.check();
     covers.check();
     mathematical_mesh.check(covers.may_choose_cell_size());
-    AssertThrow(!materials.empty(),
-                InputError("the scene has no material",
-                           "section 'Materials'",
-                           "list at least one name in 'Names' and describe it "
-                           "in a subsection"));
+    AssertThrow(
+      !materials.empty(),
+      InputError(
+        "the scene has no material",
+        "section 'Materials'",
+        "list at least one name in 'Names' and describe it in a subsection"));
     for (const Material &material : materials)
       material.check(model.plane_state);
     for (const BoundaryConditionParameters &condition : boundary_conditions)
@@ -404,12 +341,13 @@ namespace NMM
       return;
     const std::string where = "parameter 'Covers/Distribution'";
     const auto        check = [&](const bool is_fine, const std::string &what) {
-      AssertThrow(is_fine,
-                  InputError(what + " cannot have a mathematical mesh that is "
-                                           "distributed among ranks",
-                             where,
-                             "set it to replicated: all ranks hold all of the "
-                                    "mesh"));
+      AssertThrow(
+        is_fine,
+        InputError(
+          what +
+            " cannot have a mathematical mesh that is distributed among ranks",
+          where,
+          "set it to replicated: all ranks hold all of the mesh"));
     };
     check(model.analysis == Analysis::statics,
           "a " + to_string(model.analysis) + " analysis");
@@ -446,16 +384,16 @@ namespace NMM
                         ? to_string(model.kinematics) + " kinematics"
                         : "a " + to_string(model.analysis) + " analysis"),
                    "parameter 'Regions/" + region.name + "/Use'",
-                   "remove it, or set 'Model/Analysis = dynamic' with "
-                   "small or finite kinematics"));
+                   "remove it, or set 'Model/Analysis = dynamic' with small or "
+                   "finite kinematics"));
       if (region.use != RegionParameters::Use::restraint)
         continue;
-      AssertThrow(contact.is_present(),
-                  InputError("the restraint '" + region.name +
-                               "' would not be used by a scene without contact",
-                             "parameter 'Regions/" + region.name + "/Use'",
-                             "remove it, or set 'Contact/Enforcement = "
-                             "penalty'"));
+      AssertThrow(
+        contact.is_present(),
+        InputError("the restraint '" + region.name +
+                     "' would not be used by a scene without contact",
+                   "parameter 'Regions/" + region.name + "/Use'",
+                   "remove it, or set 'Contact/Enforcement = penalty'"));
       if (model.analysis != Analysis::dynamics)
         expect_default("Regions/" + region.name,
                        "Release time",

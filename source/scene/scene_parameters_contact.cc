@@ -8,20 +8,19 @@
 // Contact: faces, laws, obstacles.
 namespace NMM
 {
-  using dealii::ParameterHandler;
   namespace Patterns = dealii::Patterns;
   using namespace internal;
 
   namespace
   {
-    const std::vector<std::pair<std::string, Enforcement>> enforcements = {
+    const Words<Enforcement> enforcements = {
       {"none", Enforcement::none},
       {"penalty", Enforcement::penalty},
       {"augmented Lagrangian", Enforcement::augmented_lagrangian}};
 
     using LawParameter = ContactLaw::Parameter;
 
-    /// A parameter of some law, with its default in the unit of scenes.
+    /// A parameter of a law, with its default in the unit of scenes; the first law that has it.
     struct DeclaredParameter
     {
       std::string law_name, key, documentation;
@@ -29,7 +28,7 @@ namespace NMM
     };
 
 
-    /// Those of all laws; what several laws have, several times.
+    /// Those of all laws, each key once.
     std::vector<DeclaredParameter>
     declared_parameters()
     {
@@ -42,6 +41,10 @@ namespace NMM
           AssertThrow(parameter.kind == LawParameter::Kind::number ||
                         *parameter.value == 0.,
                       dealii::ExcMessage("Angles are 0 by default."));
+          if (std::any_of(result.begin(), result.end(), [&](const auto &known) {
+                return known.key == parameter.key;
+              }))
+            continue;
           result.push_back({named.name,
                             parameter.key,
                             parameter.documentation,
@@ -62,9 +65,9 @@ namespace NMM
     }
 
 
-    const std::vector<std::pair<std::string, ContactIntegration>> integrations =
-      {{"length", ContactIntegration::length},
-       {"points", ContactIntegration::points}};
+    const Words<ContactIntegration> integrations = {
+      {"length", ContactIntegration::length},
+      {"points", ContactIntegration::points}};
 
     constexpr const char *any_face = "any";
   } // namespace
@@ -72,63 +75,48 @@ namespace NMM
 
   // Limits are checked in check(), whose messages say what to do.
   void
-  ContactLawParameters::declare(ParameterHandler &prm)
-  {
-    std::string names, text;
-    for (const NamedContactLaw &law : contact_laws())
-    {
-      names += (names.empty() ? "" : "|") + law.name;
-      text += (text.empty() ? "" : "; ") + law.name + ": " + law.documentation;
-    }
-    prm.declare_entry("Law",
-                      contact_laws().front().name,
-                      Patterns::Selection(names),
-                      text + ".");
-    for (const DeclaredParameter &parameter : declared_parameters())
-      prm.declare_entry(parameter.key,
-                        to_text(parameter.default_value),
-                        Patterns::Double(),
-                        parameter.documentation);
-    prm.declare_entry("Bonded",
-                      "false",
-                      Patterns::Bool(),
-                      "Faces that touch at the start hold together until "
-                      "tension or shear exceeds their strength.");
-  }
-
-
-  void
-  ContactLawParameters::declare_law(ParameterHandler &prm)
-  {
-    prm.declare_entry("Between",
-                      "",
-                      Patterns::List(Patterns::Anything(), 0),
-                      "Two names of boundaries, holes, joints or obstacles, or "
-                      "any. Both may be the same: the faces of a joint.");
-    declare(prm);
-  }
-
-
-  void
-  ContactLawParameters::parse(ParameterHandler &prm)
+  ContactLawParameters::list_entries(Entries &entries)
   {
     if (!name.empty())
     {
-      const std::vector<std::string> names = get_names(prm, "Between");
-      AssertThrow(names.size() == 2,
-                  InputError("'" + prm.get("Between") + "' is " +
-                               std::to_string(names.size()) +
-                               " name(s) instead of two",
-                             place("Between"),
-                             "name the two faces the law holds between, or "
-                             "write any"));
-      for (unsigned int i = 0; i < 2; ++i)
+      std::vector<std::string> names;
+      entries.add("Between",
+                  names,
+                  "Two names of boundaries, holes, joints or obstacles, or "
+                  "any. Both may be the same: the faces of a joint.");
+      AssertThrow(
+        !entries.are_parsed() || names.size() == 2,
+        InputError("'" + join(names) + "' is " + std::to_string(names.size()) +
+                     " name(s) instead of two",
+                   place("Between"),
+                   "name the two faces the law holds between, or write any"));
+      for (unsigned int i = 0; i < names.size(); ++i)
         between[i] = names[i] == any_face ? "" : names[i];
     }
-    law_name  = prm.get("Law");
-    is_bonded = prm.get_bool("Bonded");
+
+    Words<std::string> laws;
+    std::string        text;
+    for (const NamedContactLaw &law : contact_laws())
+    {
+      laws.emplace_back(law.name, law.name);
+      text += (text.empty() ? "" : "; ") + law.name + ": " + law.documentation;
+    }
+    if (law_name.empty())
+      law_name = contact_laws().front().name;
+    entries.add("Law", law_name, laws, text + ".");
     for (const DeclaredParameter &parameter : declared_parameters())
-      values[parameter.key] = prm.get_double(parameter.key);
+    {
+      double &value =
+        values.emplace(parameter.key, parameter.default_value).first->second;
+      entries.add(parameter.key,
+                  value,
+                  Patterns::Double(),
+                  parameter.documentation);
+    }
+    entries.add("Bonded",
+                is_bonded,
+                "Faces that touch at the start hold together until tension or "
+                "shear exceeds their strength.");
   }
 
 
@@ -230,133 +218,62 @@ namespace NMM
 
 
   void
-  ContactSectionParameters::declare(ParameterHandler               &prm,
-                                    const std::vector<std::string> &law_names)
+  ContactSectionParameters::list_entries(
+    Entries                        &entries,
+    const std::vector<std::string> &law_names)
   {
-    const ContactSectionParameters defaults;
-    prm.declare_entry("Enforcement",
-                      "none",
-                      selection(enforcements),
-                      "none: faces do not feel each other; penalty: springs "
-                      "keep them apart, all analyses; augmented Lagrangian: "
-                      "static analysis, pressures on top of the springs until "
-                      "the penetration is below its tolerance.");
-    prm.declare_entry("Penetration tolerance",
-                      "0",
-                      Patterns::Double(),
-                      "augmented Lagrangian: mean penetration that is allowed "
-                      "[m]; 0: 1e-5 of the cell size at faces.");
-    prm.declare_entry("Reach",
-                      "0",
-                      Patterns::Double(),
-                      "Distance within which faces are looked at [m]; 0: a "
-                      "tenth of the longest edge of an element. Time steps "
-                      "look further where something moves fast.");
-    prm.declare_entry(
-      "Largest penetration",
-      "0",
-      Patterns::Double(),
-      "A step fails in which faces are deeper in each other [m]; "
-      "0: the cell size at faces.");
-    prm.declare_entry("Number of points",
-                      std::to_string(defaults.n_points),
-                      Patterns::Integer(2, 20),
-                      "Contact points on each piece of an edge "
-                      "(Gauss-Lobatto).");
-    prm.declare_entry("Integration",
-                      "length",
-                      selection(integrations),
-                      "length: springs along faces; points: springs at "
-                      "vertices, whose stiffness is a force over a length per "
-                      "thickness [N/m^2] (0: chosen with h = 1 m), cohesion "
-                      "and strength forces per thickness [N/m].");
-    prm.declare_entry("Open joints",
-                      "",
-                      Patterns::List(Patterns::Anything(), 0),
-                      "Joints whose faces are in contact here, though the "
-                      "geometry says closed (tied).");
-    prm.declare_entry("Tied joints",
-                      "",
-                      Patterns::List(Patterns::Anything(), 0),
-                      "Joints that are tied here, though the geometry says "
-                      "open.");
-    ContactLawParameters::declare(prm);
-    prm.declare_entry("Names",
-                      "",
-                      Patterns::List(Patterns::Anything(), 0),
-                      "Names of laws between certain faces, each with a "
-                      "subsection of its own; the first one that fits holds, "
-                      "and the values of this section for all other faces.");
-    for (const std::string &name : law_names)
-    {
-      prm.enter_subsection(name);
-      ContactLawParameters::declare_law(prm);
-      prm.leave_subsection();
-    }
-  }
-
-
-  void
-  ContactSectionParameters::parse(ParameterHandler               &prm,
-                                  const std::vector<std::string> &law_names)
-  {
-    enforcement           = get_selection(prm, "Enforcement", enforcements);
-    penetration_tolerance = prm.get_double("Penetration tolerance");
-    reach                 = prm.get_double("Reach");
-    max_penetration       = prm.get_double("Largest penetration");
-    n_points              = prm.get_integer("Number of points");
-    integration           = get_selection(prm, "Integration", integrations);
-    open_joints           = get_names(prm, "Open joints");
-    tied_joints           = get_names(prm, "Tied joints");
-    law.parse(prm);
-    laws.clear();
-    for (const std::string &name : law_names)
-    {
-      laws.emplace_back();
-      laws.back().name = name;
-      prm.enter_subsection(name);
-      laws.back().parse(prm);
-      prm.leave_subsection();
-    }
-  }
-
-
-  void
-  ContactSectionParameters::check_unused() const
-  {
-    const ContactSectionParameters defaults;
-    const std::string              remedy =
-      "remove it, or set 'Contact/Enforcement = penalty'";
-    const std::string by     = "a scene without contact";
-    const auto        expect = [&](const std::string &key,
-                            const double       value,
-                            const double       default_value) {
-      expect_default("Contact", key, value, default_value, by, remedy);
-    };
-    expect("Penetration tolerance", penetration_tolerance, 0.);
-    expect("Reach", reach, 0.);
-    expect("Largest penetration", max_penetration, 0.);
-    expect("Number of points", n_points, defaults.n_points);
-    AssertThrow(integration == ContactIntegration::length,
-                InputError("'Integration = points' would not be used by " + by,
-                           "parameter 'Contact/Integration'",
-                           remedy));
-    for (const DeclaredParameter &parameter : declared_parameters())
-      expect(parameter.key,
-             law.values.at(parameter.key),
-             parameter.default_value);
-    expect("Bonded", law.is_bonded ? 1. : 0., 0.);
-    std::vector<std::string> law_names;
-    for (const ContactLawParameters &other : laws)
-      law_names.push_back(other.name);
-    for (const auto &[key, list] : {std::make_pair("Open joints", open_joints),
-                                    std::make_pair("Tied joints", tied_joints),
-                                    std::make_pair("Names", law_names)})
-      AssertThrow(list.empty(),
-                  InputError("'" + list.front() + "' would not be used by " +
-                               by,
-                             std::string("parameter 'Contact/") + key + "'",
-                             remedy));
+    entries.add(
+      "Enforcement",
+      enforcement,
+      enforcements,
+      "none: faces do not feel each other; penalty: springs keep them apart, "
+      "all analyses; augmented Lagrangian: static analysis, pressures on top "
+      "of the springs until the penetration is below its tolerance.");
+    entries.add("Penetration tolerance",
+                penetration_tolerance,
+                Patterns::Double(),
+                "augmented Lagrangian: mean penetration that is allowed [m]; "
+                "0: 1e-5 of the cell size at faces.");
+    entries.add("Reach",
+                reach,
+                Patterns::Double(),
+                "Distance within which faces are looked at [m]; 0: a tenth of "
+                "the longest edge of an element. Time steps look further where "
+                "something moves fast.");
+    entries.add("Largest penetration",
+                max_penetration,
+                Patterns::Double(),
+                "A step fails in which faces are deeper in each other [m]; 0: "
+                "the cell size at faces.");
+    entries.add("Number of points",
+                n_points,
+                Patterns::Integer(2, 20),
+                "Contact points on each piece of an edge (Gauss-Lobatto).");
+    entries.add(
+      "Integration",
+      integration,
+      integrations,
+      "length: springs along faces; points: springs at vertices, whose "
+      "stiffness is a force over a length per thickness [N/m^2] (0: chosen "
+      "with h = 1 m), cohesion and strength forces per thickness [N/m].");
+    entries.add("Open joints",
+                open_joints,
+                "Joints whose faces are in contact here, though the geometry "
+                "says closed (tied).");
+    entries.add("Tied joints",
+                tied_joints,
+                "Joints that are tied here, though the geometry says open.");
+    law.list_entries(entries);
+    entries.subsections(law_names,
+                        laws,
+                        "Names of laws between certain faces, each with a "
+                        "subsection of its own; the first one that fits holds, "
+                        "and the values of this section for all other faces.",
+                        [&](ContactLawParameters &one,
+                            const std::string    &name) {
+                          one.name = name;
+                          one.list_entries(entries);
+                        });
   }
 
 
@@ -367,15 +284,26 @@ namespace NMM
   {
     if (!is_present())
     {
-      check_unused();
+      ContactSectionParameters standard;
+      Entries given(Entries::Stage::note), defaults(Entries::Stage::note);
+      std::vector<std::string> law_names;
+      for (const ContactLawParameters &other : laws)
+        law_names.push_back(other.name);
+      ContactSectionParameters(*this).list_entries(given, law_names);
+      standard.list_entries(defaults, {});
+      expect_defaults("Contact",
+                      given,
+                      defaults,
+                      "a scene without contact",
+                      "remove it, or set 'Contact/Enforcement = penalty'");
       return;
     }
     const bool is_augmented = enforcement == Enforcement::augmented_lagrangian;
-    AssertThrow(kinematics != Kinematics::incremental,
-                InputError("contact is not available with incremental "
-                           "kinematics",
-                           "parameter 'Contact/Enforcement'",
-                           "set 'Model/Kinematics' to small or finite"));
+    AssertThrow(
+      kinematics != Kinematics::incremental,
+      InputError("contact is not available with incremental kinematics",
+                 "parameter 'Contact/Enforcement'",
+                 "set 'Model/Kinematics' to small or finite"));
     AssertThrow(!is_augmented || analysis == Analysis::statics,
                 InputError("'augmented Lagrangian' is not available with a " +
                              to_string(analysis) + " analysis",
@@ -390,11 +318,12 @@ namespace NMM
                      "remove it, or set 'Enforcement = augmented Lagrangian'");
     if (integration == ContactIntegration::points)
     {
-      AssertThrow(!is_augmented,
-                  InputError("'augmented Lagrangian' is not available with "
-                             "springs at points",
-                             "parameter 'Contact/Enforcement'",
-                             "set it to penalty, or 'Integration = length'"));
+      AssertThrow(
+        !is_augmented,
+        InputError(
+          "'augmented Lagrangian' is not available with springs at points",
+          "parameter 'Contact/Enforcement'",
+          "set it to penalty, or 'Integration = length'"));
       const ContactSectionParameters defaults;
       expect_default("Contact",
                      "Number of points",
@@ -418,43 +347,28 @@ namespace NMM
 
 
   void
-  ObstacleParameters::declare(ParameterHandler &prm)
+  ObstacleParameters::list_entries(Entries &entries)
   {
-    prm.declare_entry(
-      "Shape",
-      "",
-      Patterns::Anything(),
-      "A shape as in geometry files: LINESTRING (...), "
-      "CIRCULARSTRING (...), COMPOUNDCURVE (...) with the rigid "
-      "body on the left, or POLYGON (...), CURVEPOLYGON (...), "
-      "CIRCLE (...), which is rigid inside. Either this or "
-      "File.");
-    prm.declare_entry("File",
-                      "",
-                      Patterns::Anything(),
-                      "Geometry file, relative to the folder of the scene "
-                      "file, with a record of one curve.");
-    prm.declare_entry("Displacement",
-                      "",
-                      Patterns::Anything(),
-                      "'ux; uy' [m], each an expression of t, or 'file: "
-                      "name'; t is the time [s], or the load factor of a "
-                      "static analysis. Empty: at rest.");
-    prm.declare_entry("Release time",
-                      "-1",
-                      Patterns::Double(),
-                      "Dynamic analysis: it is gone from this time on [s]. "
-                      "Negative: never.");
-  }
-
-
-  void
-  ObstacleParameters::parse(ParameterHandler &prm)
-  {
-    shape        = dealii::Utilities::trim(prm.get("Shape"));
-    file         = dealii::Utilities::trim(prm.get("File"));
-    displacement = dealii::Utilities::trim(prm.get("Displacement"));
-    release_time = prm.get_double("Release time");
+    entries.add("Shape",
+                shape,
+                "A shape as in geometry files: LINESTRING (...), "
+                "CIRCULARSTRING (...), COMPOUNDCURVE (...) with the rigid body "
+                "on the left, or POLYGON (...), CURVEPOLYGON (...), CIRCLE "
+                "(...), which is rigid inside. Either this or File.");
+    entries.add("File",
+                file,
+                "Geometry file, relative to the folder of the scene file, with "
+                "a record of one curve.");
+    entries.add(
+      "Displacement",
+      displacement,
+      "'ux; uy' [m], each an expression of t, or 'file: name'; t is the time "
+      "[s], or the load factor of a static analysis. Empty: at rest.");
+    entries.add(
+      "Release time",
+      release_time,
+      Patterns::Double(),
+      "Dynamic analysis: it is gone from this time on [s]. Negative: never.");
   }
 
 
@@ -476,13 +390,12 @@ namespace NMM
                      "remove it, or set 'Model/Analysis = dynamic'");
     const bool is_relaxed =
       analysis == Analysis::relaxation || analysis == Analysis::safety_factor;
-    AssertThrow(!is_relaxed || displacement.empty(),
-                InputError("the displacement '" + displacement +
-                             "' would not be used by a " + to_string(analysis) +
-                             (analysis == Analysis::relaxation ? ""
-                                                               : " analysis"),
-                           "parameter 'Obstacles/" + name + "/Displacement'",
-                           "remove it, or set 'Model/Analysis' to static or "
-                           "dynamic"));
+    AssertThrow(
+      !is_relaxed || displacement.empty(),
+      InputError("the displacement '" + displacement +
+                   "' would not be used by a " + to_string(analysis) +
+                   (analysis == Analysis::relaxation ? "" : " analysis"),
+                 "parameter 'Obstacles/" + name + "/Displacement'",
+                 "remove it, or set 'Model/Analysis' to static or dynamic"));
   }
 } // namespace NMM

@@ -8,7 +8,6 @@
 
 namespace NMM
 {
-  using dealii::ParameterHandler;
   namespace Patterns = dealii::Patterns;
   using namespace internal;
 
@@ -16,26 +15,24 @@ namespace NMM
   {
     using Kind = RegionMesh::Kind;
 
-    const std::vector<std::pair<std::string, Stabilization>> stabilizations = {
+    const Words<Stabilization> stabilizations = {
       {"aggregation", Stabilization::aggregation},
       {"ghost penalty", Stabilization::ghost_penalty},
       {"none", Stabilization::none}};
 
-    const std::vector<std::pair<std::string, Kind>> own_mesh_choices = {
-      {"where needed", Kind::where_needed},
-      {"every region", Kind::own},
-      {"never", Kind::main_mesh},
-      {"automatic", Kind::automatic}};
+    const Words<Kind> own_mesh_choices = {{"where needed", Kind::where_needed},
+                                          {"every region", Kind::own},
+                                          {"never", Kind::main_mesh},
+                                          {"automatic", Kind::automatic}};
 
-    const std::vector<std::pair<std::string, Kind>> own_mesh_of_block = {
-      {"where needed", Kind::where_needed},
-      {"always", Kind::own},
-      {"never", Kind::main_mesh},
-      {"automatic", Kind::automatic}};
+    const Words<Kind> own_mesh_of_block = {{"where needed", Kind::where_needed},
+                                           {"always", Kind::own},
+                                           {"never", Kind::main_mesh},
+                                           {"automatic", Kind::automatic}};
 
 
-    const std::vector<std::pair<std::string, bool>> distributions =
-      {{"replicated", false}, {"distributed", true}};
+    const Words<bool> distributions = {{"replicated", false},
+                                       {"distributed", true}};
 
 
     bool
@@ -47,129 +44,96 @@ namespace NMM
 
 
   void
-  BlockMeshParameters::declare(ParameterHandler &prm)
+  BlockMeshParameters::list_entries(Entries &entries)
   {
-    prm.declare_entry("Block",
-                      "",
-                      Patterns::Anything(),
-                      "A point inside of the block, x, y [m]. Must be set.");
-    prm.declare_entry("Own mesh",
-                      "automatic",
-                      selection(own_mesh_of_block),
-                      "As 'Own meshes' of all blocks; always: the block has "
-                      "one.");
-    prm.declare_entry("Elements across",
-                      "0",
-                      Patterns::Integer(0, 1000),
-                      "always, automatic: as for all blocks; 0: the number of "
-                      "these.");
-  }
-
-
-  void
-  BlockMeshParameters::parse(ParameterHandler &prm)
-  {
-    const auto point = get_optional_point(prm, "Block", "", "Covers/" + name);
+    std::optional<dealii::Point<2>> point;
+    entries.add("Block",
+                point,
+                "",
+                "Covers/" + name,
+                "A point inside of the block, x, y [m]. Must be set.");
+    entries.add("Own mesh",
+                mesh.kind,
+                own_mesh_of_block,
+                "As 'Own meshes' of all blocks; always: the block has one.");
+    entries.add(
+      "Elements across",
+      mesh.n_across,
+      Patterns::Integer(0, 1000),
+      "always, automatic: as for all blocks; 0: the number of these.");
+    if (!entries.are_parsed())
+      return;
     AssertThrow(point,
                 InputError("no block is given a mathematical mesh by '" + name +
                              "'",
                            "parameter 'Covers/" + name + "/Block'",
                            "give a point inside of the block"));
-    block         = *point;
-    mesh.kind     = get_selection(prm, "Own mesh", own_mesh_of_block);
-    mesh.n_across = prm.get_integer("Elements across");
+    block = *point;
   }
 
 
   void
-  CoverParameters::declare(ParameterHandler               &prm,
-                           const std::vector<std::string> &block_names)
+  CoverParameters::list_entries(Entries                        &entries,
+                                const std::vector<std::string> &block_names)
   {
-    prm.declare_entry("Stabilization",
-                      "aggregation",
-                      selection(stabilizations),
-                      "What is done about physical covers with little support. "
-                      "aggregation: they follow the polynomial of the nearest "
-                      "well-supported element of the same block, so accuracy "
-                      "and conditioning do not depend on how the mesh is cut; "
-                      "ghost penalty: the difference between the polynomials "
-                      "of such elements and their neighbours' costs energy; "
-                      "none: the plain method.");
-    prm.declare_entry("Threshold",
-                      dealii::Patterns::Tools::to_string(
-                        default_aggregation_threshold),
-                      Patterns::Double(0, 1),
-                      "An element is well supported if it sees at least this "
-                      "share of the energy of any linear strain of its cell "
-                      "[-]; 0: all are.");
-    prm.declare_entry(
+    entries.add(
+      "Stabilization",
+      stabilization,
+      stabilizations,
+      "What is done about physical covers with little support. aggregation: "
+      "they follow the polynomial of the nearest well-supported element of the "
+      "same block, so accuracy and conditioning do not depend on how the mesh "
+      "is cut; ghost penalty: the difference between the polynomials of such "
+      "elements and their neighbours' costs energy; none: the plain method.");
+    entries.add(
+      "Threshold",
+      threshold,
+      Patterns::Double(0, 1),
+      "An element is well supported if it sees at least this share of the "
+      "energy of any linear strain of its cell [-]; 0: all are.");
+    entries.add(
       "Own meshes",
-      "where needed",
-      selection(own_mesh_choices),
-      "Regions with a mathematical mesh of their own size and "
-      "shape. where needed: those smaller or thinner than the "
-      "cells, none of whose elements is well supported; every "
-      "region: each, down to a single six-node triangle; never: "
-      "all are on one mesh; automatic: those that the cells do not resolve by "
-      "'Elements across'.");
-    prm.declare_entry(
-      "Elements across",
-      "0",
-      Patterns::Integer(0, 1000),
-      "every region, automatic: cells of a region's own mesh along the longer "
-      "side of the smallest rectangle around it; 1: a single six-node "
-      "triangle. "
-      "automatic needs it; 0: cells as large as those of the common mesh.");
-    prm.declare_entry(
+      mesh.kind,
+      own_mesh_choices,
+      "Regions with a mathematical mesh of their own size and shape. where "
+      "needed: those smaller or thinner than the cells, none of whose elements "
+      "is well supported; every region: each, down to a single six-node "
+      "triangle; never: all are on one mesh; automatic: those that the cells "
+      "do not resolve by 'Elements across'.");
+    entries.add("Elements across",
+                mesh.n_across,
+                Patterns::Integer(0, 1000),
+                "every region, automatic: cells of a region's own mesh along "
+                "the longer side of the smallest rectangle around it; 1: a "
+                "single six-node triangle. automatic needs it; 0: cells as "
+                "large as those of the common mesh.");
+    entries.add(
       "Distribution",
-      "replicated",
-      selection(distributions),
+      is_distributed,
+      distributions,
       "How several ranks share the mathematical mesh. replicated: all hold and "
       "cut all of it, and share assembly and solution; distributed: each holds "
       "and cuts its own cells and five layers around them. The latter is for "
       "static analyses of small displacements without contact, on meshes of "
       "type regular and without own meshes.");
-    prm.declare_entry(
-      "Names",
-      "",
-      Patterns::List(Patterns::Anything(), 0),
-      "Names of blocks for which something else is chosen, each "
-      "with a subsection of its own.");
-    for (const std::string &name : block_names)
-    {
-      prm.enter_subsection(name);
-      BlockMeshParameters::declare(prm);
-      prm.leave_subsection();
-    }
-  }
-
-
-  void
-  CoverParameters::parse(ParameterHandler &prm)
-  {
-    stabilization  = get_selection(prm, "Stabilization", stabilizations);
-    threshold      = prm.get_double("Threshold");
-    mesh.kind      = get_selection(prm, "Own meshes", own_mesh_choices);
-    mesh.n_across  = prm.get_integer("Elements across");
-    is_distributed = get_selection(prm, "Distribution", distributions);
-    blocks.clear();
-    for (const std::string &name : get_names(prm, "Names"))
-    {
-      prm.enter_subsection(name);
-      blocks.emplace_back();
-      blocks.back().name = name;
-      blocks.back().parse(prm);
-      prm.leave_subsection();
-      RegionMesh &of_block = blocks.back().mesh;
-      AssertThrow(of_block.n_across == 0 || uses_number(of_block.kind),
-                  InputError(std::to_string(of_block.n_across) +
-                               " elements across would not be used",
-                             "parameter 'Covers/" + name + "/Elements across'",
-                             "remove it, or set 'Own mesh' to always or "
-                             "automatic"));
-      if (of_block.n_across == 0 && uses_number(of_block.kind))
-        of_block.n_across = mesh.n_across;
-    }
+    entries.subsections(
+      block_names,
+      blocks,
+      "Names of blocks for which something else is chosen, each with a "
+      "subsection of its own.",
+      [&](BlockMeshParameters &block, const std::string &name) {
+        block.name = name;
+        block.list_entries(entries);
+        RegionMesh &of_block = block.mesh;
+        AssertThrow(
+          of_block.n_across == 0 || uses_number(of_block.kind),
+          InputError(std::to_string(of_block.n_across) +
+                       " elements across would not be used",
+                     "parameter 'Covers/" + name + "/Elements across'",
+                     "remove it, or set 'Own mesh' to always or automatic"));
+        if (of_block.n_across == 0 && uses_number(of_block.kind))
+          of_block.n_across = mesh.n_across;
+      });
   }
 
 
@@ -178,11 +142,12 @@ namespace NMM
   {
     const auto check_number = [](const RegionMesh  &choice,
                                  const std::string &section) {
-      AssertThrow(choice.kind != Kind::automatic || choice.n_across > 0,
-                  InputError("no number of elements across a block is given",
-                             "parameter '" + section + "/Elements across'",
-                             "give at least 1, for an automatic choice of the "
-                             "mathematical mesh"));
+      AssertThrow(
+        choice.kind != Kind::automatic || choice.n_across > 0,
+        InputError(
+          "no number of elements across a block is given",
+          "parameter '" + section + "/Elements across'",
+          "give at least 1, for an automatic choice of the mathematical mesh"));
     };
     check_number(mesh, "Covers");
     for (const BlockMeshParameters &block : blocks)
@@ -193,12 +158,12 @@ namespace NMM
                                      [](const BlockMeshParameters &block) {
                                        return uses_number(block.mesh.kind);
                                      });
-    AssertThrow(mesh.n_across == 0 || is_used,
-                InputError(std::to_string(mesh.n_across) +
-                             " elements across would not be used",
-                           "parameter 'Covers/Elements across'",
-                           "remove it, or set 'Covers/Own meshes' to automatic "
-                           "or every region"));
+    AssertThrow(
+      mesh.n_across == 0 || is_used,
+      InputError(
+        std::to_string(mesh.n_across) + " elements across would not be used",
+        "parameter 'Covers/Elements across'",
+        "remove it, or set 'Covers/Own meshes' to automatic or every region"));
   }
 
 

@@ -8,218 +8,69 @@
 // Time: steps, schemes, relaxation, initial velocities, loads as functions of time.
 namespace NMM
 {
-  using dealii::ParameterHandler;
   namespace Patterns = dealii::Patterns;
   using namespace internal;
 
   namespace
   {
-    const std::vector<std::pair<std::string, Analysis>> analyses = {
-      {"static", Analysis::statics},
-      {"dynamic", Analysis::dynamics},
-      {"relaxation", Analysis::relaxation},
-      {"safety factor", Analysis::safety_factor}};
+    const Words<Analysis> analyses = {{"static", Analysis::statics},
+                                      {"dynamic", Analysis::dynamics},
+                                      {"relaxation", Analysis::relaxation},
+                                      {"safety factor",
+                                       Analysis::safety_factor}};
 
-    using Start = TimeParameters::Start;
-    const std::vector<std::pair<std::string, Start>> starts = {
-      {"undeformed", Start::undeformed},
-      {"equilibrium", Start::equilibrium},
-      {"relaxation", Start::relaxation}};
+    using Start               = TimeParameters::Start;
+    const Words<Start> starts = {{"undeformed", Start::undeformed},
+                                 {"equilibrium", Start::equilibrium},
+                                 {"relaxation", Start::relaxation}};
 
-    using Scheme = TimeParameters::Scheme;
-    const std::vector<std::pair<std::string, Scheme>> schemes = {
+    using Scheme                = TimeParameters::Scheme;
+    const Words<Scheme> schemes = {
       {"automatic", Scheme::automatic},
       {"newmark", Scheme::newmark},
       {"generalized alpha", Scheme::generalized_alpha},
       {"constant acceleration", Scheme::constant_acceleration},
       {"energy momentum", Scheme::energy_momentum}};
-
-
-    /// Entries of `Time` that are numbers: key, place, limits and help.
-    struct NumberEntry
-    {
-      const char *key;
-      double     &value;
-      double      least, greatest;
-      const char *help;
-    };
-
-
-    std::vector<NumberEntry>
-    step_entries(TimeParameters &time)
-    {
-      const double none = Patterns::Double::max_double_value;
-      return {
-        {"Initial step",
-         time.initial_step,
-         0.,
-         none,
-         "First step, and the only one if nothing below asks for "
-         "others, > 0 [s]."},
-        {"Smallest step",
-         time.min_step,
-         0.,
-         none,
-         "A step that fails, moves too far or errs too much is cut, but not "
-         "below this (exit code 3) [s]; 0: a millionth of the first."},
-        {"Largest step",
-         time.max_step,
-         0.,
-         none,
-         "Steps grow to this while they are easy [s]; 0: not beyond the "
-         "first."},
-        {"Largest displacement",
-         time.max_displacement,
-         0.,
-         none,
-         "No part moves further in a step [m]; 0: any."},
-        {"Largest error",
-         time.max_error,
-         0.,
-         none,
-         "Estimated error of a step's displacement [m]; 0: any."}};
-    }
-
-
-    std::vector<NumberEntry>
-    scheme_entries(TimeParameters &time)
-    {
-      const double none = Patterns::Double::max_double_value;
-      return {
-        {"Newmark beta",
-         time.beta,
-         0.,
-         1.,
-         "newmark: beta, > 0; with 1/4 and gamma 1/2 second order and "
-         "no damping [-]."},
-        {"Newmark gamma",
-         time.gamma,
-         0.5,
-         2.,
-         "newmark: gamma; more than 1/2 damps and is of first order [-]."},
-        {"Spectral radius",
-         time.spectral_radius,
-         0.,
-         1.,
-         "generalized alpha: share of the highest frequencies that is left "
-         "after a step; 1: no damping [-]."},
-        {"Mass damping",
-         time.damping.mass,
-         0.,
-         none,
-         "Rayleigh damping: coefficient of the mass matrix [1/s]."},
-        {"Stiffness damping",
-         time.damping.stiffness,
-         -none,
-         none,
-         "Rayleigh damping: coefficient of the stiffness at rest [s]. "
-         "Negative: "
-         "0, but in a dynamic analysis with friction and the scheme energy "
-         "momentum what damps the lowest vibration of a block of median size "
-         "critically."}};
-    }
-
-
-    std::vector<NumberEntry>
-    sleep_entries(TimeParameters &time)
-    {
-      const double none = Patterns::Double::max_double_value;
-      return {
-        {"Sleep speed",
-         time.sleep.speed,
-         0.,
-         none,
-         "A block whose root mean square speed stays below this may sleep: it "
-         "is held where it is and costs nearly nothing until forces on it "
-         "change [m/s]; 0: nobody sleeps. Contact, one rank."},
-        {"Sleep time",
-         time.sleep.time,
-         0.,
-         none,
-         "How long it must stay below before it sleeps [s]."},
-        {"Wake acceleration",
-         time.sleep.acceleration,
-         0.,
-         none,
-         "A block that sleeps wakes when the force on it changes by more than "
-         "its mass times this, or the moment by as much over the radius of "
-         "inertia, > 0 [m/s^2]."}};
-    }
-
-
-    void
-    declare_numbers(ParameterHandler               &prm,
-                    const std::vector<NumberEntry> &entries)
-    {
-      for (const NumberEntry &entry : entries)
-        prm.declare_entry(entry.key,
-                          to_text(entry.value),
-                          Patterns::Double(entry.least, entry.greatest),
-                          entry.help);
-    }
   } // namespace
 
 
   const std::string &
   to_string(const Analysis analysis)
   {
-    for (const auto &choice : analyses)
-      if (choice.second == analysis)
-        return choice.first;
-    AssertThrow(false, dealii::ExcInternalError());
-    return analyses.front().first;
-  }
-
-
-  namespace internal
-  {
-    void
-    declare_analysis(ParameterHandler &prm)
-    {
-      prm.declare_entry("Analysis",
-                        "static",
-                        selection(analyses),
-                        "static: equilibrium; dynamic: the motion, see section "
-                        "Time; relaxation: equilibrium, found by a motion that "
-                        "is stopped whenever its energy has passed a peak, see "
-                        "section Relaxation; safety factor: by how much the "
-                        "strength of contact can be divided before blocks "
-                        "move, see section Safety factor.");
-    }
-
-
-    Analysis
-    get_analysis(const ParameterHandler &prm)
-    {
-      return get_selection(prm, "Analysis", analyses);
-    }
-  } // namespace internal
-
-
-  void
-  TimeDependence::declare(ParameterHandler &prm, const bool may_be_released)
-  {
-    prm.declare_entry("Amplitude",
-                      "",
-                      Patterns::Anything(),
-                      "Dynamic analysis: factor on it, an expression of the "
-                      "time t, or 'file: name' of a file with lines of time "
-                      "and factor. Empty: 1.");
-    if (may_be_released)
-      prm.declare_entry("Release time",
-                        "-1",
-                        Patterns::Double(),
-                        "Dynamic analysis, displacements: from this time on it "
-                        "holds no longer [s]; negative: it always holds.");
+    return word_of(analysis, analyses);
   }
 
 
   void
-  TimeDependence::parse(ParameterHandler &prm, const bool may_be_released)
+  list_entry(Entries &entries, Analysis &analysis)
   {
-    amplitude = prm.get("Amplitude");
+    entries.add(
+      "Analysis",
+      analysis,
+      analyses,
+      "static: equilibrium; dynamic: the motion, see section Time; relaxation: "
+      "equilibrium, found by a motion that is stopped whenever its energy has "
+      "passed a peak, see section Relaxation; safety factor: by how much the "
+      "strength of contact can be divided before blocks move, see section "
+      "Safety factor.");
+  }
+
+
+
+  void
+  TimeDependence::list_entries(Entries &entries, const bool may_be_released)
+  {
+    entries.add(
+      "Amplitude",
+      amplitude,
+      "Dynamic analysis: factor on it, an expression of the time t, or 'file: "
+      "name' of a file with lines of time and factor. Empty: 1.");
     if (may_be_released)
-      release_time = prm.get_double("Release time");
+      entries.add("Release time",
+                  release_time,
+                  Patterns::Double(),
+                  "Dynamic analysis, displacements: from this time on it holds "
+                  "no longer [s]; negative: it always holds.");
   }
 
 
@@ -244,49 +95,97 @@ namespace NMM
 
 
   void
-  TimeParameters::declare(ParameterHandler &prm)
+  TimeParameters::list_entries(Entries &entries)
   {
-    TimeParameters defaults;
-    prm.declare_entry("End time",
-                      "0",
-                      Patterns::Double(0),
-                      "Dynamic analysis: it runs from 0 to this, > 0 [s].");
-    prm.declare_entry("Start",
-                      "undeformed",
-                      selection(starts),
-                      "What a dynamic analysis starts from. equilibrium: of "
-                      "loads, supports and obstacles as they are at 0 s, "
-                      "before anything is released, in the steps of the "
-                      "section 'Load steps'; relaxation: the same, found by "
-                      "motion that is stopped again and again (section "
-                      "'Relaxation').");
-    declare_numbers(prm, step_entries(defaults));
-    prm.declare_entry(
+    entries.add("End time",
+                end_time,
+                Patterns::Double(0),
+                "Dynamic analysis: it runs from 0 to this, > 0 [s].");
+    entries.add(
+      "Start",
+      start,
+      starts,
+      "What a dynamic analysis starts from. equilibrium: of loads, supports "
+      "and obstacles as they are at 0 s, before anything is released, in the "
+      "steps of the section 'Load steps'; relaxation: the same, found by "
+      "motion that is stopped again and again (section 'Relaxation').");
+    entries.add("Initial step",
+                initial_step,
+                Patterns::Double(0),
+                "First step, and the only one if nothing below asks for "
+                "others, > 0 [s].");
+    entries.add(
+      "Smallest step",
+      min_step,
+      Patterns::Double(0),
+      "A step that fails, moves too far or errs too much is cut, but not below "
+      "this (exit code 3) [s]; 0: a millionth of the first.");
+    entries.add(
+      "Largest step",
+      max_step,
+      Patterns::Double(0),
+      "Steps grow to this while they are easy [s]; 0: not beyond the first.");
+    entries.add("Largest displacement",
+                max_displacement,
+                Patterns::Double(0),
+                "No part moves further in a step [m]; 0: any.");
+    entries.add("Largest error",
+                max_error,
+                Patterns::Double(0),
+                "Estimated error of a step's displacement [m]; 0: any.");
+    entries.add(
       "Scheme",
-      "automatic",
-      selection(schemes),
-      "newmark: trapezoidal rule, good for small displacements; "
-      "generalized alpha: damps what steps do not resolve; constant "
-      "acceleration: the scheme of DDA, damps much, first order; energy "
-      "momentum: conserves energy and momenta under large rotations; "
-      "automatic: newmark for small, energy momentum for finite kinematics and "
-      "contact, constant acceleration for incremental kinematics and "
-      "relaxation.");
-    declare_numbers(prm, scheme_entries(defaults));
-    declare_numbers(prm, sleep_entries(defaults));
-  }
-
-
-  void
-  TimeParameters::parse(ParameterHandler &prm)
-  {
-    end_time = prm.get_double("End time");
-    start    = get_selection(prm, "Start", starts);
-    for (const auto &entries :
-         {step_entries(*this), scheme_entries(*this), sleep_entries(*this)})
-      for (const NumberEntry &entry : entries)
-        entry.value = prm.get_double(entry.key);
-    scheme = get_selection(prm, "Scheme", schemes);
+      scheme,
+      schemes,
+      "newmark: trapezoidal rule, good for small displacements; generalized "
+      "alpha: damps what steps do not resolve; constant acceleration: the "
+      "scheme of DDA, damps much, first order; energy momentum: conserves "
+      "energy and momenta under large rotations; automatic: newmark for small, "
+      "energy momentum for finite kinematics and contact, constant "
+      "acceleration for incremental kinematics and relaxation.");
+    entries.add("Newmark beta",
+                beta,
+                Patterns::Double(0, 1),
+                "newmark: beta, > 0; with 1/4 and gamma 1/2 second order and "
+                "no damping [-].");
+    entries.add(
+      "Newmark gamma",
+      gamma,
+      Patterns::Double(0.5, 2),
+      "newmark: gamma; more than 1/2 damps and is of first order [-].");
+    entries.add("Spectral radius",
+                spectral_radius,
+                Patterns::Double(0, 1),
+                "generalized alpha: share of the highest frequencies that is "
+                "left after a step; 1: no damping [-].");
+    entries.add("Mass damping",
+                damping.mass,
+                Patterns::Double(0),
+                "Rayleigh damping: coefficient of the mass matrix [1/s].");
+    entries.add("Stiffness damping",
+                damping.stiffness,
+                Patterns::Double(),
+                "Rayleigh damping: coefficient of the stiffness at rest [s]. "
+                "Negative: 0, but in a dynamic analysis with friction and the "
+                "scheme energy momentum what damps the lowest vibration of a "
+                "block of median size critically.");
+    entries.add(
+      "Sleep speed",
+      sleep.speed,
+      Patterns::Double(0),
+      "A block whose root mean square speed stays below this may sleep: it is "
+      "held where it is and costs nearly nothing until forces on it change "
+      "[m/s]; 0: nobody sleeps. Contact, one rank.");
+    entries.add("Sleep time",
+                sleep.time,
+                Patterns::Double(0),
+                "How long it must stay below before it sleeps [s].");
+    entries.add("Wake acceleration",
+                sleep.acceleration,
+                Patterns::Double(0),
+                "A block that sleeps wakes when the force on it changes by "
+                "more than its mass times this, or the moment by as much over "
+                "the radius of inertia, > 0 [m/s^2].");
   }
 
 
@@ -295,61 +194,44 @@ namespace NMM
                         const Kinematics kinematics,
                         const bool       has_contact) const
   {
-    TimeParameters given = *this, defaults;
-    // 0 asks for what these have anyway
-    if (given.damping.stiffness == 0.)
-      given.damping.stiffness = defaults.damping.stiffness;
-    const std::string by =
-      "a " + to_string(analysis) +
-      (analysis == Analysis::relaxation ? "" : " analysis");
-    const auto expect_defaults = [&](const std::vector<NumberEntry> &values,
-                                     const std::vector<NumberEntry> &others) {
-      for (unsigned int i = 0; i < values.size(); ++i)
-        expect_default("Time",
-                       values[i].key,
-                       values[i].value,
-                       others[i].value,
-                       by,
-                       "remove it, or set 'Model/Analysis = dynamic'");
-    };
     if (analysis != Analysis::dynamics)
     {
-      expect_default("Time",
-                     "End time",
-                     end_time,
-                     0.,
-                     by,
-                     "remove it, or set 'Model/Analysis = dynamic'");
-      expect_defaults(step_entries(given), step_entries(defaults));
-      expect_defaults(sleep_entries(given), sleep_entries(defaults));
-      AssertThrow(start == Start::undeformed,
-                  InputError("a start would not be used by " + by,
-                             "parameter 'Time/Start'",
-                             "remove it, or set 'Model/Analysis = dynamic'"));
+      TimeParameters       given = *this;
+      const TimeParameters defaults;
+      const bool           is_static = analysis == Analysis::statics;
+      if (!is_static)
+      {
+        // motion to rest has a scheme
+        given.scheme          = defaults.scheme;
+        given.beta            = defaults.beta;
+        given.gamma           = defaults.gamma;
+        given.spectral_radius = defaults.spectral_radius;
+        given.damping.mass    = defaults.damping.mass;
+      }
+      // 0 asks for what these have anyway
+      if (!is_static || given.damping.stiffness == 0.)
+        given.damping.stiffness = defaults.damping.stiffness;
+      expect_defaults("Time",
+                      given,
+                      "a " + to_string(analysis) +
+                        (analysis == Analysis::relaxation ? "" : " analysis"),
+                      "remove it, or set 'Model/Analysis = dynamic'");
+      if (is_static)
+        return;
     }
-    AssertThrow(sleep.speed == 0. || (has_contact && sleep.acceleration > 0. &&
-                                      kinematics != Kinematics::incremental),
-                InputError("blocks sleep only in motion with contact and small "
-                           "or finite kinematics, and wake at accelerations "
-                           "above 0",
-                           "parameter 'Time/Sleep speed'",
-                           "set it to 0, or 'Contact' and 'Wake "
-                           "acceleration'"));
-    AssertThrow(start == Start::undeformed ||
-                  kinematics != Kinematics::incremental,
-                InputError("a start from equilibrium is not available with "
-                           "incremental kinematics",
-                           "parameter 'Time/Start'",
-                           "set 'Model/Kinematics' to small or finite"));
-    if (analysis == Analysis::statics)
-    {
-      expect_defaults(scheme_entries(given), scheme_entries(defaults));
-      AssertThrow(scheme == Scheme::automatic,
-                  InputError("a scheme would not be used by " + by,
-                             "parameter 'Time/Scheme'",
-                             "remove it, or set 'Model/Analysis = dynamic'"));
-      return;
-    }
+    AssertThrow(
+      sleep.speed == 0. || (has_contact && sleep.acceleration > 0. &&
+                            kinematics != Kinematics::incremental),
+      InputError("blocks sleep only in motion with contact and small or finite "
+                 "kinematics, and wake at accelerations above 0",
+                 "parameter 'Time/Sleep speed'",
+                 "set it to 0, or 'Contact' and 'Wake acceleration'"));
+    AssertThrow(
+      start == Start::undeformed || kinematics != Kinematics::incremental,
+      InputError(
+        "a start from equilibrium is not available with incremental kinematics",
+        "parameter 'Time/Start'",
+        "set 'Model/Kinematics' to small or finite"));
     check_scheme(analysis, kinematics, has_contact);
     if (analysis == Analysis::dynamics)
       check_steps(kinematics);
@@ -386,11 +268,11 @@ namespace NMM
            "Spectral radius",
            spectral_radius,
            defaults.spectral_radius);
-    AssertThrow(beta > 0.,
-                InputError("beta is 0",
-                           "parameter 'Time/Newmark beta'",
-                           "choose it in (0, 1]; explicit schemes are not "
-                           "available"));
+    AssertThrow(
+      beta > 0.,
+      InputError("beta is 0",
+                 "parameter 'Time/Newmark beta'",
+                 "choose it in (0, 1]; explicit schemes are not available"));
     if (kinematics != Kinematics::incremental)
       return;
     AssertThrow(scheme == Scheme::automatic ||
@@ -416,8 +298,7 @@ namespace NMM
   void
   TimeParameters::check_steps(const Kinematics kinematics) const
   {
-    TimeParameters given = *this;
-    const auto     check = [](const bool         is_good,
+    const auto check = [](const bool         is_good,
                           const std::string &key,
                           const double       value,
                           const std::string &remedy) {
@@ -449,20 +330,15 @@ namespace NMM
     if (kinematics != Kinematics::incremental)
       return;
     // equal steps, or steps that a bound on displacements divides
-    for (const NumberEntry &entry : step_entries(given))
-    {
-      const std::string key = entry.key;
-      if (key == "Initial step" || key == "Largest displacement" ||
-          (key == "Smallest step" && max_displacement > 0.))
-        continue;
-      expect_default("Time",
-                     key,
-                     entry.value,
-                     0.,
-                     "incremental kinematics",
-                     "remove it, or set 'Model/Kinematics' to small or "
-                     "finite");
-    }
+    TimeParameters given;
+    given.max_step  = max_step;
+    given.max_error = max_error;
+    if (max_displacement == 0.)
+      given.min_step = min_step;
+    expect_defaults("Time",
+                    given,
+                    "incremental kinematics",
+                    "remove it, or set 'Model/Kinematics' to small or finite");
   }
 
 
@@ -508,37 +384,25 @@ namespace NMM
 
 
   void
-  RelaxationSectionParameters::declare(ParameterHandler &prm)
+  RelaxationSectionParameters::list_entries(Entries &entries)
   {
-    const RelaxationParameters defaults;
-    prm.declare_entry("Step",
-                      "0",
-                      Patterns::Double(0),
-                      "First time step, > 0; the lowest period is a good one "
-                      "[s].");
-    prm.declare_entry("Step growth",
-                      to_text(defaults.growth),
-                      Patterns::Double(1, 10),
-                      "Factor on the step after each step [-].");
-    prm.declare_entry("Tolerance",
-                      to_text(defaults.tolerance),
-                      Patterns::Double(0, 1),
-                      "Forces out of balance over forces in balance that count "
-                      "as rest, > 0 [-].");
-    prm.declare_entry("Maximum steps",
-                      to_text(defaults.max_steps),
-                      Patterns::Integer(1, 100000000),
-                      "Steps after which it gives up (exit code 3).");
-  }
-
-
-  void
-  RelaxationSectionParameters::parse(ParameterHandler &prm)
-  {
-    relaxation.step      = prm.get_double("Step");
-    relaxation.growth    = prm.get_double("Step growth");
-    relaxation.tolerance = prm.get_double("Tolerance");
-    relaxation.max_steps = prm.get_integer("Maximum steps");
+    entries.add("Step",
+                relaxation.step,
+                Patterns::Double(0),
+                "First time step, > 0; the lowest period is a good one [s].");
+    entries.add("Step growth",
+                relaxation.growth,
+                Patterns::Double(1, 10),
+                "Factor on the step after each step [-].");
+    entries.add("Tolerance",
+                relaxation.tolerance,
+                Patterns::Double(0, 1),
+                "Forces out of balance over forces in balance that count as "
+                "rest, > 0 [-].");
+    entries.add("Maximum steps",
+                relaxation.max_steps,
+                Patterns::Integer(1, 100000000),
+                "Steps after which it gives up (exit code 3).");
   }
 
 
@@ -547,20 +411,10 @@ namespace NMM
   {
     if (analysis != Analysis::relaxation)
     {
-      const RelaxationParameters defaults;
-      const auto                 expect =
-        [&](const char *key, const double value, const double default_value) {
-          expect_default("Relaxation",
-                         key,
-                         value,
-                         default_value,
-                         "a " + to_string(analysis) + " analysis",
-                         "remove it, or set 'Model/Analysis = relaxation'");
-        };
-      expect("Step", relaxation.step, 0.);
-      expect("Step growth", relaxation.growth, defaults.growth);
-      expect("Tolerance", relaxation.tolerance, defaults.tolerance);
-      expect("Maximum steps", relaxation.max_steps, defaults.max_steps);
+      expect_defaults("Relaxation",
+                      *this,
+                      "a " + to_string(analysis) + " analysis",
+                      "remove it, or set 'Model/Analysis = relaxation'");
       return;
     }
     AssertThrow(relaxation.step > 0. && std::isfinite(relaxation.step),
@@ -576,37 +430,24 @@ namespace NMM
 
 
   void
-  InitialVelocityParameters::declare(ParameterHandler &prm)
+  InitialVelocityParameters::list_entries(Entries &entries)
   {
-    prm.declare_entry("Block",
-                      "all",
-                      Patterns::Anything(),
-                      "x, y of a point inside the block that moves [m], or "
-                      "all: the whole solid.");
-    prm.declare_entry("Translation",
-                      "0, 0",
-                      vector_pattern(),
-                      "Velocity vx, vy [m/s].");
-    prm.declare_entry("Angular velocity",
-                      "0",
-                      Patterns::Double(),
-                      "Counter-clockwise about Center [rad/s].");
-    prm.declare_entry("Center",
-                      "",
-                      Patterns::Anything(),
-                      "x, y of the point it turns about [m]; empty: the "
-                      "centroid of what moves.");
-  }
-
-
-  void
-  InitialVelocityParameters::parse(ParameterHandler &prm)
-  {
-    block =
-      get_optional_point(prm, "Block", "all", "Initial velocities/" + name);
-    center =
-      get_optional_point(prm, "Center", "", "Initial velocities/" + name);
-    translation      = get_point(prm, "Translation");
-    angular_velocity = prm.get_double("Angular velocity");
+    entries.add("Block",
+                block,
+                "all",
+                "Initial velocities/" + name,
+                "x, y of a point inside the block that moves [m], or all: the "
+                "whole solid.");
+    entries.add("Translation", translation, "Velocity vx, vy [m/s].");
+    entries.add("Angular velocity",
+                angular_velocity,
+                Patterns::Double(),
+                "Counter-clockwise about Center [rad/s].");
+    entries.add("Center",
+                center,
+                "",
+                "Initial velocities/" + name,
+                "x, y of the point it turns about [m]; empty: the centroid of "
+                "what moves.");
   }
 } // namespace NMM

@@ -8,91 +8,67 @@
 // The solid: its geometry, joint sets, traces and regions.
 namespace NMM
 {
-  using dealii::ParameterHandler;
   namespace Patterns = dealii::Patterns;
   using namespace internal;
 
   namespace
   {
-    const std::vector<std::pair<std::string, bool>> end_treatments =
-      {{"keep", false}, {"drop", true}};
+    const Words<bool> end_treatments = {{"keep", false}, {"drop", true}};
 
-    const std::vector<std::pair<std::string, JointState>> joint_states =
-      {{"open", JointState::open}, {"closed", JointState::closed}};
+    const Words<JointState> joint_states = {{"open", JointState::open},
+                                            {"closed", JointState::closed}};
 
-    using Use = RegionParameters::Use;
-    const std::vector<std::pair<std::string, Use>> region_uses = {
-      {"place", Use::place},
-      {"excavation", Use::excavation},
-      {"restraint", Use::restraint},
-      {"limit", Use::limit}};
+    using Use                    = RegionParameters::Use;
+    const Words<Use> region_uses = {{"place", Use::place},
+                                    {"excavation", Use::excavation},
+                                    {"restraint", Use::restraint},
+                                    {"limit", Use::limit}};
 
 
+    /// What joint sets and traces have in common.
     void
-    declare_state(ParameterHandler &prm)
+    add_joint_entries(Entries &entries, JointState &state, std::string &within)
     {
-      prm.declare_entry("State",
-                        "open",
-                        selection(joint_states),
-                        "open: faces do not hold together, but may be in "
-                        "contact; closed: they are tied.");
-    }
-
-
-    void
-    declare_within(ParameterHandler &prm)
-    {
-      prm.declare_entry("Within",
-                        "",
-                        Patterns::Anything(),
-                        "Name of a region, or of the boundary of a domain, "
-                        "outside of which there are none. Empty: all of the "
-                        "solid.");
+      entries.add("State",
+                  state,
+                  joint_states,
+                  "open: faces do not hold together, but may be in contact; "
+                  "closed: they are tied.");
+      entries.add("Within",
+                  within,
+                  "Name of a region, or of the boundary of a domain, outside "
+                  "of which there are none. Empty: all of the solid.");
     }
   } // namespace
 
 
   void
-  GeometryParameters::declare(ParameterHandler &prm)
+  GeometryParameters::list_entries(Entries &entries)
   {
-    prm.declare_entry("File",
-                      "",
-                      Patterns::Anything(),
-                      "Geometry file (WKT records), relative to the folder of "
-                      "the scene file. Either this or Text.");
-    prm.declare_entry("Text",
-                      "",
-                      Patterns::Anything(),
-                      "The geometry itself: the records of a geometry file, "
-                      "separated by semicolons.");
-    prm.declare_entry(
+    entries.add("File",
+                file,
+                "Geometry file (WKT records), relative to the folder of the "
+                "scene file. Either this or Text.");
+    entries.add("Text",
+                text,
+                "The geometry itself: the records of a geometry file, "
+                "separated by semicolons.");
+    entries.add(
       "Cleaning tolerance",
-      "0",
+      cleaning_tolerance,
       Patterns::Double(0),
-      "Before cutting, ends of curves nearer than this to a "
-      "vertex or curve are moved onto it and shorter overshoots "
-      "are trimmed; every change is reported [m]. 0: the "
-      "geometry is taken exactly as it is.");
-    prm.declare_entry("Dangling ends",
-                      "keep",
-                      selection(end_treatments),
-                      "What becomes of parts of joints that bound no block. "
-                      "keep: they are cracks; drop: they do not count.");
-    prm.declare_entry("Small block area",
-                      "0",
-                      Patterns::Double(0),
-                      "Blocks smaller than this are told of [m^2].");
-  }
-
-
-  void
-  GeometryParameters::parse(ParameterHandler &prm)
-  {
-    file               = prm.get("File");
-    text               = prm.get("Text");
-    cleaning_tolerance = prm.get_double("Cleaning tolerance");
-    drops_ends         = get_selection(prm, "Dangling ends", end_treatments);
-    small_block        = prm.get_double("Small block area");
+      "Before cutting, ends of curves nearer than this to a vertex or curve "
+      "are moved onto it and shorter overshoots are trimmed; every change is "
+      "reported [m]. 0: the geometry is taken exactly as it is.");
+    entries.add("Dangling ends",
+                drops_ends,
+                end_treatments,
+                "What becomes of parts of joints that bound no block. keep: "
+                "they are cracks; drop: they do not count.");
+    entries.add("Small block area",
+                small_block,
+                Patterns::Double(0),
+                "Blocks smaller than this are told of [m^2].");
   }
 
 
@@ -108,89 +84,62 @@ namespace NMM
 
 
   void
-  JointSetParameters::declare(ParameterHandler &prm)
+  JointSetParameters::list_entries(Entries &entries, JointSet &set)
   {
-    const auto number =
-      [&](const char *key, const char *value, const char *help) {
-        prm.declare_entry(key, value, Patterns::Double(), help);
-      };
+    const auto number = [&](const char *key, double &value, const char *help) {
+      entries.add(key, value, Patterns::Double(), help);
+    };
     number("Dip",
-           "0",
+           set.dip,
            "Angle from the x-axis to the joints, counter-clockwise [degrees]: "
            "60 rises to the right, -60 to the left.");
     number("Dip scatter",
-           "0",
+           set.dip_scatter,
            "Each line is turned by up to this, either way [degrees].");
-    number("Spacing", "0", "Distance between lines, > 0 [m].");
+    number("Spacing", set.spacing, "Distance between lines, > 0 [m].");
     number("Spacing scatter",
-           "0",
+           set.spacing_scatter,
            "Distances differ by up to this share, below 1 [-].");
     number("Persistence",
-           "1",
+           set.persistence,
            "Share of a line that is jointed, above 0 [-]; the rest is bridges "
            "of rock. 1: joints run through.");
     number("Trace length",
-           "0",
+           set.trace_length,
            "Mean length of a joint between two bridges [m]; with a persistence "
            "below 1.");
-    number("Trace length scatter",
-           "0",
-           "Lengths differ by up to this share, at most 1 / persistence - 1 "
-           "[-].");
+    number(
+      "Trace length scatter",
+      set.trace_length_scatter,
+      "Lengths differ by up to this share, at most 1 / persistence - 1 [-].");
     number("Offset",
-           "0",
+           set.offset,
            "Distance of a line from the origin, to the left of the direction "
            "of the dip [m].");
-    prm.declare_entry("Seed",
-                      "1",
-                      Patterns::Integer(0, 2147483647),
-                      "Another number makes another network; the same makes "
-                      "the same on every machine.");
-    declare_state(prm);
-    declare_within(prm);
-  }
-
-
-  JointSet
-  JointSetParameters::parse(ParameterHandler &prm, const std::string &name)
-  {
-    JointSet set;
-    set.name                 = name;
-    set.dip                  = prm.get_double("Dip");
-    set.dip_scatter          = prm.get_double("Dip scatter");
-    set.spacing              = prm.get_double("Spacing");
-    set.spacing_scatter      = prm.get_double("Spacing scatter");
-    set.persistence          = prm.get_double("Persistence");
-    set.trace_length         = prm.get_double("Trace length");
-    set.trace_length_scatter = prm.get_double("Trace length scatter");
-    set.offset               = prm.get_double("Offset");
-    set.seed                 = prm.get_integer("Seed");
-    set.state                = get_selection(prm, "State", joint_states);
-    set.within               = dealii::Utilities::trim(prm.get("Within"));
-    set.check();
-    return set;
+    entries.add("Seed",
+                set.seed,
+                Patterns::Integer(0, 2147483647),
+                "Another number makes another network; the same makes the same "
+                "on every machine.");
+    add_joint_entries(entries, set.state, set.within);
+    if (entries.are_parsed())
+      set.check();
   }
 
 
   void
-  TraceParameters::declare(ParameterHandler &prm)
+  TraceParameters::list_entries(Entries &entries)
   {
-    prm.declare_entry("File",
-                      "",
-                      Patterns::Anything(),
-                      "DXF drawing (its name ends in .dxf) or geometry file "
-                      "with joints, relative to the folder of the scene file.");
-    prm.declare_entry("Layers",
-                      "",
-                      Patterns::List(Patterns::Anything(), 0),
-                      "Drawing: layers that are read. Empty: all.");
-    prm.declare_entry("Label",
-                      "",
-                      Patterns::Anything(),
-                      "What all joints of the file are called. Empty: after "
-                      "their layers, or what the geometry file says.");
-    declare_state(prm);
-    declare_within(prm);
+    entries.add("File",
+                file,
+                "DXF drawing (its name ends in .dxf) or geometry file with "
+                "joints, relative to the folder of the scene file.");
+    entries.add("Layers", layers, "Drawing: layers that are read. Empty: all.");
+    entries.add("Label",
+                label,
+                "What all joints of the file are called. Empty: after their "
+                "layers, or what the geometry file says.");
+    add_joint_entries(entries, state, within);
   }
 
 
@@ -202,17 +151,6 @@ namespace NMM
       return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     });
     return end == ".dxf";
-  }
-
-
-  void
-  TraceParameters::parse(ParameterHandler &prm)
-  {
-    file   = dealii::Utilities::trim(prm.get("File"));
-    layers = get_names(prm, "Layers");
-    label  = dealii::Utilities::trim(prm.get("Label"));
-    state  = get_selection(prm, "State", joint_states);
-    within = dealii::Utilities::trim(prm.get("Within"));
   }
 
 
@@ -232,49 +170,34 @@ namespace NMM
 
 
   void
-  RegionParameters::declare(ParameterHandler &prm)
+  RegionParameters::list_entries(Entries &entries)
   {
-    prm.declare_entry("Shape",
-                      "",
-                      Patterns::Anything(),
-                      "A closed shape as in geometry files: POLYGON (...), "
-                      "CURVEPOLYGON (...) or CIRCLE (...). Either this or "
-                      "File.");
-    prm.declare_entry("File",
-                      "",
-                      Patterns::Anything(),
-                      "Geometry file, relative to the folder of the scene "
-                      "file, with a record of one closed curve.");
-    prm.declare_entry("Use",
-                      "place",
-                      selection(region_uses),
-                      "place: for 'Material' here and 'Within' of joint sets; "
-                      "excavation: what is inside is no part of the solid; "
-                      "restraint: the same, and in its place is a rigid body "
-                      "that holds the solid until it is released; limit, "
-                      "dynamic analysis: blocks that are wholly outside of all "
-                      "limits are dropped.");
-    prm.declare_entry("Material",
-                      "",
-                      Patterns::Anything(),
-                      "Material of the blocks with their middle inside. Empty: "
-                      "that of the geometry.");
-    prm.declare_entry("Release time",
-                      "-1",
-                      Patterns::Double(),
-                      "restraint, dynamic analysis: it is gone from this time "
-                      "on [s]. Negative: never.");
-  }
-
-
-  void
-  RegionParameters::parse(ParameterHandler &prm)
-  {
-    shape        = dealii::Utilities::trim(prm.get("Shape"));
-    file         = dealii::Utilities::trim(prm.get("File"));
-    use          = get_selection(prm, "Use", region_uses);
-    material     = dealii::Utilities::trim(prm.get("Material"));
-    release_time = prm.get_double("Release time");
+    entries.add("Shape",
+                shape,
+                "A closed shape as in geometry files: POLYGON (...), "
+                "CURVEPOLYGON (...) or CIRCLE (...). Either this or File.");
+    entries.add("File",
+                file,
+                "Geometry file, relative to the folder of the scene file, with "
+                "a record of one closed curve.");
+    entries.add(
+      "Use",
+      use,
+      region_uses,
+      "place: for 'Material' here and 'Within' of joint sets; excavation: what "
+      "is inside is no part of the solid; restraint: the same, and in its "
+      "place is a rigid body that holds the solid until it is released; limit, "
+      "dynamic analysis: blocks that are wholly outside of all limits are "
+      "dropped.");
+    entries.add("Material",
+                material,
+                "Material of the blocks with their middle inside. Empty: that "
+                "of the geometry.");
+    entries.add("Release time",
+                release_time,
+                Patterns::Double(),
+                "restraint, dynamic analysis: it is gone from this time on "
+                "[s]. Negative: never.");
   }
 
 
@@ -288,14 +211,14 @@ namespace NMM
                              " shape",
                            "section " + section + "'",
                            "set either 'Shape' or 'File'"));
-    AssertThrow(use == Use::place || material.empty(),
-                InputError("the material '" + material +
-                             (use == Use::limit
-                                ? "' is of a limit, which is no place"
-                                : "' is of a region from which the solid is "
-                                  "taken out"),
-                           "parameter " + section + "/Material'",
-                           "remove it, or set 'Use = place'"));
+    AssertThrow(
+      use == Use::place || material.empty(),
+      InputError("the material '" + material +
+                   (use == Use::limit
+                      ? "' is of a limit, which is no place"
+                      : "' is of a region from which the solid is taken out"),
+                 "parameter " + section + "/Material'",
+                 "remove it, or set 'Use = place'"));
     if (use != Use::restraint)
       expect_default("Regions/" + name,
                      "Release time",

@@ -9,79 +9,36 @@
 // Load steps, Newton's method, and what goes together with which kinematics.
 namespace NMM
 {
-  using dealii::ParameterHandler;
   namespace Patterns = dealii::Patterns;
   using namespace internal;
 
-  namespace internal
-  {
-    std::string
-    to_text(const double value)
-    {
-      std::ostringstream out;
-      out.precision(12);
-      out << value;
-      return out.str();
-    }
-
-
-    void
-    expect_default(const std::string &section,
-                   const std::string &key,
-                   const double       value,
-                   const double       default_value,
-                   const std::string &by,
-                   const std::string &remedy)
-    {
-      AssertThrow(value == default_value,
-                  InputError("'" + key + " = " + to_text(value) +
-                               "' would not be used by " + by,
-                             "parameter '" + section + "/" + key + "'",
-                             remedy));
-    }
-  } // namespace internal
 
 
   void
-  LoadStepParameters::declare(ParameterHandler &prm)
+  LoadStepParameters::list_entries(Entries &entries)
   {
-    const LoadStepParameters defaults;
-    prm.declare_entry("Number of steps",
-                      std::to_string(defaults.n_steps),
-                      Patterns::Integer(1, 1000000),
-                      "Finite and incremental kinematics: equal steps in which "
-                      "loads and prescribed displacements grow to their "
-                      "values.");
-    prm.declare_entry("Smallest step",
-                      dealii::Patterns::Tools::to_string(defaults.min_step),
-                      Patterns::Double(0, 1),
-                      "Finite and incremental kinematics: a step that does not "
-                      "converge, or moves too far, is divided, but not below "
-                      "this part of the last load "
-                      "factor, > 0 [-].");
-    prm.declare_entry(
-      "Maximum displacement",
-      "0",
-      Patterns::Double(0),
-      "Incremental kinematics: no cover moves further in a step, "
-      "steps are divided for it [m]; 0: no bound.");
-    prm.declare_entry("Load factors",
-                      "",
-                      Patterns::List(Patterns::Double(0), 0),
-                      "Instead of equal steps: the factors on loads and "
-                      "prescribed displacements, ascending from above 0 [-]. "
-                      "The last may be any.");
-  }
-
-
-  void
-  LoadStepParameters::parse(ParameterHandler &prm)
-  {
-    n_steps          = prm.get_integer("Number of steps");
-    min_step         = prm.get_double("Smallest step");
-    max_displacement = prm.get_double("Maximum displacement");
-    load_factors =
-      dealii::Utilities::string_to_double(get_names(prm, "Load factors"));
+    entries.add("Number of steps",
+                n_steps,
+                Patterns::Integer(1, 1000000),
+                "Finite and incremental kinematics: equal steps in which loads "
+                "and prescribed displacements grow to their values.");
+    entries.add("Smallest step",
+                min_step,
+                Patterns::Double(0, 1),
+                "Finite and incremental kinematics: a step that does not "
+                "converge, or moves too far, is divided, but not below this "
+                "part of the last load factor, > 0 [-].");
+    entries.add("Maximum displacement",
+                max_displacement,
+                Patterns::Double(0),
+                "Incremental kinematics: no cover moves further in a step, "
+                "steps are divided for it [m]; 0: no bound.");
+    entries.add(
+      "Load factors",
+      load_factors,
+      Patterns::List(Patterns::Double(0), 0),
+      "Instead of equal steps: the factors on loads and prescribed "
+      "displacements, ascending from above 0 [-]. The last may be any.");
   }
 
 
@@ -166,35 +123,23 @@ namespace NMM
 
 
   void
-  NewtonSectionParameters::declare(ParameterHandler &prm)
+  NewtonSectionParameters::list_entries(Entries &entries)
   {
-    const NewtonParameters defaults;
-    prm.declare_entry(
-      "Residual tolerance",
-      dealii::Patterns::Tools::to_string(defaults.residual_tolerance),
-      Patterns::Double(0, 1),
-      "Finite kinematics: forces out of balance over the forces "
-      "in balance at which an iteration ends, > 0 [-].");
-    prm.declare_entry("Energy tolerance",
-                      dealii::Patterns::Tools::to_string(
-                        defaults.energy_tolerance),
-                      Patterns::Double(0, 1),
-                      "Finite kinematics: and the work of these forces in the "
-                      "last correction over the largest such work, > 0 [-].");
-    prm.declare_entry("Maximum iterations",
-                      std::to_string(defaults.max_iterations),
-                      Patterns::Integer(1, 1000),
-                      "Finite kinematics: iterations after which a load step "
-                      "is halved.");
-  }
-
-
-  void
-  NewtonSectionParameters::parse(ParameterHandler &prm)
-  {
-    newton.residual_tolerance = prm.get_double("Residual tolerance");
-    newton.energy_tolerance   = prm.get_double("Energy tolerance");
-    newton.max_iterations     = prm.get_integer("Maximum iterations");
+    entries.add("Residual tolerance",
+                newton.residual_tolerance,
+                Patterns::Double(0, 1),
+                "Finite kinematics: forces out of balance over the forces in "
+                "balance at which an iteration ends, > 0 [-].");
+    entries.add("Energy tolerance",
+                newton.energy_tolerance,
+                Patterns::Double(0, 1),
+                "Finite kinematics: and the work of these forces in the last "
+                "correction over the largest such work, > 0 [-].");
+    entries.add(
+      "Maximum iterations",
+      newton.max_iterations,
+      Patterns::Integer(1, 1000),
+      "Finite kinematics: iterations after which a load step is halved.");
   }
 
 
@@ -204,42 +149,20 @@ namespace NMM
                                  const bool       has_contact) const
   {
     const NewtonParameters defaults;
-    const auto             expect = [](const std::string &key,
-                           const double       value,
-                           const double       default_value,
-                           const std::string &by,
-                           const std::string &remedy) {
-      expect_default("Newton", key, value, default_value, by, remedy);
-    };
     if (kinematics != Kinematics::finite && !has_contact)
-    {
-      const std::string by = to_string(kinematics) + " kinematics";
-      const std::string remedy =
-        "remove it, or set 'Model/Kinematics = finite'";
-      expect("Residual tolerance",
-             newton.residual_tolerance,
-             defaults.residual_tolerance,
-             by,
-             remedy);
-      expect("Energy tolerance",
-             newton.energy_tolerance,
-             defaults.energy_tolerance,
-             by,
-             remedy);
-      expect("Maximum iterations",
-             newton.max_iterations,
-             defaults.max_iterations,
-             by,
-             remedy);
-    }
+      expect_defaults("Newton",
+                      *this,
+                      to_string(kinematics) + " kinematics",
+                      "remove it, or set 'Model/Kinematics = finite'");
     // A time step starts so near to its end that the energy of the first
     // correction is no measure.
     if (analysis != Analysis::statics)
-      expect("Energy tolerance",
-             newton.energy_tolerance,
-             defaults.energy_tolerance,
-             "a " + to_string(analysis) + " analysis",
-             "remove it, or set 'Model/Analysis = static'");
+      expect_default("Newton",
+                     "Energy tolerance",
+                     newton.energy_tolerance,
+                     defaults.energy_tolerance,
+                     "a " + to_string(analysis) + " analysis",
+                     "remove it, or set 'Model/Analysis = static'");
     AssertThrow(newton.residual_tolerance > 0.,
                 InputError("the residual tolerance is 0",
                            "parameter 'Newton/Residual tolerance'",
@@ -258,23 +181,22 @@ namespace NMM
     const std::string kinematics = to_string(model.kinematics) + " kinematics";
     if (model.kinematics != Kinematics::finite)
       for (const Material &material : materials)
-        AssertThrow(material.law == MaterialLaw::linear,
-                    InputError("a law other than linear would not be used by " +
-                                 kinematics,
-                               "parameter 'Materials/" + material.name +
-                                 "/Law'",
-                               "set 'Law = linear', or 'Model/Kinematics = "
-                               "finite'"));
+        AssertThrow(
+          material.law == MaterialLaw::linear,
+          InputError("a law other than linear would not be used by " +
+                       kinematics,
+                     "parameter 'Materials/" + material.name + "/Law'",
+                     "set 'Law = linear', or 'Model/Kinematics = finite'"));
     if (model.kinematics == Kinematics::small && is_static &&
         !contact.is_present())
     {
-      expect_default("Output",
-                     "Fields every",
-                     output.fields_every,
-                     0,
-                     kinematics,
-                     "remove it, or set 'Model/Kinematics' to finite or "
-                     "incremental");
+      expect_default(
+        "Output",
+        "Fields every",
+        output.fields_every,
+        0,
+        kinematics,
+        "remove it, or set 'Model/Kinematics' to finite or incremental");
       return;
     }
 
@@ -313,12 +235,12 @@ namespace NMM
     contact.check(model.analysis, model.kinematics, may_be_damped);
     for (const ObstacleParameters &obstacle : obstacles)
     {
-      AssertThrow(contact.is_present(),
-                  InputError("the obstacle '" + obstacle.name +
-                               "' would not be used by a scene without contact",
-                             "parameter 'Obstacles/Names'",
-                             "remove it, or set 'Contact/Enforcement = "
-                             "penalty'"));
+      AssertThrow(
+        contact.is_present(),
+        InputError("the obstacle '" + obstacle.name +
+                     "' would not be used by a scene without contact",
+                   "parameter 'Obstacles/Names'",
+                   "remove it, or set 'Contact/Enforcement = penalty'"));
       obstacle.check(model.analysis);
     }
   }
@@ -362,12 +284,12 @@ namespace NMM
     check_output_quantities();
     if (model.analysis == Analysis::statics)
       return;
-    AssertThrow(model.analysis == Analysis::dynamics ||
-                  model.kinematics != Kinematics::incremental,
-                InputError("relaxation is not available with incremental "
-                           "kinematics",
-                           "parameter 'Model/Analysis'",
-                           "set 'Model/Kinematics' to small or finite"));
+    AssertThrow(
+      model.analysis == Analysis::dynamics ||
+        model.kinematics != Kinematics::incremental,
+      InputError("relaxation is not available with incremental kinematics",
+                 "parameter 'Model/Analysis'",
+                 "set 'Model/Kinematics' to small or finite"));
     for (const Material &material : materials)
       AssertThrow(material.density > 0.,
                   InputError("the density is " + to_text(material.density),
@@ -383,12 +305,13 @@ namespace NMM
     const bool moves = model.analysis == Analysis::dynamics ||
                        model.analysis == Analysis::relaxation;
     const auto check = [&](const Quantity quantity, const char *key) {
-      AssertThrow(moves || !is_velocity(quantity),
-                  InputError("a " + to_string(model.analysis) +
-                               " analysis has no " + to_string(quantity),
-                             std::string("parameter 'Output/") + key + "'",
-                             "choose another quantity, or set "
-                             "'Model/Analysis = dynamic'"));
+      AssertThrow(
+        moves || !is_velocity(quantity),
+        InputError(
+          "a " + to_string(model.analysis) + " analysis has no " +
+            to_string(quantity),
+          std::string("parameter 'Output/") + key + "'",
+          "choose another quantity, or set 'Model/Analysis = dynamic'"));
     };
     check(output.quantity, "Picture quantity");
     for (const Quantity quantity : output.animation_quantities)
@@ -416,11 +339,12 @@ namespace NMM
                 InputError("no law of contact has strength to be reduced",
                            "section 'Contact'",
                            "give a friction angle or a cohesion"));
-    AssertThrow(output.fields_every == 0,
-                InputError("a series of fields is not available with a "
-                           "safety factor analysis",
-                           "parameter 'Output/Fields every'",
-                           "remove it"));
+    AssertThrow(
+      output.fields_every == 0,
+      InputError(
+        "a series of fields is not available with a safety factor analysis",
+        "parameter 'Output/Fields every'",
+        "remove it"));
   }
 
 
@@ -446,10 +370,10 @@ namespace NMM
                              : "a " + to_string(model.analysis) + " analysis";
     for (const BoundaryConditionParameters &condition : boundary_conditions)
       condition.time.expect_default("Boundary conditions", by);
-    for (const TimeDependence &force : force_times)
-      force.expect_default("Point forces", by);
-    for (const TimeDependence &point : fixed_point_times)
-      point.expect_default("Fixed points", by);
+    for (const PointForceParameters &force : point_forces)
+      force.time.expect_default("Point forces", by);
+    for (const FixedPointParameters &point : fixed_points)
+      point.time.expect_default("Fixed points", by);
     for (const auto &[key, text] :
          {std::make_pair("Gravity amplitude", model.gravity_amplitude),
           std::make_pair("Body force amplitude", model.body_force_amplitude),

@@ -14,155 +14,109 @@ namespace NMM
 
   namespace
   {
-    const std::vector<std::pair<std::string, Quantity>> quantities = []() {
+    const Words<Quantity> quantities = []() {
       std::vector<std::pair<std::string, Quantity>> result;
       for (const Quantity quantity : all_quantities())
         result.emplace_back(to_string(quantity), quantity);
       return result;
     }();
 
-    const std::vector<std::pair<std::string, bool>> stress_choices =
-      {{"recovered", true}, {"direct", false}};
+    const Words<bool> stress_choices = {{"recovered", true}, {"direct", false}};
 
-    const std::vector<std::pair<std::string, bool>> probe_types =
-      {{"point", false}, {"line", true}};
+    const Words<bool> probe_types = {{"point", false}, {"line", true}};
 
-    const std::vector<std::pair<std::string, ExactSolutionParameters::Type>>
-      exact_solutions = {{"none", ExactSolutionParameters::Type::none},
-                         {"thick ring",
-                          ExactSolutionParameters::Type::thick_ring}};
+    const Words<ExactSolutionParameters::Type> exact_solutions = {
+      {"none", ExactSolutionParameters::Type::none},
+      {"thick ring", ExactSolutionParameters::Type::thick_ring}};
   } // namespace
 
 
   void
-  OutputParameters::declare(ParameterHandler &prm)
+  OutputParameters::list_entries(Entries &entries)
   {
-    prm.declare_entry("Title",
-                      "",
-                      Patterns::Anything(),
-                      "Title of the picture; empty: the scene's file name.");
-    prm.declare_entry("Fields",
-                      "true",
-                      Patterns::Bool(),
-                      "Write fields.vtu (fields.pvtu and one file per rank in "
-                      "parallel) and fields.pvd.");
-    prm.declare_entry("Fields every",
-                      "0",
-                      Patterns::Integer(0),
-                      "Where there are steps of load or time: write fields "
-                      "and pictures of every so many of them too, as they "
-                      "come, the fields as a series in fields.pvd; 0: of the "
-                      "last one alone.");
-    prm.declare_entry(
+    dealii::Tensor<1, 2> range({range_min, range_max});
+
+    entries.add("Title",
+                title,
+                "Title of the picture; empty: the scene's file name.");
+    entries.add("Fields",
+                fields,
+                "Write fields.vtu (fields.pvtu and one file per rank in "
+                "parallel) and fields.pvd.");
+    entries.add("Fields every",
+                fields_every,
+                Patterns::Integer(0),
+                "Where there are steps of load or time: write fields and "
+                "pictures of every so many of them too, as they come, the "
+                "fields as a series in fields.pvd; 0: of the last one alone.");
+    entries.add(
       "Animation",
-      "true",
-      Patterns::Bool(),
-      "With a series of pictures: write animation.html as well, "
-      "a page that plays them in any browser, all in one "
-      "view and one range of colours.");
-    prm.declare_entry("Animation quantities",
-                      "",
-                      Patterns::List(selection(quantities), 0),
-                      "What the page can be coloured by beside the picture's "
-                      "quantity; the reader chooses. Each makes the page "
-                      "larger by as much again.");
-    prm.declare_entry("Contacts",
-                      "true",
-                      Patterns::Bool(),
-                      "With contact: write contacts.csv, the contact points of "
-                      "the states of which fields are written.");
-    prm.declare_entry("Checkpoint every",
-                      "0",
-                      Patterns::Integer(0),
-                      "Dynamic analysis: write checkpoint.nmm after every so "
-                      "many steps, from which 'nmm --restart' continues; 0: "
-                      "none.");
-    prm.declare_entry("Picture",
-                      "true",
-                      Patterns::Bool(),
-                      "Write picture.png.");
-    prm.declare_entry("Picture quantity",
-                      "von Mises stress",
-                      selection(quantities),
-                      "What the picture is coloured by; displacement is the "
-                      "length of the displacement vector, velocity that of "
-                      "the velocity of a dynamic analysis.");
-    prm.declare_entry("Picture stress",
-                      "recovered",
-                      selection(stress_choices),
-                      "Stress in the picture: smoothed within each region "
-                      "(recovered) or as the displacements give it (direct).");
-    prm.declare_entry("Picture center",
-                      "0, 0",
-                      vector_pattern(),
-                      "Centre of the polar coordinates of radial and hoop "
-                      "stress, x, y [m].");
-    prm.declare_entry("Picture range",
-                      "0, 0",
-                      vector_pattern(),
-                      "Values at the ends of the colour bar [Pa or m]; equal: "
-                      "the least and greatest value of the solution.");
-    prm.declare_entry("Picture width",
-                      "1600",
-                      Patterns::Integer(300, 10000),
-                      "Width of the picture [pixels].");
-    prm.declare_entry("Mesh lines",
-                      "true",
-                      Patterns::Bool(),
-                      "Draw the mathematical mesh in the picture.");
-    prm.declare_entry(
+      animation,
+      "With a series of pictures: write animation.html as well, a page that "
+      "plays them in any browser, all in one view and one range of colours.");
+    entries.add(
+      "Animation quantities",
+      animation_quantities,
+      quantities,
+      "What the page can be coloured by beside the picture's quantity; the "
+      "reader chooses. Each makes the page larger by as much again.");
+    entries.add("Contacts",
+                contacts,
+                "With contact: write contacts.csv, the contact points of the "
+                "states of which fields are written.");
+    entries.add("Checkpoint every",
+                checkpoint_every,
+                Patterns::Integer(0),
+                "Dynamic analysis: write checkpoint.nmm after every so many "
+                "steps, from which 'nmm --restart' continues; 0: none.");
+    entries.add("Picture", picture, "Write picture.png.");
+    entries.add("Picture quantity",
+                quantity,
+                quantities,
+                "What the picture is coloured by; displacement is the length "
+                "of the displacement vector, velocity that of the velocity of "
+                "a dynamic analysis.");
+    entries.add("Picture stress",
+                recovered,
+                stress_choices,
+                "Stress in the picture: smoothed within each region "
+                "(recovered) or as the displacements give it (direct).");
+    entries.add(
+      "Picture center",
+      center,
+      "Centre of the polar coordinates of radial and hoop stress, x, y [m].");
+    entries.add("Picture range",
+                range,
+                "Values at the ends of the colour bar [Pa or m]; equal: the "
+                "least and greatest value of the solution.");
+    entries.add("Picture width",
+                picture_width,
+                Patterns::Integer(300, 10000),
+                "Width of the picture [pixels].");
+    entries.add("Mesh lines",
+                mesh_lines,
+                "Draw the mathematical mesh in the picture.");
+    entries.add(
       "Deformation scale",
-      "-1",
+      deformation_scale,
       Patterns::Double(),
-      "Displacements are multiplied by this in the picture [-]; "
-      "0 draws the undeformed solid; negative: chosen so that "
-      "the largest displacement is 5 % of the solid's size, or 1 "
-      "with finite and incremental kinematics.");
-    prm.declare_entry("Length unit",
-                      "m",
-                      Patterns::Anything(),
-                      "Unit of length in what is written; only a word.");
-    prm.declare_entry("Stress unit",
-                      "Pa",
-                      Patterns::Anything(),
-                      "Unit of stress in what is written; only a word.");
-  }
-
-
-  void
-  OutputParameters::parse(ParameterHandler &prm)
-  {
-    title            = prm.get("Title");
-    fields           = prm.get_bool("Fields");
-    fields_every     = prm.get_integer("Fields every");
-    contacts         = prm.get_bool("Contacts");
-    checkpoint_every = prm.get_integer("Checkpoint every");
-    animation        = prm.get_bool("Animation");
-    picture          = prm.get_bool("Picture");
-    quantity         = get_selection(prm, "Picture quantity", quantities);
-    animation_quantities.clear();
-    for (const std::string &name : get_names(prm, "Animation quantities"))
-    {
-      const auto entry =
-        std::find_if(quantities.begin(), quantities.end(), [&](const auto &q) {
-          return q.first == name;
-        });
-      if (entry->second != quantity &&
-          std::find(animation_quantities.begin(),
-                    animation_quantities.end(),
-                    entry->second) == animation_quantities.end())
-        animation_quantities.push_back(entry->second);
-    }
-    recovered = get_selection(prm, "Picture stress", stress_choices);
-    center    = get_point(prm, "Picture center");
-    const dealii::Point<2> range = get_point(prm, "Picture range");
-    range_min                    = range[0];
-    range_max                    = range[1];
-    picture_width                = prm.get_integer("Picture width");
-    mesh_lines                   = prm.get_bool("Mesh lines");
-    deformation_scale            = prm.get_double("Deformation scale");
-    length_unit                  = prm.get("Length unit");
-    stress_unit                  = prm.get("Stress unit");
+      "Displacements are multiplied by this in the picture [-]; 0 draws the "
+      "undeformed solid; negative: chosen so that the largest displacement is "
+      "5 % of the solid's size, or 1 with finite and incremental kinematics.");
+    entries.add("Length unit",
+                length_unit,
+                "Unit of length in what is written; only a word.");
+    entries.add("Stress unit",
+                stress_unit,
+                "Unit of stress in what is written; only a word.");
+    range_min = range[0];
+    range_max = range[1];
+    std::vector<Quantity> others;
+    for (const Quantity other : animation_quantities)
+      if (other != quantity &&
+          std::find(others.begin(), others.end(), other) == others.end())
+        others.push_back(other);
+    animation_quantities = others;
   }
 
 
@@ -175,12 +129,12 @@ namespace NMM
                              std::to_string(range_max),
                            "parameter 'Output/Picture range'",
                            "give the smaller value first"));
-    AssertThrow(fields || picture || fields_every == 0,
-                InputError("fields of every " + std::to_string(fields_every) +
-                             " steps are asked for, but neither fields nor "
-                             "pictures",
-                           "parameter 'Output/Fields every'",
-                           "remove it, or set 'Fields = true'"));
+    AssertThrow(
+      fields || picture || fields_every == 0,
+      InputError("fields of every " + std::to_string(fields_every) +
+                   " steps are asked for, but neither fields nor pictures",
+                 "parameter 'Output/Fields every'",
+                 "remove it, or set 'Fields = true'"));
     for (const std::string &unit : {length_unit, stress_unit})
       AssertThrow(unit.find_first_of(",\"") == std::string::npos,
                   InputError("the unit '" + unit +
@@ -191,38 +145,24 @@ namespace NMM
 
 
   void
-  ProbeParameters::declare(ParameterHandler &prm)
+  ProbeParameters::list_entries(Entries &entries, Probe &probe)
   {
-    prm.declare_entry("Type",
-                      "point",
-                      selection(probe_types),
-                      "A point, or points at equal distances along a line.");
-    prm.declare_entry("Point",
-                      "0, 0",
-                      vector_pattern(),
-                      "point: x, y in the solid [m].");
-    prm.declare_entry("From", "0, 0", vector_pattern(), "line: x, y [m].");
-    prm.declare_entry("To",
-                      "0, 0",
-                      vector_pattern(),
-                      "line: x, y [m]. The line may leave the solid.");
-    prm.declare_entry("Number of points",
-                      "101",
-                      Patterns::Integer(2, 1000000),
-                      "line: points on it, ends included.");
-  }
-
-
-  Probe
-  ProbeParameters::parse(ParameterHandler &prm, const std::string &name)
-  {
-    Probe probe;
-    probe.name     = name;
-    probe.is_line  = get_selection(prm, "Type", probe_types);
-    probe.point    = get_point(prm, "Point");
-    probe.from     = get_point(prm, "From");
-    probe.to       = get_point(prm, "To");
-    probe.n_points = prm.get_integer("Number of points");
+    entries.add("Type",
+                probe.is_line,
+                probe_types,
+                "A point, or points at equal distances along a line.");
+    entries.add("Point", probe.point, "point: x, y in the solid [m].");
+    entries.add("From", probe.from, "line: x, y [m].");
+    entries.add("To",
+                probe.to,
+                "line: x, y [m]. The line may leave the solid.");
+    entries.add("Number of points",
+                probe.n_points,
+                Patterns::Integer(2, 1000000),
+                "line: points on it, ends included.");
+    if (!entries.are_parsed())
+      return;
+    const std::string &name = probe.name;
     AssertThrow(
       !probe.is_line || probe.from != probe.to,
       InputError("the line of a probe has no length, from and to are " +
@@ -233,39 +173,25 @@ namespace NMM
                 InputError("the name '" + name + "' contains a quotation mark",
                            "parameter 'Probes/Names'",
                            "it has to fit in a CSV file"));
-    return probe;
   }
 
 
   void
-  ExactSolutionParameters::declare(ParameterHandler &prm)
+  ExactSolutionParameters::list_entries(Entries &entries)
   {
-    prm.declare_entry("Type",
-                      "none",
-                      selection(exact_solutions),
-                      "thick ring: Lame's solution of a circular ring under "
-                      "inner pressure.");
-    prm.declare_entry(
-      "Inner boundary",
-      "",
-      Patterns::Anything(),
-      "thick ring: the curve that is its inner circle or a part "
-      "of it; centre, radius and pressure are taken from it.");
-    prm.declare_entry(
+    entries.add(
+      "Type",
+      type,
+      exact_solutions,
+      "thick ring: Lame's solution of a circular ring under inner pressure.");
+    entries.add("Inner boundary",
+                inner_boundary,
+                "thick ring: the curve that is its inner circle or a part of "
+                "it; centre, radius and pressure are taken from it.");
+    entries.add(
       "Outer boundary",
-      "",
-      Patterns::Anything(),
-      "thick ring: the curve that is its outer circle or a part "
-      "of it.");
-  }
-
-
-  void
-  ExactSolutionParameters::parse(ParameterHandler &prm)
-  {
-    type           = get_selection(prm, "Type", exact_solutions);
-    inner_boundary = prm.get("Inner boundary");
-    outer_boundary = prm.get("Outer boundary");
+      outer_boundary,
+      "thick ring: the curve that is its outer circle or a part of it.");
   }
 
 
@@ -280,240 +206,114 @@ namespace NMM
   }
 
 
-  namespace
-  {
-    /// Call @p action in the subsection of each name.
-    template <typename Action>
-    void
-    for_each_name(ParameterHandler               &prm,
-                  const std::vector<std::string> &names,
-                  const Action                   &action)
-    {
-      for (const std::string &name : names)
-      {
-        prm.enter_subsection(name);
-        action(name);
-        prm.leave_subsection();
-      }
-    }
-
-
-    void
-    declare_list(ParameterHandler               &prm,
-                 const std::string              &section,
-                 const std::vector<std::string> &names,
-                 const std::string              &help,
-                 void (*declare)(ParameterHandler &))
-    {
-      prm.enter_subsection(section);
-      prm.declare_entry("Names",
-                        "",
-                        Patterns::List(Patterns::Anything(), 0),
-                        help);
-      for_each_name(prm, names, [&](const std::string &) { declare(prm); });
-      prm.leave_subsection();
-    }
-
-
-    void
-    declare_section(ParameterHandler  &prm,
-                    const std::string &section,
-                    void (*declare)(ParameterHandler &))
-    {
-      prm.enter_subsection(section);
-      declare(prm);
-      prm.leave_subsection();
-    }
-
-
-    template <typename Section>
-    void
-    parse_section(ParameterHandler  &prm,
-                  const std::string &name,
-                  Section           &section)
-    {
-      prm.enter_subsection(name);
-      section.parse(prm);
-      prm.leave_subsection();
-    }
-
-
-    /// Structs that keep their own name and parse themselves.
-    template <typename Entry>
-    void
-    parse_list(ParameterHandler               &prm,
-               const std::string              &section,
-               const std::vector<std::string> &names,
-               std::vector<Entry>             &entries)
-    {
-      prm.enter_subsection(section);
-      entries.clear();
-      for_each_name(prm, names, [&](const std::string &name) {
-        entries.emplace_back();
-        entries.back().name = name;
-        entries.back().parse(prm);
-      });
-      prm.leave_subsection();
-    }
-  } // namespace
-
-
   void
-  SceneParameters::declare(ParameterHandler &prm, const SceneNames &names)
+  SceneParameters::list_entries(Entries &entries, const SceneNames &names)
   {
-    declare_section(prm, "Geometry", &GeometryParameters::declare);
-    declare_list(prm,
-                 "Traces",
-                 names.traces,
-                 "Names of files with joints, each with a subsection of its "
-                 "own.",
-                 &TraceParameters::declare);
-    declare_list(prm,
-                 "Joint sets",
-                 names.joint_sets,
-                 "Names of the sets, each with a subsection of its own; their "
-                 "joints are called so.",
-                 &JointSetParameters::declare);
-    declare_list(prm,
-                 "Regions",
-                 names.regions,
-                 "Names of places, each with a subsection of its own: for "
-                 "materials and joint sets, to be excavated, or held.",
-                 &RegionParameters::declare);
-    prm.enter_subsection("Mathematical mesh");
-    MathematicalMeshParameters::declare(prm, names.local_sizes);
-    prm.leave_subsection();
-    prm.enter_subsection("Covers");
-    CoverParameters::declare(prm, names.block_meshes);
-    prm.leave_subsection();
-    declare_list(prm,
-                 "Materials",
-                 names.materials,
-                 "Names of the materials, each with a subsection of its own; "
-                 "the geometry uses them.",
-                 &MaterialParameters::declare);
-    declare_section(prm, "Model", &ModelParameters::declare);
-    declare_list(prm,
-                 "Boundary conditions",
-                 names.boundary_conditions,
-                 "Names of the conditions, each with a subsection of its own. "
-                 "Boundaries without one are free.",
-                 &BoundaryConditionParameters::declare);
-    declare_list(prm,
-                 "Point forces",
-                 names.point_forces,
-                 "Names of the forces, each with a subsection of its own.",
-                 &PointForceParameters::declare);
-    declare_list(prm,
-                 "Fixed points",
-                 names.fixed_points,
-                 "Names of the points, each with a subsection of its own.",
-                 &FixedPointParameters::declare);
-    prm.enter_subsection("Contact");
-    ContactSectionParameters::declare(prm, names.contact_laws);
-    prm.leave_subsection();
-    declare_list(prm,
-                 "Obstacles",
-                 names.obstacles,
-                 "Names of rigid bodies that the solid touches, each with a "
-                 "subsection of its own.",
-                 &ObstacleParameters::declare);
-    declare_list(prm,
-                 "Initial velocities",
-                 names.initial_velocities,
-                 "Dynamic analysis: names of the motions it starts with, each "
-                 "with a subsection of its own; motions of a block add up.",
-                 &InitialVelocityParameters::declare);
-    declare_section(prm, "Time", &TimeParameters::declare);
-    declare_section(prm, "Relaxation", &RelaxationSectionParameters::declare);
-    declare_section(prm,
-                    "Safety factor",
-                    &SafetyFactorSectionParameters::declare);
-    declare_section(prm, "Solver", &SolverParameters::declare);
-    declare_section(prm, "Load steps", &LoadStepParameters::declare);
-    declare_section(prm, "Newton", &NewtonSectionParameters::declare);
-    declare_section(prm, "Output", &OutputParameters::declare);
-    declare_list(prm,
-                 "Probes",
-                 names.probes,
-                 "Names of the probes, each with a subsection of its own.",
-                 &ProbeParameters::declare);
-    declare_section(prm, "Exact solution", &ExactSolutionParameters::declare);
+    entries.section("Geometry", &geometry);
+    entries.section_of_subsections(
+      "Traces",
+      names.traces,
+      traces,
+      "Names of files with joints, each with a subsection of its own.");
+    entries.section("Joint sets", [&]() {
+      entries.subsections(names.joint_sets,
+                          joint_sets,
+                          "Names of the sets, each with a subsection of its "
+                          "own; their joints are called so.",
+                          [&](JointSet &set, const std::string &name) {
+                            set.name = name;
+                            JointSetParameters::list_entries(entries, set);
+                          });
+    });
+    entries.section_of_subsections(
+      "Regions",
+      names.regions,
+      regions,
+      "Names of places, each with a subsection of its own: for materials and "
+      "joint sets, to be excavated, or held.");
+    entries.section("Mathematical mesh", [&]() {
+      mathematical_mesh.list_entries(entries, names.local_sizes);
+    });
+    entries.section("Covers", [&]() {
+      covers.list_entries(entries, names.block_meshes);
+    });
+    entries.section("Materials", [&]() {
+      entries.subsections(names.materials,
+                          materials,
+                          "Names of the materials, each with a subsection of "
+                          "its own; the geometry uses them.",
+                          [&](Material &material, const std::string &name) {
+                            material.name = name;
+                            MaterialParameters::list_entries(entries, material);
+                          });
+    });
+    entries.section("Model", &model);
+    entries.section_of_subsections(
+      "Boundary conditions",
+      names.boundary_conditions,
+      boundary_conditions,
+      "Names of the conditions, each with a subsection of its own. Boundaries "
+      "without one are free.");
+    entries.section_of_subsections(
+      "Point forces",
+      names.point_forces,
+      point_forces,
+      "Names of the forces, each with a subsection of its own.");
+    entries.section_of_subsections(
+      "Fixed points",
+      names.fixed_points,
+      fixed_points,
+      "Names of the points, each with a subsection of its own.");
+    entries.section("Contact", [&]() {
+      contact.list_entries(entries, names.contact_laws);
+    });
+    entries.section_of_subsections(
+      "Obstacles",
+      names.obstacles,
+      obstacles,
+      "Names of rigid bodies that the solid touches, each with a subsection of "
+      "its own.");
+    entries.section_of_subsections(
+      "Initial velocities",
+      names.initial_velocities,
+      initial_velocities,
+      "Dynamic analysis: names of the motions it starts with, each with a "
+      "subsection of its own; motions of a block add up.");
+    entries.section("Time", &time);
+    entries.section("Relaxation", &relaxation);
+    entries.section("Safety factor", &safety_factor);
+    entries.section("Solver",
+                    [&]() { SolverParameters::list_entries(entries, solver); });
+    entries.section("Load steps", &load_steps);
+    entries.section("Newton", &newton);
+    entries.section("Output", &output);
+    entries.section("Probes", [&]() {
+      entries.subsections(
+        names.probes,
+        probes,
+        "Names of the probes, each with a subsection of its own.",
+        [&](Probe &probe, const std::string &name) {
+          probe.name = name;
+          ProbeParameters::list_entries(entries, probe);
+        });
+    });
+    entries.section("Exact solution", &exact_solution);
   }
 
 
   void
-  SceneParameters::parse(ParameterHandler &prm, const SceneNames &names)
+  SceneParameters::declare(dealii::ParameterHandler &prm,
+                           const SceneNames         &names)
   {
-    parse_section(prm, "Geometry", geometry);
-    parse_section(prm, "Mathematical mesh", mathematical_mesh);
-    parse_section(prm, "Covers", covers);
-    parse_section(prm, "Model", model);
-    parse_section(prm, "Time", time);
-    parse_section(prm, "Relaxation", relaxation);
-    parse_section(prm, "Safety factor", safety_factor);
-    parse_section(prm, "Load steps", load_steps);
-    parse_section(prm, "Newton", newton);
-    parse_section(prm, "Output", output);
-    parse_section(prm, "Exact solution", exact_solution);
-    parse_list(prm,
-               "Boundary conditions",
-               names.boundary_conditions,
-               boundary_conditions);
-    parse_list(prm,
-               "Initial velocities",
-               names.initial_velocities,
-               initial_velocities);
-    parse_list(prm, "Traces", names.traces, traces);
-    parse_list(prm, "Regions", names.regions, regions);
-    prm.enter_subsection("Joint sets");
-    joint_sets.clear();
-    for_each_name(prm, names.joint_sets, [&](const std::string &name) {
-      joint_sets.push_back(JointSetParameters::parse(prm, name));
-    });
-    prm.leave_subsection();
-    prm.enter_subsection("Probes");
-    probes.clear();
-    for_each_name(prm, names.probes, [&](const std::string &name) {
-      probes.push_back(ProbeParameters::parse(prm, name));
-    });
-    prm.leave_subsection();
-    parse_list(prm, "Obstacles", names.obstacles, obstacles);
-    prm.enter_subsection("Contact");
-    contact.parse(prm, names.contact_laws);
-    prm.leave_subsection();
+    Entries entries(Entries::Stage::declare, &prm);
+    SceneParameters().list_entries(entries, names);
+  }
 
-    prm.enter_subsection("Solver");
-    solver = SolverParameters::parse(prm);
-    prm.leave_subsection();
 
-    prm.enter_subsection("Materials");
-    materials.clear();
-    for_each_name(prm, names.materials, [&](const std::string &name) {
-      materials.push_back(MaterialParameters::parse(prm, name));
-    });
-    prm.leave_subsection();
-
-    prm.enter_subsection("Point forces");
-    point_forces.clear();
-    force_times.clear();
-    for_each_name(prm, names.point_forces, [&](const std::string &name) {
-      point_forces.push_back(PointForceParameters::parse(prm));
-      force_times.emplace_back();
-      force_times.back().name = name;
-      force_times.back().parse(prm, /* may_be_released = */ false);
-    });
-    prm.leave_subsection();
-
-    prm.enter_subsection("Fixed points");
-    fixed_points.clear();
-    fixed_point_times.clear();
-    for_each_name(prm, names.fixed_points, [&](const std::string &name) {
-      fixed_points.push_back(FixedPointParameters::parse(prm));
-      fixed_point_times.emplace_back();
-      fixed_point_times.back().name = name;
-      fixed_point_times.back().parse(prm, /* may_be_released = */ true);
-    });
-    prm.leave_subsection();
+  void
+  SceneParameters::parse(dealii::ParameterHandler &prm, const SceneNames &names)
+  {
+    Entries entries(Entries::Stage::parse, &prm);
+    list_entries(entries, names);
   }
 } // namespace NMM

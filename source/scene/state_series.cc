@@ -13,9 +13,6 @@ namespace NMM
 {
   namespace internal
   {
-
-    using namespace NMM;
-
     namespace
     {
       bool
@@ -207,7 +204,6 @@ namespace NMM
       if (contact_series)
         contact_series->finish(value, points);
     }
-
 
   } // namespace internal
 } // namespace NMM

@@ -15,7 +15,6 @@ namespace NMM
 {
   namespace internal
   {
-
     /// Draw picture.png or one of a series, as the scene says; without @p evaluator
     /// which block is which; with forces and obstacles of @p contact, if it is given.
     /// What was drawn is kept in @p drawn, on the first rank. Collective.
@@ -31,14 +30,14 @@ namespace NMM
                   PictureData           *drawn = nullptr);
 
     /**
- * Fields and pictures of states of a run, written as they come: fields-NNNN.vtu,
- * picture-NNNN.png, and fields.pvd, which at any time lists the fields that are
- * there; at the end animation.html, for which frames are kept in
- * animation.frames meanwhile. With contact its points as well: contacts.csv,
- * contacts-NNNN.vtp, contacts.pvd. All functions are collective.
- *
- * Lifetime: the arguments of the constructor must outlive this object.
- */
+     * Fields and pictures of states of a run, written as they come: fields-NNNN.vtu,
+     * picture-NNNN.png, and fields.pvd, which at any time lists the fields that are
+     * there; at the end animation.html, for which frames are kept in
+     * animation.frames meanwhile. With contact its points as well: contacts.csv,
+     * contacts-NNNN.vtp, contacts.pvd. All functions are collective.
+     *
+     * Lifetime: the arguments of the constructor must outlive this object.
+     */
     class StateSeries
     {
     public:
@@ -88,7 +87,6 @@ namespace NMM
       std::unique_ptr<Animation>     animation;
       std::unique_ptr<ContactSeries> contact_series;
     };
-
   } // namespace internal
 } // namespace NMM
 

@@ -12,8 +12,6 @@ namespace NMM
 {
   namespace internal
   {
-
-    using namespace NMM;
     using dealii::Point;
     using Stage = Progress::Stage;
 
@@ -252,6 +250,5 @@ namespace NMM
       summary.add("error_direct_hoop_max", error_direct);
       summary.add("error_recovered_hoop_max", error_recovered);
     }
-
   } // namespace internal
 } // namespace NMM

@@ -12,7 +12,6 @@ namespace NMM
 {
   namespace internal
   {
-
     /// Small displacements: one linear problem.
     class StaticAnalysis : public SceneAnalysis
     {
@@ -46,7 +45,6 @@ namespace NMM
       void
       add_errors();
     };
-
   } // namespace internal
 } // namespace NMM
 

@@ -15,8 +15,6 @@ namespace NMM
 {
   namespace internal
   {
-
-    using namespace NMM;
     using Vector = FiniteElasticity::Vector;
 
     namespace
@@ -196,6 +194,5 @@ namespace NMM
         throw;
       }
     }
-
   } // namespace internal
 } // namespace NMM

@@ -16,7 +16,6 @@ namespace NMM
 {
   namespace internal
   {
-
     /// What a dynamic analysis is made of, for its start.
     struct StartInput
     {
@@ -45,15 +44,14 @@ namespace NMM
 
 
     /**
- * The state a dynamic analysis starts from, if that is not the undeformed one:
- * equilibrium of loads, supports and obstacles as they are at t = 0, before anything is
- * released and without motion of the ground. Contact remembers what it came to: places
- * of sticking, bonds that broke. Returns displacements of owned unknowns [m].
- * Collective. @throws NumericalFailure if there is none.
- */
+     * The state a dynamic analysis starts from, if that is not the undeformed one:
+     * equilibrium of loads, supports and obstacles as they are at t = 0, before anything is
+     * released and without motion of the ground. Contact remembers what it came to: places
+     * of sticking, bonds that broke. Returns displacements of owned unknowns [m].
+     * Collective. @throws NumericalFailure if there is none.
+     */
     FiniteElasticity::Vector
     find_start(const StartInput &input, StartReport &report);
-
   } // namespace internal
 } // namespace NMM
 

@@ -495,7 +495,7 @@ namespace
                      "--set",
                      "Contact/glue/Between=any, any",
                      base_scene},
-                    {"'glue'", "Contact/Names"});
+                    {"glue", "Contact/Names"});
     expect_rejected(
       {"--set", "Obstacles/Names=floor", "--set", touching[2], base_scene},
       {"'floor'", "Obstacles/Names", "Contact/Enforcement"});

@@ -116,6 +116,8 @@ namespace NMM
     unsigned int n_bonded = 0;
     /// Of what presses, from the nearest face of the other body [m].
     double largest_penetration = 0.;
+    /// Was it an assembly between two states, so that penetrations are means of both?
+    bool is_between = false;
     /// Stored in springs [J/m].
     double energy = 0.;
     /// On the slaves [N/m].

@@ -13,6 +13,31 @@
 #include <string>
 #include <vector>
 
+/**
+ * @file
+ * The room `scene`: a scene file becomes an analysis, and that its results.
+ *
+ * What comes in: a scene file and single values that take the place of its own. What
+ * goes out: files of results, by the room `output`, and messages to a Progress.
+ *
+ * Order of calls, as in run_scene():
+ * 1. Scene reads the file into SceneParameters. Each struct of these lists the entries
+ *    of its section once, which declares and parses them, and checks what patterns
+ *    cannot express. What is wrong is an InputError.
+ * 2. Scene makes what the parameters describe: Geometry, MathematicalMesh,
+ *    ElasticityProblem, Loading, ContactParameters.
+ * 3. A SceneAnalysis (static, with load steps, dynamic, safety factor) puts them
+ *    together, solves, and writes.
+ *
+ * @code
+ *   const Scene scene("beam.prm", {"Mathematical mesh/Cell size=0.1"});
+ *   Progress progress(std::cout, false, MPI_COMM_WORLD);
+ *   bool has_output = false;
+ *   SceneRunOptions options;
+ *   options.output = "results";
+ *   run_scene(scene, options, progress, MPI_COMM_WORLD, has_output);
+ * @endcode
+ */
 namespace NMM
 {
   /// What moves and takes away the obstacles of a scene.

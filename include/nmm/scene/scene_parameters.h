@@ -22,14 +22,19 @@
 
 namespace NMM
 {
+  namespace internal
+  {
+    class Entries;
+  }
+
   /// Where a graded mathematical mesh is to be fine.
   struct LocalSizeParameters
   {
-    static void
-    declare(dealii::ParameterHandler &prm);
     /// @throws InputError if what the type needs is missing.
-    static LocalSize
-    parse(dealii::ParameterHandler &prm, const std::string &name);
+    static void
+    list_entries(internal::Entries &entries,
+                 LocalSize         &local_size,
+                 const std::string &name);
   };
 
 
@@ -48,11 +53,9 @@ namespace NMM
     unsigned int          degree = 2;
     std::string           gmsh_file;
 
-    static void
-    declare(dealii::ParameterHandler       &prm,
-            const std::vector<std::string> &local_size_names);
     void
-    parse(dealii::ParameterHandler &prm);
+    list_entries(internal::Entries              &entries,
+                 const std::vector<std::string> &local_size_names);
     /// @p may_choose_size: a regular mesh need have no cell size.
     void
     check(bool may_choose_size) const;
@@ -62,9 +65,7 @@ namespace NMM
   struct MaterialParameters
   {
     static void
-    declare(dealii::ParameterHandler &prm);
-    static Material
-    parse(dealii::ParameterHandler &prm, const std::string &name);
+    list_entries(internal::Entries &entries, Material &material);
   };
 
 
@@ -98,10 +99,8 @@ namespace NMM
     /// "ax; ay", each as an amplitude [m/s^2]; empty: none.
     std::string base_acceleration;
 
-    static void
-    declare(dealii::ParameterHandler &prm);
     void
-    parse(dealii::ParameterHandler &prm);
+    list_entries(internal::Entries &entries);
   };
 
 
@@ -116,10 +115,8 @@ namespace NMM
     std::array<bool, 2> components = {{true, true}};
     TimeDependence      time;
 
-    static void
-    declare(dealii::ParameterHandler &prm);
     void
-    parse(dealii::ParameterHandler &prm);
+    list_entries(internal::Entries &entries);
     void
     check() const;
   };
@@ -127,28 +124,31 @@ namespace NMM
 
   struct PointForceParameters
   {
-    static void
-    declare(dealii::ParameterHandler &prm);
-    static PointForce
-    parse(dealii::ParameterHandler &prm);
+    std::string    name;
+    PointForce     force;
+    TimeDependence time;
+
+    void
+    list_entries(internal::Entries &entries);
   };
 
 
   struct FixedPointParameters
   {
-    static void
-    declare(dealii::ParameterHandler &prm);
-    static FixedPoint
-    parse(dealii::ParameterHandler &prm);
+    std::string    name;
+    FixedPoint     point;
+    TimeDependence time;
+
+    void
+    list_entries(internal::Entries &entries);
   };
 
 
   struct SolverParameters
   {
     static void
-    declare(dealii::ParameterHandler &prm);
-    static LinearSolverParameters
-    parse(dealii::ParameterHandler &prm);
+    list_entries(internal::Entries      &entries,
+                 LinearSolverParameters &parameters);
   };
 
 
@@ -164,10 +164,8 @@ namespace NMM
 
     static constexpr unsigned int default_n_steps = 10;
 
-    static void
-    declare(dealii::ParameterHandler &prm);
     void
-    parse(dealii::ParameterHandler &prm);
+    list_entries(internal::Entries &entries);
     /// @throws InputError for a value that is not used.
     void
     check(Kinematics kinematics, Analysis analysis, bool has_contact) const;
@@ -182,10 +180,8 @@ namespace NMM
   {
     NewtonParameters newton;
 
-    static void
-    declare(dealii::ParameterHandler &prm);
     void
-    parse(dealii::ParameterHandler &prm);
+    list_entries(internal::Entries &entries);
     /// @throws InputError for a value that is not used.
     void
     check(Kinematics kinematics, Analysis analysis, bool has_contact) const;
@@ -207,10 +203,8 @@ namespace NMM
     bool        picture   = true;
     std::string title;
 
-    static void
-    declare(dealii::ParameterHandler &prm);
     void
-    parse(dealii::ParameterHandler &prm);
+    list_entries(internal::Entries &entries);
     void
     check() const;
   };
@@ -218,11 +212,9 @@ namespace NMM
 
   struct ProbeParameters
   {
-    static void
-    declare(dealii::ParameterHandler &prm);
     /// @throws InputError for a line without length.
-    static Probe
-    parse(dealii::ParameterHandler &prm, const std::string &name);
+    static void
+    list_entries(internal::Entries &entries, Probe &probe);
   };
 
 
@@ -243,10 +235,8 @@ namespace NMM
     Type        type = Type::none;
     std::string inner_boundary, outer_boundary;
 
-    static void
-    declare(dealii::ParameterHandler &prm);
     void
-    parse(dealii::ParameterHandler &prm);
+    list_entries(internal::Entries &entries);
     void
     check() const;
   };
@@ -285,23 +275,22 @@ namespace NMM
     std::vector<Material>                    materials;
     ModelParameters                          model;
     std::vector<BoundaryConditionParameters> boundary_conditions;
-    std::vector<PointForce>                  point_forces;
-    std::vector<FixedPoint>                  fixed_points;
-    /// Of point forces and fixed points, in their order.
-    std::vector<TimeDependence>            force_times, fixed_point_times;
-    ContactSectionParameters               contact;
-    std::vector<ObstacleParameters>        obstacles;
-    TimeParameters                         time;
-    RelaxationSectionParameters            relaxation;
-    SafetyFactorSectionParameters          safety_factor;
-    std::vector<InitialVelocityParameters> initial_velocities;
-    LinearSolverParameters                 solver;
-    LoadStepParameters                     load_steps;
-    NewtonSectionParameters                newton;
-    OutputParameters                       output;
-    std::vector<Probe>                     probes;
-    ExactSolutionParameters                exact_solution;
+    std::vector<PointForceParameters>        point_forces;
+    std::vector<FixedPointParameters>        fixed_points;
+    ContactSectionParameters                 contact;
+    std::vector<ObstacleParameters>          obstacles;
+    TimeParameters                           time;
+    RelaxationSectionParameters              relaxation;
+    SafetyFactorSectionParameters            safety_factor;
+    std::vector<InitialVelocityParameters>   initial_velocities;
+    LinearSolverParameters                   solver;
+    LoadStepParameters                       load_steps;
+    NewtonSectionParameters                  newton;
+    OutputParameters                         output;
+    std::vector<Probe>                       probes;
+    ExactSolutionParameters                  exact_solution;
 
+    /// All parameters, with their defaults.
     static void
     declare(dealii::ParameterHandler &prm, const SceneNames &names);
 
@@ -313,6 +302,9 @@ namespace NMM
     check() const;
 
   private:
+    void
+    list_entries(internal::Entries &entries, const SceneNames &names);
+
     /// What cannot be had together with kinematics and analysis.
     void
     check_kinematics() const;

@@ -4,8 +4,6 @@
 #include <nmm/contact/contact_integration.h>
 #include <nmm/contact/contact_law.h>
 
-#include <deal.II/base/parameter_handler.h>
-
 #include <array>
 #include <map>
 #include <memory>
@@ -14,6 +12,11 @@
 
 namespace NMM
 {
+  namespace internal
+  {
+    class Entries;
+  }
+
   enum class Analysis;
   enum class Kinematics;
 
@@ -40,15 +43,8 @@ namespace NMM
     std::map<std::string, double> values;
     bool                          is_bonded = false;
 
-    static void
-    declare(dealii::ParameterHandler &prm);
-
-    /// A law with its entry `Between`.
-    static void
-    declare_law(dealii::ParameterHandler &prm);
-
     void
-    parse(dealii::ParameterHandler &prm);
+    list_entries(internal::Entries &entries);
 
     /// @throws InputError naming the parameter and its value. @p may_be_damped: do
     /// time steps know dashpots?
@@ -95,21 +91,14 @@ namespace NMM
       return enforcement != Enforcement::none;
     }
 
-    static void
-    declare(dealii::ParameterHandler       &prm,
-            const std::vector<std::string> &law_names);
     void
-    parse(dealii::ParameterHandler       &prm,
-          const std::vector<std::string> &law_names);
+    list_entries(internal::Entries              &entries,
+                 const std::vector<std::string> &law_names);
 
     /// @throws InputError naming the parameter that is wrong, or would not be
     /// used.
     void
     check(Analysis analysis, Kinematics kinematics, bool may_be_damped) const;
-
-  private:
-    void
-    check_unused() const;
   };
 
 
@@ -124,10 +113,8 @@ namespace NMM
     /// It is gone from this time on [s]; negative: never.
     double release_time = -1.;
 
-    static void
-    declare(dealii::ParameterHandler &prm);
     void
-    parse(dealii::ParameterHandler &prm);
+    list_entries(internal::Entries &entries);
     void
     check(Analysis analysis) const;
   };

@@ -4,7 +4,6 @@
 #include <nmm/covers/aggregation.h>
 #include <nmm/covers/own_meshes.h>
 
-#include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/point.h>
 
 #include <string>
@@ -12,19 +11,21 @@
 
 namespace NMM
 {
+  namespace internal
+  {
+    class Entries;
+  }
+
   /// The mathematical mesh of one block: a subsection of `Covers`.
   struct BlockMeshParameters
   {
     std::string name;
     /// A point inside of the block [m].
     dealii::Point<2> block;
-    RegionMesh       mesh;
+    RegionMesh       mesh = {RegionMesh::Kind::automatic, 0};
 
-    static void
-    declare(dealii::ParameterHandler &prm);
-    /// @throws InputError without a point.
     void
-    parse(dealii::ParameterHandler &prm);
+    list_entries(internal::Entries &entries);
   };
 
 
@@ -41,11 +42,9 @@ namespace NMM
     /// make_distributed_mesh()?
     bool is_distributed = false;
 
-    static void
-    declare(dealii::ParameterHandler       &prm,
-            const std::vector<std::string> &block_names);
     void
-    parse(dealii::ParameterHandler &prm);
+    list_entries(internal::Entries              &entries,
+                 const std::vector<std::string> &block_names);
     /// @throws InputError for a number of elements that is missing or not used.
     void
     check() const;

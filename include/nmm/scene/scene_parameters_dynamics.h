@@ -5,7 +5,6 @@
 #include <nmm/dynamics/strength_reduction.h>
 #include <nmm/dynamics/time_scheme.h>
 
-#include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
@@ -14,6 +13,11 @@
 
 namespace NMM
 {
+  namespace internal
+  {
+    class Entries;
+  }
+
   enum class Kinematics;
 
   /// What is asked about the solid.
@@ -44,10 +48,8 @@ namespace NMM
     /// [s]; negative: never.
     double release_time = -1.;
 
-    static void
-    declare(dealii::ParameterHandler &prm, bool may_be_released);
     void
-    parse(dealii::ParameterHandler &prm, bool may_be_released);
+    list_entries(internal::Entries &entries, bool may_be_released);
     /// @throws InputError, if something is set, that @p by makes no use of it.
     /// @p section is that of the load.
     void
@@ -93,10 +95,8 @@ namespace NMM
     /// Speed 0: nobody sleeps.
     SleepParameters sleep = {0., 0.25, 1.};
 
-    static void
-    declare(dealii::ParameterHandler &prm);
     void
-    parse(dealii::ParameterHandler &prm);
+    list_entries(internal::Entries &entries);
     /// @throws InputError naming the parameter that is wrong or would not be
     /// used.
     void
@@ -125,10 +125,8 @@ namespace NMM
   {
     RelaxationParameters relaxation;
 
-    static void
-    declare(dealii::ParameterHandler &prm);
     void
-    parse(dealii::ParameterHandler &prm);
+    list_entries(internal::Entries &entries);
     /// @throws InputError as TimeParameters::check().
     void
     check(Analysis analysis) const;
@@ -152,10 +150,8 @@ namespace NMM
     double max_displacement = 0.;
     Start  start            = Start::unstressed;
 
-    static void
-    declare(dealii::ParameterHandler &prm);
     void
-    parse(dealii::ParameterHandler &prm);
+    list_entries(internal::Entries &entries);
     /// @throws InputError as TimeParameters::check().
     void
     check(Analysis analysis) const;
@@ -174,10 +170,8 @@ namespace NMM
     /// [m]; empty: the centroid of what moves.
     std::optional<dealii::Point<2>> center;
 
-    static void
-    declare(dealii::ParameterHandler &prm);
     void
-    parse(dealii::ParameterHandler &prm);
+    list_entries(internal::Entries &entries);
   };
 } // namespace NMM
 

@@ -3,17 +3,20 @@
 
 #include <nmm/geometry/joint_network.h>
 
-#include <deal.II/base/parameter_handler.h>
-
 #include <string>
 #include <vector>
 
 namespace NMM
 {
+  namespace internal
+  {
+    class Entries;
+  }
+
   /**
-   * The sections of a scene file. Every struct declares and parses the entries
-   * of its own section (the caller has entered it) and checks what patterns
-   * cannot express. Units are any consistent set; the help texts name SI ones.
+   * The sections of a scene file. Every struct lists the entries of its
+   * own section, which declares and parses them, and checks what patterns cannot
+   * express. Units are any consistent set; the help texts name SI ones.
    *
    * Sections that hold a list have an entry `Names`; each name has a
    * subsection of its own, so the list must be known before the entries can be
@@ -34,10 +37,8 @@ namespace NMM
     /// Blocks below this are told of [m^2]; 0: none.
     double small_block = 0.;
 
-    static void
-    declare(dealii::ParameterHandler &prm);
     void
-    parse(dealii::ParameterHandler &prm);
+    list_entries(internal::Entries &entries);
     void
     check() const;
   };
@@ -46,11 +47,9 @@ namespace NMM
   /// A set of joints: a subsection of `Joint sets`. See JointSet.
   struct JointSetParameters
   {
-    static void
-    declare(dealii::ParameterHandler &prm);
     /// @throws InputError for a value that is wrong.
-    static JointSet
-    parse(dealii::ParameterHandler &prm, const std::string &name);
+    static void
+    list_entries(internal::Entries &entries, JointSet &set);
   };
 
 
@@ -70,10 +69,8 @@ namespace NMM
     bool
     is_drawing() const;
 
-    static void
-    declare(dealii::ParameterHandler &prm);
     void
-    parse(dealii::ParameterHandler &prm);
+    list_entries(internal::Entries &entries);
     void
     check() const;
   };
@@ -103,10 +100,8 @@ namespace NMM
     /// Restraint [s]; negative: never.
     double release_time = -1.;
 
-    static void
-    declare(dealii::ParameterHandler &prm);
     void
-    parse(dealii::ParameterHandler &prm);
+    list_entries(internal::Entries &entries);
     void
     check() const;
   };

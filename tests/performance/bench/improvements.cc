@@ -200,8 +200,8 @@ namespace NMM
            "functions once instead of once per component ("
         << costs(&Row::covers)
         << ").\n"
-           "- Field files: the library writes them itself, stores numbers that "
-           "hardly shrink and leaves out zlib's search for what repeats.\n"
+           "- Field files: numbers are stored, without zlib's search for what "
+           "repeats.\n"
            "- Conjugate gradients of second order: smoothed aggregation "
            "of the whole matrix read it ten times an iteration; now "
            "displacements of first order on the same covers are the coarse "

@@ -1,5 +1,6 @@
 #include <nmm/covers/point_location.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fuzz/fuzz.h>
 #include <limits>

@@ -529,6 +529,49 @@ namespace NMM
   }
 
 
+  namespace
+  {
+    bool
+    is_utf8(const std::string &text)
+    {
+      for (std::size_t i = 0; i < text.size();)
+      {
+        const auto         byte     = static_cast<unsigned char>(text[i]);
+        const unsigned int n_others = byte < 0x80                    ? 0
+                                      : byte >= 0xc2 && byte <= 0xdf ? 1
+                                      : byte >= 0xe0 && byte <= 0xef ? 2
+                                      : byte >= 0xf0 && byte <= 0xf4 ? 3
+                                                                     : 4;
+        if (n_others == 4)
+          return false;
+        ++i;
+        for (unsigned int k = 0; k < n_others; ++k, ++i)
+          if (i >= text.size() ||
+              (static_cast<unsigned char>(text[i]) & 0xc0) != 0x80)
+            return false;
+      }
+      return true;
+    }
+
+
+    /// All but comments: values are written as JSON and XML, which are UTF-8.
+    void
+    check_encoding(const std::string &text, const std::string &file_name)
+    {
+      std::istringstream lines(text);
+      unsigned int       number = 0;
+      for (std::string line; std::getline(lines, line);)
+      {
+        ++number;
+        AssertThrow(is_utf8(line.substr(0, line.find('#'))),
+                    InputError("the line has characters that are not UTF-8",
+                               file_name + ":" + std::to_string(number),
+                               "save the file with the encoding UTF-8"));
+      }
+    }
+  } // namespace
+
+
   void
   read_parameters(const std::string                      &file_name,
                   const std::vector<ParameterAssignment> &assignments,
@@ -547,6 +590,7 @@ namespace NMM
                            file_name,
                            "give the path of a .prm or .json file"));
 
+    check_encoding(buffer.str(), file_name);
     const Tree                       tree = declared_tree(prm);
     std::vector<ParameterAssignment> all;
     const bool                       is_json =
@@ -568,7 +612,13 @@ namespace NMM
 
     all.insert(all.end(), assignments.begin(), assignments.end());
     for (const ParameterAssignment &assignment : all)
+    {
+      AssertThrow(is_utf8(assignment.value),
+                  InputError("the value has characters that are not UTF-8",
+                             assignment.source,
+                             "give it in the encoding UTF-8"));
       assign(assignment, tree, skip_undefined, prm);
+    }
     if (!skip_undefined)
       check_values(declared_tree(prm), {}, file_name);
   }

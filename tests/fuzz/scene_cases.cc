@@ -425,8 +425,9 @@ namespace NMM
       void
       SceneMaker::move_geometry()
       {
-        const double scale =
-                       chance(0.5) ? 1. : std::pow(10., integer(0, 18) - 9.),
+        // scales between would make large problems of sets of joints, not mistakes
+        static const int exponents[] = {-9, -6, -3, -1, 6, 9};
+        const double scale = chance(0.5) ? 1. : std::pow(10., any(exponents)),
                      shift =
                        chance(0.5) ? 0. : std::pow(10., integer(0, 16) - 8.);
         const unsigned int digits = chance(0.5) ? integer(0, 8) : 17;

@@ -620,6 +620,16 @@ namespace
   }
 
 
+  // Latin-1 in a value, not in a comment.
+  TEST(BadInput, Encoding)
+  {
+    const std::string file =
+      write_scene("latin.prm", "# B\xf6schung\nset Title = B\xf6schung\n");
+    expect_rejected({file}, {"latin.prm:2", "UTF-8"});
+    expect_rejected_override("Output/Title=B\xf6schung", {"UTF-8"});
+  }
+
+
   // How much and where.
   TEST(BadInput, OverlapsMPI)
   {

@@ -38,7 +38,9 @@ namespace NMM
    * R of arcs and the largest coordinate M. It is no region but a part of that region
    * with which it shares the longest edge, as if the lines met in the point, and the
    * edge between them is no more. A face without such a neighbour is left out of the
-   * solid. Notices tell how many there are. Immutable once built.
+   * solid. Segments that run along each other within rounding, so that one of them may
+   * end inside a block, are made to coincide there before. Notices tell of both.
+   * Immutable once built.
    */
   class PhysicalMesh
   {

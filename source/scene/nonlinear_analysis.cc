@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
-#include <limits>
 #include <scene/current_stress.h>
 #include <scene/nonlinear_analysis.h>
 #include <sstream>
@@ -229,8 +228,6 @@ namespace NMM
                     row.n_iterations      = 1;
                     row.n_cuts            = step.n_cuts;
                     row.n_lost_iterations = step.n_cuts;
-                    row.relative_residual =
-                      std::numeric_limits<double>::quiet_NaN();
                     add_step(row, solution);
                   });
     }
@@ -279,7 +276,7 @@ namespace NMM
            << " iteration(s)";
       if (finite)
         line << ", " << row.n_cuts << " cut(s), residual " << std::scientific
-             << std::setprecision(1) << row.relative_residual;
+             << std::setprecision(1) << *row.relative_residual;
       if (contact)
         line << "; " << contact->progress();
       progress.message(line.str());
@@ -336,7 +333,7 @@ namespace NMM
         return;
       if (finite)
       {
-        summary.add("final_residual", history.back().relative_residual);
+        summary.add("final_residual", *history.back().relative_residual);
         summary.add("direct_stress_covers",
                     Parallel::sum(recovery->n_direct(), communicator));
       }
@@ -393,8 +390,10 @@ namespace NMM
       {
         const HistoryRow &row = history[i];
         out << i + 1 << ',' << row.load_factor << ',' << row.n_iterations << ','
-            << row.n_cuts << ',' << row.relative_residual << ','
-            << row.strain_energy << ',' << row.max_displacement;
+            << row.n_cuts << ',';
+        if (row.relative_residual)
+          out << *row.relative_residual;
+        out << ',' << row.strain_energy << ',' << row.max_displacement;
         for (const Tensor<1, 2> &u : row.probe_displacements)
           out << ',' << u[0] << ',' << u[1];
         for (const double value : row.contact_numbers)

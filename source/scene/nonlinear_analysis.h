@@ -9,6 +9,7 @@
 
 #include <exception>
 #include <memory>
+#include <optional>
 #include <scene/scene_analysis.h>
 #include <string>
 #include <utility>
@@ -44,8 +45,8 @@ namespace NMM
         unsigned int n_iterations      = 0;
         unsigned int n_cuts            = 0;
         unsigned int n_lost_iterations = 0;
-        /// NaN in incremental kinematics, which has none.
-        double relative_residual = 0.;
+        /// Of Newton's method; incremental steps have none.
+        std::optional<double> relative_residual;
         /// [J].
         double strain_energy = 0.;
         /// [m].

@@ -272,6 +272,12 @@ namespace NMM
       expect_defaults(section, values, defaults, by, remedy);
     }
   } // namespace internal
+
+  enum class Analysis;
+
+  /// The entry `Model/Analysis`.
+  void
+  list_entry(internal::Entries &entries, Analysis &analysis);
 } // namespace NMM
 
 #endif

@@ -132,6 +132,13 @@ namespace NMM
 
 
   void
+  Contact::freeze_geometry(const bool is_frozen)
+  {
+    data->is_geometry_frozen = is_frozen;
+  }
+
+
+  void
   Contact::detect(const Vector &u, const double least_reach)
   {
     Data &d = *data;
@@ -152,6 +159,12 @@ namespace NMM
                                : ContactSearch::Begin::unchanged);
     d.set_admitted_depth();
     d.make_points();
+    if (d.is_geometry_frozen)
+    {
+      d.frozen_projections.resize(d.points.size());
+      d.frozen_gaps.assign(d.points.size(), 0.);
+      d.is_frozen.assign(d.points.size(), false);
+    }
     d.note_candidates();
     d.active_points.clear();
     d.note_activity();
@@ -634,7 +647,8 @@ namespace NMM
     ContactPoint               &point  = points[q];
     const ContactState          before = point.state;
     const ContactSurface::Place slave  = surface->place(point.edge, point.s);
-    const ContactProjection     projection = project(q, slave);
+    const ContactProjection     projection =
+      is_geometry_frozen ? project_frozen(q, slave) : project(q, slave);
     if (projection.master == invalid_index || point.weight == 0.)
     {
       point.pressure = point.shear = 0.;
@@ -684,13 +698,15 @@ namespace NMM
 
     ContactSurface::Weights master, stick;
     surface->weights(projection.master, projection.t, master);
-    const bool              with_friction = fixed.law->has_friction();
-    const ContactKinematics kinematics(fixed.weights,
-                                       master,
-                                       projection.place,
-                                       projection.gap,
-                                       with_friction || is_between);
-    const double            sign =
+    const bool        with_friction = fixed.law->has_friction();
+    ContactKinematics kinematics(fixed.weights,
+                                 master,
+                                 projection.place,
+                                 projection.gap,
+                                 with_friction || is_between);
+    if (is_geometry_frozen)
+      kinematics.freeze();
+    const double sign =
       search.comes_first(point.edge, projection.master) ? 1. : -1.;
     report.force += sign * (traction.pressure * kinematics.normal -
                             traction.shear * kinematics.tangent);

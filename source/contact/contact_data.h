@@ -169,6 +169,11 @@ namespace NMM
     void
     couple_ties();
 
+    /// See Contact::freeze_geometry(): the same in every assembly since detect(), but for the
+    /// gap, which is that of the displacements.
+    internal::ContactProjection
+    project_frozen(unsigned int q, const ContactSurface::Place &slave);
+
     /// The nearest master of a point at the current positions; notes weight and
     /// place of sticking when there is one for the first time.
     internal::ContactProjection
@@ -493,6 +498,12 @@ namespace NMM
     std::vector<std::vector<unsigned int>> touching;
     /// How deep new contact may be [m], see AdmittedContact.
     double admitted_depth = 0.;
+    /// See Contact::freeze_geometry(). By point: its projection at detect(), if it has been looked
+    /// for since, and by how much its gap is more than that of the displacements [m].
+    bool                                     is_geometry_frozen = false;
+    std::vector<internal::ContactProjection> frozen_projections;
+    std::vector<double>                      frozen_gaps;
+    std::vector<bool>                        is_frozen;
     /// A time step has begun, of any kind.
     bool is_moving = false;
     /// A step that conserves energy has been tried.

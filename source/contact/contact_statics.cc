@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <contact/contact_data.h>
+#include <memory>
 
 namespace NMM
 {
@@ -47,6 +48,28 @@ namespace NMM
            (surface->displacement(point.edge, point.s) -
             surface->displacement(face, projection.t)) *
              projection.normal;
+  }
+
+
+  ContactProjection
+  Contact::Data::project_frozen(const unsigned int           q,
+                                const ContactSurface::Place &slave)
+  {
+    ContactProjection &projection = frozen_projections[q];
+    ContactPoint      &point      = points[q];
+    if (!is_frozen[q])
+    {
+      projection   = project(q, slave);
+      is_frozen[q] = true;
+      if (projection.master != invalid_index)
+        frozen_gaps[q] = projection.gap - gap_of_displacements(q, projection);
+      return projection;
+    }
+    point.x = slave.x;
+    if (projection.master != invalid_index)
+      point.gap = projection.gap =
+        gap_of_displacements(q, projection) + frozen_gaps[q];
+    return projection;
   }
 
 
@@ -305,6 +328,10 @@ namespace NMM
   {
     steps.check();
     Data &d = *data;
+    d.contact->freeze_geometry(d.elasticity->is_linearized());
+    const std::shared_ptr<void> thaw(nullptr, [&d](void *) {
+      d.contact->freeze_geometry(false);
+    });
     if (d.load_factor == 0.)
     {
       // rounding of arcs, in parts of the range that is looked at

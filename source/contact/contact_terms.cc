@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <contact/contact_terms.h>
 
@@ -43,6 +44,14 @@ namespace NMM
       if (with_friction)
         for (unsigned int k = 0; k < n; ++k)
           C[k] = (bending * D[k] - N1[k]) / length;
+    }
+
+
+    void
+    ContactKinematics::freeze()
+    {
+      for (double *const values : {N1, D, T1, C})
+        std::fill_n(values, n, 0.);
     }
 
 

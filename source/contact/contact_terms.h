@@ -60,6 +60,10 @@ namespace NMM
                         double                              gap,
                         bool                                with_friction);
 
+      /// Normals, tangents and places stay what they are: no terms of second order.
+      void
+      freeze();
+
       unsigned int         n_slave, n_master, n;
       dealii::Tensor<1, 2> normal, tangent;
       double               gap, length, bending, h;

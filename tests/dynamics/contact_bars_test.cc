@@ -9,16 +9,16 @@ namespace NMM
 {
   namespace ContactBars
   {
-    // Falling onto its springs costs the block 3e-5 m of a way of 1 m.
     // A run that failed does not hold, whether there is a bound or not.
     TEST(ContactBars, FailedRunsDoNotHold)
     {
-      Run failed;
+      ContactBars::Run failed;
       failed.failure = "no convergence";
       for (const double bound : {0., 0.1})
       {
         Measurements measurements(nullptr);
-        measurements.add(1, "scenario", "way", 1., 1., 0., bound, Run());
+        measurements.add(
+          1, "scenario", "way", 1., 1., 0., bound, ContactBars::Run());
         EXPECT_TRUE(measurements.all().back().holds());
         measurements.add(1, "scenario", "way", 1., 1., 0., bound, failed);
         EXPECT_FALSE(measurements.all().back().holds());
@@ -26,6 +26,7 @@ namespace NMM
     }
 
 
+    // Falling onto its springs costs the block 3e-5 m of a way of 1 m.
     TEST(ContactBars, SlidesDownInclines)
     {
       Measurements measurements;

@@ -56,6 +56,14 @@ namespace
   }
 
 
+  /// NaN for a cell that is empty, since the run has no such number.
+  double
+  to_number(const std::string &cell)
+  {
+    return cell.empty() ? std::nan("") : std::stod(cell);
+  }
+
+
   Case
   read_case(const std::string &name)
   {
@@ -115,7 +123,7 @@ namespace
       for (const std::string &key : {fields.at(step), std::string("last")})
         for (std::size_t i = 0; i < fields.size(); ++i)
           values[table + "/" + key + "/" + columns.at(i)] =
-            std::stod(fields[i]);
+            to_number(fields[i]);
     }
   }
 
@@ -147,7 +155,7 @@ namespace
       const auto fields = split(line, ',');
       for (std::size_t i = 2; i < fields.size(); ++i)
         values["probes/" + fields[0] + "/" + fields[1] + "/" + columns[i]] =
-          std::stod(fields[i]);
+          to_number(fields[i]);
     }
     return values;
   }

@@ -175,6 +175,16 @@ namespace NMM
     set_time(double time);
 
     /**
+     * Static problems of small displacements: between two calls of detect() normals, tangents and
+     * the places of masters stay what they are at the first assembly after it, which should be
+     * at the same displacements. So forces are linear in the displacements as long as no point
+     * opens, closes, sticks or slips anew, and what geometry changes, by as little as
+     * displacements are small, follows when detect() is called again.
+     */
+    void
+    freeze_geometry(bool is_frozen);
+
+    /**
      * Find candidates and make contact points at the displacements @p u (locally
      * relevant). Multipliers and places of sticking are carried over. Faces are
      * looked for within the larger of @p least_reach [m] and the parameters' reach.

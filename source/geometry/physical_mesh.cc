@@ -100,8 +100,8 @@ namespace NMM
     for (unsigned int c = 0; c < curves.size(); ++c)
     {
       const Curve &curve = curves[c];
-      has_boundary  = has_boundary || curve.role == CurveRole::boundary;
-      const auto it = name_to_curve.insert({curve.name, c}).first;
+      has_boundary       = has_boundary || curve.role == CurveRole::boundary;
+      const auto it      = name_to_curve.insert({curve.name, c}).first;
       AssertThrow(curves[it->second].role == curve.role,
                   InputError("the name '" + curve.name + "' belongs to a " +
                                to_string(curves[it->second].role) +

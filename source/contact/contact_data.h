@@ -87,6 +87,9 @@ namespace NMM
       unsigned int beside_begin = 0, beside_end = 0;
     };
 
+    /// Pieces of faces that are shorter than this part of a cell bear nothing.
+    static constexpr double too_short = 1e-3;
+
     void
     make_points();
 

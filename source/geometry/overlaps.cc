@@ -14,21 +14,22 @@ namespace NMM
   {
     namespace
     {
-      using Point = dealii::Point<2>;
 
       /// A segment of a curve, with what was put in as further vertices.
       struct Chain
       {
-        unsigned int       curve, piece;
-        std::vector<Point> vertices;
-        Point              lower, upper;
+        unsigned int                  curve, piece;
+        std::vector<dealii::Point<2>> vertices;
+        dealii::Point<2>              lower, upper;
       };
 
 
       /// Where a point is beside the segment from a to b.
       struct Projection
       {
-        Projection(const Point &a, const Point &b, const Point &x)
+        Projection(const dealii::Point<2> &a,
+                   const dealii::Point<2> &b,
+                   const dealii::Point<2> &x)
         {
           const double length = a.distance(b);
           along               = (x - a) * (b - a) / length;
@@ -103,10 +104,10 @@ namespace NMM
 
       /// delta of the class comment for two boxes.
       double
-      rounding(const Point &lower_a,
-               const Point &upper_a,
-               const Point &lower_b,
-               const Point &upper_b)
+      rounding(const dealii::Point<2> &lower_a,
+               const dealii::Point<2> &upper_a,
+               const dealii::Point<2> &lower_b,
+               const dealii::Point<2> &upper_b)
       {
         double largest = 0.;
         for (unsigned int d = 0; d < 2; ++d)
@@ -143,18 +144,18 @@ namespace NMM
                       Chain             &b,
                       const unsigned int j)
       {
-        Chain                     *chains[2] = {&a, &b};
-        const unsigned int         first[2]  = {i, j};
-        const std::array<Point, 2> ends[2]   = {
+        Chain                                *chains[2] = {&a, &b};
+        const unsigned int                    first[2]  = {i, j};
+        const std::array<dealii::Point<2>, 2> ends[2]   = {
             {{a.vertices[i], a.vertices[i + 1]}},
             {{b.vertices[j], b.vertices[j + 1]}}};
         const double delta = rounding(a.lower, a.upper, b.lower, b.upper);
 
-        std::vector<Point> contacts;
+        std::vector<dealii::Point<2>> contacts;
         // (segment that gets a vertex, vertex)
-        std::vector<std::pair<unsigned int, Point>> missing;
+        std::vector<std::pair<unsigned int, dealii::Point<2>>> missing;
         for (unsigned int side = 0; side < 2; ++side)
-          for (const Point &end : ends[1 - side])
+          for (const dealii::Point<2> &end : ends[1 - side])
           {
             const Projection place(ends[side][0], ends[side][1], end);
             if (!(place.distance <= delta))
@@ -165,7 +166,7 @@ namespace NMM
                 std::min(end.distance(ends[side][0]),
                          end.distance(ends[side][1])) <= 2. * delta)
               continue;
-            const std::vector<Point> &known = chains[side]->vertices;
+            const std::vector<dealii::Point<2>> &known = chains[side]->vertices;
             if (place.is_between &&
                 std::find(known.begin(), known.end(), end) == known.end() &&
                 !lies_exactly_on(
@@ -173,13 +174,13 @@ namespace NMM
               missing.emplace_back(side, end);
           }
         double length = 0.;
-        for (const Point &x : contacts)
-          for (const Point &y : contacts)
+        for (const dealii::Point<2> &x : contacts)
+          for (const dealii::Point<2> &y : contacts)
             length = std::max(length, x.distance(y));
         if (missing.empty() || !(length > 16. * delta))
           return false;
-        auto &[side, vertex]         = missing.front();
-        std::vector<Point> &vertices = chains[side]->vertices;
+        auto &[side, vertex]                    = missing.front();
+        std::vector<dealii::Point<2>> &vertices = chains[side]->vertices;
         vertices.insert(vertices.begin() + first[side] + 1, vertex);
         return true;
       }
@@ -251,7 +252,8 @@ namespace NMM
       void
       Overlaps::store()
       {
-        std::vector<std::vector<std::vector<Point>>> vertices(curves.size());
+        std::vector<std::vector<std::vector<dealii::Point<2>>>> vertices(
+          curves.size());
         for (unsigned int c = 0; c < curves.size(); ++c)
           vertices[c].resize(curves[c].pieces.size());
         for (const Chain &chain : chains)
@@ -262,7 +264,7 @@ namespace NMM
           std::vector<CurvePiece> pieces;
           for (unsigned int p = 0; p < curves[c].pieces.size(); ++p)
           {
-            const std::vector<Point> &x = vertices[c][p];
+            const std::vector<dealii::Point<2>> &x = vertices[c][p];
             if (x.empty())
               pieces.push_back(curves[c].pieces[p]);
             for (unsigned int i = 0; i + 1 < x.size(); ++i)

@@ -1,0 +1,363 @@
+// Which face of another body a contact point belongs to, and where on it.
+#include <nmm/contact/contact.h>
+
+#include <algorithm>
+#include <cmath>
+#include <contact/contact_data.h>
+
+namespace NMM
+{
+  using namespace internal;
+  using dealii::Tensor;
+
+  namespace
+  {
+    /// Rounding of a difference of two positions on edges [m].
+    double
+    rounding_of(const ContactSurface::Place &place)
+    {
+      constexpr double parts = 1e-15;
+      return parts *
+             (std::abs(place.x[0]) + std::abs(place.x[1]) + place.a.norm());
+    }
+  } // namespace
+
+
+  double
+  Contact::Data::gap_of_displacements(const unsigned int       q,
+                                      const ContactProjection &projection) const
+  {
+    // of the reach: what is drawn as touching has no gap
+    constexpr double touching = 1e-9;
+
+    const ContactPoint         &point = points[q];
+    const unsigned int          face  = projection.master;
+    const ContactSurface::Place slave =
+      surface->reference_place(point.edge, point.s);
+    const ContactSurface::Place master =
+      surface->reference_place(face, projection.t);
+    const ContactSurface::Edge &edge   = surface->edges()[face];
+    const Tensor<1, 2>          normal = master.normal();
+    const Tensor<1, 2>          d      = slave.x - master.x;
+    // of a straight face it is the same from wherever it is measured
+    double gap = (edge.radius == 0. ? slave.x - edge.start : d) * normal;
+    if (std::abs(gap) <= touching * reach)
+      gap = 0.;
+    return gap + d * (projection.normal - normal) +
+           (surface->displacement(point.edge, point.s) -
+            surface->displacement(face, projection.t)) *
+             projection.normal;
+  }
+
+
+  ContactProjection
+  Contact::Data::project_frozen(const unsigned int           q,
+                                const ContactSurface::Place &slave)
+  {
+    ContactProjection &projection = frozen_projections[q];
+    ContactPoint      &point      = points[q];
+    if (!is_frozen[q])
+    {
+      projection   = project(q, slave);
+      is_frozen[q] = true;
+      if (projection.master != invalid_index)
+        frozen_gaps[q] = projection.gap - gap_of_displacements(q, projection);
+      return projection;
+    }
+    point.x = slave.x;
+    if (projection.master != invalid_index)
+      point.gap = projection.gap =
+        gap_of_displacements(q, projection) + frozen_gaps[q];
+    return projection;
+  }
+
+
+  void
+  Contact::Data::stay_with_face(const unsigned int           q,
+                                const ContactSurface::Place &slave,
+                                ContactProjection           &projection) const
+  {
+    const ContactPoint &point = points[q];
+    const PointData    &fixed = point_data[q];
+    if (point.state == ContactState::open)
+      return;
+    const dealii::ArrayView<const unsigned int> face(&point.master, 1);
+    const ContactProjection                     last =
+      fixed.corner >= Kind::along
+                            ? search.project(slave, face, fixed.slack, fixed.home, find_admitted(q))
+                            : search.project_corner(slave,
+                                normal_of_other_edge(q),
+                                face,
+                                point.master,
+                                find_admitted(q));
+    if (last.master != invalid_index && last.gap < 0.)
+      projection = last;
+  }
+
+
+  Tensor<1, 2>
+  Contact::Data::way_from_stick(const unsigned int           q,
+                                const ContactSurface::Place &slave) const
+  {
+    const ContactPoint &point = points[q];
+    if (is_moving)
+      return slave.x - surface->place(point.stick_edge, point.stick_t).x;
+    const ContactSurface::Place from =
+      surface->reference_place(point.stick_edge, point.stick_t);
+    Tensor<1, 2> way = surface->reference_place(point.edge, point.s).x - from.x;
+    if (way.norm() <= rounding_of(from))
+      way = 0.;
+    return way + surface->displacement(point.edge, point.s) -
+           surface->displacement(point.stick_edge, point.stick_t);
+  }
+
+
+  AdmittedContact
+  Contact::Data::find_admitted(const unsigned int q) const
+  {
+    AdmittedContact admitted;
+    admitted.depth         = admitted_depth;
+    const PointData &fixed = point_data[q];
+    admitted.beside        = {faces_beside.data() + fixed.beside_begin,
+                              fixed.beside_end - fixed.beside_begin};
+    if (points[q].edge < touching.size())
+    {
+      const auto &known = touching[points[q].edge];
+      admitted.touching = {known.data(), known.size()};
+    }
+    return admitted;
+  }
+
+
+  dealii::ArrayView<const unsigned int>
+  Contact::Data::masters_of(const unsigned int q) const
+  {
+    const unsigned int slave = point_data[q].slave;
+    if (point_data[q].corner <= Kind::along)
+      return search.masters(slave);
+    return dealii::ArrayView<const unsigned int>(&search.slaves()[slave], 1);
+  }
+
+
+  ContactProjection
+  Contact::Data::find_master(const unsigned int           q,
+                             const ContactSurface::Place &slave) const
+  {
+    const PointData &fixed   = point_data[q];
+    const auto       masters = masters_of(q);
+
+    const AdmittedContact admitted = find_admitted(q);
+    if (fixed.corner >= Kind::along)
+    {
+      ContactProjection result =
+        search.project(slave, masters, fixed.slack, fixed.home, admitted);
+      // what overlaps far more deeply than it is long came in by the other face
+      constexpr double deep = 4.;
+      if (result.master != invalid_index &&
+          result.gap < -deep * fixed.piece_length - too_short * size_at(q))
+        result = ContactProjection();
+      return result;
+    }
+    const auto entrance =
+      entrances.find(place_key(points[q].edge, fixed.corner));
+    const auto project_on =
+      [&](const dealii::ArrayView<const unsigned int> faces) {
+        return search.project_corner(slave,
+                                     normal_of_other_edge(q),
+                                     faces,
+                                     entrance == entrances.end()
+                                       ? invalid_index
+                                       : entrance->second,
+                                     admitted);
+      };
+    const ContactProjection result = project_on(masters);
+    const unsigned int      beyond = face_beyond_concave_end(result);
+    if (beyond == invalid_index ||
+        std::find(masters.begin(), masters.end(), beyond) == masters.end() ||
+        share(q, slave.normal(), result.normal) > 0.)
+      return result;
+    const ContactProjection other =
+      project_on(dealii::ArrayView<const unsigned int>(&beyond, 1));
+    return other.master != invalid_index && other.gap < 0. ? other : result;
+  }
+
+
+  unsigned int
+  Contact::Data::face_beyond_concave_end(
+    const ContactProjection &projection) const
+  {
+    constexpr auto concave = ContactSurface::Corner::concave;
+    if (projection.master == invalid_index)
+      return invalid_index;
+    const ContactSurface::Edge &face = surface->edges()[projection.master];
+    return projection.t > 1. && face.at_end == concave     ? face.next
+           : projection.t < 0. && face.at_start == concave ? face.previous
+                                                           : invalid_index;
+  }
+
+
+  bool
+  Contact::Data::goes_on(const unsigned int edge,
+                         const unsigned int other,
+                         const unsigned int n_edges) const
+  {
+    constexpr auto smooth = ContactSurface::Corner::smooth;
+    const auto    &edges  = surface->edges();
+    if (edge == other)
+      return true;
+    for (const bool forward : {true, false})
+    {
+      unsigned int e = edge;
+      for (unsigned int i = 0; i < n_edges && e != invalid_index; ++i)
+      {
+        const auto &at = edges[e];
+        if ((forward ? at.at_end : at.at_start) != smooth)
+          break;
+        e = forward ? at.next : at.previous;
+        if (e == other)
+          return true;
+      }
+    }
+    return false;
+  }
+
+
+  Tensor<1, 2>
+  Contact::Data::normal_of_other_edge(const unsigned int q) const
+  {
+    const unsigned int          corner = point_data[q].corner;
+    const ContactSurface::Edge &edge   = surface->edges()[points[q].edge];
+    const unsigned int          other = corner == 0 ? edge.previous : edge.next;
+    return other == invalid_index ? Tensor<1, 2>()
+                                  : surface->place(other, 1. - corner).normal();
+  }
+
+
+  double
+  Contact::Data::share(const unsigned int  q,
+                       const Tensor<1, 2> &slave_normal,
+                       const Tensor<1, 2> &master_normal) const
+  {
+    // faces that are not parallel touch over their projection only
+    const double       facing = -(slave_normal * master_normal);
+    double             along  = ContactSearch::along_face(facing);
+    const unsigned int corner = point_data[q].corner;
+    if (corner >= Kind::along)
+      return facing * along;
+    const double other_facing = -(normal_of_other_edge(q) * master_normal);
+    // both edges that end at a vertex have a point there: one spring in all
+    if (parameters.integration == ContactIntegration::points)
+      return facing / (facing + std::max(0., other_facing));
+    // a corner touches in a point if neither of its faces touches along its length
+    along = std::max(along, ContactSearch::along_face(other_facing));
+    return facing * (1. - along);
+  }
+
+
+  void
+  Contact::Data::stay_with_face_of_end(const unsigned int           q,
+                                       const ContactSurface::Place &slave,
+                                       ContactProjection &projection) const
+  {
+    const PointData   &fixed   = point_data[q];
+    const bool         touches = fixed.gap_end < fixed.offset;
+    const unsigned int face = touches ? fixed.master_end : fixed.master_begin;
+    if (touches == (fixed.gap_begin < fixed.offset) || face == invalid_index ||
+        face == projection.master || projection.master == invalid_index ||
+        surface->edges()[face].body != surface->edges()[projection.master].body)
+      return;
+    const ContactProjection there =
+      search.project_corner(slave,
+                            normal_of_other_edge(q),
+                            dealii::ArrayView<const unsigned int>(&face, 1),
+                            invalid_index,
+                            find_admitted(q));
+    if (there.master != invalid_index)
+      projection = there;
+  }
+
+
+  ContactProjection
+  Contact::Data::project(const unsigned int           q,
+                         const ContactSurface::Place &slave)
+  {
+    ContactPoint &point = points[q];
+    PointData    &fixed = point_data[q];
+    // no share of the contact until points are made anew
+    if (fixed.has_angle && point.weight == 0.)
+      return ContactProjection();
+    ContactProjection projection = find_master(q, slave);
+    const auto        project_on = [&](const unsigned int &edge) {
+      return search.project(slave,
+                            dealii::ArrayView<const unsigned int>(&edge, 1),
+                            fixed.slack,
+                            fixed.home,
+                            find_admitted(q));
+    };
+    if (is_between && fixed.corner < Kind::along)
+      stay_with_face_of_end(q, slave, projection);
+    if (!is_moving && point.master != invalid_index &&
+        point.master != projection.master)
+      stay_with_face(q, slave, projection);
+    // a piece ends where two edges of the master meet; its end stays with one of
+    // them, since their normals differ a little and the iteration would not end
+    if (fixed.corner == Kind::along && point.master != invalid_index &&
+        projection.master != invalid_index &&
+        point.master != projection.master &&
+        goes_on(point.master, projection.master, 1))
+    {
+      const ContactProjection last = project_on(point.master);
+      if (last.master != invalid_index)
+        projection = last;
+    }
+    // where points are made anew in a concave corner in the course of a motion, they
+    // stay on the face that they were on: each change loses or finds what its spring
+    // holds. Within a step the face is the one that the step ends at, find_end()
+    if (is_moving && !is_between && fixed.corner >= Kind::along &&
+        point.master == invalid_index && point.stick_edge != invalid_index &&
+        projection.master != invalid_index && projection.gap < 0. &&
+        point.stick_edge != projection.master)
+    {
+      const ContactProjection last = project_on(point.stick_edge);
+      if (last.master != invalid_index && last.gap < 0.)
+        projection = last;
+    }
+    // not where corners take it from another face
+    if (!is_moving && projection.master != invalid_index &&
+        projection.gap == (slave.x - projection.place.x) * projection.normal)
+      projection.gap = gap_of_displacements(q, projection);
+    point.x      = slave.x;
+    point.master = projection.master;
+    if (projection.master == invalid_index)
+    {
+      point.gap = reach;
+      return projection;
+    }
+    point.t      = projection.t;
+    point.gap    = projection.gap;
+    point.normal = projection.normal;
+    if (!fixed.has_angle)
+    {
+      point.weight *= share(q, slave.normal(), projection.normal);
+      fixed.has_angle = true;
+      if (point.weight == 0.)
+      {
+        point.master    = invalid_index;
+        point.gap       = reach;
+        point.is_bonded = false;
+        return ContactProjection();
+      }
+      constexpr double touching = 1e-6;
+      if (is_virgin && std::abs(projection.gap) <= touching * reach)
+        point.is_bonded = laws(point.edge, projection.master).is_bond;
+    }
+    fixed.law = &laws(point.edge, projection.master);
+    if (has_friction && (point.stick_edge == invalid_index ||
+                         !goes_on(point.stick_edge, projection.master)))
+    {
+      point.stick_edge = projection.master;
+      point.stick_t    = projection.t;
+    }
+    return projection;
+  }
+} // namespace NMM

@@ -10,10 +10,13 @@
 #include <fstream>
 #include <functional>
 #include <regex>
+#include <scene/parsing.h>
 #include <sstream>
 
 namespace NMM
 {
+  using internal::join;
+
   namespace
   {
     using Tree = boost::property_tree::ptree;
@@ -55,16 +58,6 @@ namespace NMM
         if (is_entry(child) == entries)
           result.push_back(key);
       return result;
-    }
-
-
-    std::string
-    join(const std::vector<std::string> &words, const std::string &separator)
-    {
-      std::string text;
-      for (const std::string &word : words)
-        text += (text.empty() ? "" : separator) + word;
-      return text;
     }
 
 

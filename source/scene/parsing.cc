@@ -36,11 +36,11 @@ namespace NMM
 
 
     std::string
-    join(const std::vector<std::string> &words)
+    join(const std::vector<std::string> &words, const std::string &separator)
     {
       std::string text;
       for (const std::string &word : words)
-        text += (text.empty() ? "" : ", ") + word;
+        text += (text.empty() ? "" : separator) + word;
       return text;
     }
 

@@ -232,9 +232,9 @@ namespace NMM
     std::vector<std::string>
     get_names(const dealii::ParameterHandler &prm, const std::string &key);
 
-    /// Separated by commas.
     std::string
-    join(const std::vector<std::string> &words);
+    join(const std::vector<std::string> &words,
+         const std::string              &separator = ", ");
 
     /// With 10 digits.
     std::string

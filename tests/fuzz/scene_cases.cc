@@ -118,7 +118,7 @@ namespace NMM
 
 
       std::string
-      number(const double value)
+      text_of(const double value)
       {
         char text[40];
         std::snprintf(text, sizeof(text), "%.17g", value);
@@ -260,9 +260,9 @@ namespace NMM
         const std::size_t step = first("Initial step"), end = first("End time");
         if (step < n && end < n)
           set_value(end,
-                    number(4. * std::strtod(lines[step].c_str() +
-                                              lines[step].find('=') + 1,
-                                            nullptr)));
+                    text_of(4. * std::strtod(lines[step].c_str() +
+                                               lines[step].find('=') + 1,
+                                             nullptr)));
         if (chance(0.8))
           for (const char *line : {"subsection Output",
                                    "set Picture = false",
@@ -301,7 +301,7 @@ namespace NMM
         const double factors[] = {
           -1., 0., 1e-9, 1e9, 1e-30, 1e30, 0.7, 1.5, -1e-15, 1. + 1e-15};
         value *= any(factors);
-        lines[line] = std::string(text.begin(), old[0].first) + number(value) +
+        lines[line] = std::string(text.begin(), old[0].first) + text_of(value) +
                       std::string(old[0].second, text.end());
       }
 
@@ -402,9 +402,10 @@ namespace NMM
           return;
         const double factors[] = {1e-9, 0.1, 0.5, 2., 10., 1e3, 1e9, -1.};
         set_value(line,
-                  number(any(factors) * std::strtod(lines[line].c_str() +
-                                                      lines[line].find('=') + 1,
-                                                    nullptr)));
+                  text_of(
+                    any(factors) *
+                    std::strtod(lines[line].c_str() + lines[line].find('=') + 1,
+                                nullptr)));
       }
 
 
@@ -444,7 +445,7 @@ namespace NMM
             const double x = std::strtod(it->str().c_str(), nullptr);
             const double factor = std::pow(10., digits);
             result.append(last, (*it)[0].first);
-            result += number(
+            result += text_of(
               (digits < 17 ? std::round(x * factor) / factor : x) * scale +
               shift);
             last = (*it)[0].second;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <scene/parsing.h>
 #include <scene/shapes.h>
 #include <set>
 
@@ -17,22 +18,14 @@ namespace NMM
   namespace
   {
     std::string
-    join(const std::vector<std::string> &words)
-    {
-      std::string text;
-      for (const std::string &word : words)
-        text += (text.empty() ? "'" : ", '") + word + "'";
-      return text;
-    }
-
-
-    std::string
     choice(const std::string              &word,
            const std::vector<std::string> &names,
            const std::string              &nothing)
     {
-      return names.empty() ? nothing
-                           : "choose among " + join(near_matches(word, names));
+      return names.empty()
+               ? nothing
+               : "choose among '" +
+                   internal::join(near_matches(word, names), "', '") + "'";
     }
   } // namespace
 

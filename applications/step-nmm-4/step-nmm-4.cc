@@ -103,10 +103,9 @@ namespace StepNMM4
 
   // @sect3{Ground and wall}
 
-  // Bodies that do not deform are on the left of their lines. The wall is gone once
-  // its switch is thrown: it is moved out of everybody's reach.
+  // Bodies that do not deform are on the left of their lines.
   std::vector<NMM::RigidObstacle>
-  make_obstacles(const std::shared_ptr<bool> &wall_is_released)
+  make_obstacles()
   {
     NMM::RigidObstacle ground;
     ground.name                   = "ground";
@@ -118,11 +117,8 @@ namespace StepNMM4
       ground.pieces.push_back(CurvePiece::segment(p[i], p[i + 1]));
 
     NMM::RigidObstacle wall;
-    wall.name         = "wall";
-    wall.pieces       = {CurvePiece::segment({0., -1.}, {0., 14.})};
-    wall.displacement = [wall_is_released](double) {
-      return *wall_is_released ? Tensor<1, 2>({-1e5, 0.}) : Tensor<1, 2>();
-    };
+    wall.name   = "wall";
+    wall.pieces = {CurvePiece::segment({0., -1.}, {0., 14.})};
     return {ground, wall};
   }
 
@@ -181,7 +177,6 @@ namespace StepNMM4
 
     const Parameters                           parameters;
     const double                               friction_angle;
-    std::shared_ptr<bool>                      wall_is_released;
     NMM::ElasticityProblem                     problem;
     std::unique_ptr<NMM::PhysicalMesh>         physical_mesh;
     NMM::OwnMeshes                             meshes;
@@ -224,7 +219,6 @@ namespace StepNMM4
   Slope::Slope(const Parameters &parameters, const double friction_angle)
     : parameters(parameters)
     , friction_angle(friction_angle)
-    , wall_is_released(std::make_shared<bool>(false))
     , problem(make_problem(parameters))
   {
     physical_mesh = std::make_unique<NMM::PhysicalMesh>(make_slope(parameters));
@@ -240,9 +234,7 @@ namespace StepNMM4
 
     covers =
       std::make_unique<NMM::CoverSystem>(*meshes.manifold_mesh, MPI_COMM_WORLD);
-    surface =
-      std::make_unique<NMM::ContactSurface>(*covers,
-                                            make_obstacles(wall_is_released));
+    surface = std::make_unique<NMM::ContactSurface>(*covers, make_obstacles());
     aggregation = NMM::aggregate(*covers);
     constraints = NMM::make_constraints(*covers, aggregation, 2);
     quadrature  = std::make_unique<NMM::QuadratureCollection>(
@@ -303,7 +295,7 @@ namespace StepNMM4
 
   // @sect3{Release and motion}
 
-  // The scheme conserves energy in the contacts, too, so that the account shows what
+  // The wall, obstacle 1, is there until the time 0. The scheme conserves energy in the contacts, too, so that the account shows what
   // friction, dashpots and the damping of the rock take, and nothing else. Dozens of
   // points that stick or slip by turns can cost Newton's method many iterations.
   Outcome
@@ -322,7 +314,7 @@ namespace StepNMM4
     const Vector u     = find_equilibrium();
     outcome.start_time = timer.cpu_time();
 
-    NMM::ContactModel   released(*model, *contact, {{1, 0., wall_is_released}});
+    NMM::ContactModel   released(*model, *contact, {{1, 0.}});
     NMM::TimeIntegrator integrator(released,
                                    NMM::TimeScheme::energy_momentum(),
                                    {/* mass = */ 0., parameters.damping});

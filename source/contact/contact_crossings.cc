@@ -414,8 +414,8 @@ namespace NMM
       const Point<2> x_0 = position(edge, s, 0.), x_1 = position(edge, s, 1.);
       const double   bound =
         arc * ((x_1 - x_0 - other.motion).norm() + other.radius);
-      near_chords.clear();
-      const Place begin = nearest(x_0, chords, 0., bound, &near_chords);
+      std::vector<Chord> near_chords;
+      const Place        begin = nearest(x_0, chords, 0., bound, &near_chords);
       if (near_chords.empty() && begin.gap >= 0.)
         return;
       Path path;

@@ -167,7 +167,6 @@ namespace NMM
       std::vector<Body>             bodies;
       double                        least_thickness;
       std::vector<dealii::Point<2>> at_begin, at_end;
-      mutable std::vector<Chord>    near_chords;
     };
   } // namespace internal
 } // namespace NMM

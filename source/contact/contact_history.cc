@@ -305,35 +305,37 @@ namespace NMM
 
 
   void
-  Contact::forget_bodies(const std::vector<bool> &is_gone)
+  Contact::set_absent_bodies(const std::vector<bool> &is_absent)
   {
     Data &d = *data;
-    AssertDimension(is_gone.size(), d.surface->n_bodies());
-    const std::size_t n_edges      = d.surface->edges().size();
-    const auto        edge_is_gone = [&](const unsigned int edge) {
-      return is_gone[d.surface->edges()[edge % n_edges].body];
+    AssertDimension(is_absent.size(), d.surface->n_bodies());
+    d.surface->set_absent_bodies(is_absent);
+    d.search.forget();
+    const std::size_t n_edges        = d.surface->edges().size();
+    const auto        edge_is_absent = [&](const unsigned int edge) {
+      return is_absent[d.surface->edges()[edge % n_edges].body];
     };
     const auto erase_if = [](auto &entries, const auto &is_dropped) {
       for (auto entry = entries.begin(); entry != entries.end();)
         entry = is_dropped(*entry) ? entries.erase(entry) : std::next(entry);
     };
     erase_if(d.energies_of_pairs, [&](const auto &entry) {
-      return is_gone[entry.first.first] || is_gone[entry.first.second];
+      return is_absent[entry.first.first] || is_absent[entry.first.second];
     });
     erase_if(d.entrances, [&](const auto &entry) {
-      return edge_is_gone(entry.first) || edge_is_gone(entry.second);
+      return edge_is_absent(entry.first) || edge_is_absent(entry.second);
     });
     for (unsigned int edge = 0; edge < d.touching.size(); ++edge)
     {
       auto &known = d.touching[edge];
-      known.erase(std::remove_if(known.begin(), known.end(), edge_is_gone),
+      known.erase(std::remove_if(known.begin(), known.end(), edge_is_absent),
                   known.end());
-      if (edge_is_gone(edge))
+      if (edge_is_absent(edge))
         known.clear();
     }
     d.stick_places.remove_if(
       [&](const unsigned int key, const StickPlace &place) {
-        return edge_is_gone(key) || edge_is_gone(place.edge);
+        return edge_is_absent(key) || edge_is_absent(place.edge);
       });
   }
 

@@ -1,6 +1,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <boost/geometry.hpp>
 #include <boost/geometry/geometries/box.hpp>
 #include <boost/geometry/geometries/point.hpp>
@@ -227,12 +228,16 @@ namespace NMM
       reach                = new_reach;
       broad_reach          = (1. + margin) * new_reach;
       const unsigned int n = surface->edges().size();
+      std::vector<Box>   boxes;
       std::vector<Entry> entries;
+      boxes.reserve(n);
       entries.reserve(n);
       known_positions.resize(3 * n);
       for (unsigned int e = 0; e < n; ++e)
       {
-        entries.emplace_back(box_of(*surface, e, 0.), e);
+        boxes.push_back(box_of(*surface, e, 0.));
+        if (!surface->is_absent(e))
+          entries.emplace_back(boxes.back(), e);
         for (unsigned int i = 0; i < 3; ++i)
           known_positions[3 * e + i] = surface->place(e, 0.5 * i).x;
       }
@@ -259,9 +264,11 @@ namespace NMM
       };
       for (unsigned int e = first; e < last && !only_vertices; ++e)
       {
-        find(e,
-             inflated(entries[e].first, broad_reach),
-             [&](const unsigned int m) { return comes_first(e, m); });
+        if (surface->is_absent(e))
+          continue;
+        find(e, inflated(boxes[e], broad_reach), [&](const unsigned int m) {
+          return comes_first(e, m);
+        });
         append(e, 2, found);
       }
       const bool has_obstacles = dealii::Utilities::MPI::this_mpi_process(
@@ -270,7 +277,7 @@ namespace NMM
         if ((e >= first && e < last) || (has_obstacles && surface->is_rigid(e)))
           for (unsigned int end = 0; end < 2; ++end)
           {
-            if (!is_corner(e, end))
+            if (surface->is_absent(e) || !is_corner(e, end))
               continue;
             const Point<2> &x = known_positions[3 * e + 2 * end];
             const Corner    corner(x[0], x[1]);
@@ -331,7 +338,6 @@ namespace NMM
                                 double            &t,
                                 Place             &place) const
     {
-      ++counts.n_projections;
       const Point<2>     start = surface->place(edge, 0.).x;
       const Tensor<1, 2> chord = surface->place(edge, 1.).x - start;
       t                        = ((x - start) * chord) / chord.norm_square();
@@ -456,9 +462,8 @@ namespace NMM
       // faces at nearly a right angle, or that look the same way, do not touch
       const double least_facing = admitted.least_facing;
 
-      const Tensor<1, 2>              slave_normal = slave_place.normal();
-      std::vector<ContactProjection> &near         = near_faces;
-      near.clear();
+      const Tensor<1, 2> slave_normal = slave_place.normal();
+      boost::container::small_vector<ContactProjection, 8> near;
       for (const unsigned int master : masters)
       {
         const ContactSurface::Edge &edge = surface->edges()[master];
@@ -658,8 +663,8 @@ namespace NMM
       double             best_overshoot = 0.;
       double             best_facing    = 0.;
       // far sides: faces of bodies that look the point's way
-      auto &outside = outside_of;
-      outside.clear();
+      boost::container::small_vector<std::pair<unsigned int, double>, 16>
+        outside;
       for (const unsigned int master : masters)
       {
         const ContactSurface::Edge &edge = surface->edges()[master];

@@ -119,6 +119,13 @@ namespace NMM
       bool
       update(double reach);
 
+      /// Bodies have come or gone: the next update() looks for masters anew.
+      void
+      forget()
+      {
+        broad_reach = 0.;
+      }
+
       /// Look for them now, within one and a half times @p reach.
       void
       search(double reach);
@@ -154,9 +161,9 @@ namespace NMM
       /// say less.
       struct Statistics
       {
-        /// Edges whose boxes meet that of a slave or corner; those of them that may
-        /// touch it; nearest points that were computed.
-        std::size_t n_boxes = 0, n_candidates = 0, n_projections = 0;
+        /// Edges whose boxes meet that of a slave or corner, and those of them that may
+        /// touch it.
+        std::size_t n_boxes = 0, n_candidates = 0;
       };
 
       const Statistics &
@@ -394,16 +401,13 @@ namespace NMM
       /// See comes_first().
       std::vector<double>       edge_to_side;
       bool                      only_vertices;
-      mutable Statistics        counts;
+      Statistics                counts;
       double                    reach = 0., broad_reach = 0.;
       std::vector<unsigned int> slave_edges, masters_begin, master_edges;
       std::vector<unsigned int> corners;
       /// At search(), at update() and where begin() says.
       std::vector<dealii::Point<2>> known_positions, begin_positions;
       std::vector<dealii::Point<2>> accepted_positions;
-      /// Of one projection; kept so that none allocates.
-      mutable std::vector<ContactProjection>               near_faces;
-      mutable std::vector<std::pair<unsigned int, double>> outside_of;
     };
   } // namespace internal
 } // namespace NMM

@@ -142,6 +142,7 @@ namespace NMM
     set_corners();
     position_to_edge.clear();
     position_to_edge.shrink_to_fit();
+    is_body_absent.assign(n_bodies(), false);
     set_time(0.);
 
     std::vector<dealii::types::global_dof_index> relevant;
@@ -386,6 +387,14 @@ namespace NMM
   ContactSurface::n_bodies() const
   {
     return n_blocks + rigid_obstacles.size();
+  }
+
+
+  void
+  ContactSurface::set_absent_bodies(std::vector<bool> is_absent)
+  {
+    AssertDimension(is_absent.size(), n_bodies());
+    is_body_absent = std::move(is_absent);
   }
 
 

@@ -41,7 +41,8 @@ namespace NMM
       std::vector<Ring> result;
       for (unsigned int first = 0; first < edges.size(); ++first)
       {
-        if (is_done[first] || surface.is_rigid(first))
+        if (is_done[first] || surface.is_rigid(first) ||
+            surface.is_absent(first))
           continue;
         Ring ring;
         ring.body = edges[first].body;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <linear_algebra/active_items.h>
 #include <linear_algebra/matrix_rows.h>
 #include <utility>
@@ -29,13 +30,11 @@ namespace NMM
     /// See set_active_blocks().
     std::vector<bool> active;
     /// Couples nothing but contact any blocks? Not known before the first tangent.
-    bool              are_blocks_apart = false, is_apart_known = false;
+    bool are_blocks_apart = false, is_apart_known = false;
+    /// By block; empty: none is absent.
     std::vector<bool> absent_blocks;
-    /// What takes each absent block to a place of its own, out of everybody's reach
-    /// (owned unknowns) [m].
-    Vector parking;
-    /// Displacements with it: owned, and relevant unknowns.
-    Vector parked_owned, parked;
+    /// Up to when events have been passed [s].
+    double events_passed = std::numeric_limits<double>::lowest();
 
     void
     find_out_whether_apart()
@@ -206,13 +205,13 @@ namespace NMM
     d.contact->set_time(t);
     if (!d.is_detected)
     {
-      d.contact->detect(placed(u));
+      d.contact->detect(u);
       d.is_detected = true;
     }
     const Deformation state = d.model->assemble(u, t, tangent, increment);
     if (state != Deformation::admissible || d.contact->is_idle())
       return state;
-    d.contact->assemble(placed(u), tangent != Tangent::none);
+    d.contact->assemble(u, tangent != Tangent::none);
     d.add_contact(tangent != Tangent::none);
     return state;
   }
@@ -235,7 +234,7 @@ namespace NMM
       d.has_body_matrix = false;
     if (state != Deformation::admissible || d.contact->is_idle())
       return state;
-    d.contact->assemble_between(placed(end),
+    d.contact->assemble_between(end,
                                 t_1,
                                 with_tangent,
                                 d.tangent_factor,
@@ -366,12 +365,12 @@ namespace NMM
           (obstacle.displacement(t + h) - obstacle.displacement(t)).norm());
     constexpr double margin = 1.5;
     d.contact->set_time(t);
-    d.contact->detect(placed(begin), margin * (2. * largest + obstacles));
+    d.contact->detect(begin, margin * (2. * largest + obstacles));
     d.is_detected = true;
     if (!d.contact->is_idle())
     {
-      d.contact->begin_step(placed(begin), t);
-      d.contact->expect(placed(predicted));
+      d.contact->begin_step(begin, t);
+      d.contact->expect(predicted);
     }
     d.step_end = t + h;
     d.contact->set_time(d.step_end);
@@ -386,7 +385,7 @@ namespace NMM
       return fault;
     // the last assembly may have been at a time between
     data->contact->set_time(data->step_end);
-    return data->contact->find_fault(placed(end));
+    return data->contact->find_fault(end);
   }
 
 
@@ -396,7 +395,7 @@ namespace NMM
     Data        &d          = *data;
     const double dissipated = d.model->accept_step(end, t);
     d.contact->set_time(t);
-    d.contact->assemble(placed(end), /* with_tangent = */ false);
+    d.contact->assemble(end, /* with_tangent = */ false);
     return dissipated + d.contact->accept();
   }
 
@@ -418,62 +417,13 @@ namespace NMM
   }
 
 
-  namespace
-  {
-    /// Longer than the solid, the obstacles as they are drawn and the way between
-    /// them [m].
-    double
-    extent(const ContactSurface &surface)
-    {
-      dealii::Point<2> lower(1e300, 1e300), upper(-1e300, -1e300);
-      const auto       add = [&](const dealii::Point<2> &x) {
-        for (unsigned int d = 0; d < 2; ++d)
-        {
-          lower[d] = std::min(lower[d], x[d]);
-          upper[d] = std::max(upper[d], x[d]);
-        }
-      };
-      for (const ContactSurface::Edge &edge : surface.edges())
-      {
-        const dealii::Tensor<1, 2> radius(
-          {std::abs(edge.radius), std::abs(edge.radius)});
-        add(edge.start);
-        add(edge.end);
-        if (edge.radius != 0.)
-        {
-          add(edge.center + radius);
-          add(edge.center - radius);
-        }
-      }
-      return lower.distance(upper);
-    }
-  } // namespace
-
-
   void
   ContactModel::set_absent_blocks(const std::vector<bool> &is_absent)
   {
     Data &d = *data;
     d.model->set_absent_blocks(is_absent);
     d.absent_blocks = is_absent;
-    d.is_detected   = false;
-    if (is_absent.empty())
-      return;
-    d.parking.reinit(locally_owned(), communicator());
-    d.parked_owned.reinit(locally_owned(), communicator());
-    d.parked.reinit(locally_owned(), locally_relevant(), communicator());
-    const CoverSystem  &covers = d.contact->surface().cover_system();
-    const ManifoldMesh &mesh   = covers.manifold_mesh();
-    // blocks may have come some way before they left
-    constexpr double far  = 100.;
-    const double     size = extent(d.contact->surface());
-    for (unsigned int e = 0; e < mesh.n_elements(); ++e)
-      if (is_absent[mesh.block(e)])
-        for (const unsigned int k : covers.covers(e))
-          if (covers.locally_owned_covers().is_element(k))
-            d.parking(2 * k + 1) = size * far * (mesh.block(e) + 1.);
-    d.parking.compress(dealii::VectorOperation::insert);
-    forget_gone();
+    take_bodies_away();
   }
 
 
@@ -540,19 +490,6 @@ namespace NMM
   }
 
 
-  const ContactModel::Vector &
-  ContactModel::placed(const Vector &u)
-  {
-    Data &d = *data;
-    if (d.absent_blocks.empty())
-      return u;
-    d.parked_owned = u;
-    d.parked_owned += d.parking;
-    d.parked = d.parked_owned;
-    return d.parked;
-  }
-
-
   std::vector<double>
   ContactModel::events() const
   {
@@ -570,37 +507,26 @@ namespace NMM
   {
     Data &d = *data;
     d.model->pass_events(t);
-    bool is_new = false;
-    for (const ObstacleRelease &release : d.releases)
-    {
-      const bool is_released = release.time <= t;
-      if (*release.is_released == is_released)
-        continue;
-      *release.is_released = is_released;
-      is_new               = is_new || is_released;
-      // what was near is far now, or the other way round
-      d.is_detected = false;
-    }
-    if (is_new)
-      forget_gone();
+    d.events_passed = t;
+    take_bodies_away();
   }
 
 
   void
-  ContactModel::forget_gone()
+  ContactModel::take_bodies_away()
   {
     Data                 &d       = *data;
     const ContactSurface &surface = d.contact->surface();
-    const unsigned int    first =
-      surface.n_bodies() -
-      static_cast<unsigned int>(surface.obstacles().size());
-    std::vector<bool> is_gone(surface.n_bodies(), false);
+    const std::size_t first = surface.n_bodies() - surface.obstacles().size();
+    std::vector<bool> is_absent = d.absent_blocks;
+    is_absent.resize(surface.n_bodies(), false);
     for (const ObstacleRelease &release : d.releases)
-      if (*release.is_released)
-        is_gone[first + release.obstacle] = true;
-    for (unsigned int b = 0; b < d.absent_blocks.size(); ++b)
-      is_gone[b] = d.absent_blocks[b];
-    d.contact->forget_bodies(is_gone);
+      if (release.time <= d.events_passed)
+        is_absent[first + release.obstacle] = true;
+    if (is_absent == surface.absent_bodies())
+      return;
+    d.contact->set_absent_bodies(is_absent);
+    d.is_detected = false;
   }
 
 

@@ -196,21 +196,12 @@ namespace NMM
               const double                      least)
   {
     const unsigned int first = surface.n_bodies() - surface.obstacles().size();
-    const auto         corners = surface.cover_system()
-                           .manifold_mesh()
-                           .physical_mesh()
-                           .bounding_box()
-                           .get_boundary_points();
-    // what was released is far away
-    const double far = 1e3 * corners.first.distance(corners.second);
     for (unsigned int e = 0; e < surface.edges().size(); ++e)
-      if (surface.is_rigid(e))
+      if (surface.is_rigid(e) && !surface.is_absent(e))
       {
         const ContactSurface::Edge &edge = surface.edges()[e];
         const Tensor<1, 2>         &shift =
           surface.obstacle_displacement(edge.body - first);
-        if (shift.norm() > far)
-          continue;
         const double sweep = edge.last_angle - edge.first_angle;
         const auto   n     = 1 + static_cast<unsigned int>(
                              edge.radius == 0. ? 0. : std::abs(sweep) / 0.05);

@@ -142,7 +142,8 @@ namespace NMM
     const auto            names   = field_names(triangles.has_velocity);
     DataOutBase::VtkFlags flags;
     flags.print_date_and_time = false;
-    flags.compression_level   = DataOutBase::VtkFlags::no_compression;
+    // the enumeration has another name from deal.II 9.5 on
+    flags.compression_level = decltype(flags.compression_level)::no_compression;
 
     const auto piece_name = [&](const unsigned int r) {
       return n_ranks == 1 ? base + ".vtu"

@@ -80,8 +80,7 @@ namespace NMM
     ContactAnalysis::hold_obstacles(const bool are_held)
     {
       *switches.is_frozen = are_held;
-      for (const ObstacleRelease &release : switches.releases)
-        *release.is_released = false;
+      contact().set_absent_bodies(std::vector<bool>(surface->n_bodies()));
       contact().set_time(0.);
     }
 

@@ -76,11 +76,6 @@ namespace NMM
   Scene::make_obstacles(const PhysicalMesh &physical_mesh,
                         ObstacleSwitches   *switches) const
   {
-    // Far away, but not so far that numbers lose their digits.
-    constexpr double distance = 1e4;
-    const auto corners = physical_mesh.bounding_box().get_boundary_points();
-    const dealii::Tensor<1, 2> away(
-      {distance * corners.first.distance(corners.second), 0.});
     const auto is_frozen = std::make_shared<bool>(false);
     if (switches != nullptr)
       *switches = {{}, is_frozen};
@@ -106,20 +101,13 @@ namespace NMM
       obstacle.name         = name;
       obstacle.pieces       = internal::oriented_pieces(curve);
       obstacle.displacement = motion;
-      if (switches != nullptr && (motion || release_time >= 0.))
-      {
-        const auto is_released = std::make_shared<bool>(false);
-        if (release_time >= 0.)
-          switches->releases.push_back(
-            {static_cast<unsigned int>(obstacles.size()),
-             release_time,
-             is_released});
+      if (switches != nullptr && release_time >= 0.)
+        switches->releases.push_back(
+          {static_cast<unsigned int>(obstacles.size()), release_time});
+      if (switches != nullptr && motion)
         obstacle.displacement = [=](const double t) {
-          return *is_released ? away
-                                 : motion     ? motion(*is_frozen ? 0. : t)
-                                              : dealii::Tensor<1, 2>();
+          return motion(*is_frozen ? 0. : t);
         };
-      }
       obstacles.push_back(std::move(obstacle));
     };
     for (const ObstacleParameters &parameters : scene_parameters.obstacles)

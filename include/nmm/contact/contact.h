@@ -351,12 +351,13 @@ namespace NMM
     history() const;
 
     /**
-     * Bodies that are taken away: what springs against them held at the last
-     * accepted state is forgotten, and does not count as dissipated.
-     * @p is_gone: by body of the surface.
+     * From now on these bodies of the surface are not there, see
+     * ContactSurface::set_absent_bodies(). What springs against them stored at the last
+     * accepted state is forgotten, and does not count as dissipated. detect() has to be called
+     * before the next assembly.
      */
     void
-    forget_bodies(const std::vector<bool> &is_gone);
+    set_absent_bodies(const std::vector<bool> &is_absent);
 
     /// Take over what history() returned, on any number of ranks.
     void

@@ -157,6 +157,24 @@ namespace NMM
     std::pair<unsigned int, unsigned int>
     locally_owned_edges() const;
 
+    /// Bodies that are not there: blocks that have left the model and obstacles that have been
+    /// released. Nothing touches them, and they are in no picture. By body.
+    void
+    set_absent_bodies(std::vector<bool> is_absent);
+
+    const std::vector<bool> &
+    absent_bodies() const
+    {
+      return is_body_absent;
+    }
+
+    /// Whether the body of an edge is not there.
+    bool
+    is_absent(const unsigned int edge) const
+    {
+      return is_body_absent[all_edges[edge].body];
+    }
+
     /// Obstacles move to where they are at @p time.
     void
     set_time(double time);
@@ -304,6 +322,8 @@ namespace NMM
     std::vector<RigidObstacle>        rigid_obstacles;
     std::vector<dealii::Tensor<1, 2>> obstacle_displacements;
     std::vector<Edge>                 all_edges;
+    /// See set_absent_bodies().
+    std::vector<bool> is_body_absent;
     /// First edge of each obstacle, and the number of all edges.
     std::vector<unsigned int>             obstacle_begins;
     std::pair<unsigned int, unsigned int> owned;

@@ -20,9 +20,6 @@ namespace NMM
     unsigned int obstacle = 0;
     /// [s]
     double time = 0.;
-    /// Read by the obstacle's RigidObstacle::displacement, which must lead out of
-    /// everybody's reach while it is true.
-    std::shared_ptr<bool> is_released;
   };
 
 
@@ -196,13 +193,9 @@ namespace NMM
     struct Data;
     std::unique_ptr<Data> data;
 
-    /// Nothing that is released or absent is remembered.
+    /// Tell the contact which blocks and obstacles are not there.
     void
-    forget_gone();
-
-    /// Displacements at which nobody meets an absent block.
-    const Vector &
-    placed(const Vector &u);
+    take_bodies_away();
   };
 } // namespace NMM
 

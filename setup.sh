@@ -305,11 +305,7 @@ command_bench()
   rm -r "$dumps"
 
   say "Writing the report"
-  local before=()
-  if [[ -s "$folder/performance-before.csv" ]]; then
-    before=("$folder/performance-before.csv")
-  fi
-  "$program" report "$table" doc "${before[@]}" ||
+  "$program" report "$table" doc ||
     die "the report could not be written (the message is above)."
 
   say "Done. Look at:"

@@ -1,5 +1,6 @@
 #include <nmm/base/program.h>
 
+#include <boost/serialization/utility.hpp>
 #include <cerrno>
 #include <chrono>
 #include <cstring>

@@ -63,7 +63,6 @@ namespace NMM
                       const dealii::AffineConstraints<double> &constraints,
                       const ContactParameters                 &parameters_in)
     : surface(&surface)
-    , constraints(&constraints)
     , parameters(parameters_in)
     , communicator(surface.cover_system().communicator())
     , search(surface,
@@ -72,6 +71,8 @@ namespace NMM
     , laws((parameters.check(), surface), parameters)
     , has_friction(parameters.has_friction())
     , corner_size(corner_sizes(surface))
+    , active(surface)
+    , matrix(surface, constraints, search, memory.stick_places, active)
   {
     lobatto_rule(parameters.n_points, rule_points, rule_weights);
     if (parameters.reach == 0.)
@@ -85,17 +86,9 @@ namespace NMM
     if (parameters.penetration_tolerance > 0.)
     {
       multiplier_space = std::make_unique<MultiplierSpace>(surface);
-      multipliers.assign(multiplier_space->size(), 0.);
+      memory.multipliers.assign(multiplier_space->size(), 0.);
     }
-    residual.reinit(surface.cover_system().locally_owned_dofs(2), communicator);
     nodal.assign(2 * surface.cover_system().n_covers(), 0.);
-    if (constraints.n_constraints() > 0 &&
-        Parallel::n_mpi_processes(communicator) == 1)
-    {
-      is_prescribed.resize(nodal.size());
-      for (const auto &line : constraints.get_lines())
-        is_prescribed[line.index] = true;
-    }
     surface.set_displacements(&nodal);
   }
 
@@ -130,7 +123,9 @@ namespace NMM
   void
   Contact::freeze_geometry(const bool is_frozen)
   {
-    data->is_geometry_frozen = is_frozen;
+    if (!data->is_moving())
+      data->problem = is_frozen ? Data::Problem::statics_of_frozen_geometry
+                                : Data::Problem::statics;
   }
 
 
@@ -138,32 +133,43 @@ namespace NMM
   Contact::detect(const Vector &u, const double least_reach)
   {
     Data &d = *data;
+    d.enter(Data::Stage::detected,
+            {Data::Stage::created,
+             Data::Stage::detected,
+             Data::Stage::assembled,
+             Data::Stage::step_begun,
+             Data::Stage::step_assembled,
+             Data::Stage::accepted,
+             Data::Stage::step_accepted});
     d.move_to(u);
-    d.nodal_begin   = d.nodal;
-    d.time_detected = d.time;
-    d.reach         = std::max(least_reach, d.parameters.reach);
-    d.is_between    = false;
+    d.step.nodal_begin   = d.nodal;
+    d.step.time_detected = d.time;
+    d.reach              = std::max(least_reach, d.parameters.reach);
     // faces that have parted by dilation are still in contact
     const double reach = d.reach + d.largest_opening();
     if (d.search.update(reach))
     {
-      d.searched_nodal = d.nodal;
-      d.searched_time  = d.time;
-      d.searched_reach = reach;
+      d.memory.searched_nodal = d.nodal;
+      d.memory.searched_time  = d.time;
+      d.memory.searched_reach = reach;
     }
-    d.search.begin(d.is_virgin ? ContactSearch::Begin::reference
-                               : ContactSearch::Begin::unchanged);
+    d.search.begin(!d.memory.has_accepted_state
+                     ? ContactSearch::Begin::reference
+                     : ContactSearch::Begin::unchanged);
     d.set_admitted_depth();
     d.make_points();
-    if (d.is_geometry_frozen)
+    if (d.is_geometry_frozen())
     {
-      d.frozen_projections.resize(d.points.size());
-      d.frozen_gaps.assign(d.points.size(), 0.);
-      d.is_frozen.assign(d.points.size(), false);
+      d.frozen.projections.resize(d.points.size());
+      d.frozen.gaps.assign(d.points.size(), 0.);
+      d.frozen.is_known.assign(d.points.size(), false);
     }
-    d.note_candidates();
-    d.active_points.clear();
-    d.note_activity();
+    d.is_idle =
+      Parallel::max(d.search.slaves().empty() ? 0U : 1U, d.communicator) == 0U;
+    if (!d.is_idle)
+      d.matrix.update_candidates();
+    d.active.clear_points();
+    d.list_points_of_bodies();
   }
 
 
@@ -173,7 +179,7 @@ namespace NMM
     constexpr double rounding = 1e-6;
     // conserving steps need no such bound: what is found deep brings no energy
     // with it, and must not be lost for good when it is missed once
-    admitted_depth = is_conserving
+    admitted_depth = is_conserving()
                        ? std::numeric_limits<double>::max()
                        : 2. * search.motion_since_begin() + rounding * reach;
   }
@@ -195,18 +201,19 @@ namespace NMM
     // faces that touch are in contact, whatever rounding makes of their gap:
     // a block that lies on another one is held by it from the start. In statics
     // rounding makes nothing of it
-    const double touching = is_moving ? 1e-9 : 0.;
+    const double touching = is_moving() ? 1e-9 : 0.;
 
     ContactTraction   traction;
-    ContactPoint     &point = points[q];
-    const ContactLaw &law   = *point_data[q].law;
-    const double      eps   = law.normal_stiffness;
-    const Dilation    dilation =
-      is_between ? point_data[q].dilation : find_dilation(q, slave, projection);
+    ContactPoint     &point           = points[q];
+    const ContactLaw &law             = *point_data[q].law;
+    const double      eps             = law.normal_stiffness;
+    const Dilation    dilation        = is_between()
+                                          ? point_data[q].dilation
+                                          : find_dilation(q, slave, projection);
     point.opening                     = dilation.opening;
     const ContactLaw::Response spring = law.pressure(
       point.opening - projection.gap +
-      (is_between ? point_data[q].offset_end : point_data[q].offset));
+      (is_between() ? point_data[q].offset_end : point_data[q].offset));
     point.pressure = point.multiplier + spring.value;
     if (!point.is_bonded && point.pressure < -eps * touching * reach)
     {
@@ -248,7 +255,7 @@ namespace NMM
     if (!laws.has_dilation())
       return 0.;
     double slip = 0.;
-    stick_places.for_each(
+    memory.stick_places.for_each(
       [&](unsigned int, const std::vector<StickPlace> &places) {
         for (const StickPlace &place : places)
           slip = std::max(slip, place.slip);
@@ -279,7 +286,7 @@ namespace NMM
       return result;
     // bodies that do not touch anywhere do not slide on each other
     const auto &edges = surface->edges();
-    if (energies_of_pairs.count(
+    if (memory.energies_of_pairs.count(
           std::minmax(edges[point.edge].body, edges[projection.master].body)) ==
         0)
       return result;
@@ -372,7 +379,7 @@ namespace NMM
         traction.shear_stiffness = point.weight * strength.by_slip;
         // a step's shear is that of its middle
         fixed.new_slip =
-          (is_between ? 2. : 1.) * (std::abs(trial) - limit) / stiffness;
+          (is_between() ? 2. : 1.) * (std::abs(trial) - limit) / stiffness;
       }
       // it slides to and fro from one iteration to the next, because the tangent
       // of sliding does not hold it: the secant does
@@ -394,7 +401,7 @@ namespace NMM
     const ContactState          before = point.state;
     const ContactSurface::Place slave  = surface->place(point.edge, point.s);
     const ContactProjection     projection =
-      is_geometry_frozen ? project_frozen(q, slave) : project(q, slave);
+      is_geometry_frozen() ? project_frozen(q, slave) : project(q, slave);
     if (projection.master == invalid_index || point.weight == 0.)
     {
       point.pressure = point.shear = 0.;
@@ -417,7 +424,7 @@ namespace NMM
   {
     const ContactPoint &point = points[q];
     const PointData    &fixed = point_data[q];
-    note_touched(q);
+    active.note_pressed(point.edge, point.master);
     ++(point.state == ContactState::stick ? report.n_stick : report.n_slip);
     report.n_bonded += point.is_bonded;
     // What presses tells how deep it is: not what was found behind a face without
@@ -425,8 +432,8 @@ namespace NMM
     // short to bear anything, where the other face does that meets it in a corner.
     double depth = point.opening - projection.gap;
     if (point.pressure > 0. && depth > report.largest_penetration &&
-        (fixed.corner < Kind::along ||
-         fixed.piece_length > too_short * size_at(q)))
+        (fixed.corner < PointKind::along ||
+         fixed.piece_length > CornerRules::shortest_piece * size_at(q)))
     {
       // a point is pushed out through the face by which it came, which may be
       // further away than another one
@@ -439,7 +446,7 @@ namespace NMM
       report.largest_penetration = std::max(report.largest_penetration, depth);
     }
     deepest = std::max(deepest,
-                       (is_between ? fixed.offset_end : fixed.offset) +
+                       (is_between() ? fixed.offset_end : fixed.offset) +
                          point.opening - projection.gap);
 
     ContactSurface::Weights master, stick;
@@ -449,8 +456,8 @@ namespace NMM
                                  master,
                                  projection.place,
                                  projection.gap,
-                                 with_friction || is_between);
-    if (is_geometry_frozen)
+                                 with_friction || is_between());
+    if (is_geometry_frozen())
       kinematics.freeze();
     const double sign =
       search.comes_first(point.edge, projection.master) ? 1. : -1.;
@@ -471,7 +478,7 @@ namespace NMM
     ContactTraction with_change = traction;
     double          pressure_change[ContactKinematics::max],
       half_slip_change[ContactKinematics::max];
-    if (is_between && with_tangent)
+    if (is_between() && with_tangent)
     {
       differentiate_step(
         q, projection, kinematics, pressure_change, half_slip_change);
@@ -484,41 +491,16 @@ namespace NMM
                       with_friction ? &stick : nullptr,
                       with_tangent,
                       local);
-    if (with_tangent && is_between)
-      note_coupled(q);
-    add_local(with_tangent);
-  }
-
-
-  void
-  Contact::Data::add_local(const bool with_tangent)
-  {
-    const unsigned int                          n = 2 * local.n_covers;
-    const dealii::ArrayView<const unsigned int> covers(local.covers,
-                                                       local.n_covers);
-    for (unsigned int i = 0; with_tangent && tangent_factor != 1. && i < n * n;
-         ++i)
-      local.matrix[i] *= tangent_factor;
-    if (with_tangent && body_matrix == nullptr)
-    {
-      assembler->add(covers, local.matrix, local.rhs);
-      return;
-    }
-    assembler->add_rhs(covers, local.rhs);
-    if (!with_tangent)
-      return;
-    for (unsigned int i = 0; !is_prescribed.empty() && i < n; ++i)
-      if (is_prescribed[2 * covers[i / 2] + i % 2])
-        for (unsigned int j = 0; j < n; ++j)
-          local.matrix[n * i + j] = local.matrix[n * j + i] = 0.;
-    body_matrix->add(covers, local.matrix);
+    if (with_tangent && is_between())
+      active.note_coupled(point.edge, point.master);
+    matrix.add(local);
   }
 
 
   void
   Contact::Data::reduce_report()
   {
-    report.is_between = is_between;
+    report.is_between = is_between();
     report.n_points   = points.size();
     report.n_open     = report.n_points - report.n_stick - report.n_slip;
     if (Parallel::n_mpi_processes(communicator) == 1)
@@ -541,64 +523,114 @@ namespace NMM
   void
   Contact::assemble(const Vector &u, const bool with_tangent)
   {
-    Data &d   = *data;
+    Data &d = *data;
+    d.enter(d.is_between() ? Data::Stage::step_assembled
+                           : Data::Stage::assembled,
+            {Data::Stage::detected,
+             Data::Stage::assembled,
+             Data::Stage::step_begun,
+             Data::Stage::step_assembled,
+             Data::Stage::accepted,
+             Data::Stage::step_accepted});
     d.report  = ContactReport();
     d.deepest = 0.;
     if (d.is_idle)
     {
-      d.residual = 0.;
+      d.matrix.clear_forces();
       return;
     }
-    d.tangent_factor = 1.;
-    d.body_matrix    = nullptr;
     if (with_tangent)
-      d.couple_all();
+      d.matrix.couple_all();
     d.move_to(u);
     d.set_admitted_depth();
-    d.assembler->reset(with_tangent);
+    d.matrix.begin_assembly(with_tangent);
     d.for_each_active_point(
       [&](const unsigned int q) { d.add_point(q, with_tangent); });
-    if (with_tangent)
-      d.assembler->transfer(d.matrix, d.residual);
-    else
-      d.assembler->transfer_rhs(d.residual);
+    d.matrix.end_assembly();
     d.reduce_report();
+  }
+
+
+  void
+  Contact::set_active_bodies(const std::vector<bool> &is_active,
+                             const std::vector<bool> &is_held)
+  {
+    data->active.select(is_active, is_held);
+    data->list_points_of_bodies();
+    data->matrix.update_active_rows();
+  }
+
+
+  void
+  Contact::Data::list_points_of_bodies()
+  {
+    if (!active.has_to_list_points())
+      return;
+    const unsigned int n = surface->n_bodies() - static_cast<unsigned int>(
+                                                   surface->obstacles().size());
+    const auto &edges = surface->edges();
+    active.list_points(points.size(), [&](const auto &add) {
+      for (unsigned int q = 0; q < points.size(); ++q)
+      {
+        const unsigned int position = point_data[q].slave;
+        const unsigned int slave    = edges[search.slaves()[position]].body;
+        if (slave < n)
+          add(q, slave);
+        unsigned int last = slave;
+        for (const unsigned int master : search.masters(position))
+          if (edges[master].body < n && edges[master].body != last)
+            add(q, last = edges[master].body);
+      }
+    });
+  }
+
+
+  const std::vector<BlockPair> &
+  Contact::coupled_bodies() const
+  {
+    return data->active.coupled();
+  }
+
+
+  std::vector<unsigned int>
+  Contact::take_touched()
+  {
+    return data->active.take_touched();
   }
 
 
   const Contact::Vector &
   Contact::residual() const
   {
-    return data->residual;
+    return data->matrix.residual();
   }
 
 
   void
   Contact::add_to_tangent(const Matrix &other, const double factor)
   {
-    data->adder.add(
-      factor, other, data->matrix, data->pattern_version, data->active_rows);
+    data->matrix.add_to_tangent(other, factor);
   }
 
 
   const Contact::Matrix &
   Contact::tangent() const
   {
-    return data->matrix;
+    return data->matrix.tangent();
   }
 
 
   Contact::Matrix &
   Contact::tangent()
   {
-    return data->matrix;
+    return data->matrix.tangent();
   }
 
 
   unsigned int
   Contact::pattern_version() const
   {
-    return data->pattern_version;
+    return data->matrix.pattern_version();
   }
 
 

@@ -3,16 +3,20 @@
 
 #include <nmm/contact/contact.h>
 
-#include <array>
+#include <deal.II/base/exceptions.h>
+
+#include <algorithm>
+#include <contact/active_bodies.h>
 #include <contact/contact_crossings.h>
+#include <contact/contact_matrix.h>
+#include <contact/contact_memory.h>
 #include <contact/contact_points.h>
 #include <contact/contact_search.h>
 #include <contact/contact_terms.h>
 #include <contact/step_clearances.h>
-#include <linear_algebra/active_items.h>
-#include <linear_algebra/cover_matrix_assembler.h>
-#include <linear_algebra/matrix_sum.h>
-#include <map>
+#include <initializer_list>
+#include <memory>
+#include <vector>
 
 namespace NMM
 {
@@ -22,17 +26,69 @@ namespace NMM
          const dealii::AffineConstraints<double> &constraints,
          const ContactParameters                 &parameters);
 
-    /// What a point is: an end of its edge as a corner that touches in a point, a
-    /// place along a slave, or such a place where a corner of the master lies: that
-    /// corner is then the point, and the slave its master, since the corner slides along
-    /// the slave.
-    enum Kind : unsigned int
+    /// What has been done, see Contact.
+    enum class Stage
     {
-      first_end   = 0,
-      last_end    = 1,
-      along       = 2,
-      master_ends = 3
+      created,
+      detected,
+      assembled,
+      step_begun,
+      /// assemble_between() has been called: an assembly is one of the step, or of its end.
+      step_assembled,
+      accepted,
+      /// The end of a step of assemble_between() has been accepted.
+      step_accepted
     };
+
+    enum class Problem
+    {
+      statics,
+      /// See Contact::freeze_geometry().
+      statics_of_frozen_geometry,
+      /// A time step has begun.
+      motion,
+      /// A time step that conserves energy has been tried.
+      conserving_motion
+    };
+
+    /// @p next is reached from one of the stages @p from.
+    void
+    enter(const Stage next, const std::initializer_list<Stage> from)
+    {
+      Assert(
+        std::find(from.begin(), from.end(), stage) != from.end(),
+        dealii::ExcMessage(
+          "Functions of Contact have been called in another order than its "
+          "documentation says."));
+      (void)from;
+      stage = next;
+    }
+
+    /// Whether points are those of a step of assemble_between(), or of its end.
+    bool
+    is_between() const
+    {
+      return stage == Stage::step_assembled || stage == Stage::step_accepted;
+    }
+
+    bool
+    is_moving() const
+    {
+      return problem == Problem::motion ||
+             problem == Problem::conserving_motion;
+    }
+
+    bool
+    is_conserving() const
+    {
+      return problem == Problem::conserving_motion;
+    }
+
+    bool
+    is_geometry_frozen() const
+    {
+      return problem == Problem::statics_of_frozen_geometry;
+    }
 
     /// Opening of a point by slip [m], and the derivatives of gap minus opening
     /// by the gap and by the distance along the face from where it sticks [-].
@@ -46,8 +102,8 @@ namespace NMM
     {
       /// Position in ContactSearch::slaves().
       unsigned int slave;
-      /// See Kind.
-      unsigned int corner = Kind::along;
+      /// See PointKind.
+      unsigned int corner = internal::PointKind::along;
       /// Place on the slave, which is that of the point unless it is a corner of the
       /// master.
       double s = 0.;
@@ -87,9 +143,6 @@ namespace NMM
       unsigned int beside_begin = 0, beside_end = 0;
     };
 
-    /// Pieces of faces that are shorter than this part of a cell bear nothing.
-    static constexpr double too_short = 1e-3;
-
     void
     make_points();
 
@@ -128,30 +181,6 @@ namespace NMM
     void
     update_faces();
 
-    /// Of the places of an edge, or of a corner.
-    unsigned int
-    place_key(const unsigned int edge, const unsigned int corner) const
-    {
-      return corner == 2 ? edge : edge + (corner + 1) * surface->edges().size();
-    }
-
-    /// May anything touch? What may be coupled is to be looked at again.
-    void
-    note_candidates();
-
-    /// What may be coupled; the pattern is kept if that is as before. Not before somebody
-    /// asks for a sparse matrix.
-    void
-    look_at_candidates();
-
-    void
-    append_couplings(unsigned int               position,
-                     std::vector<unsigned int> &couplings) const;
-
-    /// Every candidate is in the pattern of the matrix.
-    void
-    couple_all();
-
     /// Faces of active bodies are where Contact::expect() says.
     void
     move_as_expected();
@@ -161,16 +190,6 @@ namespace NMM
     /// step's begin alone, so that a continuation has the same pattern.
     void
     couple_expected();
-
-    /// At least points that touch in the step are in the pattern, from then on. On one rank.
-    void
-    couple_near();
-
-    void
-    make_pattern();
-
-    void
-    couple_ties();
 
     /// See Contact::freeze_geometry(): the same in every assembly since detect(), but for the
     /// gap, which is that of the displacements.
@@ -263,15 +282,15 @@ namespace NMM
 
     /// @name One point in an assembly
     /// @{
-    /// The matrix of `local`, and its forces.
-    void
-    add_local(bool with_tangent);
-
     void
     hand_over(unsigned int                       q,
               const internal::ContactProjection &projection,
               const internal::ContactTraction   &traction,
               bool                               with_tangent);
+
+    /// Slaves of contact points.
+    std::vector<unsigned int>
+    slaves_of(const std::vector<unsigned int> &numbers) const;
 
     /// Of all active points: which are near.
     void
@@ -375,43 +394,12 @@ namespace NMM
     void
     for_each_active_point(const Action &action)
     {
-      active_points.for_each(points.size(), action);
+      active.for_each_point(points.size(), action);
     }
 
-    void
-    note_activity();
-
+    /// If there are inactive bodies: which points belong to which body.
     void
     list_points_of_bodies();
-
-    void
-    list_covers_of_bodies();
-
-    /// A point presses: on something that is not active?
-    void
-    note_touched(const unsigned int q)
-    {
-      if (is_active.empty())
-        return;
-      const auto &edges = surface->edges();
-      for (const unsigned int body :
-           {edges[points[q].edge].body, edges[points[q].master].body})
-        if (body < is_active.size() && !is_active[body] && !is_held[body])
-          touched_bodies.push_back(body);
-    }
-
-    /// A point couples the bodies of its faces.
-    void
-    note_coupled(const unsigned int q)
-    {
-      const auto     &edges = surface->edges();
-      const BlockPair pair{edges[points[q].edge].body,
-                           edges[points[q].master].body};
-      if (pair.first != pair.second && !surface->is_rigid(points[q].edge) &&
-          !surface->is_rigid(points[q].master) &&
-          (coupled_bodies.empty() || coupled_bodies.back() != pair))
-        coupled_bodies.push_back(pair);
-    }
 
     /// Does the step that began at detect() take anything through something else to where
     /// the surface is now? @p largest_motion: of any point of a face in the step [m].
@@ -443,129 +431,95 @@ namespace NMM
       return corner_size[2 * search.slaves()[point_data[q].slave]];
     }
 
-    /// Energies of all springs between pairs of bodies: normal and shear; of all
-    /// ranks.
-    using PairEnergies =
-      std::map<std::pair<unsigned int, unsigned int>, std::array<double, 2>>;
-
     /// Penetrations and shears are multiplied by @p factors of their pair, if there are any.
-    PairEnergies
-    pair_energies(const PairEnergies *factors = nullptr) const;
+    internal::PairEnergies
+    pair_energies(const internal::PairEnergies *factors = nullptr) const;
 
     std::pair<unsigned int, unsigned int>
     bodies(unsigned int q) const;
 
-    PairEnergies
-    factors_that_keep_energies(const PairEnergies &found) const;
+    internal::PairEnergies
+    factors_that_keep_energies(const internal::PairEnergies &found) const;
 
     void
     keep_energies();
 
-    ContactSurface                          *surface;
-    const dealii::AffineConstraints<double> *constraints;
-    ContactParameters                        parameters;
-    MPI_Comm                                 communicator;
-    internal::ContactSearch                  search;
-    internal::ContactLaws                    laws;
-    bool                                     has_friction;
+    /// What assemblies of a time step need, from begin_step() to accept().
+    struct Step
+    {
+      /// Displacements at the begin of the step, where detect() was called, and when [s].
+      std::vector<double> nodal_begin;
+      double              time_detected = 0.;
+      /// When begin_step() was called [s], and from there to the end [s].
+      double time_begin = 0., length = 0.;
+      /// Faces at the end of the step and in its middle, and the way of obstacles [m].
+      ContactSurface::State             end, middle;
+      std::vector<dealii::Tensor<1, 2>> obstacle_changes;
+      /// See Contact::expect(); empty: nothing is expected.
+      std::vector<double> nodal_expected;
+      /// Which points cannot touch anything in the step, and whether a point was clear in the
+      /// last assembly.
+      internal::StepClearances clearances;
+      std::vector<bool>        was_clear;
+      /// Active points that touch at the begin or the end of the step.
+      std::vector<unsigned int> near_points;
+      /// Energy that is lost between the last accepted state and the begin of the step [J/m].
+      double detection_loss = 0.;
+    };
+
+    /// See Contact::freeze_geometry(). By point: its projection at the first assembly since
+    /// detect(), and by how much its gap is more than that of the displacements [m].
+    struct FrozenGeometry
+    {
+      std::vector<internal::ContactProjection> projections;
+      std::vector<double>                      gaps;
+      std::vector<bool>                        is_known;
+    };
+
+    ContactSurface         *surface;
+    ContactParameters       parameters;
+    MPI_Comm                communicator;
+    internal::ContactSearch search;
+    internal::ContactLaws   laws;
+    bool                    has_friction;
     /// See corner_sizes().
     std::vector<double> corner_size;
     std::vector<double> rule_points, rule_weights;
+    /// Augmented Lagrangian only.
+    std::unique_ptr<internal::MultiplierSpace> multiplier_space;
+
+    internal::ContactMemory memory;
+    internal::ActiveBodies  active;
+    internal::ContactMatrix matrix;
+    Step                    step;
+    FrozenGeometry          frozen;
+    /// Null: not needed so far.
+    std::unique_ptr<internal::ContactCrossings> crossings;
 
     std::vector<double>       nodal;
     std::vector<ContactPoint> points;
     std::vector<PointData>    point_data;
     /// See ContactSearch::append_faces_beside(): where points were made, and as long as
     /// they are, so that no step has to find out while it goes.
-    std::vector<unsigned int>                       faces_beside;
-    std::unique_ptr<internal::CoverMatrixAssembler> assembler;
-    bool                                            is_idle         = true;
-    unsigned int                                    pattern_version = 0;
-    /// See append_couplings(): of all positions now, and when the pattern was begun.
-    std::vector<unsigned int> candidates, coupled_candidates;
-    /// By position in ContactSearch::slaves(): is it to be in the pattern of the matrix,
-    /// was it when that was made?
-    std::vector<bool> is_coupled, is_in_pattern;
-    bool              has_pattern = false, is_pattern_of_step = false,
-         are_candidates_known = false;
+    std::vector<unsigned int> faces_beside;
+    /// How far faces were looked for last, and how deep new contact may be, see
+    /// AdmittedContact [m].
+    double reach = 0., admitted_depth = 0.;
+    /// That is set [s].
+    double time    = 0.;
+    bool   is_idle = true;
 
-    /// Augmented Lagrangian only.
-    std::unique_ptr<internal::MultiplierSpace> multiplier_space;
-    std::vector<double>                        multipliers;
-    internal::StickPlaces                      stick_places;
-    /// Of corners that were in contact at the last accepted state: the master, by
-    /// place_key().
-    std::map<unsigned int, unsigned int> entrances;
-    /// By edge: those that it has been behind at the last accepted state, or that
-    /// have been behind it, and what goes on from them; the same on all ranks.
-    std::vector<std::vector<unsigned int>> touching;
-    /// How deep new contact may be [m], see AdmittedContact.
-    double admitted_depth = 0.;
-    /// See Contact::freeze_geometry(). By point: its projection at detect(), if it has been looked
-    /// for since, and by how much its gap is more than that of the displacements [m].
-    bool                                     is_geometry_frozen = false;
-    std::vector<internal::ContactProjection> frozen_projections;
-    std::vector<double>                      frozen_gaps;
-    std::vector<bool>                        is_frozen;
-    /// A time step has begun, of any kind.
-    bool is_moving = false;
-    /// A step that conserves energy has been tried.
-    bool is_conserving = false;
-    /// No state has been accepted yet: faces that touch may be bonded.
-    bool is_virgin = true;
-    /// By bonds that broke since the last accepted state [J/m].
-    double broken_energy = 0.;
-    /// Of all ranks at the last accepted state.
-    PairEnergies energies_of_pairs;
-    /// What is lost from there to the begin of the step [J/m].
-    double detection_loss = 0.;
+    Stage   stage   = Stage::created;
+    Problem problem = Problem::statics;
     /// What has slid at the last accepted state is all that opens faces.
     bool slip_is_frozen = false;
-    /// Of springs, without offsets [m].
-    double deepest = 0.;
 
-    /// See Contact::set_active_bodies(); by body.
-    std::vector<bool>         is_active, is_held;
-    std::vector<unsigned int> touched_bodies;
-    std::vector<BlockPair>    coupled_bodies;
-    /// See assemble_between().
-    double      tangent_factor = 1.;
-    BodyMatrix *body_matrix    = nullptr;
-    /// Unknowns that are prescribed; empty: none is.
-    std::vector<bool> is_prescribed;
-    /// Points that active bodies may have part in, and their covers, rows and edges.
-    internal::ActiveItems active_points, active_covers, active_rows,
-      active_edges;
-    internal::ContactLocalSystem local;
-    Matrix                       matrix;
-    internal::MatrixAdder        adder;
-    Vector                       residual;
+    /// Of the last assembly; the largest penetration of springs, without offsets [m].
     ContactReport                report;
-    /// How far faces were looked for last [m].
-    double reach = 0.;
-    /// Where all faces were when candidates were looked for, and how far: a
-    /// continuation looks for them there, too, to get the same ones.
-    std::vector<double> searched_nodal;
-    double              searched_time = 0., searched_reach = 0.;
-
-    /// Null: not needed so far.
-    std::unique_ptr<internal::ContactCrossings> crossings;
-
-    /// Which points cannot touch anything in the step, and whether a point was clear in the
-    /// last assembly.
-    internal::StepClearances step_clearances;
-    std::vector<bool>        was_clear;
-    /// Active points that touch at the begin or the end of the step.
-    std::vector<unsigned int> near_points;
-    /// Of a time step: displacements at its begin, where detect() was called, and when; faces at its end and in its middle, and
-    /// the way of obstacles.
-    std::vector<double>               nodal_begin;
-    ContactSurface::State             end_state, middle_state;
-    std::vector<dealii::Tensor<1, 2>> obstacle_changes;
-    /// See Contact::expect(); empty: nothing is.
-    std::vector<double> nodal_expected;
-    double time = 0., time_begin = 0., time_detected = 0., step = 0.;
-    bool   is_between = false;
+    double                       deepest = 0.;
+    internal::ContactLocalSystem local;
+    /// By bonds that broke since the last accepted state [J/m].
+    double broken_energy = 0.;
   };
 } // namespace NMM
 

@@ -77,8 +77,8 @@ namespace NMM
                             parameters.body_ranks,
                             parameters.integration ==
                               ContactIntegration::points);
-      surface->set_displacements(&nodal_begin);
-      surface->set_time(time_detected);
+      surface->set_displacements(&step.nodal_begin);
+      surface->set_time(step.time_detected);
       further.search(motion);
       near = find_near(further, *crossings, depth);
       surface->set_time(time);

@@ -1,4 +1,4 @@
-// What an accepted state leaves behind: multipliers, bonds, places of sticking.
+// What an accepted state leaves behind: memory.multipliers, bonds, places of sticking.
 #include <nmm/base/exceptions.h>
 #include <nmm/contact/contact.h>
 
@@ -20,6 +20,8 @@ namespace NMM
   Contact::augment()
   {
     Data &d = *data;
+    Assert(d.stage == Data::Stage::assembled,
+           dealii::ExcMessage("There is no assembly at a solution."));
     Assert(d.multiplier_space != nullptr,
            dealii::ExcMessage("There is no penetration tolerance."));
     const MultiplierSpace &space  = *d.multiplier_space;
@@ -29,8 +31,8 @@ namespace NMM
     // times function
     std::vector<double> sums(3 * n, 0.);
     // those of corners come last
-    for (unsigned int begin = 0;
-         begin < d.points.size() && d.point_data[begin].corner >= Data::along;
+    for (unsigned int begin = 0; begin < d.points.size() &&
+                                 d.point_data[begin].corner >= PointKind::along;
          begin += n_rule)
     {
       const unsigned int edge = d.search.slaves()[d.point_data[begin].slave];
@@ -63,19 +65,20 @@ namespace NMM
     {
       double value = 0.;
       if (sums[n + i] > 0.)
-        value = std::max(0., d.multipliers[i] + sums[i] / sums[n + i]);
-      const double difference = std::abs(value - d.multipliers[i]);
+        value = std::max(0., d.memory.multipliers[i] + sums[i] / sums[n + i]);
+      const double difference = std::abs(value - d.memory.multipliers[i]);
       const double eps        = sums[n + i] > 0. ? sums[2 * n + i] / sums[n + i]
                                                  : d.parameters.law->normal_stiffness;
       change                  = std::max(change, difference / eps);
-      d.multipliers[i]        = value;
+      d.memory.multipliers[i] = value;
     }
     for (unsigned int q = 0; q < d.points.size(); ++q)
     {
       const Data::PointData &fixed = d.point_data[q];
-      if (fixed.corner >= Data::along)
-        d.points[q].multiplier =
-          space.value(d.multipliers, d.search.slaves()[fixed.slave], fixed.s);
+      if (fixed.corner >= PointKind::along)
+        d.points[q].multiplier = space.value(d.memory.multipliers,
+                                             d.search.slaves()[fixed.slave],
+                                             fixed.s);
     }
     return change;
   }
@@ -140,8 +143,8 @@ namespace NMM
       // points are made anew from these places
       const StickPlace place{
         point.s, point.stick_edge, point.stick_t, false, d.point_data[q].slip};
-      d.stick_places.insert(d.place_key(point.edge, d.point_data[q].corner),
-                            place);
+      d.memory.stick_places.insert(
+        place_key(*d.surface, point.edge, d.point_data[q].corner), place);
     }
     return Parallel::sum(count, d.communicator);
   }
@@ -155,7 +158,7 @@ namespace NMM
     PointData    &fixed      = point_data[q];
     const double  eps        = fixed.law->shear_spring();
     double        dissipated = 0.;
-    if (is_between)
+    if (is_between())
     {
       const double before = shear_energy(q, fixed.shear_begin);
       const double after  = shear_energy(q, point.shear);
@@ -175,7 +178,7 @@ namespace NMM
     if (point.master == invalid_index)
       return dissipated;
     // steps know already what rising against the pressure has taken
-    if (!is_between)
+    if (!is_between())
       dissipated -=
         point.weight * point.pressure * (point.opening - opening_before(q));
     fixed.slip += fixed.new_slip;
@@ -191,7 +194,7 @@ namespace NMM
     {
       const Tensor<1, 2> a = surface->place(point.master, point.t).a;
       place.t -= point.shear / (eps * a.norm());
-      if (!is_between)
+      if (!is_between())
         dissipated +=
           point.weight * std::abs(point.shear) *
           std::abs(
@@ -199,11 +202,11 @@ namespace NMM
               a.norm() -
             point.shear / eps);
     }
-    const unsigned int key    = place_key(point.edge, fixed.corner);
-    const auto        *places = stick_places.find(key);
+    const unsigned int key    = place_key(*surface, point.edge, fixed.corner);
+    const auto        *places = memory.stick_places.find(key);
     // both pieces that meet at a division have a point there
     if (places == nullptr || places->back().s < point.s)
-      stick_places.append(key, place);
+      memory.stick_places.append(key, place);
     point.stick_edge = place.edge;
     point.stick_t    = place.t;
     return dissipated;
@@ -220,7 +223,7 @@ namespace NMM
     const ContactSurface::Edge &other  = surface->edges()[master];
     constexpr auto              smooth = ContactSurface::Corner::smooth;
     const auto note = [&](const unsigned int from, const unsigned int to) {
-      auto &known = touching[from];
+      auto &known = memory.touching[from];
       if (std::find(known.begin(), known.end(), to) == known.end())
         known.push_back(to);
     };
@@ -240,8 +243,8 @@ namespace NMM
   void
   Contact::Data::note_touching()
   {
-    touching.resize(surface->edges().size());
-    for (auto &known : touching)
+    memory.touching.resize(surface->edges().size());
+    for (auto &known : memory.touching)
       known.clear();
     std::vector<unsigned int> pairs;
     for (unsigned int q = 0; q < points.size(); ++q)
@@ -271,26 +274,33 @@ namespace NMM
   Contact::accept()
   {
     Data &d = *data;
-    d.stick_places.clear();
-    d.entrances.clear();
+    Assert(d.stage == Data::Stage::assembled ||
+             d.stage == Data::Stage::step_assembled,
+           dealii::ExcMessage("There is no assembly that could be accepted."));
+    d.memory.stick_places.clear();
+    d.memory.entrances.clear();
     for (unsigned int q = 0; q < d.points.size(); ++q)
-      if (d.point_data[q].corner < Data::along &&
+      if (d.point_data[q].corner < PointKind::along &&
           d.points[q].state != ContactState::open)
-        d.entrances[d.place_key(d.points[q].edge, d.point_data[q].corner)] =
+        d.memory.entrances[place_key(
+          *d.surface, d.points[q].edge, d.point_data[q].corner)] =
           d.points[q].master;
     d.note_touching();
     d.search.begin(ContactSearch::Begin::here);
-    d.is_virgin = false;
+    d.memory.has_accepted_state = true;
     // the same on all ranks
-    double dissipated =
-      Parallel::this_mpi_process(d.communicator) == 0 ? d.detection_loss : 0.;
-    d.detection_loss = 0.;
-    if (d.is_between)
+    double dissipated     = Parallel::this_mpi_process(d.communicator) == 0
+                              ? d.step.detection_loss
+                              : 0.;
+    d.step.detection_loss = 0.;
+    if (d.is_between())
       for (const Data::PointData &fixed : d.point_data)
         dissipated += fixed.normal_loss;
     if (!d.has_friction)
     {
-      d.energies_of_pairs = d.pair_energies();
+      d.memory.energies_of_pairs = d.pair_energies();
+      d.stage =
+        d.is_between() ? Data::Stage::step_accepted : Data::Stage::accepted;
       return Parallel::sum(dissipated, d.communicator);
     }
     (void)break_bonds();
@@ -299,7 +309,9 @@ namespace NMM
     for (unsigned int q = 0; q < d.points.size(); ++q)
       if (d.point_data[q].law != nullptr && d.point_data[q].law->has_friction())
         dissipated += d.accept_shear(q);
-    d.energies_of_pairs = d.pair_energies();
+    d.memory.energies_of_pairs = d.pair_energies();
+    d.stage =
+      d.is_between() ? Data::Stage::step_accepted : Data::Stage::accepted;
     return Parallel::sum(dissipated, d.communicator);
   }
 
@@ -308,81 +320,19 @@ namespace NMM
   Contact::set_absent_bodies(const std::vector<bool> &is_absent)
   {
     Data &d = *data;
-    AssertDimension(is_absent.size(), d.surface->n_bodies());
+    d.stage = Data::Stage::created;
     d.surface->set_absent_bodies(is_absent);
     d.search.forget();
-    const std::size_t n_edges        = d.surface->edges().size();
-    const auto        edge_is_absent = [&](const unsigned int edge) {
-      return is_absent[d.surface->edges()[edge % n_edges].body];
-    };
-    const auto erase_if = [](auto &entries, const auto &is_dropped) {
-      for (auto entry = entries.begin(); entry != entries.end();)
-        entry = is_dropped(*entry) ? entries.erase(entry) : std::next(entry);
-    };
-    erase_if(d.energies_of_pairs, [&](const auto &entry) {
-      return is_absent[entry.first.first] || is_absent[entry.first.second];
-    });
-    erase_if(d.entrances, [&](const auto &entry) {
-      return edge_is_absent(entry.first) || edge_is_absent(entry.second);
-    });
-    for (unsigned int edge = 0; edge < d.touching.size(); ++edge)
-    {
-      auto &known = d.touching[edge];
-      known.erase(std::remove_if(known.begin(), known.end(), edge_is_absent),
-                  known.end());
-      if (edge_is_absent(edge))
-        known.clear();
-    }
-    d.stick_places.remove_if(
-      [&](const unsigned int key, const StickPlace &place) {
-        return edge_is_absent(key) || edge_is_absent(place.edge);
-      });
+    d.memory.forget_absent_bodies(*d.surface);
   }
-
-
-  namespace
-  {
-    /// Those of all ranks, one after the other.
-    template <typename Item>
-    void
-    gather(const MPI_Comm communicator, std::vector<Item> &items)
-    {
-      if (Parallel::n_mpi_processes(communicator) == 1)
-        return;
-      std::vector<Item> all;
-      for (const auto &part : Parallel::all_gather(communicator, items))
-        all.insert(all.end(), part.begin(), part.end());
-      items = std::move(all);
-    }
-  } // namespace
 
 
   ContactHistory
   Contact::history() const
   {
-    const Data    &d = *data;
     ContactHistory result;
-    result.has_accepted_state     = !d.is_virgin;
-    result.is_conserving          = d.is_conserving;
-    result.multipliers            = d.multipliers;
-    result.searched_displacements = d.searched_nodal;
-    result.searched_time          = d.searched_time;
-    result.searched_reach         = d.searched_reach;
-    d.stick_places.for_each(
-      [&](const unsigned int key, const std::vector<StickPlace> &places) {
-        for (const StickPlace &place : places)
-          result.sticks.push_back(
-            {key, place.s, place.edge, place.t, place.is_bonded, place.slip});
-      });
-    result.entrances.assign(d.entrances.begin(), d.entrances.end());
-    gather(d.communicator, result.sticks);
-    gather(d.communicator, result.entrances);
-    // these are the same on all ranks
-    for (unsigned int edge = 0; edge < d.touching.size(); ++edge)
-      for (const unsigned int other : d.touching[edge])
-        result.touching.emplace_back(edge, other);
-    for (const auto &[pair, energies] : d.energies_of_pairs)
-      result.pair_energies.push_back({pair.first, pair.second, energies});
+    result.is_conserving = data->is_conserving();
+    data->memory.save(data->communicator, result);
     return result;
   }
 
@@ -390,51 +340,16 @@ namespace NMM
   void
   Contact::restore_history(const ContactHistory &history)
   {
-    Data              &d       = *data;
-    const unsigned int n_edges = d.surface->edges().size();
-    d.is_virgin                = !history.has_accepted_state;
-    d.is_conserving            = history.is_conserving;
+    Data &d = *data;
+    if (history.is_conserving)
+      d.problem = Data::Problem::conserving_motion;
+    d.memory.restore(history, *d.surface);
     d.search.begin(ContactSearch::Begin::unknown);
-    if (history.multipliers.size() == d.multipliers.size())
-      d.multipliers = history.multipliers;
-    if (!history.searched_displacements.empty())
-    {
-      d.searched_nodal = history.searched_displacements;
-      d.searched_time  = history.searched_time;
-      d.searched_reach = history.searched_reach;
-      d.nodal          = d.searched_nodal;
-      d.surface->set_displacements(&d.nodal);
-      set_time(d.searched_time);
-      d.search.search(d.searched_reach);
-    }
-    // corners of masters are with the slave's rank, which is not known here
-    const auto [first, last] = d.surface->locally_owned_edges();
-    const bool has_obstacles = Parallel::this_mpi_process(d.communicator) == 0;
-    const auto is_mine =
-      [&, first = first, last = last](const unsigned int place) {
-        const unsigned int edge = place % n_edges;
-        return place / n_edges > Data::master_ends ||
-               (edge >= first && edge < last) ||
-               (has_obstacles && d.surface->is_rigid(edge));
-      };
-    d.stick_places.clear();
-    for (const ContactHistory::Stick &stick : history.sticks)
-      if (is_mine(stick.place))
-        d.stick_places.append(
-          stick.place,
-          {stick.s, stick.edge, stick.t, stick.is_bonded, stick.slip});
-    d.stick_places.sort();
-    d.entrances.clear();
-    for (const auto &[place, edge] : history.entrances)
-      if (is_mine(place))
-        d.entrances[place] = edge;
-    d.touching.clear();
-    if (!history.touching.empty())
-      d.touching.resize(n_edges);
-    for (const auto &[edge, other] : history.touching)
-      d.touching[edge].push_back(other);
-    d.energies_of_pairs.clear();
-    for (const ContactHistory::PairEnergy &pair : history.pair_energies)
-      d.energies_of_pairs[{pair.first, pair.second}] = pair.energies;
+    if (history.searched_displacements.empty())
+      return;
+    d.nodal = d.memory.searched_nodal;
+    d.surface->set_displacements(&d.nodal);
+    set_time(d.memory.searched_time);
+    d.search.search(d.memory.searched_reach);
   }
 } // namespace NMM

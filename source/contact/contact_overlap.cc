@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <contact/contact_search.h>
+#include <contact/corner_rules.h>
 #include <limits>
 
 namespace NMM
@@ -11,6 +12,7 @@ namespace NMM
     using dealii::Point;
     using dealii::Tensor;
     using Place = ContactSurface::Place;
+    using namespace CornerRules;
 
     double
     ContactSearch::gap_beyond_corner(const unsigned int  edge,
@@ -42,8 +44,6 @@ namespace NMM
                                 const unsigned int body,
                                 const Point<2>    &x) const
     {
-      constexpr double same = 1e-9;
-
       double nearest = reach, gap = 0.;
       for (const unsigned int master : masters(position))
       {
@@ -57,7 +57,7 @@ namespace NMM
         const double distance = x.distance(end.x);
         const double now      = (x - end.x) * end.normal();
         // at the corner of two edges the one that sees more of the distance knows
-        const bool is_tied = std::abs(distance - nearest) <= same * reach;
+        const bool is_tied = std::abs(distance - nearest) <= same_gap * reach;
         if (is_tied ? std::abs(now) > std::abs(gap) : distance < nearest)
         {
           nearest = distance;
@@ -96,19 +96,13 @@ namespace NMM
                              const unsigned int master,
                              const double       depth) const
     {
-      // of the depth: how far round a corner the next face may begin, and how long the
-      // overlap is at most
-      constexpr double around = 3., short_part = 0.5;
-      // parts of an edge by which it goes on beyond its ends
-      constexpr double beyond = 0.1;
-
       const auto &edges = surface->edges();
       for (const bool forward : {true, false})
       {
         unsigned int e         = master;
         bool         is_convex = false;
         double       way       = 0.;
-        while (way <= around * depth)
+        while (way <= around_corner_beside * depth)
         {
           is_convex =
             is_convex || (forward ? edges[e].at_end : edges[e].at_start) ==
@@ -118,10 +112,10 @@ namespace NMM
             break;
           double t;
           Place  place;
-          if (is_convex && find_nearest(e, x, t, place) && t >= -beyond &&
-              t <= 1. + beyond &&
+          if (is_convex && find_nearest(e, x, t, place) &&
+              t >= -beyond_end_beside && t <= 1. + beyond_end_beside &&
               std::abs((x - place.x) * place.normal()) < depth &&
-              length_behind(edge, place) < short_part * depth)
+              length_behind(edge, place) < longest_overlap_beside * depth)
             return true;
           way += edges[e].length;
         }

@@ -12,6 +12,33 @@ namespace NMM
 {
   namespace internal
   {
+    /// What a contact point is: an end of its edge as a corner that touches in a point, a place
+    /// along a slave, or such a place where a corner of the master lies: that corner is then
+    /// the point, and the slave its master, since the corner slides along the slave.
+    struct PointKind
+    {
+      enum Value : unsigned int
+      {
+        first_end   = 0,
+        last_end    = 1,
+        along       = 2,
+        master_ends = 3
+      };
+    };
+
+
+    /// Number of the places along an edge, or of a corner: what points remember is stored by it.
+    inline unsigned int
+    place_key(const ContactSurface &surface,
+              const unsigned int    edge,
+              const unsigned int    kind)
+    {
+      return kind == PointKind::along
+               ? edge
+               : edge + (kind + 1) * surface.edges().size();
+    }
+
+
     /// Gauss-Lobatto rule of @p n points on [0, 1].
     void
     lobatto_rule(unsigned int         n,

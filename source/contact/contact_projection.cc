@@ -54,20 +54,20 @@ namespace NMM
   Contact::Data::project_frozen(const unsigned int           q,
                                 const ContactSurface::Place &slave)
   {
-    ContactProjection &projection = frozen_projections[q];
+    ContactProjection &projection = frozen.projections[q];
     ContactPoint      &point      = points[q];
-    if (!is_frozen[q])
+    if (!frozen.is_known[q])
     {
-      projection   = project(q, slave);
-      is_frozen[q] = true;
+      projection         = project(q, slave);
+      frozen.is_known[q] = true;
       if (projection.master != invalid_index)
-        frozen_gaps[q] = projection.gap - gap_of_displacements(q, projection);
+        frozen.gaps[q] = projection.gap - gap_of_displacements(q, projection);
       return projection;
     }
     point.x = slave.x;
     if (projection.master != invalid_index)
       point.gap = projection.gap =
-        gap_of_displacements(q, projection) + frozen_gaps[q];
+        gap_of_displacements(q, projection) + frozen.gaps[q];
     return projection;
   }
 
@@ -83,7 +83,7 @@ namespace NMM
       return;
     const dealii::ArrayView<const unsigned int> face(&point.master, 1);
     const ContactProjection                     last =
-      fixed.corner >= Kind::along
+      fixed.corner >= PointKind::along
                             ? search.project(slave, face, fixed.slack, fixed.home, find_admitted(q))
                             : search.project_corner(slave,
                                 normal_of_other_edge(q),
@@ -100,7 +100,7 @@ namespace NMM
                                 const ContactSurface::Place &slave) const
   {
     const ContactPoint &point = points[q];
-    if (is_moving)
+    if (is_moving())
       return slave.x - surface->place(point.stick_edge, point.stick_t).x;
     const ContactSurface::Place from =
       surface->reference_place(point.stick_edge, point.stick_t);
@@ -120,9 +120,9 @@ namespace NMM
     const PointData &fixed = point_data[q];
     admitted.beside        = {faces_beside.data() + fixed.beside_begin,
                               fixed.beside_end - fixed.beside_begin};
-    if (points[q].edge < touching.size())
+    if (points[q].edge < memory.touching.size())
     {
-      const auto &known = touching[points[q].edge];
+      const auto &known = memory.touching[points[q].edge];
       admitted.touching = {known.data(), known.size()};
     }
     return admitted;
@@ -133,7 +133,7 @@ namespace NMM
   Contact::Data::masters_of(const unsigned int q) const
   {
     const unsigned int slave = point_data[q].slave;
-    if (point_data[q].corner <= Kind::along)
+    if (point_data[q].corner <= PointKind::along)
       return search.masters(slave);
     return dealii::ArrayView<const unsigned int>(&search.slaves()[slave], 1);
   }
@@ -147,25 +147,25 @@ namespace NMM
     const auto       masters = masters_of(q);
 
     const AdmittedContact admitted = find_admitted(q);
-    if (fixed.corner >= Kind::along)
+    if (fixed.corner >= PointKind::along)
     {
       ContactProjection result =
         search.project(slave, masters, fixed.slack, fixed.home, admitted);
       // what overlaps far more deeply than it is long came in by the other face
-      constexpr double deep = 4.;
       if (result.master != invalid_index &&
-          result.gap < -deep * fixed.piece_length - too_short * size_at(q))
+          result.gap < -CornerRules::deepest_of_piece * fixed.piece_length -
+                         CornerRules::shortest_piece * size_at(q))
         result = ContactProjection();
       return result;
     }
     const auto entrance =
-      entrances.find(place_key(points[q].edge, fixed.corner));
+      memory.entrances.find(place_key(*surface, points[q].edge, fixed.corner));
     const auto project_on =
       [&](const dealii::ArrayView<const unsigned int> faces) {
         return search.project_corner(slave,
                                      normal_of_other_edge(q),
                                      faces,
-                                     entrance == entrances.end()
+                                     entrance == memory.entrances.end()
                                        ? invalid_index
                                        : entrance->second,
                                      admitted);
@@ -242,7 +242,7 @@ namespace NMM
     const double       facing = -(slave_normal * master_normal);
     double             along  = ContactSearch::along_face(facing);
     const unsigned int corner = point_data[q].corner;
-    if (corner >= Kind::along)
+    if (corner >= PointKind::along)
       return facing * along;
     const double other_facing = -(normal_of_other_edge(q) * master_normal);
     // both edges that end at a vertex have a point there: one spring in all
@@ -294,14 +294,14 @@ namespace NMM
                             fixed.home,
                             find_admitted(q));
     };
-    if (is_between && fixed.corner < Kind::along)
+    if (is_between() && fixed.corner < PointKind::along)
       stay_with_face_of_end(q, slave, projection);
-    if (!is_moving && point.master != invalid_index &&
+    if (!is_moving() && point.master != invalid_index &&
         point.master != projection.master)
       stay_with_face(q, slave, projection);
     // a piece ends where two edges of the master meet; its end stays with one of
     // them, since their normals differ a little and the iteration would not end
-    if (fixed.corner == Kind::along && point.master != invalid_index &&
+    if (fixed.corner == PointKind::along && point.master != invalid_index &&
         projection.master != invalid_index &&
         point.master != projection.master &&
         goes_on(point.master, projection.master, 1))
@@ -313,7 +313,7 @@ namespace NMM
     // where points are made anew in a concave corner in the course of a motion, they
     // stay on the face that they were on: each change loses or finds what its spring
     // holds. Within a step the face is the one that the step ends at, find_end()
-    if (is_moving && !is_between && fixed.corner >= Kind::along &&
+    if (is_moving() && !is_between() && fixed.corner >= PointKind::along &&
         point.master == invalid_index && point.stick_edge != invalid_index &&
         projection.master != invalid_index && projection.gap < 0. &&
         point.stick_edge != projection.master)
@@ -323,7 +323,7 @@ namespace NMM
         projection = last;
     }
     // not where corners take it from another face
-    if (!is_moving && projection.master != invalid_index &&
+    if (!is_moving() && projection.master != invalid_index &&
         projection.gap == (slave.x - projection.place.x) * projection.normal)
       projection.gap = gap_of_displacements(q, projection);
     point.x      = slave.x;
@@ -348,7 +348,8 @@ namespace NMM
         return ContactProjection();
       }
       constexpr double touching = 1e-6;
-      if (is_virgin && std::abs(projection.gap) <= touching * reach)
+      if (!memory.has_accepted_state &&
+          std::abs(projection.gap) <= touching * reach)
         point.is_bonded = laws(point.edge, projection.master).is_bond;
     }
     fixed.law = &laws(point.edge, projection.master);

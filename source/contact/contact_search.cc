@@ -8,6 +8,7 @@
 #include <boost/geometry/index/rtree.hpp>
 #include <cmath>
 #include <contact/contact_search.h>
+#include <contact/corner_rules.h>
 #include <tuple>
 
 namespace NMM
@@ -17,6 +18,7 @@ namespace NMM
     using dealii::Point;
     using dealii::Tensor;
     using Place = ContactSurface::Place;
+    using namespace CornerRules;
 
     namespace
     {
@@ -24,15 +26,6 @@ namespace NMM
       using Corner = bg::model::point<double, 2, bg::cs::cartesian>;
       using Box    = bg::model::box<Corner>;
       using Entry  = std::pair<Box, unsigned int>;
-
-      /// Parts of an edge by which it may go on beyond its ends.
-      constexpr double smooth_extension = 0.1, concave_extension = 0.5;
-      /// The same at convex corners, for points where a piece of a slave ends.
-      constexpr double largest_slack = 0.1;
-      /// Cosine of 37 degrees: faces that are less parallel do not touch along their
-      /// length.
-      constexpr double least_along = 0.8;
-
 
       /// Part of an edge beyond a corner that is as good as the edge itself.
       double
@@ -127,11 +120,11 @@ namespace NMM
     double
     ContactSearch::along_face(const double facing)
     {
-      // cosine of 18 degrees
-      constexpr double all = 0.95;
-      const double     x =
+      const double x =
         std::min(1.,
-                 std::max(0., (facing - least_along) / (all - least_along)));
+                 std::max(0.,
+                          (facing - least_facing_along) /
+                            (all_facing_along - least_facing_along)));
       return x * x * (3. - 2. * x);
     }
 
@@ -155,13 +148,12 @@ namespace NMM
                edges[edge].center == edges[other].center;
       // faces of a body that look the same way by far do not turn to face each
       // other before candidates are looked for again
-      constexpr double same_way = 0.5;
-      bool             may_face = false;
+      bool may_face = false;
       for (const double s : {0., 0.5, 1.})
         for (const double t : {0., 0.5, 1.})
           may_face = may_face || surface->place(edge, s).normal() *
                                      surface->place(other, t).normal() <
-                                   same_way;
+                                   same_way_of_body;
       if (!may_face)
         return false;
       // the far side of a thin body is no neighbour: what touches later lies
@@ -341,7 +333,7 @@ namespace NMM
       const Point<2>     start = surface->place(edge, 0.).x;
       const Tensor<1, 2> chord = surface->place(edge, 1.).x - start;
       t                        = ((x - start) * chord) / chord.norm_square();
-      t = std::min(1. + concave_extension, std::max(-concave_extension, t));
+      t = std::min(1. + beyond_concave_end, std::max(-beyond_concave_end, t));
 
       constexpr unsigned int max_iterations = 30;
       // rounding of positions, and of nearly nothing
@@ -373,9 +365,6 @@ namespace NMM
     std::vector<ContactSearch::Division>
     ContactSearch::divisions(const unsigned int position) const
     {
-      // shorter pieces weigh nothing
-      constexpr double same = 1e-6;
-
       const unsigned int    slave = slave_edges[position];
       std::vector<Division> found;
       for (const unsigned int master : masters(position))
@@ -385,8 +374,8 @@ namespace NMM
           double         t;
           Place          place;
           if (!surface->is_further(slave, x, reach, 0., 0.) &&
-              find_nearest(slave, x, t, place) && t > same && t < 1. - same &&
-              place.x.distance(x) <= reach &&
+              find_nearest(slave, x, t, place) && t > same_division &&
+              t < 1. - same_division && place.x.distance(x) <= reach &&
               along_face(
                 -(place.normal() * surface->place(master, end).normal())) > 0.)
             found.push_back(
@@ -400,7 +389,7 @@ namespace NMM
                 });
       std::vector<Division> result(1);
       for (const Division &division : found)
-        if (division.s - result.back().s >= same)
+        if (division.s - result.back().s >= same_division)
           result.push_back(division);
         else if (result.size() > 1 && result.back().master == invalid_index)
           result.back() = division;
@@ -415,15 +404,14 @@ namespace NMM
     ContactSearch::meet_in_convex_corner(const unsigned int edge,
                                          const unsigned int other) const
     {
-      constexpr unsigned int n_edges = 4;
-
       const auto &edges = surface->edges();
       for (const auto &[from, to] :
            {std::make_pair(edge, other), std::make_pair(other, edge)})
       {
         bool         is_convex = false;
         unsigned int e         = from;
-        for (unsigned int i = 0; i < n_edges && e != invalid_index; ++i)
+        for (unsigned int i = 0; i < most_edges_of_corner && e != invalid_index;
+             ++i)
         {
           if (e == to)
             return is_convex;
@@ -457,8 +445,6 @@ namespace NMM
       const unsigned int                          entrance,
       const AdmittedContact                      &admitted) const
     {
-      // part of the reach that is rounding
-      constexpr double same = 1e-9;
       // faces at nearly a right angle, or that look the same way, do not touch
       const double least_facing = admitted.least_facing;
 
@@ -469,8 +455,8 @@ namespace NMM
         const ContactSurface::Edge &edge = surface->edges()[master];
         ContactProjection           now;
         now.master          = master;
-        const double before = extension(edge.at_start, rounding_slack);
-        const double after  = extension(edge.at_end, rounding_slack);
+        const double before = extension(edge.at_start, beyond_rounding);
+        const double after  = extension(edge.at_end, beyond_rounding);
         if (surface->is_further(master, slave_place.x, reach, before, after) ||
             !find_nearest(master, slave_place.x, now.t, now.place) ||
             now.t < -before || now.t > 1. + after)
@@ -520,7 +506,7 @@ namespace NMM
         if (best.master == invalid_index ||
             (is_inside != best_is_inside
                ? is_inside
-               : std::abs(now.gap) < std::abs(best.gap) - same * reach))
+               : std::abs(now.gap) < std::abs(best.gap) - same_gap * reach))
           best = now;
       }
       return best;
@@ -538,13 +524,11 @@ namespace NMM
     {
       if (division.master == invalid_index)
         return invalid_index;
-      // parts of the reach; more than springs give way by
-      constexpr double behind = 0.1;
-      const auto      &corner = surface->edges()[division.master];
-      const Place slave = surface->place(slave_edges[position], division.s);
+      const auto &corner = surface->edges()[division.master];
+      const Place slave  = surface->place(slave_edges[position], division.s);
       if ((surface->place(division.master, division.end).x - slave.x) *
             slave.normal() <=
-          -behind * reach)
+          -behind_division * reach)
         return invalid_index;
       for (const auto &[edge, end] :
            {std::make_pair(division.master, division.end),
@@ -572,23 +556,21 @@ namespace NMM
       const double s = division.s;
       master         = edge_beside(position, division, s_inside);
       if (master != invalid_index)
-        return largest_slack;
+        return beyond_division;
 
-      // next to the end, and however far away
-      constexpr double near = 1e-3, far = 2.;
-      const Place      place =
-        surface->place(slave_edges[position], s + near * (s_inside - s));
+      const Place     place = surface->place(slave_edges[position],
+                                         s + inside_of_piece * (s_inside - s));
       AdmittedContact admitted;
-      admitted.least_facing = least_along;
+      admitted.least_facing = least_facing_along;
       master                = project_within(place,
                               masters(position),
                               0.,
                               invalid_index,
                               invalid_index,
-                              far * reach,
+                              reach_of_piece * reach,
                               admitted)
                  .master;
-      return master == invalid_index ? -largest_slack : largest_slack;
+      return master == invalid_index ? -beyond_division : beyond_division;
     }
 
 
@@ -599,9 +581,9 @@ namespace NMM
       switch (corner)
       {
         case ContactSurface::Corner::smooth:
-          return smooth_extension;
+          return beyond_smooth_end;
         case ContactSurface::Corner::concave:
-          return concave_extension;
+          return beyond_concave_end;
         default:
           return slack;
       }
@@ -614,7 +596,7 @@ namespace NMM
                             const unsigned int home)
     {
       return slack < 0. || master == home || home == any_edge ? slack
-                                                              : rounding_slack;
+                                                              : beyond_rounding;
     }
 
 
@@ -623,12 +605,11 @@ namespace NMM
                              const double       s,
                              const unsigned int master) const
     {
-      constexpr double        end_of_master = 0.01;
-      const auto             &edges         = surface->edges();
-      const unsigned int      slave         = slave_edges[position];
+      const auto             &edges  = surface->edges();
+      const unsigned int      slave  = slave_edges[position];
       const ContactProjection result = project_within(surface->place(slave, s),
                                                       masters(position),
-                                                      end_of_master,
+                                                      end_of_home,
                                                       any_edge,
                                                       edges[master].body,
                                                       reach,
@@ -639,7 +620,7 @@ namespace NMM
         edges[result.master].length * std::max({0., -result.t, result.t - 1.});
       const double size =
         1. / std::sqrt(std::abs(dealii::determinant(edges[slave].inverse)));
-      return beyond <= end_of_master * size ? result.master : invalid_index;
+      return beyond <= end_of_home * size ? result.master : invalid_index;
     }
 
 
@@ -653,11 +634,6 @@ namespace NMM
       const double                                largest_gap,
       const AdmittedContact                      &admitted) const
     {
-      // gaps that differ by less than this part of the reach are equal
-      constexpr double same = 1e-9;
-      // faces that look the same way
-      constexpr double facing_away = -0.5;
-
       const Tensor<1, 2> slave_normal = slave_place.normal();
       ContactProjection  best;
       double             best_overshoot = 0.;
@@ -677,8 +653,8 @@ namespace NMM
         if (surface->is_further(master,
                                 slave_place.x,
                                 largest_gap,
-                                std::max(before, smooth_extension),
-                                std::max(after, smooth_extension)))
+                                std::max(before, beyond_smooth_end),
+                                std::max(after, beyond_smooth_end)))
           continue;
         ContactProjection now;
         now.master = master;
@@ -687,8 +663,8 @@ namespace NMM
         now.normal          = now.place.normal();
         const double facing = -(now.normal * slave_normal);
         now.gap             = (slave_place.x - now.place.x) * now.normal;
-        if (facing < facing_away && now.t >= -smooth_extension &&
-            now.t <= 1. + smooth_extension)
+        if (facing < far_side_facing && now.t >= -beyond_smooth_end &&
+            now.t <= 1. + beyond_smooth_end)
           outside.emplace_back(master, now.gap);
         if (facing <= admitted.least_facing ||
             std::abs(now.gap) > largest_gap || !admitted.holds(now) ||
@@ -701,16 +677,17 @@ namespace NMM
                     -now.t - inside_slack(edge.at_start, slack),
                     now.t - 1. - inside_slack(edge.at_end, slack)});
         bool is_better = best.master == invalid_index;
-        if (!is_better && std::abs(overshoot - best_overshoot) > same * reach)
+        if (!is_better &&
+            std::abs(overshoot - best_overshoot) > same_gap * reach)
           is_better = overshoot < best_overshoot;
         else if (!is_better && meet_in_convex_corner(best.master, master))
-          is_better = facing > best_facing + same;
+          is_better = facing > best_facing + same_gap;
         else if (!is_better)
         {
           const double difference = std::abs(now.gap) - std::abs(best.gap);
-          is_better               = std::abs(difference) > same * reach
+          is_better               = std::abs(difference) > same_gap * reach
                                       ? difference < 0.
-                                      : facing > best_facing + same;
+                                      : facing > best_facing + same_gap;
         }
         if (is_better)
         {

@@ -4,6 +4,7 @@
 #include <nmm/contact/contact_surface.h>
 
 #include <algorithm>
+#include <contact/corner_rules.h>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -36,9 +37,6 @@ namespace NMM
                  const dealii::Tensor<1, 2> &normal,
                  const dealii::Tensor<1, 2> &other_normal)
     {
-      // sine of half a degree: faces that lie on each other are on the border
-      constexpr double border = 0.01;
-
       const auto cross = [](const auto &a, const auto &b) {
         return a[0] * b[1] - a[1] * b[0];
       };
@@ -46,8 +44,10 @@ namespace NMM
       if (turn == 0.)
         return true;
       const double sign = turn > 0. ? 1. : -1.;
-      return sign * cross(face_normal, normal) >= -border &&
-             sign * cross(other_normal, face_normal) >= -border;
+      return sign * cross(face_normal, normal) >=
+               -CornerRules::entrance_border &&
+             sign * cross(other_normal, face_normal) >=
+               -CornerRules::entrance_border;
     }
 
 
@@ -63,7 +63,7 @@ namespace NMM
       dealii::ArrayView<const unsigned int> beside;
       /// Faces that are less parallel do not touch: minus the product of both unit
       /// normals.
-      double least_facing = 0.01;
+      double least_facing = CornerRules::least_facing;
 
       /// What is found far inside of a body may have got there.
       bool
@@ -211,10 +211,6 @@ namespace NMM
         return largest_distance(accepted_positions);
       }
 
-      /// Part of an edge by which it goes on beyond its ends because of rounding: for
-      /// corners, and where there is no other slack.
-      static constexpr double rounding_slack = 1e-9;
-
       /// As the home of project(): all of the masters.
       static constexpr unsigned int any_edge = invalid_index - 1;
 
@@ -279,7 +275,7 @@ namespace NMM
       /**
        * How far a point at @p x is, at least, from where it would be behind one of
        * the masters as project() finds it with @p slack and @p home, project_corner() with
-       * rounding_slack and any_edge: the distance from the strips behind all of
+       * CornerRules::beyond_rounding and any_edge: the distance from the strips behind all of
        * them that are as deep as the reach [m]. 0 if one of them is an arc.
        */
       double

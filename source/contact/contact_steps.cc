@@ -53,7 +53,7 @@ namespace NMM
   }
 
 
-  Contact::Data::PairEnergies
+  PairEnergies
   Contact::Data::pair_energies(const PairEnergies *factors) const
   {
     PairEnergies result;
@@ -97,7 +97,7 @@ namespace NMM
   /// Factors k of penetrations and shears with which each pair of bodies stores no more than
   /// before: sqrt(E_before / E_found) of linear springs. Energies of others grow faster than
   /// with the square, so that the same again brings them there.
-  Contact::Data::PairEnergies
+  PairEnergies
   Contact::Data::factors_that_keep_energies(const PairEnergies &found) const
   {
     constexpr unsigned int max_iterations = 50;
@@ -113,11 +113,11 @@ namespace NMM
       is_reached = true;
       for (auto &[pair, factor] : factors)
       {
-        const auto before = energies_of_pairs.find(pair);
+        const auto before = memory.energies_of_pairs.find(pair);
         for (unsigned int k = 0; k < 2; ++k)
         {
           const double old =
-            before == energies_of_pairs.end() ? 0. : before->second[k];
+            before == memory.energies_of_pairs.end() ? 0. : before->second[k];
           const double energy = now[pair][k];
           if (energy <= old * (1. + rounding))
             continue;
@@ -135,15 +135,15 @@ namespace NMM
   void
   Contact::Data::keep_energies()
   {
-    detection_loss = 0.;
-    if (is_virgin)
+    step.detection_loss = 0.;
+    if (!memory.has_accepted_state)
       return;
     const PairEnergies found = pair_energies();
-    for (const auto &[pair, energies] : energies_of_pairs)
+    for (const auto &[pair, energies] : memory.energies_of_pairs)
     {
       const auto now = found.find(pair);
       for (unsigned int i = 0; i < 2; ++i)
-        detection_loss +=
+        step.detection_loss +=
           std::max(0.,
                    energies[i] - (now == found.end() ? 0. : now->second[i]));
     }
@@ -173,21 +173,26 @@ namespace NMM
   void
   Contact::begin_step(const Vector &u, const double time)
   {
-    Data &d              = *data;
-    d.is_between         = false;
-    d.is_pattern_of_step = false;
-    d.nodal_expected.clear();
-    d.is_moving  = true;
-    d.time_begin = time;
+    Data &d = *data;
+    d.enter(Data::Stage::step_begun,
+            {Data::Stage::detected,
+             Data::Stage::assembled,
+             Data::Stage::step_begun,
+             Data::Stage::step_assembled});
+    if (!d.is_moving())
+      d.problem = Data::Problem::motion;
+    d.matrix.begin_step();
+    d.step.nodal_expected.clear();
+    d.step.time_begin = time;
     set_time(time);
     // what lies between the last step and this one opens nothing
     d.slip_is_frozen = true;
     assemble(u, false);
     d.slip_is_frozen = false;
-    if (d.is_virgin)
-      d.energies_of_pairs = d.pair_energies();
+    if (!d.memory.has_accepted_state)
+      d.memory.energies_of_pairs = d.pair_energies();
     d.keep_energies();
-    d.end_state = d.middle_state = d.surface->state();
+    d.step.end = d.step.middle = d.surface->state();
     for (unsigned int q = 0; q < d.points.size(); ++q)
     {
       d.point_data[q].gap_begin    = d.points[q].gap - d.opening_before(q);
@@ -209,6 +214,7 @@ namespace NMM
           point.shear / (d.point_data[q].law->shear_spring() * length);
     }
     d.find_clearances();
+    d.stage = Data::Stage::step_begun;
   }
 
 
@@ -235,20 +241,21 @@ namespace NMM
   Contact::Data::relative_motion(const unsigned int       q,
                                  const ContactProjection &projection) const
   {
-    const unsigned int n_obstacles = obstacle_changes.size();
+    const unsigned int n_obstacles = step.obstacle_changes.size();
     Tensor<1, 2>       motion;
     const auto         add = [&](const unsigned int                  edge,
                          const ContactSurface::WeightValues &f,
                          const double                        sign) {
       if (surface->is_rigid(edge))
-        motion += sign * obstacle_changes[surface->edges()[edge].body -
-                                          (surface->n_bodies() - n_obstacles)];
+        motion +=
+          sign * step.obstacle_changes[surface->edges()[edge].body -
+                                       (surface->n_bodies() - n_obstacles)];
       const auto covers = surface->covers(edge);
       for (unsigned int i = 0; i < f.n; ++i)
         for (unsigned int c = 0; c < 2; ++c)
           motion[c] += sign * f.w[i] *
-                       (end_state.nodal[2 * covers[i] + c] -
-                        nodal_begin[2 * covers[i] + c]);
+                       (step.end.nodal[2 * covers[i] + c] -
+                        step.nodal_begin[2 * covers[i] + c]);
     };
     ContactSurface::Weights master;
     surface->weights(projection.master, projection.t, master);
@@ -309,7 +316,7 @@ namespace NMM
     const double spring = point.pressure;
     if (spring > 0. && law.normal_damping > 0.)
     {
-      const double c = law.normal_damping / step;
+      const double c = law.normal_damping / step.length;
       point.pressure += c * (std::max(0., -g_1) - std::max(0., -g_0));
       derivative -= g_1 < 0. ? c : 0.;
     }
@@ -399,8 +406,8 @@ namespace NMM
     surface->weights(projection.master, projection.t, weights);
     for (unsigned int i = 0; i < weights.n; ++i)
       for (unsigned int c = 0; c < 2; ++c)
-        stretch[c] -= weights.dw[i] * (end_state.nodal[2 * covers[i] + c] -
-                                       nodal_begin[2 * covers[i] + c]);
+        stretch[c] -= weights.dw[i] * (step.end.nodal[2 * covers[i] + c] -
+                                       step.nodal_begin[2 * covers[i] + c]);
     const double along = motion * f.tangent, across = motion * f.normal;
     const double by_foot_along  = stretch * f.tangent,
                  by_foot_across = stretch * f.normal;
@@ -445,7 +452,7 @@ namespace NMM
       point.stick_t    = projection.t - 0.5 * slip / length;
     }
     const double by_half_slip =
-      law.shear_spring() + 2. * law.shear_damping / step;
+      law.shear_spring() + 2. * law.shear_damping / step.length;
     find_shear(q,
                (is_coming ? 0. : fixed.shear_begin) + 0.5 * by_half_slip * slip,
                by_half_slip,
@@ -538,20 +545,20 @@ namespace NMM
   void
   Contact::Data::set_step_states(const Vector &end)
   {
-    std::vector<double> &at_end = end_state.nodal;
+    std::vector<double> &at_end = step.end.nodal;
     if (Parallel::n_mpi_processes(communicator) > 1)
       read_nodal_values(surface->cover_system(), end, at_end);
     else
     {
       const auto from = end.begin();
-      active_covers.for_each(at_end.size() / 2, [&](const unsigned int k) {
+      active.for_each_cover(at_end.size() / 2, [&](const unsigned int k) {
         at_end[2 * k]     = from[2 * k];
         at_end[2 * k + 1] = from[2 * k + 1];
       });
     }
-    active_covers.for_each(at_end.size() / 2, [&](const unsigned int k) {
+    active.for_each_cover(at_end.size() / 2, [&](const unsigned int k) {
       for (const unsigned int i : {2 * k, 2 * k + 1})
-        middle_state.nodal[i] = 0.5 * (nodal_begin[i] + at_end[i]);
+        step.middle.nodal[i] = 0.5 * (step.nodal_begin[i] + at_end[i]);
     });
     update_faces();
   }
@@ -560,23 +567,23 @@ namespace NMM
   void
   Contact::Data::update_faces()
   {
-    surface->set_state(end_state);
-    active_edges.for_each(surface->edges().size(), [&](const unsigned int e) {
-      surface->update(end_state, e);
-      surface->update(middle_state, e);
+    surface->set_state(step.end);
+    active.for_each_edge([&](const unsigned int e) {
+      surface->update(step.end, e);
+      surface->update(step.middle, e);
     });
-    step_clearances.note_motion();
+    step.clearances.note_motion();
   }
 
 
   void
   Contact::Data::move_as_expected()
   {
-    active_covers.for_each(nodal_expected.size() / 2,
-                           [&](const unsigned int k) {
-                             for (const unsigned int i : {2 * k, 2 * k + 1})
-                               end_state.nodal[i] = nodal_expected[i];
-                           });
+    active.for_each_cover(step.nodal_expected.size() / 2,
+                          [&](const unsigned int k) {
+                            for (const unsigned int i : {2 * k, 2 * k + 1})
+                              step.end.nodal[i] = step.nodal_expected[i];
+                          });
     update_faces();
   }
 
@@ -584,7 +591,7 @@ namespace NMM
   void
   Contact::Data::find_clearances()
   {
-    was_clear.assign(points.size(), false);
+    step.was_clear.assign(points.size(), false);
     // what slides apart may open faces that are in contact
     if (!parameters.skip_clear_points || laws.has_dilation())
       return;
@@ -595,7 +602,7 @@ namespace NMM
     {
       const ContactPoint &point     = points[q];
       const PointData    &fixed     = point_data[q];
-      const bool          is_corner = fixed.corner < Kind::along;
+      const bool          is_corner = fixed.corner < PointKind::along;
       point_to_body[q]              = edges[search.slaves()[fixed.slave]].body;
       if (fixed.gap_begin < fixed.offset || point.is_bonded ||
           edges[point.edge].radius != 0.)
@@ -606,11 +613,11 @@ namespace NMM
           ? std::numeric_limits<double>::max()
           : search.clearance(surface->place(point.edge, point.s).x,
                              masters_of(q),
-                             is_corner ? ContactSearch::rounding_slack
+                             is_corner ? CornerRules::beyond_rounding
                                        : fixed.slack,
                              is_corner ? ContactSearch::any_edge : fixed.home);
     }
-    step_clearances.begin(
+    step.clearances.begin(
       *surface, search, std::move(distances), std::move(point_to_body), reach);
   }
 
@@ -634,15 +641,41 @@ namespace NMM
   void
   Contact::Data::find_ends()
   {
-    near_points.clear();
+    step.near_points.clear();
     for_each_active_point([&](const unsigned int q) {
-      const bool is_clear = step_clearances.is_clear(q);
-      if (is_clear && !was_clear[q])
+      const bool is_clear = step.clearances.is_clear(q);
+      if (is_clear && !step.was_clear[q])
         note_clear(q);
-      was_clear[q] = is_clear;
+      step.was_clear[q] = is_clear;
       if (!is_clear && find_end(q))
-        near_points.push_back(q);
+        step.near_points.push_back(q);
     });
+  }
+
+
+  std::vector<unsigned int>
+  Contact::Data::slaves_of(const std::vector<unsigned int> &numbers) const
+  {
+    std::vector<unsigned int> result;
+    result.reserve(numbers.size());
+    for (const unsigned int q : numbers)
+      result.push_back(point_data[q].slave);
+    return result;
+  }
+
+
+  void
+  Contact::Data::couple_expected()
+  {
+    // how many times as far as expected anything may move
+    constexpr double margin = 2.;
+
+    std::vector<bool> is_expected(search.slaves().size(), false);
+    for_each_active_point([&](const unsigned int q) {
+      if (!step.clearances.is_clear(q, margin))
+        is_expected[point_data[q].slave] = true;
+    });
+    matrix.couple_step(std::move(is_expected));
   }
 
 
@@ -663,7 +696,9 @@ namespace NMM
   void
   Contact::expect(const Vector &u)
   {
-    read_nodal_values(data->surface->cover_system(), u, data->nodal_expected);
+    read_nodal_values(data->surface->cover_system(),
+                      u,
+                      data->step.nodal_expected);
   }
 
 
@@ -674,56 +709,53 @@ namespace NMM
                             const double  tangent_factor,
                             BodyMatrix   *body_matrix)
   {
-    Data &d          = *data;
-    d.body_matrix    = body_matrix;
-    d.report         = ContactReport();
-    d.deepest        = 0.;
-    d.tangent_factor = tangent_factor;
+    Data &d = *data;
+    d.enter(Data::Stage::step_assembled,
+            {Data::Stage::step_begun, Data::Stage::step_assembled});
+    d.report  = ContactReport();
+    d.deepest = 0.;
     if (with_tangent)
-      d.coupled_bodies.clear();
+      d.active.clear_coupled();
     if (d.is_idle)
     {
-      d.residual = 0.;
+      d.matrix.clear_forces();
       return;
     }
     const unsigned int n_obstacles = d.surface->obstacles().size();
-    d.obstacle_changes.resize(n_obstacles);
+    d.step.obstacle_changes.resize(n_obstacles);
     d.surface->set_time(time);
     for (unsigned int i = 0; i < n_obstacles; ++i)
-      d.obstacle_changes[i] = d.surface->obstacle_displacement(i);
-    d.step                 = time - d.time_begin;
+      d.step.obstacle_changes[i] = d.surface->obstacle_displacement(i);
+    d.step.length          = time - d.step.time_begin;
     const bool on_one_rank = Parallel::n_mpi_processes(d.communicator) == 1;
     const bool is_sparse   = with_tangent && body_matrix == nullptr;
-    const bool is_first    = is_sparse && on_one_rank && !d.is_pattern_of_step;
-    if (is_first && !d.nodal_expected.empty())
+    const bool is_first =
+      is_sparse && on_one_rank && !d.matrix.is_step_coupled();
+    if (is_first && !d.step.nodal_expected.empty())
     {
       d.move_as_expected();
       d.couple_expected();
     }
     d.set_step_states(end);
-    d.is_conserving = true;
+    d.problem = Data::Problem::conserving_motion;
     d.set_admitted_depth();
     d.find_ends();
-    if (is_first && d.nodal_expected.empty())
+    if (is_first && d.step.nodal_expected.empty())
       d.couple_expected();
 
-    d.surface->set_time(d.time_begin);
+    d.surface->set_time(d.step.time_begin);
     for (unsigned int i = 0; i < n_obstacles; ++i)
-      d.obstacle_changes[i] -= d.surface->obstacle_displacement(i);
-    d.surface->set_time(d.time_begin, time);
-    d.surface->set_state(d.middle_state);
-    d.is_between = true;
+      d.step.obstacle_changes[i] -= d.surface->obstacle_displacement(i);
+    d.surface->set_time(d.step.time_begin, time);
+    d.surface->set_state(d.step.middle);
     if (is_sparse && on_one_rank)
-      d.couple_near();
+      d.matrix.couple(d.slaves_of(d.step.near_points));
     else if (is_sparse)
-      d.couple_all();
-    d.assembler->reset(is_sparse);
-    for (const unsigned int q : d.near_points)
+      d.matrix.couple_all();
+    d.matrix.begin_assembly(with_tangent, tangent_factor, body_matrix);
+    for (const unsigned int q : d.step.near_points)
       d.add_point_between(q, with_tangent);
-    if (is_sparse)
-      d.assembler->transfer(d.matrix, d.residual);
-    else
-      d.assembler->transfer_rhs(d.residual);
+    d.matrix.end_assembly();
     d.reduce_report();
   }
 
@@ -736,15 +768,15 @@ namespace NMM
     const unsigned int first  = d.surface->n_bodies() - n;
     double             work   = 0.;
     bool               is_any = false;
-    d.obstacle_changes.resize(n);
+    d.step.obstacle_changes.resize(n);
     d.surface->set_time(time_end);
     for (unsigned int i = 0; i < n; ++i)
-      d.obstacle_changes[i] = d.surface->obstacle_displacement(i);
+      d.step.obstacle_changes[i] = d.surface->obstacle_displacement(i);
     d.surface->set_time(time_begin);
     for (unsigned int i = 0; i < n; ++i)
     {
-      d.obstacle_changes[i] -= d.surface->obstacle_displacement(i);
-      is_any = is_any || d.obstacle_changes[i].norm_square() > 0.;
+      d.step.obstacle_changes[i] -= d.surface->obstacle_displacement(i);
+      is_any = is_any || d.step.obstacle_changes[i].norm_square() > 0.;
     }
     d.surface->set_time(d.time);
     if (!is_any)
@@ -761,7 +793,7 @@ namespace NMM
           dealii::Point<2>(-point.normal[1], point.normal[0]);
         work += sign * point.weight *
                 (point.pressure * point.normal - point.shear * tangent) *
-                d.obstacle_changes[d.surface->edges()[edge].body - first];
+                d.step.obstacle_changes[d.surface->edges()[edge].body - first];
       }
     return Parallel::sum(work, d.communicator);
   }

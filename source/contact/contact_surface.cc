@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <contact/corner_rules.h>
 
 namespace NMM
 {
@@ -344,9 +345,6 @@ namespace NMM
   void
   ContactSurface::set_corners()
   {
-    // angle that rounding cannot make [rad]
-    constexpr double smooth = 1e-3;
-
     for (unsigned int e = 0; e < all_edges.size(); ++e)
     {
       Edge &edge = all_edges[e];
@@ -360,10 +358,12 @@ namespace NMM
       const Edge &next   = all_edges[edge.next];
       const bool  is_tip = next.start == edge.end && next.end == edge.start &&
                           next.center == edge.center;
-      edge.at_end                   = is_tip ? Corner::concave
-                                      : std::abs(angle) < smooth ? Corner::smooth
-                                      : angle > 0. ? Corner::convex
-                                                   : Corner::concave;
+      edge.at_end =
+        is_tip ? Corner::concave
+        : std::abs(angle) < internal::CornerRules::largest_smooth_angle
+          ? Corner::smooth
+        : angle > 0. ? Corner::convex
+                     : Corner::concave;
       all_edges[edge.next].at_start = edge.at_end;
     }
   }

@@ -109,7 +109,9 @@ namespace NMM
                      point.gap,
                      point.pressure,
                      point.shear,
-                     point.weight,
+                     // nothing depends on that of an open point, which a
+                     // continuation may find by another way
+                     point.state == ContactState::open ? 0. : point.weight,
                      double(static_cast<unsigned int>(point.state)),
                      double(point.is_bonded),
                      point.s});

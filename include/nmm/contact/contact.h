@@ -157,6 +157,27 @@ namespace NMM
    *
    * It knows positions and normals, not materials. All per unit thickness.
    *
+   * Order of calls. Each function asserts that it is called at one of the stages from which an
+   * arrow leads to it; set_time() and functions that only tell something may be called at any.
+   * @verbatim
+   *   created <------------------------- set_absent_bodies(), from any stage
+   *      | detect()
+   *   detected <------------------------ detect(), from any stage
+   *      |      \ begin_step()
+   *      |       step_begun ----------------------------.
+   *      |           | assemble()                       | assemble_between()
+   *      | assemble()|                                  |
+   *   assembled <----'  (assemble(), augment(): stays)  step_assembled  (assemble(),
+   *      | accept()                                     |  assemble_between(): stays)
+   *      |                                              | accept()
+   *   accepted          (assemble(): assembled)         step_accepted   (assemble(): stays)
+   * @endverbatim
+   * @endverbatim
+   * Statics: detect(), then assemble() in each iteration, with detect() between them where
+   * faces have moved far; accept() at the solution. Time steps: detect() and begin_step() at the
+   * begin of the step, then assemble_between() (schemes that conserve energy) or assemble() in
+   * each iteration; at the end assemble() there, and accept(); or begin_step() again.
+   *
    * Lifetime: the surface and the constraints must outlive this object.
    */
   class Contact

@@ -2,10 +2,9 @@
 //
 //   nmm-bench measure smallest|quick|full <table.csv> [<case>]
 //   nmm-bench counts <counts.csv> [<directory of callgrind's files of nmm-kernels>]
-//   nmm-bench report <table.csv> <directory> [<earlier table.csv>]
+//   nmm-bench report <table.csv> <directory>
 //
-// The report shows counts.csv, heap.csv and performance-before-heap.csv if they lie beside
-// the table.
+// The report shows counts.csv if that lies beside the table.
 // On several ranks, `measure` adds the rows of what is shared out among ranks to a table
 // that is there.
 
@@ -101,25 +100,16 @@ namespace
           counts.push_back(count);
       return write_counts(arguments[1], counts);
     }
-    AssertThrow((arguments.size() == 3 || arguments.size() == 4) &&
-                  arguments[0] == "report",
+    AssertThrow(arguments.size() == 3 && arguments[0] == "report",
                 InputError("these arguments say nothing",
                            "nmm-bench",
                            "say measure smallest|quick|full <table.csv>, "
                            "counts <counts.csv>, or "
                            "report <table.csv> <directory>"));
-    const auto beside = [&](const std::string &name) {
-      return (std::filesystem::path(arguments[1]).parent_path() / name)
-        .string();
-    };
-    Earlier earlier;
-    if (arguments.size() == 4)
-      earlier.rows = read_table(arguments[3]);
-    earlier.heaps        = read_heaps(beside("heap.csv"));
-    earlier.heaps_before = read_heaps(beside("performance-before-heap.csv"));
+    const auto counts =
+      std::filesystem::path(arguments[1]).parent_path() / "counts.csv";
     write_report(read_table(arguments[1]),
-                 earlier,
-                 read_counts(beside("counts.csv")),
+                 read_counts(counts.string()),
                  arguments[2]);
   }
 } // namespace

@@ -349,7 +349,6 @@ namespace NMM
 
     void
     write_report(const std::vector<Row>   &rows,
-                 const Earlier            &earlier,
                  const std::vector<Count> &counts,
                  const std::string        &directory)
     {
@@ -372,7 +371,6 @@ namespace NMM
         write_series(out, members);
       }
       write_stages(out, rows, images);
-      write_improvements(out, earlier, rows);
       report_counts(out, counts);
       write_threads(out, rows);
       write_scaling(out, rows);

@@ -2,7 +2,6 @@
 #define nmm_tests_performance_bench_report_h
 
 #include "counts.h"
-#include "improvements.h"
 #include "row.h"
 #include <ostream>
 
@@ -12,11 +11,10 @@ namespace NMM
   {
     /**
      * Write @p directory/performance.md and the figures it shows, all of it from
-     * @p rows. @p earlier, for comparison, and @p counts may be empty.
+     * @p rows. @p counts may be empty.
      */
     void
     write_report(const std::vector<Row>   &rows,
-                 const Earlier            &earlier,
                  const std::vector<Count> &counts,
                  const std::string        &directory);
 

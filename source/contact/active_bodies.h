@@ -1,0 +1,154 @@
+#ifndef nmm_source_contact_active_bodies_h
+#define nmm_source_contact_active_bodies_h
+
+#include <nmm/contact/contact_surface.h>
+#include <nmm/linear_algebra/body_matrix.h>
+
+#include <linear_algebra/active_items.h>
+#include <utility>
+#include <vector>
+
+namespace NMM
+{
+  namespace internal
+  {
+    /**
+     * The bodies that are worked on, and the contact points, covers, rows and edges that belong to
+     * them. Points between bodies none of which is active are left out of assemblies. All bodies
+     * are active until select() is called.
+     *
+     * Order of calls: select() at any time; clear_points() when contact points are made anew, after
+     * which list_points() has to be called with the new ones if has_to_list_points().
+     * The surface must outlive this object.
+     */
+    class ActiveBodies
+    {
+    public:
+      explicit ActiveBodies(const ContactSurface &surface)
+        : surface(&surface)
+      {
+      }
+
+      /// See Contact::set_active_bodies().
+      void
+      select(const std::vector<bool> &is_active,
+             const std::vector<bool> &is_held);
+
+      /// By body; empty: all are active.
+      const std::vector<bool> &
+      flags() const
+      {
+        return is_active;
+      }
+
+      void
+      clear_points()
+      {
+        points.clear();
+      }
+
+      bool
+      has_to_list_points() const
+      {
+        return !is_active.empty() && points.empty();
+      }
+
+      /// For each of @p n_points contact points @p for_each calls its argument with the point
+      /// and each block that it belongs to.
+      template <typename ForEach>
+      void
+      list_points(const unsigned int n_points, const ForEach &for_each)
+      {
+        points.reinit(n_points, for_each);
+        points.select(is_active);
+      }
+
+      /// Call action(q) for points that belong to an active body, ascending.
+      template <typename Action>
+      void
+      for_each_point(const unsigned int n_points, const Action &action) const
+      {
+        points.for_each(n_points, action);
+      }
+
+      /// The same for covers and edges of active bodies.
+      template <typename Action>
+      void
+      for_each_cover(const unsigned int n_covers, const Action &action) const
+      {
+        covers.for_each(n_covers, action);
+      }
+
+      template <typename Action>
+      void
+      for_each_edge(const Action &action) const
+      {
+        edges.for_each(surface->edges().size(), action);
+      }
+
+      const ActiveItems &
+      active_rows() const
+      {
+        return rows;
+      }
+
+      /// Two edges press on each other: remember a body that is neither active nor held.
+      void
+      note_pressed(const unsigned int edge, const unsigned int master)
+      {
+        if (is_active.empty())
+          return;
+        for (const unsigned int e : {edge, master})
+        {
+          const unsigned int body = surface->edges()[e].body;
+          if (body < is_active.size() && !is_active[body] && !is_held[body])
+            touched.push_back(body);
+        }
+      }
+
+      /// See Contact::take_touched().
+      std::vector<unsigned int>
+      take_touched()
+      {
+        return std::exchange(touched, {});
+      }
+
+      /// Two edges couple their bodies in the tangent.
+      void
+      note_coupled(const unsigned int edge, const unsigned int master)
+      {
+        const BlockPair pair{surface->edges()[edge].body,
+                             surface->edges()[master].body};
+        if (pair.first != pair.second && !surface->is_rigid(edge) &&
+            !surface->is_rigid(master) &&
+            (coupled_pairs.empty() || coupled_pairs.back() != pair))
+          coupled_pairs.push_back(pair);
+      }
+
+      void
+      clear_coupled()
+      {
+        coupled_pairs.clear();
+      }
+
+      /// See Contact::coupled_bodies().
+      const std::vector<BlockPair> &
+      coupled() const
+      {
+        return coupled_pairs;
+      }
+
+    private:
+      void
+      list_covers_and_edges();
+
+      const ContactSurface     *surface;
+      std::vector<bool>         is_active, is_held;
+      ActiveItems               points, covers, rows, edges;
+      std::vector<unsigned int> touched;
+      std::vector<BlockPair>    coupled_pairs;
+    };
+  } // namespace internal
+} // namespace NMM
+
+#endif

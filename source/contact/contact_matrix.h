@@ -1,0 +1,167 @@
+#ifndef nmm_source_contact_contact_matrix_h
+#define nmm_source_contact_contact_matrix_h
+
+#include <nmm/contact/contact.h>
+#include <nmm/linear_algebra/body_matrix.h>
+
+#include <contact/active_bodies.h>
+#include <contact/contact_points.h>
+#include <contact/contact_search.h>
+#include <contact/contact_terms.h>
+#include <linear_algebra/cover_matrix_assembler.h>
+#include <linear_algebra/matrix_sum.h>
+#include <memory>
+#include <vector>
+
+namespace NMM
+{
+  namespace internal
+  {
+    /**
+     * Forces and tangent of contact, and the sparsity pattern of the latter. The pattern holds
+     * the couplings of slaves (positions in ContactSearch::slaves()) with their masters and with
+     * the edges where their points stick, and all couplings of the elasticity, so that
+     * this can be added.
+     *
+     * Making a pattern costs more than an assembly, and most candidates never touch. Hence a slave
+     * is in the pattern only if somebody has asked for it: couple_all() in statics, couple_step()
+     * and couple() in time steps. On several ranks it is always all of them.
+     *
+     * Order of calls: update_candidates() after each search; one of the functions that couple before
+     * an assembly with a tangent; then begin_assembly(), add() for each point, end_assembly().
+     * All references must outlive this object.
+     */
+    class ContactMatrix
+    {
+    public:
+      using Vector = Contact::Vector;
+      using Matrix = Contact::Matrix;
+
+      ContactMatrix(const ContactSurface                    &surface,
+                    const dealii::AffineConstraints<double> &constraints,
+                    const ContactSearch                     &search,
+                    const StickPlaces                       &stick_places,
+                    const ActiveBodies                      &active);
+
+      /// The search has found new candidates, or points stick at other places.
+      void
+      update_candidates();
+
+      /// The set of active bodies has changed.
+      void
+      update_active_rows();
+
+      void
+      couple_all();
+
+      /// The pattern of a time step: slaves that are expected to come near.
+      void
+      couple_step(std::vector<bool> is_expected);
+
+      /// A time step begins: couple_step() is to be called before its first tangent.
+      void
+      begin_step()
+      {
+        has_step_pattern = false;
+      }
+
+      bool
+      is_step_coupled() const
+      {
+        return has_step_pattern;
+      }
+
+      /// From now on these slaves are in the pattern, too. On one rank.
+      void
+      couple(const std::vector<unsigned int> &slaves);
+
+      /// @p factor: the tangent is that many times the derivative. @p body_matrix: to which
+      /// the tangent is added instead of tangent(); null: it is not.
+      void
+      begin_assembly(bool        with_tangent,
+                     double      factor      = 1.,
+                     BodyMatrix *body_matrix = nullptr);
+
+      /// Terms of one point, which are changed.
+      void
+      add(ContactLocalSystem &local);
+
+      void
+      end_assembly();
+
+      /// There are no forces.
+      void
+      clear_forces()
+      {
+        forces = 0.;
+      }
+
+      void
+      add_to_tangent(const Matrix &other, double factor);
+
+      const Vector &
+      residual() const
+      {
+        return forces;
+      }
+
+      Matrix &
+      tangent()
+      {
+        return matrix;
+      }
+
+      /// Grows whenever the pattern of tangent() changes.
+      unsigned int
+      pattern_version() const
+      {
+        return version;
+      }
+
+    private:
+      void
+      look_at_candidates();
+
+      void
+      append_couplings(unsigned int               position,
+                       std::vector<unsigned int> &couplings) const;
+
+      void
+      couple_ties();
+
+      void
+      make_pattern();
+
+      const ContactSurface                    *surface;
+      const dealii::AffineConstraints<double> *constraints;
+      const ContactSearch                     *search;
+      const StickPlaces                       *stick_places;
+      const ActiveBodies                      *active;
+      MPI_Comm                                 communicator;
+      /// Unknowns that are prescribed, for body matrices; empty: none is.
+      std::vector<bool> is_prescribed;
+
+      /// See append_couplings(): couplings at the current positions, and those that the sparsity
+      /// pattern was begun with.
+      std::vector<unsigned int> candidates, coupled_candidates;
+      bool                      are_candidates_known = false;
+      /// By slave: whether it has to be in the sparsity pattern, and whether it is.
+      std::vector<bool>                     is_coupled, is_in_pattern;
+      bool                                  has_pattern      = false;
+      bool                                  has_step_pattern = false;
+      unsigned int                          version          = 0;
+      std::unique_ptr<CoverMatrixAssembler> assembler;
+
+      Matrix      matrix;
+      Vector      forces;
+      MatrixAdder adder;
+
+      /// Of the present assembly.
+      bool        with_tangent   = false;
+      double      tangent_factor = 1.;
+      BodyMatrix *body_matrix    = nullptr;
+    };
+  } // namespace internal
+} // namespace NMM
+
+#endif

@@ -1,0 +1,135 @@
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <contact/contact_memory.h>
+
+namespace NMM
+{
+  namespace internal
+  {
+    namespace Parallel = dealii::Utilities::MPI;
+
+    namespace
+    {
+      /// Those of all ranks, one after the other.
+      template <typename Item>
+      void
+      gather(const MPI_Comm communicator, std::vector<Item> &items)
+      {
+        if (Parallel::n_mpi_processes(communicator) == 1)
+          return;
+        std::vector<Item> all;
+        for (const auto &part : Parallel::all_gather(communicator, items))
+          all.insert(all.end(), part.begin(), part.end());
+        items = std::move(all);
+      }
+    } // namespace
+
+
+    void
+    ContactMemory::forget_absent_bodies(const ContactSurface &surface)
+    {
+      const std::size_t n_edges        = surface.edges().size();
+      const auto        edge_is_absent = [&](const unsigned int edge) {
+        return surface.is_absent(edge % n_edges);
+      };
+      const auto erase_if = [](auto &entries, const auto &is_dropped) {
+        for (auto entry = entries.begin(); entry != entries.end();)
+          entry = is_dropped(*entry) ? entries.erase(entry) : std::next(entry);
+      };
+      const std::vector<bool> &is_absent = surface.absent_bodies();
+      erase_if(energies_of_pairs, [&](const auto &entry) {
+        return is_absent[entry.first.first] || is_absent[entry.first.second];
+      });
+      erase_if(entrances, [&](const auto &entry) {
+        return edge_is_absent(entry.first) || edge_is_absent(entry.second);
+      });
+      for (unsigned int edge = 0; edge < touching.size(); ++edge)
+      {
+        auto &known = touching[edge];
+        known.erase(std::remove_if(known.begin(), known.end(), edge_is_absent),
+                    known.end());
+        if (edge_is_absent(edge))
+          known.clear();
+      }
+      stick_places.remove_if(
+        [&](const unsigned int key, const StickPlace &place) {
+          return edge_is_absent(key) || edge_is_absent(place.edge);
+        });
+    }
+
+
+    void
+    ContactMemory::save(const MPI_Comm  communicator,
+                        ContactHistory &history) const
+    {
+      history.has_accepted_state     = has_accepted_state;
+      history.multipliers            = multipliers;
+      history.searched_displacements = searched_nodal;
+      history.searched_time          = searched_time;
+      history.searched_reach         = searched_reach;
+      stick_places.for_each(
+        [&](const unsigned int key, const std::vector<StickPlace> &places) {
+          for (const StickPlace &place : places)
+            history.sticks.push_back(
+              {key, place.s, place.edge, place.t, place.is_bonded, place.slip});
+        });
+      history.entrances.assign(entrances.begin(), entrances.end());
+      gather(communicator, history.sticks);
+      gather(communicator, history.entrances);
+      // these are the same on all ranks
+      for (unsigned int edge = 0; edge < touching.size(); ++edge)
+        for (const unsigned int other : touching[edge])
+          history.touching.emplace_back(edge, other);
+      for (const auto &[pair, energies] : energies_of_pairs)
+        history.pair_energies.push_back({pair.first, pair.second, energies});
+    }
+
+
+    void
+    ContactMemory::restore(const ContactHistory &history,
+                           const ContactSurface &surface)
+    {
+      const unsigned int n_edges = surface.edges().size();
+      has_accepted_state         = history.has_accepted_state;
+      if (history.multipliers.size() == multipliers.size())
+        multipliers = history.multipliers;
+      if (!history.searched_displacements.empty())
+      {
+        searched_nodal = history.searched_displacements;
+        searched_time  = history.searched_time;
+        searched_reach = history.searched_reach;
+      }
+      // corners of masters are with the slave's rank, which is not known here
+      const auto [first, last] = surface.locally_owned_edges();
+      const bool has_obstacles =
+        Parallel::this_mpi_process(surface.cover_system().communicator()) == 0;
+      const auto is_mine =
+        [&, first = first, last = last](const unsigned int place) {
+          const unsigned int edge = place % n_edges;
+          return place / n_edges > PointKind::master_ends ||
+                 (edge >= first && edge < last) ||
+                 (has_obstacles && surface.is_rigid(edge));
+        };
+      stick_places.clear();
+      for (const ContactHistory::Stick &stick : history.sticks)
+        if (is_mine(stick.place))
+          stick_places.append(
+            stick.place,
+            {stick.s, stick.edge, stick.t, stick.is_bonded, stick.slip});
+      stick_places.sort();
+      entrances.clear();
+      for (const auto &[place, edge] : history.entrances)
+        if (is_mine(place))
+          entrances[place] = edge;
+      touching.clear();
+      if (!history.touching.empty())
+        touching.resize(n_edges);
+      for (const auto &[edge, other] : history.touching)
+        touching[edge].push_back(other);
+      energies_of_pairs.clear();
+      for (const ContactHistory::PairEnergy &pair : history.pair_energies)
+        energies_of_pairs[{pair.first, pair.second}] = pair.energies;
+    }
+  } // namespace internal
+} // namespace NMM

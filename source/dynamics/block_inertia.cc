@@ -12,7 +12,7 @@ namespace NMM
 
     BlockInertia::BlockInertia(const MechanicalModel &model)
       : model(&model)
-      , block_of(&model.blocks_of_unknowns())
+      , block_of(&model_interface<BlockModel>(model).blocks_of_unknowns())
     {
       Assert(!block_of->empty(), dealii::ExcInternalError());
       const unsigned int n =

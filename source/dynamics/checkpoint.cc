@@ -187,8 +187,8 @@ namespace NMM
   {
     const DynamicState    &state = integrator.state();
     const MechanicalModel &model = integrator.model();
-    const std::uint64_t    mesh  = model.fingerprint();
-    Bytes                  bytes;
+    const std::uint64_t mesh = model_interface<SavedModel>(model).fingerprint();
+    Bytes               bytes;
     bytes.insert(bytes.end(),
                  std::begin(checkpoint_magic),
                  std::end(checkpoint_magic));
@@ -208,7 +208,7 @@ namespace NMM
     for (const auto &entry : state.rest)
       for (const double x : entry)
         put(bytes, x);
-    const Bytes internal = model.internal_state();
+    const Bytes internal = model_interface<SavedModel>(model).internal_state();
     put(bytes, static_cast<std::uint64_t>(internal.size()));
     bytes.insert(bytes.end(), internal.begin(), internal.end());
     const std::uint64_t length =
@@ -249,7 +249,8 @@ namespace NMM
              "take another one, or start anew");
     const char *position = bytes.data() + sizeof(checkpoint_magic) +
                            sizeof(version) + sizeof(std::uint64_t);
-    if (get<std::uint64_t>(position) != model.fingerprint())
+    if (get<std::uint64_t>(position) !=
+        model_interface<SavedModel>(model).fingerprint())
       refuse(
         "The checkpoint is of another mesh, geometry, material or kinematics",
         filename,
@@ -281,19 +282,20 @@ namespace NMM
       position += n * sizeof(double);
     }
     const auto n_left = get<std::uint64_t>(position);
-    if (n_left > model.n_blocks())
+    if (n_left > model_interface<BlockModel>(model).n_blocks())
       refuse("The checkpoint has " + std::to_string(n_left) +
-               " blocks that have left, of " + std::to_string(model.n_blocks()),
+               " blocks that have left, of " +
+               std::to_string(model_interface<BlockModel>(model).n_blocks()),
              filename,
              "continue with the scene it was written with");
     state.left_blocks.clear();
     for (std::uint64_t i = 0; i < n_left; ++i)
       state.left_blocks.push_back(get<std::uint64_t>(position));
     const auto n_resting = get<std::uint64_t>(position);
-    if (n_resting > model.n_blocks())
+    if (n_resting > model_interface<BlockModel>(model).n_blocks())
       refuse("The checkpoint has times of rest of " +
                std::to_string(n_resting) + " blocks, of " +
-               std::to_string(model.n_blocks()),
+               std::to_string(model_interface<BlockModel>(model).n_blocks()),
              filename,
              "continue with the scene it was written with");
     state.rest.resize(n_resting);
@@ -308,8 +310,8 @@ namespace NMM
                " bytes of contact, which is not what its length says",
              filename,
              "take another one, or start anew");
-    integrator.model().restore_internal_state(
-      Bytes(position, position + n_internal));
+    model_interface<SavedModel>(integrator.model())
+      .restore_internal_state(Bytes(position, position + n_internal));
     integrator.restore(state);
   }
 } // namespace NMM

@@ -15,6 +15,11 @@ namespace NMM
   struct ContactModel::Data
   {
     MechanicalModel             *model;
+    SupportModel                *supports;
+    SteppedModel                *steps;
+    SavedModel                  *saved;
+    BlockModel                  *blocks;
+    TangentModel                *tangents;
     Contact                     *contact;
     std::vector<ObstacleRelease> releases;
     internal::ActiveItems        active_rows;
@@ -39,7 +44,7 @@ namespace NMM
     void
     find_out_whether_apart()
     {
-      const std::vector<unsigned int> &block_of = model->blocks_of_unknowns();
+      const std::vector<unsigned int> &block_of = blocks->blocks_of_unknowns();
       is_apart_known                            = true;
       are_blocks_apart                          = !block_of.empty();
       if (!are_blocks_apart)
@@ -78,11 +83,12 @@ namespace NMM
     {
       has_body_matrix = may_be_added_to && are_blocks_apart &&
                         (body_matrix != nullptr ||
-                         BodyMatrix::is_suitable(model->blocks_of_unknowns()));
+                         BodyMatrix::is_suitable(blocks->blocks_of_unknowns()));
       if (!has_body_matrix)
         return nullptr;
       if (body_matrix == nullptr)
-        body_matrix = std::make_unique<BodyMatrix>(model->blocks_of_unknowns());
+        body_matrix =
+          std::make_unique<BodyMatrix>(blocks->blocks_of_unknowns());
       body_matrix->begin_rows(active);
       return body_matrix.get();
     }
@@ -95,6 +101,11 @@ namespace NMM
     : data(std::make_unique<Data>())
   {
     data->model    = &model;
+    data->supports = &model_interface<SupportModel>(model);
+    data->steps    = &model_interface<SteppedModel>(model);
+    data->saved    = &model_interface<SavedModel>(model);
+    data->blocks   = &model_interface<BlockModel>(model);
+    data->tangents = &model_interface<TangentModel>(model);
     data->contact  = &contact;
     data->releases = std::move(releases);
     data->sum.reinit(contact.residual());
@@ -104,38 +115,10 @@ namespace NMM
   ContactModel::~ContactModel() = default;
 
 
-  MPI_Comm
-  ContactModel::communicator() const
+  const ModelLayout &
+  ContactModel::layout() const
   {
-    return data->model->communicator();
-  }
-
-
-  dealii::IndexSet
-  ContactModel::locally_owned() const
-  {
-    return data->model->locally_owned();
-  }
-
-
-  dealii::IndexSet
-  ContactModel::locally_relevant() const
-  {
-    return data->model->locally_relevant();
-  }
-
-
-  const dealii::AffineConstraints<double> &
-  ContactModel::constraints() const
-  {
-    return data->model->constraints();
-  }
-
-
-  const ContactModel::Vector &
-  ContactModel::reference_positions() const
-  {
-    return data->model->reference_positions();
+    return data->model->layout();
   }
 
 
@@ -144,7 +127,7 @@ namespace NMM
   {
     // a number of its own for each combination: that of a model without contact
     // must not fit
-    return data->model->fingerprint() ^
+    return data->saved->fingerprint() ^
            (0x9e3779b97f4a7c15u *
             (data->contact->surface().edges().size() + 1));
   }
@@ -167,31 +150,21 @@ namespace NMM
   bool
   ContactModel::set_stiffness_damping(const double coefficient)
   {
-    return data->model->set_stiffness_damping(coefficient);
+    return data->tangents->set_stiffness_damping(coefficient);
   }
 
 
-  bool
-  ContactModel::is_linear() const
+  ForceProperties
+  ContactModel::force_properties() const
   {
-    return data->contact->is_idle() && data->model->is_linear();
-  }
-
-
-  bool
-  ContactModel::tangent_is_symmetric() const
-  {
-    return data->model->tangent_is_symmetric() &&
-           (data->contact->is_idle() || data->contact->tangent_is_symmetric());
-  }
-
-
-  bool
-  ContactModel::tangent_between_is_symmetric() const
-  {
+    const bool      is_idle = data->contact->is_idle();
+    ForceProperties result  = data->model->force_properties();
+    result.is_linear        = result.is_linear && is_idle;
+    result.is_symmetric =
+      result.is_symmetric && (is_idle || data->contact->tangent_is_symmetric());
     // forces are along normals in the middle, gaps along those at the end
-    return data->model->tangent_between_is_symmetric() &&
-           data->contact->is_idle();
+    result.is_symmetric_between = result.is_symmetric_between && is_idle;
+    return result;
   }
 
 
@@ -281,7 +254,7 @@ namespace NMM
   void
   ContactModel::forget_tangent()
   {
-    data->model->forget_tangent();
+    data->tangents->forget_tangent();
     if (data->body_matrix)
       data->body_matrix->clear();
   }
@@ -324,7 +297,7 @@ namespace NMM
                                  const double  t_0,
                                  const double  t_1)
   {
-    double work = data->model->work_of_supports(u, t, t_0, t_1);
+    double work = data->supports->work_of_supports(u, t, t_0, t_1);
     if (!data->contact->is_idle())
       work += data->contact->work_of_obstacles(t_0, t_1);
     return work;
@@ -339,7 +312,7 @@ namespace NMM
                                          const double  t_1)
   {
     double work =
-      data->model->work_of_supports_between(begin, end, mean, t_0, t_1);
+      data->supports->work_of_supports_between(begin, end, mean, t_0, t_1);
     if (!data->contact->is_idle())
       work += data->contact->work_of_obstacles(t_0, t_1);
     return work;
@@ -353,7 +326,7 @@ namespace NMM
                            const double  h)
   {
     Data &d = *data;
-    d.model->begin_step(begin, predicted, t, h);
+    d.steps->begin_step(begin, predicted, t, h);
 
     // nearer faces may meet in the step; obstacles move, too
     const double largest   = d.contact->largest_motion(begin, predicted);
@@ -380,7 +353,7 @@ namespace NMM
   StepFault
   ContactModel::find_fault(const Vector &end)
   {
-    const StepFault fault = data->model->find_fault(end);
+    const StepFault fault = data->steps->find_fault(end);
     if (!fault.reason.empty())
       return fault;
     // the last assembly may have been at a time between
@@ -393,7 +366,7 @@ namespace NMM
   ContactModel::accept_step(const Vector &end, const double t)
   {
     Data        &d          = *data;
-    const double dissipated = d.model->accept_step(end, t);
+    const double dissipated = d.steps->accept_step(end, t);
     d.contact->set_time(t);
     d.contact->assemble(end, /* with_tangent = */ false);
     return dissipated + d.contact->accept();
@@ -421,7 +394,7 @@ namespace NMM
   ContactModel::set_absent_blocks(const std::vector<bool> &is_absent)
   {
     Data &d = *data;
-    d.model->set_absent_blocks(is_absent);
+    d.blocks->set_absent_blocks(is_absent);
     d.absent_blocks = is_absent;
     take_bodies_away();
   }
@@ -430,14 +403,14 @@ namespace NMM
   unsigned int
   ContactModel::n_blocks() const
   {
-    return data->model->n_blocks();
+    return data->blocks->n_blocks();
   }
 
 
   dealii::IndexSet
   ContactModel::absent_unknowns() const
   {
-    return data->model->absent_unknowns();
+    return data->blocks->absent_unknowns();
   }
 
 
@@ -456,7 +429,7 @@ namespace NMM
   const std::vector<unsigned int> &
   ContactModel::blocks_of_unknowns() const
   {
-    return data->model->blocks_of_unknowns();
+    return data->blocks->blocks_of_unknowns();
   }
 
 
@@ -464,7 +437,7 @@ namespace NMM
   ContactModel::set_active_blocks(const std::vector<bool> &is_active,
                                   const std::vector<bool> &is_held)
   {
-    data->model->set_active_blocks(is_active, is_held);
+    data->blocks->set_active_blocks(is_active, is_held);
     data->contact->set_active_bodies(is_active, is_held);
     data->active = is_active;
     if (!is_active.empty() && data->active_rows.empty())
@@ -493,7 +466,7 @@ namespace NMM
   std::vector<double>
   ContactModel::events() const
   {
-    std::vector<double> times = data->model->events();
+    std::vector<double> times = data->supports->events();
     for (const ObstacleRelease &release : data->releases)
       times.push_back(release.time);
     std::sort(times.begin(), times.end());
@@ -506,7 +479,7 @@ namespace NMM
   ContactModel::pass_events(const double t)
   {
     Data &d = *data;
-    d.model->pass_events(t);
+    d.supports->pass_events(t);
     d.events_passed = t;
     take_bodies_away();
   }

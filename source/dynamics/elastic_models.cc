@@ -69,7 +69,12 @@ namespace NMM
                          ghost_penalty,
                          mass_matrix);
 
-    zero = elasticity.initial_solution();
+    zero     = elasticity.initial_solution();
+    unknowns = {covers.communicator(),
+                covers.locally_owned_dofs(2),
+                covers.locally_relevant_dofs(2),
+                &elasticity.affine_constraints(),
+                &positions};
     positions.reinit(locally_owned(), communicator());
     for (const auto k : covers.locally_owned_covers())
       for (unsigned int c = 0; c < 2; ++c)
@@ -202,38 +207,10 @@ namespace NMM
   }
 
 
-  MPI_Comm
-  ElasticModel::communicator() const
+  const ModelLayout &
+  ElasticModel::layout() const
   {
-    return elasticity->cover_system().communicator();
-  }
-
-
-  dealii::IndexSet
-  ElasticModel::locally_owned() const
-  {
-    return elasticity->cover_system().locally_owned_dofs(2);
-  }
-
-
-  dealii::IndexSet
-  ElasticModel::locally_relevant() const
-  {
-    return elasticity->cover_system().locally_relevant_dofs(2);
-  }
-
-
-  const dealii::AffineConstraints<double> &
-  ElasticModel::constraints() const
-  {
-    return elasticity->affine_constraints();
-  }
-
-
-  const ElasticModel::Vector &
-  ElasticModel::reference_positions() const
-  {
-    return positions;
+    return unknowns;
   }
 
 
@@ -270,7 +247,7 @@ namespace NMM
       hash.add(static_cast<unsigned int>(material.law));
     }
     hash.add(static_cast<unsigned int>(problem.plane_state));
-    hash.add(is_linear());
+    hash.add(force_properties().is_linear);
     return hash.value();
   }
 

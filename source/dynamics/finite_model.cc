@@ -32,24 +32,12 @@ namespace NMM
   }
 
 
-  bool
-  FiniteModel::is_linear() const
+  ForceProperties
+  FiniteModel::force_properties() const
   {
-    return false;
-  }
-
-
-  bool
-  FiniteModel::tangent_is_symmetric() const
-  {
-    return elasticity->tangent_is_symmetric();
-  }
-
-
-  bool
-  FiniteModel::tangent_between_is_symmetric() const
-  {
-    return false;
+    return {/* is_linear = */ false,
+            elasticity->tangent_is_symmetric(),
+            /* is_symmetric_between = */ false};
   }
 
 

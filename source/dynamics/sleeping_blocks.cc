@@ -13,7 +13,7 @@ namespace NMM
     SleepingBlocks::SleepingBlocks(const MechanicalModel &model,
                                    const SleepParameters &parameters)
       : parameters(parameters)
-      , block_of(&model.blocks_of_unknowns())
+      , block_of(&model_interface<BlockModel>(model).blocks_of_unknowns())
     {
       AssertThrow(
         parameters.speed > 0. && parameters.time >= 0. &&

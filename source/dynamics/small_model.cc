@@ -46,24 +46,12 @@ namespace NMM
   }
 
 
-  bool
-  SmallModel::is_linear() const
+  ForceProperties
+  SmallModel::force_properties() const
   {
-    return true;
-  }
-
-
-  bool
-  SmallModel::tangent_is_symmetric() const
-  {
-    return true;
-  }
-
-
-  bool
-  SmallModel::tangent_between_is_symmetric() const
-  {
-    return true;
+    return {/* is_linear = */ true,
+            /* is_symmetric = */ true,
+            /* is_symmetric_between = */ true};
   }
 
 

@@ -20,6 +20,10 @@ namespace NMM
                              const RayleighDamping  &damping,
                              const NewtonParameters &newton_parameters)
     : model(&model)
+    , supports(&model_interface<SupportModel>(model))
+    , steps(&model_interface<SteppedModel>(model))
+    , blocks(&model_interface<BlockModel>(model))
+    , tangents(&model_interface<TangentModel>(model))
     , scheme(scheme)
     , damping(damping)
     , newton(newton_parameters)
@@ -46,8 +50,8 @@ namespace NMM
                      model.communicator());
 
     set_absent_blocks();
-    model_damps =
-      scheme.is_conserving && model.set_stiffness_damping(damping.stiffness);
+    model_damps = scheme.is_conserving &&
+                  tangents->set_stiffness_damping(damping.stiffness);
     if (damps_by_stiffness())
     {
       const auto &stiffness = model.stiffness_at_rest();
@@ -63,18 +67,18 @@ namespace NMM
     std::vector<bool> is_absent;
     if (!state.left_blocks.empty())
     {
-      is_absent.resize(model->n_blocks(), false);
+      is_absent.resize(blocks->n_blocks(), false);
       for (const unsigned int block : state.left_blocks)
         is_absent[block] = true;
     }
-    model->set_absent_blocks(is_absent);
+    blocks->set_absent_blocks(is_absent);
     linear_solver.reset();
 
-    const dealii::IndexSet absent = model->absent_unknowns();
+    const dealii::IndexSet absent = blocks->absent_unknowns();
     scratch                       = 0.;
     for (const auto i : model->locally_owned())
       if (i % 2 == 0 && !model->constraints().is_constrained(i) &&
-          !absent.is_element(i))
+          !(absent.size() > 0 && absent.is_element(i)))
         scratch(i) = 1.;
     scratch.compress(dealii::VectorOperation::insert);
     model->mass().vmult(forces, scratch);
@@ -162,7 +166,7 @@ namespace NMM
   {
     const double t = state.time + (1. - scheme.alpha_f) * h;
     if (scheme.is_conserving && tangent != Tangent::none)
-      in_place = model->tangent_to_add_to(1. - scheme.alpha_f);
+      in_place = tangents->tangent_to_add_to(1. - scheme.alpha_f);
     if (scheme.is_conserving)
       return model->assemble_between(
         u_begin, u, state.time, state.time + h, tangent);
@@ -181,7 +185,7 @@ namespace NMM
     const double k = 1. - scheme.alpha_f;
     const double c = k * scheme.gamma / (scheme.beta * h);
     const double m = (1. - scheme.alpha_m) / (scheme.beta * h * h);
-    body_matrix    = in_place != nullptr ? model->body_tangent() : nullptr;
+    body_matrix    = in_place != nullptr ? tangents->body_tangent() : nullptr;
     if (body_matrix != nullptr)
     {
       body_matrix->add(m + c * damping.mass, model->mass());
@@ -194,13 +198,13 @@ namespace NMM
       mass_adder.add(m + c * damping.mass,
                      model->mass(),
                      *in_place,
-                     model->pattern_version(),
+                     tangents->pattern_version(),
                      active_rows);
       if (damps_by_stiffness() && c != 0.)
         damping_adder.add(c * damping.stiffness,
                           stiffness_at_rest,
                           *in_place,
-                          model->pattern_version(),
+                          tangents->pattern_version(),
                           active_rows);
       return;
     }
@@ -210,7 +214,7 @@ namespace NMM
                     m + c * damping.mass,
                     damps_by_stiffness() ? &stiffness_at_rest : nullptr,
                     c * damping.stiffness,
-                    model->pattern_version(),
+                    tangents->pattern_version(),
                     active_rows);
   }
 
@@ -281,7 +285,7 @@ namespace NMM
       u_1.add(h, state.v, 0.5 * h * h, state.a);
     model->constraints().distribute(u_1);
     u_end = u_1;
-    model->begin_step(u_begin, u_end, state.time, h);
+    steps->begin_step(u_begin, u_end, state.time, h);
     if (scheme.is_conserving)
       predict_blocks();
   }
@@ -290,7 +294,7 @@ namespace NMM
   void
   TimeIntegrator::Data::predict_blocks()
   {
-    std::vector<bool> is_flying = model->pressed_blocks();
+    std::vector<bool> is_flying = steps->pressed_blocks();
     if (is_flying.empty())
       return;
     is_flying.flip();
@@ -431,7 +435,7 @@ namespace NMM
       u_middle = mean;
       model->external_forces(u_middle, state.time + 0.5 * h, loads);
       work += loads * change;
-      work += model->work_of_supports_between(
+      work += supports->work_of_supports_between(
         u_begin, u_end, u_middle, state.time, t_1);
       model->external_forces(u_end, t_1, external);
     }
@@ -441,8 +445,9 @@ namespace NMM
       loads.add(1., external);
       work += 0.5 * (loads * change);
       work +=
-        0.5 * (model->work_of_supports(u_begin, state.time, state.time, t_1) +
-               model->work_of_supports(u_end, t_1, state.time, t_1));
+        0.5 *
+        (supports->work_of_supports(u_begin, state.time, state.time, t_1) +
+         supports->work_of_supports(u_end, t_1, state.time, t_1));
     }
     if (damping.mass > 0. || damps_by_stiffness())
     {

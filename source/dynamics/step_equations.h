@@ -39,8 +39,9 @@ namespace NMM
     bool
     tangent_is_symmetric() const override
     {
-      return scheme.is_conserving ? model->tangent_between_is_symmetric()
-                                  : model->tangent_is_symmetric();
+      return scheme.is_conserving
+               ? model->force_properties().is_symmetric_between
+               : model->force_properties().is_symmetric;
     }
 
     double
@@ -52,21 +53,21 @@ namespace NMM
     unsigned int
     pattern_version() const override
     {
-      return model->pattern_version();
+      return tangents->pattern_version();
     }
 
     const std::vector<unsigned int> &
     blocks_of_unknowns() const override
     {
-      return model->blocks_of_unknowns();
+      return blocks->blocks_of_unknowns();
     }
 
     void
     set_active_blocks(const std::vector<bool> &is_active) override
     {
-      model->set_active_blocks(is_active, held_blocks());
+      blocks->set_active_blocks(is_active, held_blocks());
       if (!is_active.empty() && active_rows.empty())
-        active_rows.reinit(model->blocks_of_unknowns());
+        active_rows.reinit(blocks->blocks_of_unknowns());
       active_rows.select(is_active);
     }
 
@@ -79,19 +80,19 @@ namespace NMM
     std::vector<unsigned int>
     take_touched_blocks() override
     {
-      return model->take_touched_blocks();
+      return blocks->take_touched_blocks();
     }
 
     const std::vector<BlockPair> *
     coupled_blocks() const override
     {
-      return scheme.is_conserving ? model->coupled_blocks() : nullptr;
+      return scheme.is_conserving ? blocks->coupled_blocks() : nullptr;
     }
 
     void
     forget_tangent() override
     {
-      model->forget_tangent();
+      tangents->forget_tangent();
     }
 
     const BodyMatrix *
@@ -182,6 +183,10 @@ namespace NMM
     set_absent_blocks();
 
     MechanicalModel *model;
+    SupportModel    *supports;
+    SteppedModel    *steps;
+    BlockModel      *blocks;
+    TangentModel    *tangents;
     TimeScheme       scheme;
     RayleighDamping  damping;
     /// The model has the damping by the stiffness in its forces.

@@ -72,7 +72,7 @@ namespace NMM
       d.state.left_blocks.clear();
       d.set_absent_blocks();
     }
-    d.model->pass_events(time);
+    d.supports->pass_events(time);
     d.u_begin = d.state.u;
     d.model->external_forces(d.u_begin, time, d.external);
     AssertThrow(d.model->assemble(d.u_begin, time, Tangent::none) ==
@@ -98,7 +98,7 @@ namespace NMM
       d.sleeping->set_rest(d.state.rest);
     if (is_another)
       d.set_absent_blocks();
-    d.model->pass_events(state.events_passed);
+    d.supports->pass_events(state.events_passed);
     d.u_begin = d.state.u;
     d.model->external_forces(d.u_begin, state.time, d.external);
     AssertThrow(d.model->assemble(d.u_begin, state.time, Tangent::none) ==
@@ -148,7 +148,7 @@ namespace NMM
     d.h             = step;
     d.has_candidate = false;
     d.predict();
-    if (d.model->is_linear() && !d.sleeping)
+    if (d.model->force_properties().is_linear && !d.sleeping)
     {
       d.solve_linear();
       report.n_iterations      = 1;
@@ -161,7 +161,7 @@ namespace NMM
       d.measure(report);
     if (report.converged)
     {
-      const StepFault fault = d.model->find_fault(d.u_end);
+      const StepFault fault = d.steps->find_fault(d.u_end);
       report.reason         = fault.reason;
       report.remedy         = fault.remedy;
       report.retry          = fault.retry;
@@ -185,7 +185,7 @@ namespace NMM
     d.state.v.swap(d.v_1);
     d.state.a.swap(d.a_1);
     d.has_candidate = false;
-    d.state.sums.dissipated += d.model->accept_step(d.u_end, d.state.time);
+    d.state.sums.dissipated += d.steps->accept_step(d.u_end, d.state.time);
     AssertThrow(d.model->assemble(d.u_end, d.state.time, Tangent::none) ==
                   Deformation::admissible,
                 NumericalFailure("An element is turned inside out",
@@ -202,7 +202,7 @@ namespace NMM
   {
     Data        &d      = *data;
     const double before = d.stored_energy();
-    d.model->pass_events(until);
+    d.supports->pass_events(until);
     d.state.events_passed = until;
     d.u_begin             = d.state.u;
     d.model->external_forces(d.u_begin, d.state.time, d.external);
@@ -238,7 +238,7 @@ namespace NMM
     Data &d = *data;
     for (const unsigned int block : blocks)
     {
-      const bool is_new = block < d.model->n_blocks() &&
+      const bool is_new = block < d.blocks->n_blocks() &&
                           std::find(d.state.left_blocks.begin(),
                                     d.state.left_blocks.end(),
                                     block) == d.state.left_blocks.end();
@@ -250,7 +250,7 @@ namespace NMM
     }
     const double before = d.account.kinetic + d.stored_energy();
     d.set_absent_blocks();
-    for (const auto i : d.model->absent_unknowns())
+    for (const auto i : d.blocks->absent_unknowns())
       d.state.v(i) = d.state.a(i) = 0.;
     d.state.v.compress(dealii::VectorOperation::insert);
     d.state.a.compress(dealii::VectorOperation::insert);

@@ -96,7 +96,7 @@ namespace
               q = {i,
                    edge,
                    double(search.corner(i)),
-                   ContactSearch::rounding_slack,
+                   internal::CornerRules::beyond_rounding,
                    ContactSearch::any_edge,
                    0.};
             q.clearance = search.clearance(surface.place(edge, q.s).x,

@@ -130,7 +130,8 @@ namespace
       {
         Body         body = free_square(law, state, 20.);
         const double h    = 0.1;
-        body.mechanics->set_stiffness_damping(0.05);
+        model_interface<TangentModel>(*body.mechanics)
+          .set_stiffness_damping(0.05);
         std::mt19937                           generator(7);
         std::uniform_real_distribution<double> random(-0.15, 0.15);
         const auto                             field = [&] {

@@ -161,37 +161,13 @@ namespace NMM
         none.close();
         for (Vector *vector : {&positions, &forces, &displacements})
           vector->reinit(owned, MPI_COMM_SELF);
+        unknowns = {MPI_COMM_SELF, owned, owned, &none, &positions};
       }
 
-      MPI_Comm
-      communicator() const override
+      const ModelLayout &
+      layout() const override
       {
-        return MPI_COMM_SELF;
-      }
-      dealii::IndexSet
-      locally_owned() const override
-      {
-        return owned;
-      }
-      dealii::IndexSet
-      locally_relevant() const override
-      {
-        return owned;
-      }
-      const dealii::AffineConstraints<double> &
-      constraints() const override
-      {
-        return none;
-      }
-      const Vector &
-      reference_positions() const override
-      {
-        return positions;
-      }
-      std::uint64_t
-      fingerprint() const override
-      {
-        return 1;
+        return unknowns;
       }
       const Matrix &
       mass() const override
@@ -203,20 +179,10 @@ namespace NMM
       {
         return stiffness;
       }
-      bool
-      is_linear() const override
+      ForceProperties
+      force_properties() const override
       {
-        return true;
-      }
-      bool
-      tangent_is_symmetric() const override
-      {
-        return true;
-      }
-      bool
-      tangent_between_is_symmetric() const override
-      {
-        return true;
+        return {true, true, true};
       }
       Deformation
       assemble(const Vector &u, double, Tangent, const Vector *) override
@@ -261,23 +227,10 @@ namespace NMM
       {
         result = 0.;
       }
-      double
-      work_of_supports(const Vector &, double, double, double) override
-      {
-        return 0.;
-      }
-      std::vector<double>
-      events() const override
-      {
-        return {};
-      }
-      void
-      pass_events(double) override
-      {
-      }
 
     private:
       dealii::IndexSet                  owned;
+      ModelLayout                       unknowns;
       Matrix                            mass_matrix, stiffness;
       dealii::AffineConstraints<double> none;
       Vector                            positions, forces, displacements;

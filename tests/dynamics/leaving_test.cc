@@ -167,13 +167,17 @@ namespace NMM
         (void)body.elasticity->assemble(relevant, 1., Tangent::none);
         EXPECT_EQ(body.elasticity->n_assembled_elements(),
                   n_elements(body, first));
-        for (const auto i : body.mechanics->absent_unknowns())
+        for (const auto i :
+             model_interface<BlockModel>(*body.mechanics).absent_unknowns())
           EXPECT_EQ(integrator.state().v(i), 0.);
 
         // a new start has them all again
         integrator.initialize();
         EXPECT_EQ(integrator.state().left_blocks.size(), 0u);
-        EXPECT_EQ(body.mechanics->absent_unknowns().n_elements(), 0u);
+        EXPECT_EQ(model_interface<BlockModel>(*body.mechanics)
+                    .absent_unknowns()
+                    .n_elements(),
+                  0u);
       }
 
 

@@ -43,11 +43,12 @@ namespace NMM
       // scheme, from where it has been turned to already; the others stay.
       TEST(BlockInertia, FliesAsStiffBodiesDo)
       {
-        constexpr double       h = 0.05, omega = 3., turned = 0.4;
-        const Tensor<1, 2>     velocity({0.7, -0.2});
-        auto                   bodies = three_blocks(30.);
-        MechanicalModel       &model  = *bodies->model;
-        const auto            &blocks = model.blocks_of_unknowns();
+        constexpr double   h = 0.05, omega = 3., turned = 0.4;
+        const Tensor<1, 2> velocity({0.7, -0.2});
+        auto               bodies = three_blocks(30.);
+        MechanicalModel   &model  = *bodies->model;
+        const auto        &blocks =
+          model_interface<BlockModel>(model).blocks_of_unknowns();
         internal::BlockInertia inertia(model);
 
         // area and centre of the third block by its corners

@@ -38,28 +38,24 @@ namespace NMM
    * Lifetime: model and contact must outlive this object. Multipliers of the contact
    * are not updated.
    */
-  class ContactModel : public MechanicalModel
+  class ContactModel : public MechanicalModel,
+                       public SupportModel,
+                       public SteppedModel,
+                       public SavedModel,
+                       public BlockModel,
+                       public TangentModel
   {
   public:
+    using Vector = MechanicalModel::Vector;
+    using Matrix = MechanicalModel::Matrix;
+
     ContactModel(MechanicalModel             &model,
                  Contact                     &contact,
                  std::vector<ObstacleRelease> releases = {});
     ~ContactModel() override;
 
-    MPI_Comm
-    communicator() const override;
-
-    dealii::IndexSet
-    locally_owned() const override;
-
-    dealii::IndexSet
-    locally_relevant() const override;
-
-    const dealii::AffineConstraints<double> &
-    constraints() const override;
-
-    const Vector &
-    reference_positions() const override;
+    const ModelLayout &
+    layout() const override;
 
     std::uint64_t
     fingerprint() const override;
@@ -74,14 +70,8 @@ namespace NMM
     bool
     set_stiffness_damping(double coefficient) override;
 
-    bool
-    is_linear() const override;
-
-    bool
-    tangent_is_symmetric() const override;
-
-    bool
-    tangent_between_is_symmetric() const override;
+    ForceProperties
+    force_properties() const override;
 
     Deformation
     assemble(const Vector &u,

@@ -17,23 +17,17 @@ namespace NMM
    * Lifetime: the elasticity must outlive this object. Its amplitudes are this
    * object's business from now on.
    */
-  class ElasticModel : public MechanicalModel
+  class ElasticModel : public MechanicalModel,
+                       public SupportModel,
+                       public SavedModel,
+                       public BlockModel
   {
   public:
-    MPI_Comm
-    communicator() const override;
+    using Vector = MechanicalModel::Vector;
+    using Matrix = MechanicalModel::Matrix;
 
-    dealii::IndexSet
-    locally_owned() const override;
-
-    dealii::IndexSet
-    locally_relevant() const override;
-
-    const dealii::AffineConstraints<double> &
-    constraints() const override;
-
-    const Vector &
-    reference_positions() const override;
+    const ModelLayout &
+    layout() const override;
 
     std::uint64_t
     fingerprint() const override;
@@ -126,6 +120,7 @@ namespace NMM
     std::vector<unsigned int> unknown_to_block;
     Matrix                    mass_matrix;
     Vector                    positions, mass_of_translation[2];
+    ModelLayout               unknowns;
     LoadAmplitudes            current;
     double                    passed_until;
   };
@@ -134,9 +129,14 @@ namespace NMM
   /// Total Lagrangian kinematics: FiniteElasticity in time. In conserving steps damping
   /// in proportion to the stiffness acts on rates of the Green-Lagrange strain of
   /// the material, not on turning, supports and ties.
-  class FiniteModel : public ElasticModel
+  class FiniteModel : public ElasticModel,
+                      public SteppedModel,
+                      public TangentModel
   {
   public:
+    using Vector = MechanicalModel::Vector;
+    using Matrix = MechanicalModel::Matrix;
+
     /// See ElasticModel.
     FiniteModel(FiniteElasticity           &elasticity,
                 const QuadratureCollection &mass_quadrature,
@@ -148,14 +148,8 @@ namespace NMM
     bool
     set_stiffness_damping(double coefficient) override;
 
-    bool
-    is_linear() const override;
-
-    bool
-    tangent_is_symmetric() const override;
-
-    bool
-    tangent_between_is_symmetric() const override;
+    ForceProperties
+    force_properties() const override;
 
     Deformation
     assemble(const Vector &u,
@@ -228,14 +222,8 @@ namespace NMM
     const Matrix &
     stiffness_at_rest() override;
 
-    bool
-    is_linear() const override;
-
-    bool
-    tangent_is_symmetric() const override;
-
-    bool
-    tangent_between_is_symmetric() const override;
+    ForceProperties
+    force_properties() const override;
 
     Deformation
     assemble(const Vector &u,

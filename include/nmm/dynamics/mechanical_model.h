@@ -18,6 +18,28 @@
 
 namespace NMM
 {
+  /// Where the unknowns of a model are, and what holds for them whatever the forces.
+  struct ModelLayout
+  {
+    MPI_Comm         communicator = MPI_COMM_SELF;
+    dealii::IndexSet locally_owned, locally_relevant;
+    /// Homogeneous for increments; inhomogeneities hold from the start.
+    const dealii::AffineConstraints<double> *constraints = nullptr;
+    /// X_k at the place of u_k [m]; owned unknowns.
+    const dealii::TrilinosWrappers::MPI::Vector *reference_positions = nullptr;
+  };
+
+
+  /// What solvers may use of a model's forces r(u, t).
+  struct ForceProperties
+  {
+    /// Whether r is linear in u, with one tangent between events.
+    bool is_linear = false;
+    /// Whether tangents of assemble() and of assemble_between() are symmetric.
+    bool is_symmetric = false, is_symmetric_between = false;
+  };
+
+
   /**
    * What time integration knows of a discretized body: unknowns u, the mass
    * matrix M and forces r in
@@ -25,7 +47,11 @@ namespace NMM
    *     r = \text{internal forces} - \text{loads}. @f]
    * Unknowns come in pairs, u_{2k} and u_{2k+1} being the components [m] of what
    * moves with the reference position X_k; a rigid motion is exact in them.
-   * Constrained unknowns follow from @p constraints(); equations hold for free ones.
+   * Constrained unknowns follow from the layout's constraints; equations hold for free ones.
+   *
+   * What only some models have is in interfaces of their own, from which a model is derived as
+   * well: SupportModel, SteppedModel, SavedModel, BlockModel, TangentModel. Who needs one asks
+   * for it by model_interface().
    *
    * All quantities are per unit thickness. Functions are collective.
    */
@@ -37,30 +63,8 @@ namespace NMM
 
     virtual ~MechanicalModel() = default;
 
-    /// @name Layout
-    /// @{
-    virtual MPI_Comm
-    communicator() const = 0;
-
-    virtual dealii::IndexSet
-    locally_owned() const = 0;
-
-    virtual dealii::IndexSet
-    locally_relevant() const = 0;
-
-    /// Homogeneous for increments; inhomogeneities hold from the start.
-    virtual const dealii::AffineConstraints<double> &
-    constraints() const = 0;
-
-    /// X_k at the place of u_k [m]; owned unknowns.
-    virtual const Vector &
-    reference_positions() const = 0;
-
-    /// The same number for the same unknowns, elements and materials only, on any
-    /// number of ranks.
-    virtual std::uint64_t
-    fingerprint() const = 0;
-    /// @}
+    virtual const ModelLayout &
+    layout() const = 0;
 
     /// M [kg/m]; constrained unknowns have a diagonal entry that means nothing.
     virtual const Matrix &
@@ -71,28 +75,9 @@ namespace NMM
     virtual const Matrix &
     stiffness_at_rest() = 0;
 
-    /**
-     * From now on the forces of assemble_between() shall be those of damping in
-     * proportion to the stiffness, too, with the @p coefficient [s]; accept_step()
-     * says what they dissipated. False if the model leaves that to its caller, who
-     * has stiffness_at_rest() for it, which must not turn.
-     */
-    virtual bool
-    set_stiffness_damping(double /*coefficient*/)
-    {
-      return false;
-    }
-
-    /// Is r linear in u, with one tangent between events?
-    virtual bool
-    is_linear() const = 0;
-
-    virtual bool
-    tangent_is_symmetric() const = 0;
-
-    /// The same for assemble_between().
-    virtual bool
-    tangent_between_is_symmetric() const = 0;
+    /// At present: contact, for example, makes forces nonlinear as soon as something is near.
+    virtual ForceProperties
+    force_properties() const = 0;
 
     /// @name Forces at displacements with locally relevant unknowns
     /// @{
@@ -124,42 +109,6 @@ namespace NMM
     virtual const Matrix &
     tangent() const = 0;
 
-    /**
-     * From now on tangents of assemble_between() are multiplied by @p factor, and may be
-     * added to: what was added is gone once a row is assembled again, and stays if
-     * another one is. Null, and the factor 1, if tangent() is not to be changed. Saves its
-     * caller a matrix of the same size. To be called before each assembly.
-     */
-    virtual Matrix *
-    tangent_to_add_to(double /*factor*/)
-    {
-      return nullptr;
-    }
-
-    /**
-     * The tangent of the last assemble_between() for a caller who was to add to it, as
-     * said above, if that is a body matrix, and tangent() is not made; otherwise
-     * null.
-     */
-    virtual BodyMatrix *
-    body_tangent()
-    {
-      return nullptr;
-    }
-
-    /// Rows that have been assembled so far need not be kept.
-    virtual void
-    forget_tangent()
-    {
-    }
-
-    /// Another number whenever tangent() has another pattern.
-    virtual unsigned int
-    pattern_version() const
-    {
-      return 0;
-    }
-
     /// Size of the forces in balance [N/m], of the last assembly.
     virtual double
     force_scale() const = 0;
@@ -181,13 +130,78 @@ namespace NMM
     virtual void
     external_forces(const Vector &u, double t, Vector &forces) = 0;
 
+    /// @}
+
+    /// @name Parts of the layout
+    /// @{
+    MPI_Comm
+    communicator() const
+    {
+      return layout().communicator;
+    }
+
+    const dealii::IndexSet &
+    locally_owned() const
+    {
+      return layout().locally_owned;
+    }
+
+    const dealii::IndexSet &
+    locally_relevant() const
+    {
+      return layout().locally_relevant;
+    }
+
+    const dealii::AffineConstraints<double> &
+    constraints() const
+    {
+      return *layout().constraints;
+    }
+
+    const Vector &
+    reference_positions() const
+    {
+      return *layout().reference_positions;
+    }
+    /// @}
+  };
+
+
+  /// A model whose supports move or are taken away.
+  class SupportModel
+  {
+  public:
+    using Vector = MechanicalModel::Vector;
+
+    virtual ~SupportModel() = default;
+
+    /// Times at which forces jump [s], e.g. a support is taken away; ascending.
+    virtual std::vector<double>
+    events() const
+    {
+      return {};
+    }
+
+    /// From now on forces are those after the events up to and including @p t,
+    /// and before all later ones.
+    virtual void
+    pass_events(double /*t*/)
+    {
+    }
+
     /**
      * Work that supports do [J/m] by moving from where they are at @p t_0 to where they
      * are at @p t_1, with forces at @p u and the time @p t. 0 if nothing prescribed
-     * changes. Spoils residual().
+     * changes. Spoils the residual.
      */
     virtual double
-    work_of_supports(const Vector &u, double t, double t_0, double t_1) = 0;
+    work_of_supports(const Vector & /*u*/,
+                     double /*t*/,
+                     double /*t_0*/,
+                     double /*t_1*/)
+    {
+      return 0.;
+    }
 
     /**
      * The same for a step from @p begin at @p t_0 to @p end at @p t_1 with the
@@ -206,10 +220,16 @@ namespace NMM
       (void)end;
       return work_of_supports(mean, 0.5 * (t_0 + t_1), t_0, t_1);
     }
-    /// @}
+  };
 
-    /// @name What forces depend on beside u and t, e.g. where contacts stick
-    /// @{
+
+  /// A model whose forces depend on more than u and t, e.g. on where contacts stick.
+  class SteppedModel
+  {
+  public:
+    using Vector = MechanicalModel::Vector;
+
+    virtual ~SteppedModel() = default;
 
     /// A step of @p h from @p begin at the time @p t is going to be tried, to about
     /// @p predicted.
@@ -243,6 +263,22 @@ namespace NMM
     {
       return 0.;
     }
+  };
+
+
+  /// A model that can be saved and continued.
+  class SavedModel
+  {
+  public:
+    virtual ~SavedModel() = default;
+
+    /// The same number for the same unknowns, elements and materials only, on any
+    /// number of ranks.
+    virtual std::uint64_t
+    fingerprint() const
+    {
+      return 0;
+    }
 
     /// All that a continuation needs beside u, as bytes; the same on all ranks.
     virtual std::vector<char>
@@ -255,10 +291,14 @@ namespace NMM
     restore_internal_state(const std::vector<char> & /*state*/)
     {
     }
-    /// @}
+  };
 
-    /// @name Blocks that have left
-    /// @{
+
+  /// A model that knows its blocks apart: they may leave, and be solved for one by one.
+  class BlockModel
+  {
+  public:
+    virtual ~BlockModel() = default;
 
     /**
      * These blocks (ManifoldMesh::block(), by number) exert and feel no forces from
@@ -321,23 +361,89 @@ namespace NMM
     virtual dealii::IndexSet
     absent_unknowns() const
     {
-      return dealii::IndexSet(locally_owned().size());
+      return dealii::IndexSet();
     }
-    /// @}
-
-    /// @name Events: times at which forces jump, e.g. a support is taken away
-    /// @{
-
-    /// Ascending.
-    virtual std::vector<double>
-    events() const = 0;
-
-    /// From now on forces are those after the events up to and including @p t,
-    /// and before all later ones.
-    virtual void
-    pass_events(double t) = 0;
-    /// @}
   };
+
+
+  /// A model that helps to save work where its tangent is made.
+  class TangentModel
+  {
+  public:
+    using Matrix = MechanicalModel::Matrix;
+
+    virtual ~TangentModel() = default;
+
+    /**
+     * From now on the forces of assemble_between() shall be those of damping in
+     * proportion to the stiffness, too, with the @p coefficient [s]; accept_step()
+     * says what they dissipated. False if the model leaves that to its caller, who
+     * has stiffness_at_rest() for it, which must not turn.
+     */
+    virtual bool
+    set_stiffness_damping(double /*coefficient*/)
+    {
+      return false;
+    }
+
+    /**
+     * From now on tangents of assemble_between() are multiplied by @p factor, and may be
+     * added to: what was added is gone once a row is assembled again, and stays if
+     * another one is. Null, and the factor 1, if tangent() is not to be changed. Saves its
+     * caller a matrix of the same size. To be called before each assembly.
+     */
+    virtual Matrix *
+    tangent_to_add_to(double /*factor*/)
+    {
+      return nullptr;
+    }
+
+    /**
+     * The tangent of the last assemble_between() for a caller who was to add to it, as
+     * said above, if that is a body matrix, and tangent() is not made; otherwise
+     * null.
+     */
+    virtual BodyMatrix *
+    body_tangent()
+    {
+      return nullptr;
+    }
+
+    /// Rows that have been assembled so far need not be kept.
+    virtual void
+    forget_tangent()
+    {
+    }
+
+    /// Another number whenever tangent() has another pattern.
+    virtual unsigned int
+    pattern_version() const
+    {
+      return 0;
+    }
+  };
+
+
+  /// An interface that not all models have. If @p model has not, its functions say so: there are
+  /// no events, no blocks, nothing is remembered.
+  template <class Interface>
+  Interface &
+  model_interface(MechanicalModel &model)
+  {
+    static Interface none;
+    auto *const      result = dynamic_cast<Interface *>(&model);
+    return result == nullptr ? none : *result;
+  }
+
+
+  template <class Interface>
+  const Interface &
+  model_interface(const MechanicalModel &model)
+  {
+    static const Interface none;
+    auto *const            result = dynamic_cast<const Interface *>(&model);
+    return result == nullptr ? none : *result;
+  }
 } // namespace NMM
 
 #endif

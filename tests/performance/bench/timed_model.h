@@ -11,11 +11,19 @@ namespace NMM
   {
     /// A mechanical model as it is, with the times that its forces and what it does between
     /// steps take.
-    class TimedModel : public MechanicalModel
+    class TimedModel : public MechanicalModel,
+                       public SupportModel,
+                       public SteppedModel,
+                       public TangentModel
     {
     public:
+      using Vector = MechanicalModel::Vector;
+      using Matrix = MechanicalModel::Matrix;
+
       explicit TimedModel(MechanicalModel &model)
         : model(&model)
+        , supports(&model_interface<SupportModel>(model))
+        , stepped(&model_interface<SteppedModel>(model))
       {
         forces.reset();
         steps.reset();
@@ -24,40 +32,10 @@ namespace NMM
       /// Forces and tangents; begin and end of steps.
       dealii::Timer forces, steps;
 
-      MPI_Comm
-      communicator() const override
+      const ModelLayout &
+      layout() const override
       {
-        return model->communicator();
-      }
-
-      dealii::IndexSet
-      locally_owned() const override
-      {
-        return model->locally_owned();
-      }
-
-      dealii::IndexSet
-      locally_relevant() const override
-      {
-        return model->locally_relevant();
-      }
-
-      const dealii::AffineConstraints<double> &
-      constraints() const override
-      {
-        return model->constraints();
-      }
-
-      const Vector &
-      reference_positions() const override
-      {
-        return model->reference_positions();
-      }
-
-      std::uint64_t
-      fingerprint() const override
-      {
-        return model->fingerprint();
+        return model->layout();
       }
 
       const Matrix &
@@ -72,22 +50,10 @@ namespace NMM
         return model->stiffness_at_rest();
       }
 
-      bool
-      is_linear() const override
+      ForceProperties
+      force_properties() const override
       {
-        return model->is_linear();
-      }
-
-      bool
-      tangent_is_symmetric() const override
-      {
-        return model->tangent_is_symmetric();
-      }
-
-      bool
-      tangent_between_is_symmetric() const override
-      {
-        return model->tangent_between_is_symmetric();
+        return model->force_properties();
       }
 
       Deformation
@@ -126,7 +92,7 @@ namespace NMM
       unsigned int
       pattern_version() const override
       {
-        return model->pattern_version();
+        return model_interface<TangentModel>(*model).pattern_version();
       }
 
       double
@@ -153,7 +119,7 @@ namespace NMM
                        const double  t_0,
                        const double  t_1) override
       {
-        return model->work_of_supports(u, t, t_0, t_1);
+        return supports->work_of_supports(u, t, t_0, t_1);
       }
 
       double
@@ -163,7 +129,7 @@ namespace NMM
                                const double  t_0,
                                const double  t_1) override
       {
-        return model->work_of_supports_between(begin, end, mean, t_0, t_1);
+        return supports->work_of_supports_between(begin, end, mean, t_0, t_1);
       }
 
       void
@@ -173,45 +139,33 @@ namespace NMM
                  const double  h) override
       {
         const Running running(steps);
-        model->begin_step(begin, predicted, t, h);
+        stepped->begin_step(begin, predicted, t, h);
       }
 
       StepFault
       find_fault(const Vector &end) override
       {
         const Running running(steps);
-        return model->find_fault(end);
+        return stepped->find_fault(end);
       }
 
       double
       accept_step(const Vector &end, const double t) override
       {
         const Running running(steps);
-        return model->accept_step(end, t);
-      }
-
-      std::vector<char>
-      internal_state() const override
-      {
-        return model->internal_state();
-      }
-
-      void
-      restore_internal_state(const std::vector<char> &state) override
-      {
-        model->restore_internal_state(state);
+        return stepped->accept_step(end, t);
       }
 
       std::vector<double>
       events() const override
       {
-        return model->events();
+        return supports->events();
       }
 
       void
       pass_events(const double t) override
       {
-        model->pass_events(t);
+        supports->pass_events(t);
       }
 
     private:
@@ -233,6 +187,8 @@ namespace NMM
       };
 
       MechanicalModel *model;
+      SupportModel    *supports;
+      SteppedModel    *stepped;
     };
   } // namespace Bench
 } // namespace NMM

@@ -24,6 +24,17 @@ namespace NMM
                                " m is not positive",
                              "Mathematical mesh/Cell size",
                              "give the edge length of a triangle"));
+      // the mesh repeats itself after a cell, and nodes would be rounded
+      constexpr double most_cells = 1e6;
+      AssertThrow(parameters.offset.norm() <= most_cells * h,
+                  InputError("the offset (" +
+                               std::to_string(parameters.offset[0]) + ", " +
+                               std::to_string(parameters.offset[1]) +
+                               ") m is longer than a million cells of " +
+                               std::to_string(h) + " m",
+                             "Mathematical mesh/Offset",
+                             "choose one within a cell: the mesh repeats "
+                             "itself with the cell size"));
       const double angle     = parameters.rotation * numbers::PI / 180.;
       const bool equilateral = (parameters.pattern == MeshPattern::equilateral);
 

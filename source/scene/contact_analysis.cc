@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <scene/contact_analysis.h>
+#include <scene/parsing.h>
 #include <sstream>
 
 namespace NMM
@@ -35,6 +36,22 @@ namespace NMM
       cell_size         = contact_cell_size(*surface);
       this->constraints = &constraints;
       full_strength     = scene->make_contact_parameters(*surface, problem);
+      // every face would be looked at for every point, whatever the way that blocks go
+      constexpr double most    = 10.;
+      const auto       corners = covers->manifold_mesh()
+                             .physical_mesh()
+                             .bounding_box()
+                             .get_boundary_points();
+      const double extent = corners.first.distance(corners.second);
+      AssertThrow(
+        full_strength.reach <= most * extent,
+        InputError("faces would be looked for within " +
+                     to_text(full_strength.reach) +
+                     " m, more than ten times the size of the solid, " +
+                     to_text(extent) + " m",
+                   "parameter 'Contact/Reach'",
+                   "leave it out, or choose somewhat more than blocks "
+                   "move in a step"));
       contact_pointer =
         std::make_unique<Contact>(*surface, constraints, full_strength);
       // Rounding of arcs, in parts of the range that is looked at.

@@ -211,7 +211,7 @@ namespace NMM
                                    constraints,
                                    problem,
                                    contact.get(),
-                                   progress},
+                                   start_stage},
                                   start);
       if (contact)
         contact->hold_obstacles(false);

@@ -65,7 +65,7 @@ namespace NMM
                                     constraints,
                                     problem,
                                     contact.get(),
-                                    progress},
+                                    start_stage},
                            report);
       n_start_steps   = report.n_steps;
       settled_contact = contact->contact().history();

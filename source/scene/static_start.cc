@@ -7,8 +7,10 @@
 #include <nmm/mechanics/nonlinear_statics.h>
 
 #include <algorithm>
+#include <iomanip>
 #include <memory>
 #include <scene/static_start.h>
+#include <sstream>
 #include <utility>
 
 namespace NMM
@@ -66,6 +68,20 @@ namespace NMM
       }
 
 
+      void
+      show_load(const StartInput  &input,
+                const StartReport &report,
+                const double       load_factor)
+      {
+        input.stage.update([&](double) {
+          std::ostringstream line;
+          line << "load step " << report.n_steps << ", load factor "
+               << std::setprecision(3) << load_factor;
+          return line.str();
+        });
+      }
+
+
       Vector
       solve_statics(const StartInput &input, StartReport &report)
       {
@@ -87,6 +103,7 @@ namespace NMM
             ++report.n_steps;
             report.n_iterations +=
               step.newton.iterations.size() + step.n_lost_iterations;
+            show_load(input, report, step.load_factor);
           });
           return owned_part(input, statics.solution());
         }
@@ -97,6 +114,7 @@ namespace NMM
         statics.run(steps, [&](const ContactStep &step, const Vector &) {
           ++report.n_steps;
           report.n_iterations += step.n_iterations + step.n_lost_iterations;
+          show_load(input, report, step.load_factor);
         });
         return owned_part(input, statics.solution());
       }
@@ -147,6 +165,13 @@ namespace NMM
                 ++report.n_steps;
                 report.n_iterations +=
                   record.report.n_iterations + record.n_lost_iterations;
+                input.stage.update([&](double) {
+                  std::ostringstream line;
+                  line << "relaxation step " << report.n_steps << ", imbalance "
+                       << std::setprecision(2)
+                       << integrator.account().imbalance;
+                  return line.str();
+                });
               });
         return integrator.state().u;
       }

@@ -27,7 +27,8 @@ namespace NMM
       const ElasticityProblem                 &problem;
       /// Null without contact.
       ContactAnalysis *contact;
-      Progress        &progress;
+      /// Shows how far the start has come.
+      Progress::Stage &stage;
     };
 
 

@@ -134,6 +134,9 @@ namespace NMM
                 row.push_back(field);
               if (inside == 0 && row.size() > 5 && row[5] == "inside")
                 inside = 5;
+              // a probe may be called so
+              if (entry.path().filename() == "probes.csv" && !row.empty())
+                row.front().clear();
               const bool is_outside =
                 inside > 0 && row.size() > inside && row[inside] == "0";
               if (!is_outside && !is_finite(row))

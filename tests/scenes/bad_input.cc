@@ -85,6 +85,8 @@ namespace
     expect_rejected_override("Mathematical mesh/Cell size=-1", {"Cell size"});
     expect_rejected_override("Mathematical mesh/Cell size=nan", {"Cell size"});
     expect_rejected_override("Mathematical mesh/Cell size=1e-9", {"cell"});
+    expect_rejected_override("Mathematical mesh/Offset=3e28, 0",
+                             {"Offset", "a million cells"});
     expect_rejected_override("Mathematical mesh/Degree=3", {"Degree"});
     expect_rejected_override("Mathematical mesh/Type=gmsh", {"Gmsh file"});
     expect_rejected_override("Materials/rock/Young's modulus=0", {"rock", "0"});
@@ -513,6 +515,7 @@ namespace
       rejects(std::string("Contact/Friction angle=") + angle,
               {"Contact/Friction angle", angle, "90 degrees"});
     rejects("Contact/Normal stiffness=-1", {"Normal stiffness", "-1"});
+    rejects("Contact/Reach=2500", {"Contact/Reach", "2500 m", "ten times"});
     rejects("Contact/Shear stiffness=-2", {"Shear stiffness", "-2"});
     rejects("Contact/Cohesion=-3", {"Contact/Cohesion", "-3"});
     rejects("Contact/Tensile strength=5",

@@ -239,9 +239,9 @@ namespace NMM
         if (root != invalid_index)
         {
           const double of_root = constant(moments(root), boundary);
-          known[element]       = has_polynomial_of(element, root)
-                                   ? of_root
-                                   : std::min(known[element], 2. * of_root);
+          known[element] =
+            std::min(known[element],
+                     has_polynomial_of(element, root) ? of_root : 2. * of_root);
         }
       }
       return known[element];

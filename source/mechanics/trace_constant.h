@@ -33,10 +33,11 @@ namespace NMM
      * A sliver has a large constant: 4 / thickness. Where aggregation ties its
      * unknowns to a root element R, the polynomial's energy on R bounds its
      * trace on Gamma as well, and Lambda_R (with R's area and E's boundary),
-     * which is of order 1/h, is taken if E's polynomial is R's, so that a
-     * sliver that vanishes changes nothing. Where E has free covers of its own,
-     * or the ghost penalty bounds only the difference of the polynomials, it is
-     * the smaller of Lambda_E and 2 Lambda_R.
+     * which is mostly of order 1/h, is taken if E's polynomial is R's and it is the
+     * smaller one, so that a sliver that vanishes changes nothing. (It is the larger one
+     * by up to (distance / thickness)^2 if R is a thin strip that does not point at E.)
+     * Where E has free covers of its own, or the ghost penalty bounds only the
+     * difference of the polynomials, it is the smaller of Lambda_E and 2 Lambda_R.
      */
     class TraceConstants
     {

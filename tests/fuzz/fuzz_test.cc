@@ -46,3 +46,12 @@ TEST(Fuzz, StripsThatEndInABlock)
   for (const unsigned int seed : {69, 1733, 2123, 20136, 20427})
     expect_good("geometry", seed);
 }
+
+
+// Strips whose polynomials are those of another strip that points elsewhere: the bound on
+// their traces was that of the other strip, and up to 1e14 times too large.
+TEST(Fuzz, StripsTiedToTheTraceOfAnother)
+{
+  for (const unsigned int seed : {7227, 27434, 42709, 48836})
+    expect_good("geometry", seed);
+}

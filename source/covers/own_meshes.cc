@@ -1,4 +1,5 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/base/memory.h>
 #include <nmm/covers/element_support.h>
 #include <nmm/covers/own_meshes.h>
 #include <nmm/covers/point_location.h>
@@ -114,6 +115,10 @@ namespace NMM
       fit(unsigned int      region,
           const Filling    &on_main_mesh,
           const RegionMesh &choice);
+
+      /// How many cells of its own a region asks for; 0 if it does not say.
+      double
+      n_cells_wanted(unsigned int region, const RegionMesh &choice) const;
 
     private:
       /// How the region fills cells of @p mesh, by cutting it alone.
@@ -260,6 +265,46 @@ namespace NMM
     }
 
 
+    double
+    Fitter::n_cells_wanted(const unsigned int region,
+                           const RegionMesh  &choice) const
+    {
+      if (choice.n_across == 0)
+        return 0.;
+      const internal::RegionShape shape(edges, region);
+      const double                n = choice.n_across;
+      return 2. * n * std::ceil(n * shape.sides[1] / shape.sides[0]);
+    }
+
+
+    /// @throws InputError if there is no memory for what regions ask for.
+    void
+    check_memory(const Fitter                    &fitter,
+                 const std::vector<unsigned int> &needy,
+                 const std::vector<RegionMesh>   &choices,
+                 const OwnMeshParameters         &parameters)
+    {
+      double n_cells = 0.;
+      for (const unsigned int r : needy)
+        n_cells += fitter.n_cells_wanted(r, choices[r]);
+      std::ostringstream number;
+      number << std::setprecision(2) << n_cells
+             << " cells of blocks' own meshes";
+      require_memory(parameters.memory_per_cell * n_cells,
+                     available_memory(1u),
+                     number.str(),
+                     "the number of cells across blocks",
+                     [](const double excess) {
+                       std::ostringstream text;
+                       text
+                         << std::setprecision(2) << "divide it by "
+                         << 1.05 * std::sqrt(excess)
+                         << ", or choose a machine or limit with more memory";
+                       return text.str();
+                     });
+    }
+
+
     /// Regions with the same kind of mesh, for one notice.
     struct Group
     {
@@ -390,6 +435,7 @@ namespace NMM
                            "let all ranks hold all of the mesh, choose smaller "
                            "cells, or 'Covers/Own meshes' = never"));
 
+    check_memory(make_fitter(), needy, choices, parameters);
     std::vector<MeshPart>    parts(1);
     std::map<Outcome, Group> groups;
     result.region_to_part.assign(fillings.size(), 0);

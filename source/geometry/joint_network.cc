@@ -103,29 +103,33 @@ namespace NMM
     };
 
 
+    /// What bounds the place the set is confined to. @throws InputError if nothing does.
+    std::vector<const Curve *>
+    curves_around(const JointSet &set, const Geometry &geometry)
+    {
+      std::vector<const Curve *> result;
+      for (const Curve &region : geometry.regions())
+        if (!set.within.empty() && region.name == set.within)
+          result.push_back(&region);
+      if (result.empty())
+        for (const Curve &curve : geometry.curves())
+          if (curve.role == CurveRole::boundary)
+            result.push_back(&curve);
+      AssertThrow(!result.empty(),
+                  InputError("the geometry has no outer boundary",
+                             "the joint set '" + set.name + "'",
+                             "add a closed curve of role 'boundary'"));
+      return result;
+    }
+
+
     /// Of the place the set is confined to, a little larger than that.
     Box
     find_box(const JointSet &set, const Geometry &geometry)
     {
-      Box  box;
-      bool is_empty = true;
-      for (const Curve &region : geometry.regions())
-        if (!set.within.empty() && region.name == set.within)
-        {
-          box.include(region);
-          is_empty = false;
-        }
-      if (is_empty)
-        for (const Curve &curve : geometry.curves())
-          if (curve.role == CurveRole::boundary)
-          {
-            box.include(curve);
-            is_empty = false;
-          }
-      AssertThrow(!is_empty,
-                  InputError("the geometry has no outer boundary",
-                             "the joint set '" + set.name + "'",
-                             "add a closed curve of role 'boundary'"));
+      Box box;
+      for (const Curve *curve : curves_around(set, geometry))
+        box.include(*curve);
       const double margin = 0.01 * box.lower.distance(box.upper);
       for (unsigned int c = 0; c < 2; ++c)
       {
@@ -133,6 +137,34 @@ namespace NMM
         box.upper[c] += margin;
       }
       return box;
+    }
+
+
+    /// Of the place the set is confined to [m^2], to about a hundredth: the parts of
+    /// horizontal lines that are inside, by the even-odd rule.
+    double
+    estimate_area(const JointSet &set, const Geometry &geometry)
+    {
+      constexpr unsigned int n_lines = 256;
+      const auto             curves  = curves_around(set, geometry);
+      const Box              box     = find_box(set, geometry);
+      const double           step    = (box.upper[1] - box.lower[1]) / n_lines;
+      double                 sum     = 0.;
+      for (unsigned int i = 0; i < n_lines; ++i)
+      {
+        const double     y = box.lower[1] + (i + 0.5) * step;
+        const CurvePiece line =
+          CurvePiece::segment({box.lower[0], y}, {box.upper[0], y});
+        std::vector<double> places;
+        for (const Curve *curve : curves)
+          for (const CurvePiece &piece : curve->pieces)
+            for (const Point<2> &point : internal::crossings(line, piece))
+              places.push_back(point[0]);
+        std::sort(places.begin(), places.end());
+        for (std::size_t k = 1; k < places.size(); k += 2)
+          sum += places[k] - places[k - 1];
+      }
+      return sum * step;
     }
 
 
@@ -146,6 +178,10 @@ namespace NMM
       run();
 
     private:
+      /// Lines and traces are numbered from the origin. @throws InputError if that is so
+      /// far away that rounding loses their places.
+      void
+      check_numbers(double first, double last, const std::string &what) const;
       void
       add_line(std::int64_t line);
       void
@@ -235,9 +271,30 @@ namespace NMM
                                count.str() + " traces",
                              "its spacing and trace length",
                              "choose them larger"));
+      check_numbers(first, last, "lines");
       for (double line = first; line <= last; ++line)
         add_line(static_cast<std::int64_t>(line));
       return std::move(joints);
+    }
+
+
+    void
+    Generator::check_numbers(const double       first,
+                             const double       last,
+                             const std::string &what) const
+    {
+      // 2^-12 of a spacing is what rounding then leaves of a place
+      constexpr double   largest = 1.1e12;
+      std::ostringstream number;
+      number << std::max(std::abs(first), std::abs(last));
+      AssertThrow(std::abs(first) <= largest && std::abs(last) <= largest,
+                  InputError("between the origin of the joint set '" +
+                               set.name + "' and the solid are " +
+                               number.str() + ' ' + what +
+                               ", whose places are lost to rounding",
+                             "its offset and the coordinates of the solid",
+                             "give an offset below the spacing, and "
+                             "coordinates from an origin nearby"));
     }
 
 
@@ -283,6 +340,7 @@ namespace NMM
       const double period = set.trace_length / set.persistence;
       const double first  = std::floor((begin + origin) / period - phase - 1.);
       const double last   = std::ceil((end + origin) / period - phase + 1.);
+      check_numbers(first, last, "traces on a line");
       for (double trace = first; trace <= last; ++trace)
       {
         double length = set.trace_length;
@@ -385,6 +443,33 @@ namespace NMM
           "",
           "give a share from 0 to at most 1 and at most " + limit.str() +
             ", so that traces do not meet");
+  }
+
+
+  double
+  estimate_crossings(const std::vector<JointSet> &sets,
+                     const Geometry              &geometry)
+  {
+    double sum = 0.;
+    for (std::size_t a = 0; a < sets.size(); ++a)
+    {
+      sets[a].check();
+      for (std::size_t b = 0; b < a; ++b)
+      {
+        const bool is_apart = !sets[a].within.empty() &&
+                              !sets[b].within.empty() &&
+                              sets[a].within != sets[b].within;
+        if (is_apart)
+          continue;
+        const double area = std::min(estimate_area(sets[a], geometry),
+                                     estimate_area(sets[b], geometry));
+        const double sine = std::abs(
+          std::sin((sets[a].dip - sets[b].dip) * (dealii::numbers::PI / 180.)));
+        sum += area * sine * (sets[a].persistence / sets[a].spacing) *
+               (sets[b].persistence / sets[b].spacing);
+      }
+    }
+    return sum;
   }
 
 

@@ -126,6 +126,37 @@ namespace NMM
     }
 
 
+    /// Of a mesh from a file: of its cells whose first corner is in the solid's box.
+    /// @throws InputError.
+    void
+    check_memory(const SceneParameters  &parameters,
+                 const MathematicalMesh &mesh,
+                 const PhysicalMesh     &physical_mesh,
+                 const MPI_Comm          communicator)
+    {
+      const dealii::BoundingBox<2> &box = physical_mesh.bounding_box();
+      const double                  n_cells =
+        std::count_if(mesh.cells().begin(),
+                      mesh.cells().end(),
+                      [&](const auto &cell) {
+                        return box.point_inside(mesh.vertices()[cell[0]]);
+                      });
+      require_memory(estimate_memory(parameters, n_cells),
+                     available_memory(communicator),
+                     std::to_string(static_cast<std::size_t>(n_cells)) +
+                       " cells",
+                     "parameter 'Mathematical mesh/Gmsh file'",
+                     [](const double excess) {
+                       std::ostringstream text;
+                       text.precision(2);
+                       text << "make cells " << 1.05 * std::sqrt(excess)
+                            << " times as large, or choose a machine or limit "
+                               "with more memory";
+                       return text.str();
+                     });
+    }
+
+
     /// A square that stands on its base and is pressed from above: what is printed
     /// without a scene can be run, and replaced bit by bit.
     void
@@ -271,9 +302,13 @@ namespace NMM
         return make_graded_mesh(physical_mesh,
                                 parameters.graded,
                                 parameters.degree);
-      case MathematicalMeshParameters::Type::gmsh:
-        return read_gmsh_mesh(relative_to_scene(parameters.gmsh_file),
-                              parameters.degree);
+      case MathematicalMeshParameters::Type::gmsh: {
+        MathematicalMesh mesh =
+          read_gmsh_mesh(relative_to_scene(parameters.gmsh_file),
+                         parameters.degree);
+        check_memory(scene_parameters, mesh, physical_mesh, communicator);
+        return mesh;
+      }
       case MathematicalMeshParameters::Type::regular:
         break;
     }
@@ -294,6 +329,14 @@ namespace NMM
                                    parameters.degree,
                                    communicator);
     return make_regular_mesh(physical_mesh, regular, parameters.degree);
+  }
+
+
+  double
+  Scene::memory_per_cell() const
+  {
+    constexpr double n_cells = 1e5;
+    return estimate_memory(scene_parameters, n_cells) / n_cells;
   }
 
 

@@ -74,14 +74,15 @@ namespace NMM
     SceneAnalysis::cut()
     {
       OwnMeshParameters parameters;
-      parameters.threshold = scene.parameters().covers.threshold;
-      parameters.regions   = scene.make_region_meshes(*physical_mesh);
-      OwnMeshes meshes     = make_own_meshes(std::move(mathematical_mesh),
+      parameters.threshold       = scene.parameters().covers.threshold;
+      parameters.regions         = scene.make_region_meshes(*physical_mesh);
+      parameters.memory_per_cell = scene.memory_per_cell();
+      OwnMeshes meshes           = make_own_meshes(std::move(mathematical_mesh),
                                          *physical_mesh,
                                          parameters);
-      mathematical_mesh    = std::move(meshes.mathematical_mesh);
-      manifold_mesh        = std::move(meshes.manifold_mesh);
-      own_mesh_notices     = std::move(meshes.notices);
+      mathematical_mesh          = std::move(meshes.mathematical_mesh);
+      manifold_mesh              = std::move(meshes.manifold_mesh);
+      own_mesh_notices           = std::move(meshes.notices);
     }
 
 

@@ -1,10 +1,14 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/base/memory.h>
 #include <nmm/geometry/dxf.h>
 #include <nmm/geometry/joint_network.h>
 #include <nmm/scene/scene.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iomanip>
 #include <scene/shapes.h>
+#include <sstream>
 
 // The solid: what bounds it, what joints cut it, which places have names.
 namespace NMM
@@ -37,6 +41,40 @@ namespace NMM
         curve.is_clipped = true;
         geometry.add(std::move(curve));
       }
+    }
+  } // namespace
+
+
+  namespace
+  {
+    /// @throws InputError if joint sets cross more often than memory has room for.
+    void
+    check_crossings(const std::vector<JointSet> &sets, const Geometry &geometry)
+    {
+      // [bytes], for a block and its own mesh: measured on tests/scenes/network-square with
+      // 1e4 to 1.6e5 crossings (`peak_memory` in the summary)
+      constexpr double   of_crossing = 3e4;
+      const double       n_crossings = estimate_crossings(sets, geometry);
+      std::ostringstream number;
+      number << std::setprecision(2) << n_crossings
+             << " crossings of joint sets";
+      require_memory(of_crossing * n_crossings,
+                     available_memory(1u),
+                     number.str(),
+                     "the spacings in section 'Joint sets'",
+                     [&](const double excess) {
+                       // a little more than what just fits
+                       const double       factor = 1.05 * std::sqrt(excess);
+                       std::ostringstream text;
+                       text << std::setprecision(2)
+                            << "choose spacings of at least";
+                       for (std::size_t i = 0; i < sets.size(); ++i)
+                         text << (i == 0 ? " " : ", ")
+                              << factor * sets[i].spacing << " m for '"
+                              << sets[i].name << '\'';
+                       text << ", or a machine or limit with more memory";
+                       return text.str();
+                     });
     }
   } // namespace
 
@@ -117,6 +155,7 @@ namespace NMM
     for (const TraceParameters &traces : scene_parameters.traces)
       add_traces(traces, relative_to_scene(traces.file), geometry);
     add_regions(geometry);
+    check_crossings(scene_parameters.joint_sets, geometry);
     for (const JointSet &set : scene_parameters.joint_sets)
       for (Curve &joint : make_joints(set, geometry))
         geometry.add(std::move(joint));

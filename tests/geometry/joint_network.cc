@@ -116,6 +116,49 @@ namespace
   }
 
 
+  // Crossings of the joints inside an L of three quarters of a square, counted, against
+  // the estimate: lines along its edges count as a whole or not, which is a spacing by
+  // the size, below 1 %; the area is known to 1 %. Traces cross at random: their number
+  // of about 5,600 scatters by its root at most, 1.4 %.
+  TEST(JointNetwork, CrossingsAreEstimated)
+  {
+    Geometry geometry;
+    geometry.add_polygon(
+      {{0., 0.}, {100., 0.}, {100., 50.}, {50., 50.}, {50., 100.}, {0., 100.}},
+      "L");
+    std::vector<JointSet> sets = {make_set("a", 0., 0.5),
+                                  make_set("b", 60., 0.7)};
+    for (const double persistence : {1., 0.55})
+    {
+      SCOPED_TRACE(persistence);
+      for (JointSet &set : sets)
+      {
+        set.persistence  = persistence;
+        set.trace_length = persistence < 1. ? 3. : 0.;
+      }
+      const auto a   = make_joints(sets[0], geometry),
+                 b   = make_joints(sets[1], geometry);
+      unsigned int n = 0;
+      for (const Curve &flat : a)
+        for (const Curve &steep : b)
+        {
+          // where the second one is at the height of the first one
+          const double y = flat.start()[1],
+                       t = (y - steep.start()[1]) /
+                           (steep.end()[1] - steep.start()[1]),
+                       x = steep.start()[0] +
+                           t * (steep.end()[0] - steep.start()[0]);
+          n += t >= 0. && t <= 1. && x >= flat.start()[0] &&
+               x <= flat.end()[0] && x >= 0. && y >= 0. && x <= 100. &&
+               y <= 100. && (x <= 50. || y <= 50.);
+        }
+      EXPECT_NEAR(estimate_crossings(sets, geometry), n, 0.04 * n);
+    }
+    sets[1].dip = sets[0].dip;
+    EXPECT_EQ(estimate_crossings(sets, geometry), 0.);
+  }
+
+
   TEST(JointNetwork, MeansOfScatteredSets)
   {
     JointSet set        = make_set("set", 30., 0.5);

@@ -87,6 +87,14 @@ namespace
     expect_rejected_override("Mathematical mesh/Cell size=1e-9", {"cell"});
     expect_rejected_override("Mathematical mesh/Offset=3e28, 0",
                              {"Offset", "a million cells"});
+    // about 2,500 blocks of 2e6 cells
+    expect_rejected_with({"Joint sets/Names=flat, steep",
+                          "Joint sets/flat/Spacing=0.02",
+                          "Joint sets/steep/Dip=90",
+                          "Joint sets/steep/Spacing=0.02",
+                          "Covers/Own meshes=every region"},
+                         "Covers/Elements across=1000",
+                         {"own meshes", "memory", "across"});
     expect_rejected_override("Mathematical mesh/Degree=3", {"Degree"});
     expect_rejected_override("Mathematical mesh/Type=gmsh", {"Gmsh file"});
     expect_rejected_override("Materials/rock/Young's modulus=0", {"rock", "0"});

@@ -23,6 +23,8 @@ namespace
     rejects("Persistence=0.5", {"'beds'", "trace length", "0 m"});
     rejects("Trace length=1", {"'beds'", "trace length", "persistence"});
     rejects("Dip scatter=100", {"'beds'", "dip", "100", "90"});
+    // a loop over line numbers that rounding does not let grow had no end
+    rejects("Offset=1e30", {"'beds'", "lines", "rounding", "offset"});
     rejects("Within=bench", {"'beds'", "'bench'", "region"});
     rejects("State=ajar", {"ajar", "Joint sets/beds/State", "closed"});
     expect_rejected_override("Joint sets/Names=square",
@@ -30,6 +32,17 @@ namespace
     expect_rejected_with({"Joint sets/Names=square"},
                          "Joint sets/square/Spacing=0.25",
                          {"'square'", "joint", "rename"});
+  }
+
+
+  TEST(BadInput, JointSetsThatCrossTooOften)
+  {
+    // 1e5 lines each; 30 kB a crossing
+    expect_rejected_with({"Joint sets/Names=flat, steep",
+                          "Joint sets/flat/Spacing=1e-5",
+                          "Joint sets/steep/Dip=90"},
+                         "Joint sets/steep/Spacing=1e-5",
+                         {"1e+10 crossings", "memory", "'flat'", "'steep'"});
   }
 
 

@@ -52,6 +52,10 @@ namespace NMM
     unsigned int n_halvings = 4;
     /// No more cells than this for a region that needs a mesh of its own.
     unsigned int n_cells_at_most = 20000;
+    /// What a cell needs in the end [bytes]: meshes of regions that say how many cells
+    /// they want are compared with the memory there is before they are made. At least
+    /// what the mesh itself takes.
+    double memory_per_cell = 2000.;
   };
 
 
@@ -102,8 +106,8 @@ namespace NMM
    * parts are cut, exactly, each at a cost in proportion to its regions.
    * A distributed main mesh (make_distributed_mesh()) can have no others beside it.
    * @throws InputError if the main mesh does not cover the solid, if the choices
-   * do not fit the regions, or if a region beside a distributed mesh wants one of its
-   * own.
+   * do not fit the regions, if cells of own meshes would need more memory than there
+   * is, or if a region beside a distributed mesh wants one of its own.
    */
   OwnMeshes
   make_own_meshes(std::unique_ptr<MathematicalMesh> main_mesh,

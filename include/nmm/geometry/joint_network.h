@@ -61,6 +61,21 @@ namespace NMM
 
 
   /**
+   * How often joints of different sets are expected to cross, before any is made:
+   * @f[ \sum_{a<b} A_{ab}\,\frac{p_a}{s_a}\,\frac{p_b}{s_b}\,
+       |\sin(\theta_a-\theta_b)| @f]
+   * with persistence p [-], spacing s [m] and dip @f$\theta@f$ of each set: p / s is
+   * its length by area, and lines of these lengths by area cross so often if they are
+   * placed independently. @f$A_{ab}@f$ is the smaller area of the places that the sets are
+   * confined to [m^2], 0 for two regions. Holes and the scatter of dips are left out.
+   * @throws InputError for a set that is wrong, a geometry without boundary.
+   */
+  double
+  estimate_crossings(const std::vector<JointSet> &sets,
+                     const Geometry              &geometry);
+
+
+  /**
    * The joints of the set that may meet the solid of @p geometry: segments over its
    * bounding box (or that of the region they are confined to), of which PhysicalMesh
    * takes what is inside. @throws InputError for a set that is wrong, a geometry

@@ -101,6 +101,10 @@ namespace NMM
     make_mathematical_mesh(const PhysicalMesh &physical_mesh,
                            MPI_Comm communicator = MPI_COMM_WORLD) const;
 
+    /// What an analysis of this scene uses for each cell [bytes], measured.
+    double
+    memory_per_cell() const;
+
     /// Which mathematical mesh each region is on. @throws InputError for a block
     /// that does not exist.
     std::vector<RegionMesh>

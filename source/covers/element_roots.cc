@@ -5,6 +5,7 @@
 #include "element_order.h"
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 // Which polynomial elements with little support follow.
 namespace NMM
@@ -18,6 +19,15 @@ namespace NMM
     /// values grow with the square of the distance, and energies with its
     /// fourth power.
     constexpr unsigned int max_layers = 3;
+
+    /**
+     * An element with this share a of its cell, or less, is continued to over more
+     * layers d: the energy of values that have grown is a d^4 of a cell's, at most 1. By
+     * itself a sliver of the relative width a knows its unknowns to epsilon / a^2 only,
+     * as the energy of a field that is quadratic across it is a^2 of one along it.
+     */
+    constexpr double       sliver_share      = 1e-4;
+    constexpr unsigned int max_sliver_layers = 10;
 
     /// While roots are looked for: one that another rank holds.
     constexpr unsigned int remote = invalid_index - 1;
@@ -92,13 +102,15 @@ namespace NMM
 
 
     /// Gives elements that are joined to a rooted one a root, layer by layer;
-    /// among the roots of the previous layer the nearest.
+    /// among the roots of the previous layer the nearest. Only those that
+    /// @p may_follow, if that is given. Returns the last layer.
     template <typename Graph>
-    void
-    spread_roots(const Graph              &graph,
-                 std::vector<unsigned int> layer,
-                 const unsigned int        n_layers,
-                 ElementRoots             &roots)
+    std::vector<unsigned int>
+    spread_roots(const Graph                             &graph,
+                 std::vector<unsigned int>                layer,
+                 const unsigned int                       n_layers,
+                 ElementRoots                            &roots,
+                 const std::function<bool(unsigned int)> &may_follow = {})
     {
       // (element, parent)
       std::vector<std::pair<unsigned int, unsigned int>> found;
@@ -108,7 +120,8 @@ namespace NMM
         found.clear();
         for (const unsigned int e : layer)
           graph.for_each_neighbor(e, [&](const unsigned int neighbor) {
-            if (roots.element_to_root[neighbor] == invalid_index)
+            if (roots.element_to_root[neighbor] == invalid_index &&
+                (!may_follow || may_follow(neighbor)))
               found.emplace_back(neighbor, e);
           });
         std::sort(found.begin(), found.end());
@@ -128,6 +141,7 @@ namespace NMM
           layer.push_back(e);
         }
       }
+      return layer;
     }
 
 
@@ -410,13 +424,23 @@ namespace NMM
                   result);
       layer.push_back(e);
     }
-    spread_roots(graph, std::move(layer), max_layers - 1, result);
+    layer = spread_roots(graph, std::move(layer), max_layers - 1, result);
 
     if (manifold_mesh.exchange() != nullptr)
     {
       root_the_rest_on_ranks(manifold_mesh, bad, result);
       return result;
     }
+    spread_roots(graph,
+                 std::move(layer),
+                 max_sliver_layers - max_layers,
+                 result,
+                 [&](const unsigned int e) {
+                   return manifold_mesh.area(e) <=
+                          sliver_share *
+                            manifold_mesh.mathematical_mesh().cell_area(
+                              manifold_mesh.cell(e));
+                 });
     std::vector<std::pair<double, unsigned int>> left;
     for (const unsigned int e : bad)
       if (element_to_root[e] == invalid_index)

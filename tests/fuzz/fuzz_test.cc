@@ -43,7 +43,8 @@ TEST(Fuzz, Scenes)
 // off by up to 2e-2 there, or the system singular.
 TEST(Fuzz, StripsThatEndInABlock)
 {
-  for (const unsigned int seed : {69, 1733, 2123, 20136, 20427})
+  for (const unsigned int seed :
+       {69, 1733, 2123, 2369, 13664, 20136, 20427, 48971})
     expect_good("geometry", seed);
 }
 

@@ -33,8 +33,8 @@ namespace NMM
   /**
    * The *root* of each element: itself if its element_support() is at least
    * @p threshold, else the nearest such element of the same connected set
-   * (breadth-first search over ManifoldMesh::joined(), three layers of elements, ten for slivers of replicated meshes
-   * at most). Where there is none, as in long thin arms of a region, the
+   * (breadth-first search over ManifoldMesh::joined(), three layers of elements
+   * at most, ten for slivers on a mesh that is not distributed). Where there is none, as in long thin arms of a region, the
    * element with the largest support becomes a root all the same, and so on: a
    * polynomial continued far is worse than one with little support. What is
    * equal to rounding is chosen by place, so that neither the numbering nor

@@ -216,16 +216,6 @@ namespace NMM
                           const ContactSurface::Place &slave,
                           internal::ContactProjection &projection) const;
 
-    /**
-     * Statics: where corners of several bodies meet, which face is the nearest one jumps,
-     * and with it the force, so that Newton's method goes round. What a point is pressed on
-     * by stays its face until points are made anew.
-     */
-    void
-    stay_with_face(unsigned int                 q,
-                   const ContactSurface::Place &slave,
-                   internal::ContactProjection &projection) const;
-
     /// Does one of the edges go on in the other, within a few edges?
     bool
     goes_on(unsigned int edge,

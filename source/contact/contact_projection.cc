@@ -72,29 +72,6 @@ namespace NMM
   }
 
 
-  void
-  Contact::Data::stay_with_face(const unsigned int           q,
-                                const ContactSurface::Place &slave,
-                                ContactProjection           &projection) const
-  {
-    const ContactPoint &point = points[q];
-    const PointData    &fixed = point_data[q];
-    if (point.state == ContactState::open)
-      return;
-    const dealii::ArrayView<const unsigned int> face(&point.master, 1);
-    const ContactProjection                     last =
-      fixed.corner >= PointKind::along
-                            ? search.project(slave, face, fixed.slack, fixed.home, find_admitted(q))
-                            : search.project_corner(slave,
-                                normal_of_other_edge(q),
-                                face,
-                                point.master,
-                                find_admitted(q));
-    if (last.master != invalid_index && last.gap < 0.)
-      projection = last;
-  }
-
-
   Tensor<1, 2>
   Contact::Data::way_from_stick(const unsigned int           q,
                                 const ContactSurface::Place &slave) const
@@ -296,9 +273,6 @@ namespace NMM
     };
     if (is_between() && fixed.corner < PointKind::along)
       stay_with_face_of_end(q, slave, projection);
-    if (!is_moving() && point.master != invalid_index &&
-        point.master != projection.master)
-      stay_with_face(q, slave, projection);
     // a piece ends where two edges of the master meet; its end stays with one of
     // them, since their normals differ a little and the iteration would not end
     if (fixed.corner == PointKind::along && point.master != invalid_index &&

@@ -65,9 +65,16 @@ namespace NMM
       return projection;
     }
     point.x = slave.x;
-    if (projection.master != invalid_index)
-      point.gap = projection.gap =
-        gap_of_displacements(q, projection) + frozen.gaps[q];
+    if (projection.master == invalid_index)
+      return projection;
+    point.gap = projection.gap =
+      gap_of_displacements(q, projection) + frozen.gaps[q];
+    // forces are those at the frozen place; where the point has come to is where it sticks, or
+    // slides on from, if this state is accepted
+    const ContactSurface::Place place =
+      surface->place(projection.master, projection.t);
+    point.t =
+      projection.t + ((slave.x - place.x) * place.a) / place.a.norm_square();
     return projection;
   }
 

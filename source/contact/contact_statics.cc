@@ -154,7 +154,10 @@ namespace NMM
     const double tolerance  = contact->parameters().penetration_tolerance;
     // candidates and divisions follow the solution, which moves little by them
     constexpr unsigned int n_plain = 3;
-    const unsigned int     n =
+    // of the reach: small displacements by which neither candidates nor divisions nor, to first
+    // order, forces change
+    constexpr double   small_motion = 0.01;
+    const unsigned int n =
       is_augmented ? contact->parameters().max_augmentations + 1 : n_plain;
 
     elasticity->set_load_factor(factor);
@@ -175,6 +178,7 @@ namespace NMM
     for (unsigned int i = 0; i < n; ++i)
     {
       contact->detect(u);
+      const Vector       detected(u);
       const NewtonReport report =
         newton.solve(system, elasticity->elasticity().affine_constraints(), u);
       step.n_iterations += report.iterations.size();
@@ -190,8 +194,11 @@ namespace NMM
       if (contact->is_idle())
         continue;
       const bool is_settled =
-        i > 0 && report.iterations.front().relative_residual <=
-                   100. * parameters.residual_tolerance;
+        (i > 0 && report.iterations.front().relative_residual <=
+                    100. * parameters.residual_tolerance) ||
+        (elasticity->is_linearized() &&
+         contact->largest_motion(u, detected) <=
+           small_motion * contact->parameters().reach);
       if (!is_augmented)
       {
         if (!is_settled && i + 1 < n)

@@ -172,7 +172,6 @@ namespace NMM
    *      |                                              | accept()
    *   accepted          (assemble(): assembled)         step_accepted   (assemble(): stays)
    * @endverbatim
-   * @endverbatim
    * Statics: detect(), then assemble() in each iteration, with detect() between them where
    * faces have moved far; accept() at the solution. Time steps: detect() and begin_step() at the
    * begin of the step, then assemble_between() (schemes that conserve energy) or assemble() in

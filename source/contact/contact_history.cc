@@ -320,6 +320,8 @@ namespace NMM
   Contact::set_absent_bodies(const std::vector<bool> &is_absent)
   {
     Data &d = *data;
+    if (is_absent == d.surface->absent_bodies())
+      return;
     d.stage = Data::Stage::created;
     d.surface->set_absent_bodies(is_absent);
     d.search.forget();

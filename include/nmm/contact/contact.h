@@ -374,7 +374,7 @@ namespace NMM
      * From now on these bodies of the surface are not there, see
      * ContactSurface::set_absent_bodies(). What springs against them stored at the last
      * accepted state is forgotten, and does not count as dissipated. detect() has to be called
-     * before the next assembly.
+     * before the next assembly, unless the same bodies were absent before.
      */
     void
     set_absent_bodies(const std::vector<bool> &is_absent);

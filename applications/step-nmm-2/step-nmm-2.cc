@@ -16,6 +16,7 @@
 #include <nmm/covers/manifold_mesh.h>
 #include <nmm/covers/mathematical_mesh.h>
 #include <nmm/geometry/physical_mesh.h>
+#include <nmm/materials/material_law.h>
 #include <nmm/mechanics/displacement_field.h>
 #include <nmm/mechanics/finite_elasticity.h>
 #include <nmm/mechanics/incremental_elasticity.h>
@@ -75,7 +76,7 @@ namespace StepNMM2
     material.name           = "beam";
     material.youngs_modulus = parameters.youngs_modulus;
     material.poissons_ratio = parameters.poissons_ratio;
-    material.law            = NMM::MaterialLaw::st_venant_kirchhoff;
+    material.law            = NMM::material_law("St. Venant-Kirchhoff");
     problem.materials       = {material};
 
     Condition clamped;

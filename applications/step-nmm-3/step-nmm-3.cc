@@ -17,6 +17,7 @@
 #include <nmm/covers/manifold_mesh.h>
 #include <nmm/covers/mathematical_mesh.h>
 #include <nmm/geometry/physical_mesh.h>
+#include <nmm/materials/material_law.h>
 #include <nmm/mechanics/displacement_field.h>
 #include <nmm/mechanics/finite_elasticity.h>
 #include <nmm/quadrature/element_quadrature.h>
@@ -139,7 +140,8 @@ namespace StepNMM3
   // @sect3{Materials and conditions}
 
   NMM::ElasticityProblem
-  make_problem(const Parameters &parameters, const NMM::MaterialLaw law)
+  make_problem(const Parameters                              &parameters,
+               const std::shared_ptr<const NMM::MaterialLaw> &law)
   {
     NMM::ElasticityProblem problem;
     problem.plane_state = NMM::PlaneState::plane_strain;
@@ -173,9 +175,9 @@ namespace StepNMM3
 
   // Half of the approach moves the middle of the cylinder down to the rigid plate.
   NMM::ElasticityProblem
-  make_quarter_problem(const Parameters      &parameters,
-                       const NMM::MaterialLaw law,
-                       const double           approach)
+  make_quarter_problem(const Parameters &parameters,
+                       const std::shared_ptr<const NMM::MaterialLaw> &law,
+                       const double                                   approach)
   {
     NMM::ElasticityProblem problem = make_problem(parameters, law);
     const auto type = NMM::BoundaryCondition::Type::normal_displacement;
@@ -194,7 +196,7 @@ namespace StepNMM3
   make_press_problem(const Parameters &parameters)
   {
     NMM::ElasticityProblem problem =
-      make_problem(parameters, NMM::MaterialLaw::neo_hookean);
+      make_problem(parameters, NMM::material_law("neo-Hookean"));
     const auto type = NMM::BoundaryCondition::Type::displacement;
     add_condition(problem, "bottom lower", type, {0., 0.});
     add_condition(problem, "top upper", type, {0., -parameters.approach});
@@ -488,9 +490,10 @@ namespace StepNMM3
                                       size,
                                       1.1 * half_width,
                                       {-parameters.radius});
-    setup.problem   = make_quarter_problem(parameters,
-                                         NMM::MaterialLaw::st_venant_kirchhoff,
-                                         hertz.approach);
+    setup.problem =
+      make_quarter_problem(parameters,
+                           NMM::material_law("St. Venant-Kirchhoff"),
+                           hertz.approach);
     setup.is_linear = true;
     setup.contact =
       make_contact_parameters(parameters, enforcement, size, hertz.approach);
@@ -601,7 +604,7 @@ namespace StepNMM3
                                       0.5 * parameters.radius,
                                       {-parameters.radius});
     setup.problem   = make_quarter_problem(parameters,
-                                         NMM::MaterialLaw::neo_hookean,
+                                         NMM::material_law("neo-Hookean"),
                                          parameters.approach);
     setup.contact =
       make_contact_parameters(parameters, enforcement, size, 10. * step);

@@ -179,38 +179,39 @@ namespace NMM
   BartonBandisLaw::check(const std::string &where) const
   {
     ContactLaw::check(where);
-    check_value(joint_roughness >= 0. && joint_roughness <= 20.,
-                "the joint roughness coefficient",
-                joint_roughness,
-                where,
-                "give a number from 0 to 20");
-    check_value(joint_compressive_strength > 0. &&
-                  std::isfinite(joint_compressive_strength),
-                "the joint compressive strength",
-                joint_compressive_strength,
-                where,
-                "give a positive stress");
-    check_value(residual_angle >= 0. && residual_angle < largest_angle,
-                "the residual friction angle",
-                residual_angle,
-                where,
-                "give an angle from 0 up to below 70 degrees");
+    check_law_value(joint_roughness >= 0. && joint_roughness <= 20.,
+                    "the joint roughness coefficient",
+                    joint_roughness,
+                    where,
+                    "give a number from 0 to 20");
+    check_law_value(joint_compressive_strength > 0. &&
+                      std::isfinite(joint_compressive_strength),
+                    "the joint compressive strength",
+                    joint_compressive_strength,
+                    where,
+                    "give a positive stress");
+    check_law_value(residual_angle >= 0. && residual_angle < largest_angle,
+                    "the residual friction angle",
+                    residual_angle,
+                    where,
+                    "give an angle from 0 up to below 70 degrees");
     for (const double length : {sample_length, joint_length})
-      check_value(length > 0. && std::isfinite(length),
-                  "the length of a sample or joint",
-                  length,
-                  where,
-                  "give a positive length");
-    check_value(largest_closure >= 0. && std::isfinite(largest_closure),
-                "the largest closure",
-                largest_closure,
-                where,
-                "give a length, or 0 for a linear spring");
-    check_value(dilation == 0.,
-                "the tangent of the dilation angle",
-                dilation,
-                where,
-                "leave it out: the law of Barton and Bandis has no angle of "
-                "dilation here");
+      check_law_value(length > 0. && std::isfinite(length),
+                      "the length of a sample or joint",
+                      length,
+                      where,
+                      "give a positive length");
+    check_law_value(largest_closure >= 0. && std::isfinite(largest_closure),
+                    "the largest closure",
+                    largest_closure,
+                    where,
+                    "give a length, or 0 for a linear spring");
+    check_law_value(
+      dilation == 0.,
+      "the tangent of the dilation angle",
+      dilation,
+      where,
+      "leave it out: the law of Barton and Bandis has no angle of "
+      "dilation here");
   }
 } // namespace NMM

@@ -9,64 +9,51 @@
 namespace NMM
 {
   void
-  ContactLaw::check_value(const bool         is_good,
-                          const std::string &name,
-                          const double       value,
-                          const std::string &where,
-                          const std::string &remedy)
-  {
-    AssertThrow(is_good,
-                InputError(name + " is " + std::to_string(value),
-                           where,
-                           remedy));
-  }
-
-
-  void
   ContactLaw::check(const std::string &where) const
   {
-    check_value(normal_stiffness > 0. && std::isfinite(normal_stiffness),
-                "the normal spring's stiffness",
-                normal_stiffness,
-                where,
-                "give a positive one, such as ten times Young's modulus over "
-                "the size of a cell");
-    check_value(shear_stiffness >= 0. && std::isfinite(shear_stiffness),
-                "the shear spring's stiffness",
-                shear_stiffness,
-                where,
-                "give a positive one, or 0 for that of the normal spring");
+    check_law_value(
+      normal_stiffness > 0. && std::isfinite(normal_stiffness),
+      "the normal spring's stiffness",
+      normal_stiffness,
+      where,
+      "give a positive one, such as ten times Young's modulus over "
+      "the size of a cell");
+    check_law_value(shear_stiffness >= 0. && std::isfinite(shear_stiffness),
+                    "the shear spring's stiffness",
+                    shear_stiffness,
+                    where,
+                    "give a positive one, or 0 for that of the normal spring");
     for (const double damping : {normal_damping, shear_damping})
-      check_value(damping >= 0. && std::isfinite(damping),
-                  "a dashpot's coefficient",
-                  damping,
-                  where,
-                  "give a number that is at least 0");
-    check_value(tensile_strength >= 0. && std::isfinite(tensile_strength),
-                "the tensile strength",
-                tensile_strength,
-                where,
-                "give a number that is at least 0");
-    check_value(is_bond || tensile_strength == 0.,
-                "the tensile strength",
-                tensile_strength,
-                where,
-                "only bonded joints bear tension: say that it is a bond");
-    check_value(dilation >= 0. && std::isfinite(dilation),
-                "the tangent of the dilation angle",
-                dilation,
-                where,
-                "give a number that is at least 0");
-    check_value(dilation_limit >= 0. && std::isfinite(dilation_limit),
-                "the slip that dilates",
-                dilation_limit,
-                where,
-                "give a length, or 0 for no limit");
-    check_value(dilation > 0. || dilation_limit == 0.,
-                "the slip that dilates",
-                dilation_limit,
-                where,
-                "give a dilation angle, too");
+      check_law_value(damping >= 0. && std::isfinite(damping),
+                      "a dashpot's coefficient",
+                      damping,
+                      where,
+                      "give a number that is at least 0");
+    check_law_value(tensile_strength >= 0. && std::isfinite(tensile_strength),
+                    "the tensile strength",
+                    tensile_strength,
+                    where,
+                    "give a number that is at least 0");
+    check_law_value(is_bond || tensile_strength == 0.,
+                    "the tensile strength",
+                    tensile_strength,
+                    where,
+                    "only bonded joints bear tension: say that it is a bond");
+    check_law_value(dilation >= 0. && std::isfinite(dilation),
+                    "the tangent of the dilation angle",
+                    dilation,
+                    where,
+                    "give a number that is at least 0");
+    check_law_value(dilation_limit >= 0. && std::isfinite(dilation_limit),
+                    "the slip that dilates",
+                    dilation_limit,
+                    where,
+                    "give a length, or 0 for no limit");
+    check_law_value(dilation > 0. || dilation_limit == 0.,
+                    "the slip that dilates",
+                    dilation_limit,
+                    where,
+                    "give a dilation angle, too");
   }
 
 

@@ -92,6 +92,150 @@ namespace NMM
   }
 
 
+  namespace
+  {
+    /**
+     * Newton's method for displacements and contact states together; then candidates and
+     * divisions are found anew at the solution and, with a penetration tolerance, multipliers
+     * are updated; and again.
+     */
+    class ContactEquilibrium : public EquilibriumSearch
+    {
+    public:
+      ContactEquilibrium(ElasticSystem          &elasticity,
+                         Contact                &contact,
+                         const NewtonParameters &parameters)
+        : elasticity(&elasticity)
+        , contact(&contact)
+        , system(elasticity, contact)
+        , newton(parameters)
+        , parameters(parameters)
+      {
+      }
+
+      std::string
+      find(LoadStep &step, Vector &u, const Vector *change) override;
+
+      void
+      accept(const Vector &) override
+      {
+        found.dissipated = contact->accept();
+      }
+
+      void
+      reject() override
+      {
+        contact->restore_history(history);
+      }
+
+      std::string
+      remedy() const override
+      {
+        return "look at the last state that converged for what gives way, or "
+               "allow smaller steps";
+      }
+
+      /// What is known of the last step beside its LoadStep.
+      ContactStep found;
+
+    private:
+      bool
+      break_bonds();
+
+      ElasticSystem   *elasticity;
+      Contact         *contact;
+      ContactSystem    system;
+      NewtonSolver     newton;
+      NewtonParameters parameters;
+      ContactHistory   history;
+      unsigned int     n_breaks = 0;
+    };
+
+
+    /// Joints break where they are stressed most, and what is left finds a new
+    /// equilibrium before others do.
+    bool
+    ContactEquilibrium::break_bonds()
+    {
+      constexpr double       broken_at_once = 0.9;
+      constexpr unsigned int max_breaks     = 1000;
+      const bool is_broken = contact->break_bonds(broken_at_once) > 0;
+      n_breaks += is_broken;
+      return is_broken && n_breaks <= max_breaks;
+    }
+
+
+    std::string
+    ContactEquilibrium::find(LoadStep &step, Vector &u, const Vector *change)
+    {
+      const double tolerance    = contact->parameters().penetration_tolerance;
+      const bool   is_augmented = tolerance > 0.;
+      // candidates and divisions follow the solution, which moves little by them
+      constexpr unsigned int n_plain = 3;
+      // of the reach: small displacements by which neither candidates nor divisions nor, to
+      // first order, forces change
+      constexpr double   small_motion = 0.01;
+      const unsigned int n =
+        is_augmented ? contact->parameters().max_augmentations + 1 : n_plain;
+
+      history = contact->history();
+      contact->set_time(step.load_factor);
+      found              = ContactStep();
+      n_breaks           = 0;
+      double penetration = 0.;
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        contact->detect(u);
+        const Vector detected(u);
+        step.newton =
+          newton.solve(system,
+                       elasticity->elasticity().affine_constraints(),
+                       u,
+                       i == 0 ? change : nullptr);
+        step.n_iterations += step.newton.iterations.size();
+        step.relative_residual = step.newton.relative_residual;
+        if (!step.newton.converged)
+          return step.newton.reason;
+        found.contact = contact->report();
+        // where all has moved far, there may be candidates now
+        if (contact->is_idle() &&
+            (i > 0 || contact->find_fault(u).reason.empty()))
+          return "";
+        if (contact->is_idle())
+          continue;
+        const bool is_settled =
+          (i > 0 && step.newton.iterations.front().relative_residual <=
+                      100. * parameters.residual_tolerance) ||
+          (elasticity->is_linearized() &&
+           contact->largest_motion(u, detected) <=
+             small_motion * contact->parameters().reach);
+        if (!is_augmented)
+        {
+          if (!is_settled && i + 1 < n)
+            continue;
+          if (!break_bonds())
+            return "";
+          i = 0;
+          continue;
+        }
+        penetration = contact->augment();
+        if (penetration > tolerance)
+        {
+          ++found.n_augmentations;
+          continue;
+        }
+        if (!break_bonds())
+          return "";
+        i = 0;
+      }
+      std::ostringstream text;
+      text << "a penetration of " << penetration << " m is left after "
+           << found.n_augmentations << " augmentations";
+      return text.str();
+    }
+  } // namespace
+
+
   struct ContactStatics::Data
   {
     Data(ElasticSystem          &elasticity,
@@ -99,24 +243,15 @@ namespace NMM
          const NewtonParameters &newton)
       : elasticity(&elasticity)
       , contact(&contact)
-      , system(elasticity, contact)
-      , newton(newton)
-      , parameters(newton)
-      , solution(elasticity.elasticity().initial_solution())
+      , search(elasticity, contact, newton)
+      , statics(elasticity, search)
     {
     }
 
-    bool
-    try_step(double load_factor, Vector &u, ContactStep &step);
-
-    ElasticSystem   *elasticity;
-    Contact         *contact;
-    ContactSystem    system;
-    NewtonSolver     newton;
-    NewtonParameters parameters;
-    Vector           solution;
-    double           load_factor = 0.;
-    std::string      reason;
+    ElasticSystem     *elasticity;
+    Contact           *contact;
+    ContactEquilibrium search;
+    NonlinearStatics   statics;
   };
 
 
@@ -144,88 +279,6 @@ namespace NMM
   ContactStatics::~ContactStatics() = default;
 
 
-  /// False, with the reason, if there is no solution.
-  bool
-  ContactStatics::Data::try_step(const double factor,
-                                 Vector      &u,
-                                 ContactStep &step)
-  {
-    const bool is_augmented = contact->parameters().penetration_tolerance > 0.;
-    const double tolerance  = contact->parameters().penetration_tolerance;
-    // candidates and divisions follow the solution, which moves little by them
-    constexpr unsigned int n_plain = 3;
-    // of the reach: small displacements by which neither candidates nor divisions nor, to first
-    // order, forces change
-    constexpr double   small_motion = 0.01;
-    const unsigned int n =
-      is_augmented ? contact->parameters().max_augmentations + 1 : n_plain;
-
-    elasticity->set_load_factor(factor);
-    contact->set_time(factor);
-    step               = ContactStep();
-    step.load_factor   = factor;
-    double penetration = 0.;
-    // joints break where they are stressed most, and what is left finds a new
-    // equilibrium before others do
-    constexpr double       broken_at_once = 0.9;
-    constexpr unsigned int max_breaks     = 1000;
-    unsigned int           n_breaks       = 0;
-    const auto             breaks         = [&]() {
-      const bool is_broken = contact->break_bonds(broken_at_once) > 0;
-      n_breaks += is_broken;
-      return is_broken && n_breaks <= max_breaks;
-    };
-    for (unsigned int i = 0; i < n; ++i)
-    {
-      contact->detect(u);
-      const Vector       detected(u);
-      const NewtonReport report =
-        newton.solve(system, elasticity->elasticity().affine_constraints(), u);
-      step.n_iterations += report.iterations.size();
-      step.relative_residual = report.relative_residual;
-      reason                 = report.reason;
-      if (!report.converged)
-        return false;
-      step.contact = contact->report();
-      // where all has moved far, there may be candidates now
-      if (contact->is_idle() &&
-          (i > 0 || contact->find_fault(u).reason.empty()))
-        return true;
-      if (contact->is_idle())
-        continue;
-      const bool is_settled =
-        (i > 0 && report.iterations.front().relative_residual <=
-                    100. * parameters.residual_tolerance) ||
-        (elasticity->is_linearized() &&
-         contact->largest_motion(u, detected) <=
-           small_motion * contact->parameters().reach);
-      if (!is_augmented)
-      {
-        if (!is_settled && i + 1 < n)
-          continue;
-        if (!breaks())
-          return true;
-        i = 0;
-        continue;
-      }
-      penetration = contact->augment();
-      if (penetration > tolerance)
-      {
-        ++step.n_augmentations;
-        continue;
-      }
-      if (!breaks())
-        return true;
-      i = 0;
-    }
-    std::ostringstream text;
-    text << "a penetration of " << penetration << " m is left after "
-         << step.n_augmentations << " augmentations";
-    reason = text.str();
-    return false;
-  }
-
-
   std::vector<ContactStep>
   ContactStatics::run(
     const LoadSteps                                                &steps,
@@ -237,7 +290,7 @@ namespace NMM
     const std::shared_ptr<void> thaw(nullptr, [&d](void *) {
       d.contact->freeze_geometry(false);
     });
-    if (d.load_factor == 0.)
+    if (d.statics.load_factor() == 0.)
     {
       // rounding of arcs, in parts of the range that is looked at
       constexpr double tolerance = 1e-6;
@@ -245,52 +298,18 @@ namespace NMM
       d.contact->surface().check_initial_overlap(tolerance *
                                                  d.contact->parameters().reach);
       // points stick where they are now, not where the first solution takes them
-      d.contact->detect(d.solution);
-      d.contact->assemble(d.solution, false);
+      d.contact->detect(solution());
+      d.contact->assemble(solution(), false);
       d.contact->accept();
     }
     std::vector<ContactStep> result;
-    const double             least = steps.min_step * steps.load_factors.back();
-    double                   length = steps.load_factors.back();
-    unsigned int             n_cuts = 0, n_lost = 0;
-    for (const double asked : steps.load_factors)
-      while (d.load_factor < asked)
-      {
-        const double         remaining = asked - d.load_factor;
-        const bool           is_last   = length >= remaining * (1. - 1e-9);
-        const double         next = is_last ? asked : d.load_factor + length;
-        Vector               u(d.solution);
-        ContactStep          step;
-        const ContactHistory history = d.contact->history();
-        if (d.try_step(next, u, step))
-        {
-          step.dissipated = d.contact->accept();
-
-          length        = std::max(length, 2. * (next - d.load_factor));
-          d.solution    = u;
-          d.load_factor = next;
-          step.is_asked = is_last;
-          step.n_cuts   = n_cuts;
-          step.n_lost_iterations = n_lost;
-          n_cuts = n_lost = 0;
-          result.push_back(step);
-          if (after_step)
-            after_step(step, d.solution);
-          continue;
-        }
-        d.contact->restore_history(history);
-        ++n_cuts;
-        n_lost += step.n_iterations;
-        length = 0.5 * (next - d.load_factor);
-        AssertThrow(
-          length >= least,
-          NumericalFailure("The load step would be smaller than allowed: " +
-                             d.reason,
-                           "load factor " + std::to_string(next),
-                           "look at the last state that converged for what "
-                           "gives way, or allow "
-                           "smaller steps"));
-      }
+    d.statics.run(steps, [&](const LoadStep &step, const Vector &u) {
+      result.push_back(d.search.found);
+      static_cast<LoadStep &>(result.back()) = step;
+      result.back().dissipated_by_material   = d.statics.dissipated();
+      if (after_step)
+        after_step(result.back(), u);
+    });
     return result;
   }
 
@@ -298,6 +317,13 @@ namespace NMM
   const ContactStatics::Vector &
   ContactStatics::solution() const
   {
-    return data->solution;
+    return data->statics.solution();
+  }
+
+
+  const LoadStep &
+  ContactStatics::last_attempt() const
+  {
+    return data->statics.last_attempt();
   }
 } // namespace NMM

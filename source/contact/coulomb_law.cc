@@ -52,21 +52,21 @@ namespace NMM
   CoulombLaw::check(const std::string &where) const
   {
     ContactLaw::check(where);
-    check_value(friction >= 0. && std::isfinite(friction),
-                "the friction coefficient",
-                friction,
-                where,
-                "give a number that is at least 0");
-    check_value(cohesion >= 0. && std::isfinite(cohesion),
-                "the cohesion",
-                cohesion,
-                where,
-                "give a number that is at least 0");
-    check_value(dilation <= friction,
-                "the tangent of the dilation angle",
-                dilation,
-                where,
-                "give that of an angle from 0 to the friction angle, " +
-                  std::to_string(friction) + " at most");
+    check_law_value(friction >= 0. && std::isfinite(friction),
+                    "the friction coefficient",
+                    friction,
+                    where,
+                    "give a number that is at least 0");
+    check_law_value(cohesion >= 0. && std::isfinite(cohesion),
+                    "the cohesion",
+                    cohesion,
+                    where,
+                    "give a number that is at least 0");
+    check_law_value(dilation <= friction,
+                    "the tangent of the dilation angle",
+                    dilation,
+                    where,
+                    "give that of an angle from 0 to the friction angle, " +
+                      std::to_string(friction) + " at most");
   }
 } // namespace NMM

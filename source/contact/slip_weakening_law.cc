@@ -61,26 +61,27 @@ namespace NMM
   SlipWeakeningLaw::check(const std::string &where) const
   {
     CoulombLaw::check(where);
-    check_value(residual_friction >= 0. && residual_friction <= friction,
-                "the residual friction coefficient",
-                residual_friction,
-                where,
-                "give a number from 0 to the peak's");
-    check_value(residual_cohesion >= 0. && residual_cohesion <= cohesion,
-                "the residual cohesion",
-                residual_cohesion,
-                where,
-                "give a number from 0 to the peak's");
-    check_value(weakening_length > 0. && std::isfinite(weakening_length),
-                "the slip within which the strength falls",
-                weakening_length,
-                where,
-                "give a positive length");
-    check_value(dilation == 0.,
-                "the tangent of the dilation angle",
-                dilation,
-                where,
-                "leave it out: faces whose strength weakens with slip have no "
-                "angle of dilation here");
+    check_law_value(residual_friction >= 0. && residual_friction <= friction,
+                    "the residual friction coefficient",
+                    residual_friction,
+                    where,
+                    "give a number from 0 to the peak's");
+    check_law_value(residual_cohesion >= 0. && residual_cohesion <= cohesion,
+                    "the residual cohesion",
+                    residual_cohesion,
+                    where,
+                    "give a number from 0 to the peak's");
+    check_law_value(weakening_length > 0. && std::isfinite(weakening_length),
+                    "the slip within which the strength falls",
+                    weakening_length,
+                    where,
+                    "give a positive length");
+    check_law_value(
+      dilation == 0.,
+      "the tangent of the dilation angle",
+      dilation,
+      where,
+      "leave it out: faces whose strength weakens with slip have no "
+      "angle of dilation here");
   }
 } // namespace NMM

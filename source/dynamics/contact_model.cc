@@ -376,16 +376,20 @@ namespace NMM
   std::vector<char>
   ContactModel::internal_state() const
   {
-    return dealii::Utilities::pack(data->contact->history(),
-                                   /* allow_compression = */ false);
+    return dealii::Utilities::pack(
+      std::make_pair(data->contact->history(), data->saved->internal_state()),
+      /* allow_compression = */ false);
   }
 
 
   void
   ContactModel::restore_internal_state(const std::vector<char> &state)
   {
-    data->contact->restore_history(dealii::Utilities::unpack<ContactHistory>(
-      state, /* allow_compression = */ false));
+    const auto [history, of_model] =
+      dealii::Utilities::unpack<std::pair<ContactHistory, std::vector<char>>>(
+        state, /* allow_compression = */ false);
+    data->contact->restore_history(history);
+    data->saved->restore_internal_state(of_model);
     data->is_detected = false;
   }
 

@@ -1,15 +1,37 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/dynamics/elastic_models.h>
+#include <nmm/materials/material_law.h>
 #include <nmm/mechanics/mass_matrix.h>
 
 #include <algorithm>
 #include <dynamics/hash.h>
 #include <limits>
+#include <typeinfo>
 
 namespace NMM
 {
   namespace
   {
+    /// Which law, and its parameters.
+    void
+    hash_law(const Material &material, internal::Hash &hash)
+    {
+      const std::vector<NamedMaterialLaw> &laws = material_laws();
+      const std::unique_ptr<MaterialLaw>   law  = material.law->clone();
+      const auto                           known =
+        std::find_if(laws.begin(),
+                     laws.end(),
+                     [&](const NamedMaterialLaw &named) {
+                       return typeid(*named.law) == typeid(*law);
+                     });
+      hash.add(static_cast<unsigned int>(known - laws.begin()));
+      for (const LawParameter &parameter : law->parameters())
+        hash.add(*parameter.value);
+      if (material.given_initial_stress_zz)
+        hash.add(*material.given_initial_stress_zz);
+    }
+
+
     bool
     equal(const LoadAmplitudes &a, const LoadAmplitudes &b)
     {
@@ -244,7 +266,7 @@ namespace NMM
                                  material.initial_stress[1][1],
                                  material.initial_stress[0][1]})
         hash.add(value);
-      hash.add(static_cast<unsigned int>(material.law));
+      hash_law(material, hash);
     }
     hash.add(static_cast<unsigned int>(problem.plane_state));
     hash.add(force_properties().is_linear);

@@ -1,5 +1,7 @@
 #include <nmm/dynamics/elastic_models.h>
 
+#include <cmath>
+
 namespace NMM
 {
   SmallModel::SmallModel(FiniteElasticity           &elasticity,
@@ -13,7 +15,12 @@ namespace NMM
   {
     for (Vector *vector : {&owned, &forces, &load})
       vector->reinit(locally_owned(), communicator());
+    if (elasticity.is_inelastic())
+      inelastic = std::make_unique<InelasticTerms>(elasticity);
   }
+
+
+  SmallModel::~SmallModel() = default;
 
 
   void
@@ -49,24 +56,99 @@ namespace NMM
   ForceProperties
   SmallModel::force_properties() const
   {
-    return {/* is_linear = */ true,
-            /* is_symmetric = */ true,
-            /* is_symmetric_between = */ true};
+    const bool is_elastic = inelastic == nullptr;
+    return {/* is_linear = */ is_elastic,
+            /* is_symmetric = */ is_elastic,
+            /* is_symmetric_between = */ is_elastic};
+  }
+
+
+  const SmallModel::Matrix &
+  SmallModel::tangent() const
+  {
+    return current_tangent != nullptr ? *current_tangent
+                                      : elasticity->tangent();
+  }
+
+
+  double
+  SmallModel::force_scale() const
+  {
+    const double scale = ElasticModel::force_scale();
+    return inelastic ? std::hypot(scale, inelastic->force_scale()) : scale;
+  }
+
+
+  InelasticTerms *
+  SmallModel::inelastic_terms() const
+  {
+    return inelastic.get();
+  }
+
+
+  void
+  SmallModel::begin_step(const Vector &begin,
+                         const Vector &,
+                         const double,
+                         const double)
+  {
+    if (!inelastic)
+      return;
+    inelastic->begin_step(begin);
+    has_begun = true;
+  }
+
+
+  double
+  SmallModel::accept_step(const Vector &end, const double)
+  {
+    return inelastic && has_begun ? inelastic->accept_step(end) : 0.;
+  }
+
+
+  std::vector<char>
+  SmallModel::internal_state() const
+  {
+    return inelastic ? inelastic->internal_state() : std::vector<char>();
+  }
+
+
+  void
+  SmallModel::restore_internal_state(const std::vector<char> &state)
+  {
+    if (inelastic)
+      inelastic->restore_internal_state(state);
+  }
+
+
+  void
+  SmallModel::add_inelastic(const Vector &u,
+                            const double  share,
+                            const bool    with_tangent)
+  {
+    inelastic->assemble(u, with_tangent);
+    forces.add(share, inelastic->residual());
+    strain_energy += inelastic->energy();
+    if (with_tangent)
+      current_tangent = &inelastic->add_to(elasticity->tangent());
   }
 
 
   Deformation
   SmallModel::assemble(const Vector &u,
                        const double  t,
-                       const Tangent,
+                       const Tangent tangent,
                        const Vector *)
   {
     owned = u;
-    return assemble_owned(t);
+    assemble_owned(t);
+    if (inelastic)
+      add_inelastic(u, 1., tangent != Tangent::none);
+    return Deformation::admissible;
   }
 
 
-  Deformation
+  void
   SmallModel::assemble_owned(const double t)
   {
     update(t);
@@ -79,7 +161,6 @@ namespace NMM
     strain_energy = 0.5 * (owned * forces);
     forces -= load;
     add_base_force(t, 1., forces);
-    return Deformation::admissible;
   }
 
 
@@ -88,12 +169,18 @@ namespace NMM
                                const Vector &end,
                                const double  t_0,
                                const double  t_1,
-                               const Tangent)
+                               const Tangent tangent)
   {
     owned  = begin;
     forces = end;
     owned.sadd(0.5, 0.5, forces);
-    return assemble_owned(0.5 * (t_0 + t_1));
+    assemble_owned(0.5 * (t_0 + t_1));
+    if (!inelastic)
+      return Deformation::admissible;
+    // half of the derivative by the end is the one by the mean displacement
+    add_inelastic(end, 0.5, tangent != Tangent::none);
+    forces.add(0.5, inelastic->residual_at_begin());
+    return Deformation::admissible;
   }
 
 

@@ -1,5 +1,6 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/dynamics/strength_reduction.h>
+#include <nmm/materials/material_law.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,20 +29,42 @@ namespace NMM
                              "the search for the factor of safety",
                              remedy));
     }
+
+
+    void
+    check_factor(const double factor)
+    {
+      check_value(factor > 0. && std::isfinite(factor),
+                  "the factor that strength is divided by",
+                  factor,
+                  "give a positive number");
+    }
   } // namespace
 
 
   ContactParameters
   reduce_strength(const ContactParameters &parameters, const double factor)
   {
-    check_value(factor > 0. && std::isfinite(factor),
-                "the factor that strength is divided by",
-                factor,
-                "give a positive number");
+    check_factor(factor);
     ContactParameters result = parameters;
     result.law               = reduce(*result.law, factor);
     for (ContactPair &pair : result.pairs)
       pair.law = reduce(*pair.law, factor);
+    return result;
+  }
+
+
+  std::vector<Material>
+  reduce_strength(const std::vector<Material> &materials, const double factor)
+  {
+    check_factor(factor);
+    std::vector<Material> result = materials;
+    for (Material &material : result)
+    {
+      std::unique_ptr<MaterialLaw> law = material.law->clone();
+      law->reduce_strength(factor);
+      material.law = std::move(law);
+    }
     return result;
   }
 

@@ -1,5 +1,7 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/materials/hyperelastic_law.h>
 #include <nmm/materials/material.h>
+#include <nmm/materials/material_law.h>
 
 #include <algorithm>
 #include <cmath>
@@ -70,6 +72,13 @@ namespace NMM
                 InputError("Initial stress is not finite",
                            where,
                            "give three numbers xx, yy, xy in Pa"));
+    AssertThrow(!given_initial_stress_zz ||
+                  (std::isfinite(*given_initial_stress_zz) &&
+                   plane_state == PlaneState::plane_strain),
+                InputError("There is an initial stress across the plane",
+                           where,
+                           "give a finite one, in plane strain only"));
+    law->check(where, plane_state);
   }
 
 
@@ -104,6 +113,37 @@ namespace NMM
   {
     if (plane_state == PlaneState::plane_stress)
       return 0.;
-    return plane_elasticity(plane_state).lambda * dealii::trace(strain);
+    return initial_stress_zz(plane_state) +
+           plane_elasticity(plane_state).lambda * dealii::trace(strain);
+  }
+
+
+  double
+  Material::initial_stress_zz(const PlaneState plane_state) const
+  {
+    if (plane_state == PlaneState::plane_stress)
+      return 0.;
+    return given_initial_stress_zz
+             ? *given_initial_stress_zz
+             : poissons_ratio * dealii::trace(initial_stress);
+  }
+
+
+  std::shared_ptr<const HyperelasticLaw>
+  Material::hyperelastic_law(const PlaneState plane_state) const
+  {
+    auto result = law->hyperelastic_law(*this, plane_state);
+    AssertThrow(result != nullptr,
+                InputError("its law is not defined for large deformations",
+                           "material \"" + name + "\"",
+                           "choose another law, or small kinematics"));
+    return result;
+  }
+
+
+  std::shared_ptr<const InelasticLaw>
+  Material::inelastic_law(const PlaneState plane_state) const
+  {
+    return law->inelastic_law(*this, plane_state);
   }
 } // namespace NMM

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mechanics/conserving_terms.h>
+#include <utility>
 
 namespace NMM
 {
@@ -52,12 +53,11 @@ namespace NMM
     } // namespace
 
 
-    ConservingLaw::ConservingLaw(const Material  &material,
-                                 const PlaneState plane_state)
-      : law(material, plane_state)
-      , is_neo_hookean(material.law == MaterialLaw::neo_hookean)
-      , elasticity(material.plane_elasticity(plane_state))
-      , initial_stress(material.initial_stress)
+    ConservingLaw::ConservingLaw(std::shared_ptr<const HyperelasticLaw> law,
+                                 const SymmetricTensor<2, 2> &initial_stress)
+      : law(std::move(law))
+      , elasticity(this->law->small_strain())
+      , initial_stress(initial_stress)
     {
     }
 
@@ -74,8 +74,8 @@ namespace NMM
       const Tensor<2, 2>        inverse = dealii::invert(U);
       HyperelasticLaw::Response response;
       if ((with_tangent
-             ? law.evaluate(U, response)
-             : law.evaluate_stress(U, response)) != Deformation::admissible)
+             ? law->evaluate(U, response)
+             : law->evaluate_stress(U, response)) != Deformation::admissible)
         return Deformation::inverted;
       S = dealii::symmetrize(inverse * response.stress);
       if (!with_tangent)
@@ -131,8 +131,8 @@ namespace NMM
         return Deformation::admissible;
 
       HyperelasticLaw::Response response_0, response_1;
-      if (law.evaluate_stress(F_0, response_0) != Deformation::admissible ||
-          law.evaluate_stress(F_1, response_1) != Deformation::admissible)
+      if (law->evaluate_stress(F_0, response_0) != Deformation::admissible ||
+          law->evaluate_stress(F_1, response_1) != Deformation::admissible)
         return Deformation::inverted;
       const SymmetricTensor<2, 2> S_mean = S;
       const double                factor =
@@ -210,7 +210,7 @@ namespace NMM
     {
       result.E_0 = accurate_green_strain(F_0);
       result.E_1 = accurate_green_strain(F_1);
-      if (is_neo_hookean)
+      if (!law->is_linear_in_green_strain())
       {
         if (!(dealii::determinant(F_0) > 0.) ||
             !(dealii::determinant(F_1) > 0.))
@@ -253,7 +253,7 @@ namespace NMM
     {
       for (auto &row : derivative)
         std::fill_n(row, 3, 0.);
-      if (!is_neo_hookean)
+      if (law->is_linear_in_green_strain())
         return Deformation::admissible;
       // of central differences: 1e-10 of truncation and of rounding
       constexpr double step = 1e-5;
@@ -285,7 +285,7 @@ namespace NMM
       const Tensor<2, 2>    F = 0.5 * (F_0 + F_1);
       SymmetricTensor<2, 2> S;
       double                D[4][4];
-      if (is_neo_hookean)
+      if (!law->is_linear_in_green_strain())
       {
         if (discrete_gradient(F_0, F_1, with_tangent, S, D) !=
             Deformation::admissible)
@@ -318,7 +318,8 @@ namespace NMM
         return Deformation::admissible;
 
       // 2 dS/dE_1 over the moduli: the mean of strains has 1
-      const double       moduli = (is_neo_hookean ? 0. : 1.) + 2. * damping;
+      const double moduli =
+        (law->is_linear_in_green_strain() ? 1. : 0.) + 2. * damping;
       const double       lambda = moduli * elasticity.lambda;
       const double       mu     = moduli * elasticity.mu;
       const Tensor<2, 2> b      = F * dealii::transpose(F_1);
@@ -328,7 +329,7 @@ namespace NMM
             for (unsigned int L = 0; L < 2; ++L)
             {
               double a = (i == k ? S[J][L] : 0.);
-              if (is_neo_hookean)
+              if (!law->is_linear_in_green_strain())
               {
                 for (unsigned int M = 0; M < 2; ++M)
                   for (unsigned int N = 0; N < 2; ++N)

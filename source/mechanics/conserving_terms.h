@@ -1,12 +1,13 @@
 #ifndef nmm_source_mechanics_conserving_terms_h
 #define nmm_source_mechanics_conserving_terms_h
 
-#include <nmm/materials/hyperelasticity.h>
+#include <nmm/materials/hyperelastic_law.h>
 
 #include <array>
 #include <mechanics/element_tables.h>
 #include <mechanics/finite_terms.h>
 #include <mechanics/local_system.h>
+#include <memory>
 
 namespace NMM
 {
@@ -51,7 +52,8 @@ namespace NMM
     class ConservingLaw
     {
     public:
-      ConservingLaw(const Material &material, PlaneState plane_state);
+      ConservingLaw(std::shared_ptr<const HyperelasticLaw> law,
+                    const dealii::SymmetricTensor<2, 2>   &initial_stress);
 
       /**
        * P [Pa] and, if @p with_tangent, A = 2 dP/dF_1, the derivative by F_m at
@@ -118,10 +120,9 @@ namespace NMM
                         dealii::SymmetricTensor<2, 2> &S,
                         double (&D)[4][4]) const;
 
-      HyperelasticLaw               law;
-      bool                          is_neo_hookean;
-      PlaneElasticity               elasticity;
-      dealii::SymmetricTensor<2, 2> initial_stress;
+      std::shared_ptr<const HyperelasticLaw> law;
+      PlaneElasticity                        elasticity;
+      dealii::SymmetricTensor<2, 2>          initial_stress;
     };
 
 

@@ -1,3 +1,4 @@
+#include <nmm/base/exceptions.h>
 #include <nmm/mechanics/elastic_system.h>
 
 #include <cmath>
@@ -12,6 +13,79 @@ namespace NMM
     const CoverSystem &covers = elasticity.cover_system();
     for (Vector *vector : {&owned, &load, &sum})
       vector->reinit(covers.locally_owned_dofs(2), covers.communicator());
+    if (!elasticity.is_inelastic())
+      return;
+    AssertThrow(is_linearized,
+                InputError("a material is inelastic, which is possible with "
+                           "small displacements only",
+                           "the static equations of large displacements",
+                           "choose another law, or small kinematics"));
+    inelastic = std::make_unique<InelasticTerms>(elasticity);
+    find_initial_imbalance();
+  }
+
+
+  ElasticSystem::~ElasticSystem() = default;
+
+
+  void
+  ElasticSystem::find_initial_imbalance()
+  {
+    Vector zero(elastic->initial_solution());
+    zero = 0.;
+    inelastic->assemble(zero, /* with_tangent = */ false);
+    initial_imbalance = inelastic->residual();
+  }
+
+
+  void
+  ElasticSystem::begin_step(const Vector &u)
+  {
+    if (inelastic)
+      inelastic->begin_step(u);
+  }
+
+
+  double
+  ElasticSystem::accept_step(const Vector &u)
+  {
+    if (!inelastic)
+      return 0.;
+    // the states accepted are those of this assembly
+    inelastic->assemble(u, /* with_tangent = */ false);
+    const double dissipated = inelastic->dissipated();
+    (void)inelastic->accept_step(u);
+    return dissipated;
+  }
+
+
+  void
+  ElasticSystem::forget_states()
+  {
+    if (inelastic)
+      inelastic->forget_states();
+  }
+
+
+  void
+  ElasticSystem::adapt_penalties(const Vector &u)
+  {
+    if (!linearized)
+      elastic->adapt_penalties(u);
+  }
+
+
+  double
+  ElasticSystem::largest_jump() const
+  {
+    return linearized ? 0. : elastic->largest_jump();
+  }
+
+
+  InelasticTerms *
+  ElasticSystem::inelastic_terms() const
+  {
+    return inelastic.get();
   }
 
 
@@ -73,6 +147,16 @@ namespace NMM
     elastic->affine_constraints().set_zero(sum);
     energy = 0.5 * (owned * sum);
     sum += load;
+    stiffness = &elastic->tangent();
+    if (!inelastic)
+      return Deformation::admissible;
+    const bool with_tangent = tangent != Tangent::none;
+    inelastic->assemble(u, with_tangent);
+    sum += inelastic->residual();
+    sum.add(factor - 1., initial_imbalance);
+    energy += inelastic->energy();
+    if (with_tangent)
+      stiffness = &inelastic->add_to(elastic->tangent());
     return Deformation::admissible;
   }
 
@@ -87,21 +171,26 @@ namespace NMM
   const dealii::TrilinosWrappers::SparseMatrix &
   ElasticSystem::tangent() const
   {
-    return elastic->tangent();
+    return linearized && stiffness != nullptr ? *stiffness : elastic->tangent();
   }
 
 
   bool
   ElasticSystem::tangent_is_symmetric() const
   {
-    return linearized || elastic->tangent_is_symmetric();
+    if (linearized)
+      return inelastic == nullptr || inelastic->n_yielding() == 0;
+    return elastic->tangent_is_symmetric();
   }
 
 
   double
   ElasticSystem::force_scale() const
   {
-    return linearized ? scale : elastic->force_scale();
+    if (!linearized)
+      return elastic->force_scale();
+    // forces of initial stress are in balance as well as loads
+    return inelastic ? std::hypot(scale, inelastic->force_scale()) : scale;
   }
 
 

@@ -270,7 +270,14 @@ namespace NMM
   const HyperelasticLaw &
   FiniteElasticity::law(const unsigned int region) const
   {
-    return data->region_to_law[region];
+    return *data->region_to_law[region];
+  }
+
+
+  bool
+  FiniteElasticity::is_inelastic() const
+  {
+    return data->is_inelastic;
   }
 
 

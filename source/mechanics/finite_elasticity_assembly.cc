@@ -38,9 +38,16 @@ namespace NMM
     for (const unsigned int m :
          problem.region_to_material(covers.manifold_mesh().physical_mesh()))
     {
-      region_to_law.emplace_back(problem.materials[m], problem.plane_state);
-      region_to_conserving_law.emplace_back(problem.materials[m],
-                                            problem.plane_state);
+      Material material = problem.materials[m];
+      if (material.inelastic_law(problem.plane_state) != nullptr)
+      {
+        is_inelastic            = true;
+        material.law            = default_material_law();
+        material.initial_stress = 0.;
+      }
+      region_to_law.push_back(material.hyperelastic_law(problem.plane_state));
+      region_to_conserving_law.emplace_back(region_to_law.back(),
+                                            material.initial_stress);
     }
     TraceConstants trace_constants(covers,
                                    quadrature,
@@ -69,7 +76,7 @@ namespace NMM
     {
       const double stress =
         strain *
-        region_to_law[mesh.region(e)].small_strain().largest_eigenvalue();
+        region_to_law[mesh.region(e)]->small_strain().largest_eigenvalue();
       square += stress * stress * mesh.area(e);
     }
     return std::sqrt(
@@ -287,7 +294,7 @@ namespace NMM
     }
     if (task.has_increment)
       first.gather(element_covers, nodal_increment);
-    return add_volume_terms(region_to_law[region],
+    return add_volume_terms(*region_to_law[region],
                             n_per_cell,
                             tables(element),
                             u,

@@ -175,8 +175,9 @@ namespace NMM
     const CoverSystem                       *covers;
     const dealii::AffineConstraints<double> *constraints;
     const ElasticityProblem                 *problem;
+    bool                                     is_inelastic = false;
     unsigned int                             degree, n_per_cell;
-    std::vector<HyperelasticLaw>             region_to_law;
+    internal::RegionLaws                     region_to_law;
     std::vector<ConservingLaw>               region_to_conserving_law;
     CurveConditions                          curve_conditions;
     PointTerms                               points;

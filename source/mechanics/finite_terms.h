@@ -1,17 +1,22 @@
 #ifndef nmm_source_mechanics_finite_terms_h
 #define nmm_source_mechanics_finite_terms_h
 
-#include <nmm/materials/hyperelasticity.h>
+#include <nmm/materials/hyperelastic_law.h>
 
 #include <mechanics/edge_tables.h>
 #include <mechanics/element_tables.h>
 #include <mechanics/local_system.h>
+#include <memory>
 #include <vector>
 
 namespace NMM
 {
   namespace internal
   {
+    /// The law of each region of the physical mesh.
+    using RegionLaws = std::vector<std::shared_ptr<const HyperelasticLaw>>;
+
+
     /// Displacements of the covers of an element, or of two one after the other
     /// [m].
     struct LocalDisplacement
@@ -90,25 +95,25 @@ namespace NMM
      * is added to, and @p largest_jump raised to |d| in units of 1 / Lambda.
      */
     Deformation
-    add_weak_point(const EdgeTables::WeakPoint        &point,
-                   const std::vector<HyperelasticLaw> &region_to_law,
-                   unsigned int                        n_per_cell,
-                   const dealii::Tensor<1, 2>         &prescribed,
-                   double                              growth,
-                   const LocalDisplacement            &u,
-                   Tangent                             tangent,
-                   LocalSystem                        &local,
-                   double                             &energy,
-                   double                             &largest_jump);
+    add_weak_point(const EdgeTables::WeakPoint &point,
+                   const RegionLaws            &region_to_law,
+                   unsigned int                 n_per_cell,
+                   const dealii::Tensor<1, 2>  &prescribed,
+                   double                       growth,
+                   const LocalDisplacement     &u,
+                   Tangent                      tangent,
+                   LocalSystem                 &local,
+                   double                      &energy,
+                   double                      &largest_jump);
 
 
     /// Moduli A at a weak point over those at rest, each by the largest sum of
     /// absolute values in a row; the largest of all sides, 1 if not admissible.
     double
-    growth_of_moduli(const EdgeTables::WeakPoint        &point,
-                     const std::vector<HyperelasticLaw> &region_to_law,
-                     unsigned int                        n_per_cell,
-                     const LocalDisplacement            &u);
+    growth_of_moduli(const EdgeTables::WeakPoint &point,
+                     const RegionLaws            &region_to_law,
+                     unsigned int                 n_per_cell,
+                     const LocalDisplacement     &u);
 
 
     /**

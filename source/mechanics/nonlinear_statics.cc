@@ -2,61 +2,12 @@
 #include <nmm/mechanics/nonlinear_statics.h>
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 
 namespace NMM
 {
   namespace
   {
-    /// The elasticity at one load factor.
-    class AtLoadFactor : public NonlinearSystem
-    {
-    public:
-      AtLoadFactor(FiniteElasticity &elasticity, const double load_factor)
-        : elasticity(&elasticity)
-        , load_factor(load_factor)
-      {
-      }
-
-      Deformation
-      assemble(const Vector &u,
-               const Tangent tangent,
-               const Vector *increment) override
-      {
-        return elasticity->assemble(u, load_factor, tangent, increment);
-      }
-
-      const Vector &
-      residual() const override
-      {
-        return elasticity->residual();
-      }
-
-      const dealii::TrilinosWrappers::SparseMatrix &
-      tangent() const override
-      {
-        return elasticity->tangent();
-      }
-
-      bool
-      tangent_is_symmetric() const override
-      {
-        return elasticity->tangent_is_symmetric();
-      }
-
-      double
-      force_scale() const override
-      {
-        return elasticity->force_scale();
-      }
-
-    private:
-      FiniteElasticity *elasticity;
-      double            load_factor;
-    };
-
-
     std::string
     history(const NewtonReport &report)
     {
@@ -68,56 +19,111 @@ namespace NMM
             << i.relative_residual;
       return out.str();
     }
+
+
+    /// Newton's method for the elasticity alone.
+    class PlainSearch : public EquilibriumSearch
+    {
+    public:
+      PlainSearch(ElasticSystem &elasticity, const NewtonParameters &parameters)
+        : elasticity(&elasticity)
+        , newton(parameters)
+      {
+      }
+
+      std::string
+      find(LoadStep &step, Vector &u, const Vector *change) override
+      {
+        step.newton =
+          newton.solve(*elasticity,
+                       elasticity->elasticity().affine_constraints(),
+                       u,
+                       change);
+        step.n_iterations      = step.newton.iterations.size();
+        step.relative_residual = step.newton.relative_residual;
+        return step.newton.converged ? "" : step.newton.reason;
+      }
+
+      std::string
+      remedy() const override
+      {
+        return "the solid may have reached its limit load or be unstable; else "
+               "allow smaller steps";
+      }
+
+    private:
+      ElasticSystem *elasticity;
+      NewtonSolver   newton;
+    };
   } // namespace
 
 
-  LoadSteps
-  LoadSteps::equal(const unsigned int n, const double last)
+  struct NonlinearStatics::Data
   {
-    LoadSteps steps;
-    steps.load_factors.clear();
-    for (unsigned int k = 1; k <= n; ++k)
-      steps.load_factors.push_back(last * k / n);
-    return steps;
+    struct State
+    {
+      double load_factor;
+      Vector solution;
+    };
+
+    /// Where the step to @p load_factor starts.
+    Vector
+    predict(double load_factor, unsigned int degree) const;
+
+    StepVerdict
+    try_step(const LoadSteps &steps, LoadStep &step, Vector &u);
+
+    std::unique_ptr<ElasticSystem>     own_system;
+    std::unique_ptr<EquilibriumSearch> own_search;
+    ElasticSystem                     *elasticity = nullptr;
+    EquilibriumSearch                 *search     = nullptr;
+    std::vector<State>                 states;
+    LoadStep                           current;
+    double                             dissipated = 0.;
+  };
+
+
+  NonlinearStatics::NonlinearStatics(ElasticSystem     &elasticity,
+                                     EquilibriumSearch &search)
+    : data(std::make_unique<Data>())
+  {
+    data->elasticity = &elasticity;
+    data->search     = &search;
+    data->states.push_back({0., elasticity.elasticity().initial_solution()});
   }
 
 
-  void
-  LoadSteps::check() const
+  NonlinearStatics::NonlinearStatics(ElasticSystem          &elasticity,
+                                     const NewtonParameters &parameters)
+    : data(std::make_unique<Data>())
   {
-    AssertThrow(!load_factors.empty(),
-                InputError("There is no load factor",
-                           "the load steps",
-                           "give at least one"));
-    double last = 0.;
-    for (const double factor : load_factors)
-    {
-      AssertThrow(std::isfinite(factor) && factor > last,
-                  InputError("The load factor " + std::to_string(factor) +
-                               " follows " + std::to_string(last),
-                             "the load steps",
-                             "give factors that ascend from above 0"));
-      last = factor;
-    }
-    AssertThrow(min_step > 0. && min_step <= 1.,
-                InputError("The smallest step is " + std::to_string(min_step),
-                           "the load steps",
-                           "give a number above 0 and at most 1"));
+    data->own_search = std::make_unique<PlainSearch>(elasticity, parameters);
+    data->elasticity = &elasticity;
+    data->search     = data->own_search.get();
+    data->states.push_back({0., elasticity.elasticity().initial_solution()});
   }
 
 
   NonlinearStatics::NonlinearStatics(FiniteElasticity       &elasticity,
                                      const NewtonParameters &parameters)
-    : elasticity(&elasticity)
-    , newton(parameters)
+    : data(std::make_unique<Data>())
   {
-    states.push_back({0., elasticity.initial_solution()});
+    data->own_system =
+      std::make_unique<ElasticSystem>(elasticity, /* is_linearized = */ false);
+    data->own_search =
+      std::make_unique<PlainSearch>(*data->own_system, parameters);
+    data->elasticity = data->own_system.get();
+    data->search     = data->own_search.get();
+    data->states.push_back({0., elasticity.initial_solution()});
   }
 
 
+  NonlinearStatics::~NonlinearStatics() = default;
+
+
   NonlinearStatics::Vector
-  NonlinearStatics::predict(const double       load_factor,
-                            const unsigned int degree) const
+  NonlinearStatics::Data::predict(const double       load_factor,
+                                  const unsigned int degree) const
   {
     const unsigned int n = std::min<std::size_t>(degree + 1, states.size());
     if (n < 2)
@@ -142,77 +148,73 @@ namespace NMM
   }
 
 
+  StepVerdict
+  NonlinearStatics::Data::try_step(const LoadSteps &steps,
+                                   LoadStep        &step,
+                                   Vector          &u)
+  {
+    u = predict(step.load_factor, steps.extrapolation_degree);
+    Vector     change(u);
+    const bool is_extrapolated =
+      steps.extrapolation_degree > 0 && states.size() > 1;
+    if (is_extrapolated)
+      change -= states.back().solution;
+    elasticity->set_load_factor(step.load_factor);
+    elasticity->begin_step(states.back().solution);
+
+    StepVerdict verdict;
+    verdict.reason = search->find(step, u, is_extrapolated ? &change : nullptr);
+    if (verdict.reason.empty() && elasticity->largest_jump() > steps.max_jump)
+      verdict.reason =
+        "displacement conditions or ties are missed by a good part of an "
+        "element";
+    verdict.is_accepted = verdict.reason.empty();
+    if (!verdict.is_accepted)
+    {
+      verdict.reason +=
+        "; relative residuals of the last iterations: " + history(step.newton);
+      verdict.remedy = search->remedy();
+    }
+    return verdict;
+  }
+
+
   std::vector<LoadStep>
   NonlinearStatics::run(
     const LoadSteps                                             &steps,
     const std::function<void(const LoadStep &, const Vector &)> &after_step)
   {
-    steps.check();
-    if (states.back().load_factor >= steps.load_factors.front())
+    Data &d = *data;
+    if (d.own_search != nullptr && !steps.load_factors.empty() &&
+        d.states.back().load_factor >= steps.load_factors.front())
     {
-      states.clear();
-      states.push_back({0., elasticity->initial_solution()});
+      d.states.clear();
+      d.elasticity->forget_states();
+      d.states.push_back({0., d.elasticity->elasticity().initial_solution()});
     }
 
     std::vector<LoadStep> report;
-    const double          min_step = steps.min_step * steps.load_factors.back();
-    double                step     = steps.load_factors.back();
-    current                        = LoadStep();
-    auto wanted                    = steps.load_factors.begin();
-    while (wanted != steps.load_factors.end())
-    {
-      const double from   = states.back().load_factor;
-      current.is_asked    = from + step >= *wanted * (1. - 1e-12);
-      current.load_factor = current.is_asked ? *wanted : from + step;
-      Vector     u = predict(current.load_factor, steps.extrapolation_degree);
-      Vector     change(u);
-      const bool is_extrapolated =
-        steps.extrapolation_degree > 0 && states.size() > 1;
-      if (is_extrapolated)
-        change -= states.back().solution;
-      AtLoadFactor system(*elasticity, current.load_factor);
-      current.newton = newton.solve(system,
-                                    elasticity->affine_constraints(),
-                                    u,
-                                    is_extrapolated ? &change : nullptr);
-      if (current.newton.converged &&
-          elasticity->largest_jump() > steps.max_jump)
+    d.current          = LoadStep();
+    const auto attempt = [&](LoadStep &step) {
+      Vector            u(d.states.back().solution);
+      const StepVerdict verdict = d.try_step(steps, step, u);
+      if (!verdict.is_accepted)
       {
-        current.newton.converged = false;
-        current.newton.reason =
-          "displacement conditions or ties are missed by a good part of an "
-          "element";
+        d.search->reject();
+        return verdict;
       }
-      if (!current.newton.converged)
-      {
-        step = 0.5 * (current.load_factor - from);
-        ++current.n_cuts;
-        current.n_lost_iterations += current.newton.iterations.size();
-        AssertThrow(
-          step >= min_step,
-          NumericalFailure(
-            "No equilibrium: " + current.newton.reason +
-              "; relative residuals of the last iterations: " +
-              history(current.newton),
-            "load factor " + std::to_string(current.load_factor) + ", after " +
-              std::to_string(from),
-            "the solid may have reached its limit load or be unstable; else "
-            "allow smaller steps"));
-        continue;
-      }
-
-      states.push_back({current.load_factor, u});
-      elasticity->adapt_penalties(u);
-      if (states.size() > steps.extrapolation_degree + 1)
-        states.erase(states.begin());
-      report.push_back(current);
+      d.dissipated = d.elasticity->accept_step(u);
+      d.search->accept(u);
+      d.states.push_back({step.load_factor, u});
+      if (d.states.size() > steps.extrapolation_degree + 1)
+        d.states.erase(d.states.begin());
+      d.elasticity->adapt_penalties(u);
+      report.push_back(step);
       if (after_step)
-        after_step(current, u);
-      current.n_cuts = current.n_lost_iterations = 0;
-      step *= 2.;
-      if (report.back().is_asked)
-        ++wanted;
-    }
+        after_step(step, u);
+      return verdict;
+    };
+    take_load_steps(steps, d.states.back().load_factor, attempt, d.current);
     return report;
   }
 
@@ -220,20 +222,27 @@ namespace NMM
   const NonlinearStatics::Vector &
   NonlinearStatics::solution() const
   {
-    return states.back().solution;
+    return data->states.back().solution;
   }
 
 
   double
   NonlinearStatics::load_factor() const
   {
-    return states.back().load_factor;
+    return data->states.back().load_factor;
   }
 
 
   const LoadStep &
   NonlinearStatics::last_attempt() const
   {
-    return current;
+    return data->current;
+  }
+
+
+  double
+  NonlinearStatics::dissipated() const
+  {
+    return data->dissipated;
   }
 } // namespace NMM

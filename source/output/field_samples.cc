@@ -39,6 +39,7 @@ namespace NMM
                                         "velocity",
                                         "velocity x",
                                         "velocity y",
+                                        "plastic strain",
                                         "block",
                                         "material"};
     return names[static_cast<int>(quantity)];
@@ -106,6 +107,8 @@ namespace NMM
     sample.displacement                  = field->displacement(element, xi);
     if (velocity != nullptr)
       sample.velocity = velocity->displacement(element, xi);
+    if (plastic_strain)
+      sample.plastic_strain = plastic_strain(element, xi);
     if (law)
     {
       sample.direct    = law(element, xi, direct);
@@ -124,6 +127,20 @@ namespace NMM
   FieldEvaluator::has_velocity() const
   {
     return velocity != nullptr;
+  }
+
+
+  void
+  FieldEvaluator::set_plastic_strain(ScalarField strain)
+  {
+    plastic_strain = std::move(strain);
+  }
+
+
+  bool
+  FieldEvaluator::has_plastic_strain() const
+  {
+    return plastic_strain != nullptr;
   }
 
 
@@ -170,6 +187,8 @@ namespace NMM
   FieldTriangles::FieldTriangles(const CoverSystem    &covers,
                                  const FieldEvaluator *evaluator)
     : has_velocity(evaluator != nullptr && evaluator->has_velocity())
+    , has_plastic_strain(evaluator != nullptr &&
+                         evaluator->has_plastic_strain())
   {
     const ManifoldMesh &mesh = covers.manifold_mesh();
     const auto [first, last] = covers.locally_owned_elements();
@@ -293,6 +312,8 @@ namespace NMM
         return sample.velocity[0];
       case Quantity::velocity_y:
         return sample.velocity[1];
+      case Quantity::plastic_strain:
+        return sample.plastic_strain;
       case Quantity::block:
         return ids.block;
       case Quantity::material:

@@ -33,7 +33,7 @@ namespace NMM
 
     /// Velocities come last, if there are any.
     std::vector<std::string>
-    field_names(const bool has_velocity)
+    field_names(const FieldTriangles &triangles)
     {
       std::vector<std::string> names = {"displacement",
                                         "displacement",
@@ -52,8 +52,10 @@ namespace NMM
                                         "region",
                                         "material",
                                         "rank"};
-      if (has_velocity)
+      if (triangles.has_velocity)
         names.insert(names.end(), 2, "velocity");
+      if (triangles.has_plastic_strain)
+        names.emplace_back("plastic_strain");
       return names;
     }
 
@@ -81,8 +83,7 @@ namespace NMM
     {
       const unsigned int rank =
         Parallel::this_mpi_process(covers.communicator());
-      const unsigned int n_rows =
-        field_names(triangles.has_velocity).size() + 2;
+      const unsigned int n_rows = field_names(triangles).size() + 2;
       std::vector<DataOutBase::Patch<2, 2>> patches(triangles.nodes.size());
       for (unsigned int t = 0; t < patches.size(); ++t)
       {
@@ -120,6 +121,8 @@ namespace NMM
           add(rank);
           for (unsigned int d = 0; d < 2 && triangles.has_velocity; ++d)
             add(sample.velocity[d]);
+          if (triangles.has_plastic_strain)
+            add(sample.plastic_strain);
           for (unsigned int d = 0; d < 2; ++d)
             add(triangles.nodes[t][i][d]);
           AssertDimension(row, n_rows);
@@ -139,7 +142,7 @@ namespace NMM
     const MPI_Comm        communicator = covers.communicator();
     const unsigned int    rank    = Parallel::this_mpi_process(communicator);
     const unsigned int    n_ranks = Parallel::n_mpi_processes(communicator);
-    const auto            names   = field_names(triangles.has_velocity);
+    const auto            names   = field_names(triangles);
     DataOutBase::VtkFlags flags;
     flags.print_date_and_time = false;
     // the enumeration has another name from deal.II 9.5 on

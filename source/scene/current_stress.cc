@@ -1,8 +1,10 @@
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <scene/current_stress.h>
 
 namespace NMM
@@ -21,25 +23,6 @@ namespace NMM
         displacement_gradient[0][0] += 1.;
         displacement_gradient[1][1] += 1.;
         return displacement_gradient;
-      }
-
-
-      /// Cauchy stress across the plane in plane strain [Pa].
-      double
-      out_of_plane_stress(const Material &material, const Tensor<2, 2> &F)
-      {
-        const double J       = dealii::determinant(F);
-        const double squares = dealii::scalar_product(F, F);
-        const double nu      = material.poissons_ratio;
-        const auto moduli = material.plane_elasticity(PlaneState::plane_strain);
-        if (material.law != MaterialLaw::neo_hookean)
-          return moduli.lambda * 0.5 * (squares - 2.) / J;
-        const double bulk_modulus =
-          material.youngs_modulus / (3. * (1. - 2. * nu));
-        return (moduli.mu * std::pow(J, -2. / 3.) *
-                (1. - (squares + 1.) / 3.)) /
-                 J +
-               bulk_modulus * (J - 1.);
       }
 
 
@@ -64,19 +47,21 @@ namespace NMM
         }
         if (problem.plane_state == PlaneState::plane_strain)
           stress.zz =
-            out_of_plane_stress(problem.materials[region_to_material[region]],
-                                F);
+            problem.materials[region_to_material[region]].initial_stress_zz(
+              problem.plane_state) +
+            elasticity.law(region).plane_strain_stress(F);
         return stress;
       }
 
 
-      /// Stress of an element as a linear function of reference coordinates [Pa].
-      struct LinearStress
+      /// A quantity in an element as a linear function of reference coordinates.
+      template <typename Value>
+      struct LinearFit
       {
-        Stress   mean, slope[2];
+        Value    mean = {}, slope[2] = {};
         Point<2> center;
 
-        Stress
+        Value
         operator()(const Point<2> &xi) const
         {
           return mean + (xi[0] - center[0]) * slope[0] +
@@ -85,31 +70,32 @@ namespace NMM
       };
 
 
-      /// The best fit in the points of a rule.
-      LinearStress
-      fit(const dealii::Quadrature<2> &rule, const Stress *stress)
+      /// The best fit to value(q) in the points q of a rule.
+      template <typename Value, typename ValueAtPoint>
+      LinearFit<Value>
+      fit(const dealii::Quadrature<2> &rule, const ValueAtPoint &value)
       {
-        double       sum = 0.;
-        LinearStress result;
+        double           sum = 0.;
+        LinearFit<Value> result;
         for (unsigned int q = 0; q < rule.size(); ++q)
         {
           sum += rule.weight(q);
-          result.mean += rule.weight(q) * stress[q];
+          result.mean += rule.weight(q) * value(q);
           result.center += rule.weight(q) * Tensor<1, 2>(rule.point(q));
         }
         result.mean /= sum;
         result.center /= sum;
 
         Tensor<2, 2> moments;
-        Stress       first_moments[2];
+        Value        first_moments[2] = {};
         for (unsigned int q = 0; q < rule.size(); ++q)
         {
           const Tensor<1, 2> d = rule.point(q) - result.center;
           moments += rule.weight(q) * dealii::outer_product(d, d);
           for (unsigned int c = 0; c < 2; ++c)
-            first_moments[c] += rule.weight(q) * d[c] * stress[q];
+            first_moments[c] += rule.weight(q) * d[c] * value(q);
         }
-        // Points on a line, or one alone, do not tell how stress varies.
+        // Points on a line, or one alone, do not tell how it varies.
         const double trace = moments[0][0] + moments[1][1];
         if (dealii::determinant(moments) > 1e-8 * trace * trace)
         {
@@ -158,11 +144,13 @@ namespace NMM
                   const std::vector<Stress>  &stresses)
       {
         const auto [first, last] = covers.locally_owned_elements();
-        std::vector<LinearStress> fits;
-        const Stress             *stress = stresses.data();
+        std::vector<LinearFit<Stress>> fits;
+        const Stress                  *stress = stresses.data();
         for (unsigned int element = first; element < last; ++element)
         {
-          fits.push_back(fit(quadrature.rule(element), stress));
+          fits.push_back(
+            fit<Stress>(quadrature.rule(element),
+                        [&](const unsigned int q) { return stress[q]; }));
           stress += quadrature.rule(element).size();
         }
         Assert(stress == stresses.data() + stresses.size(),
@@ -184,12 +172,80 @@ namespace NMM
             // sigma_zz = nu (sigma_xx + sigma_yy) of what strain has caused.
             const Material &material =
               problem.materials[region_to_material[mesh.region(element)]];
-            result.zz = material.poissons_ratio *
-                        (dealii::trace(result.in_plane) -
-                         dealii::trace(material.initial_stress));
+            result.zz = material.initial_stress_zz(problem.plane_state) +
+                        material.poissons_ratio *
+                          (dealii::trace(result.in_plane) -
+                           dealii::trace(material.initial_stress));
           }
           return result;
         };
+      }
+
+
+      FieldEvaluator::StressLaw
+      inelastic(const InelasticTerms       &terms,
+                const CoverSystem          &covers,
+                const QuadratureCollection &quadrature,
+                const ElasticityProblem    &problem)
+      {
+        const auto [first, last] = covers.locally_owned_elements();
+        std::vector<std::optional<LinearFit<Stress>>> in_plane(last - first);
+        std::vector<LinearFit<double>>                across(last - first);
+        for (unsigned int element = first; element < last; ++element)
+          if (const auto values = terms.values(element); !values.empty())
+          {
+            const dealii::Quadrature<2> &rule = quadrature.rule(element);
+            in_plane[element - first] =
+              fit<Stress>(rule, [&](const unsigned int q) {
+                return values[q].stress;
+              });
+            across[element - first] =
+              fit<double>(rule, [&](const unsigned int q) {
+                return values[q].stress_zz;
+              });
+          }
+        const ManifoldMesh &mesh = covers.manifold_mesh();
+        return [first    = first,
+                in_plane = std::move(in_plane),
+                across   = std::move(across),
+                &mesh,
+                &problem,
+                region_to_material =
+                  problem.region_to_material(mesh.physical_mesh())](
+                 const unsigned int  element,
+                 const Point<2>     &xi,
+                 const Tensor<2, 2> &gradient) -> FieldSample::Stress {
+          const unsigned int i = element - first;
+          if (in_plane[i])
+            return {(*in_plane[i])(xi), across[i](xi)};
+          const Material &material =
+            problem.materials[region_to_material[mesh.region(element)]];
+          const Stress strain = dealii::symmetrize(gradient);
+          return {material.initial_stress +
+                    material.elasticity_tensor(problem.plane_state) * strain,
+                  material.out_of_plane_stress(strain, problem.plane_state)};
+        };
+      }
+
+
+      FieldEvaluator::ScalarField
+      plastic_strain(const InelasticTerms       &terms,
+                     const CoverSystem          &covers,
+                     const QuadratureCollection &quadrature)
+      {
+        const auto [first, last] = covers.locally_owned_elements();
+        std::vector<LinearFit<double>> fits(last - first);
+        for (unsigned int element = first; element < last; ++element)
+          if (const auto values = terms.values(element); !values.empty())
+            fits[element - first] =
+              fit<double>(quadrature.rule(element), [&](const unsigned int q) {
+                return values[q].equivalent_plastic_strain;
+              });
+        return
+          [first = first, fits = std::move(fits)](const unsigned int element,
+                                                  const Point<2>    &xi) {
+            return std::max(0., fits[element - first](xi));
+          };
       }
 
 

@@ -102,6 +102,13 @@ namespace NMM
     }
 
 
+    InelasticTerms *
+    DynamicAnalysis::inelastic_terms() const
+    {
+      return inelastic_terms_of(model.get());
+    }
+
+
     bool
     DynamicAnalysis::has_friction() const
     {
@@ -215,6 +222,8 @@ namespace NMM
                                   start);
       if (contact)
         contact->hold_obstacles(false);
+      if (InelasticTerms *const terms = inelastic_terms())
+        terms->restore_internal_state(start.material_state);
       Vector v(model->locally_owned(), communicator);
       if (!scene.parameters().initial_velocities.empty())
         v = initial_velocity();

@@ -90,6 +90,10 @@ namespace NMM
       void
       make_integrator();
 
+      /// Null: all materials are elastic.
+      InelasticTerms *
+      inelastic_terms() const;
+
       /// Does any law of contact have a friction angle?
       bool
       has_friction() const;

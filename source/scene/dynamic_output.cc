@@ -273,6 +273,11 @@ namespace NMM
                                          incremental->stresses());
       else if (scene.parameters().model.kinematics == Kinematics::finite)
         law = CurrentStress::finite(*elasticity);
+      else if (inelastic_terms() != nullptr)
+        law = CurrentStress::inelastic(*inelastic_terms(),
+                                       *covers,
+                                       *quadrature,
+                                       problem);
       Vector relevant(covers->locally_owned_dofs(2),
                       covers->locally_relevant_dofs(2),
                       communicator);
@@ -281,6 +286,9 @@ namespace NMM
         std::make_unique<DisplacementField>(*covers, problem, relevant);
       evaluator = std::make_unique<FieldEvaluator>(
         *field, *recovery, problem, law, velocity_field.get());
+      if (inelastic_terms() != nullptr)
+        evaluator->set_plastic_strain(CurrentStress::plastic_strain(
+          *inelastic_terms(), *covers, *quadrature));
       if (leaving)
         evaluator->hide_blocks(integrator->state().left_blocks);
     }

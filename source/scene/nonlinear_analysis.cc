@@ -35,7 +35,7 @@ namespace NMM
       {
         failure = std::current_exception();
       }
-      if (contact)
+      if (finite)
         system = std::make_unique<ElasticSystem>(
           *finite,
           /* is_linearized = */ !has_large_displacements());
@@ -76,8 +76,8 @@ namespace NMM
         Stage stage(progress, "load steps");
         if (contact)
           run_contact();
-        else if (finite)
-          run_finite();
+        else if (system)
+          run_newton();
         else
           run_incremental();
       }
@@ -93,19 +93,24 @@ namespace NMM
 
 
     void
-    NonlinearAnalysis::run_finite()
+    NonlinearAnalysis::run_newton()
     {
       const SceneParameters &parameters = scene.parameters();
-      NonlinearStatics       statics(*finite, parameters.newton.newton);
-      const auto             after_step = [&](const LoadStep &step,
+      // materials that yield are stiff on one side only, as contact is
+      NonlinearStatics statics(*system,
+                               inelastic_terms() == nullptr
+                                 ? parameters.newton.newton
+                                 : contact_newton_parameters(scene));
+      const auto       after_step = [&](const LoadStep &step,
                                   const Vector   &solution) {
         HistoryRow row;
         row.load_factor       = step.load_factor;
-        row.n_iterations      = step.newton.iterations.size();
+        row.n_iterations      = step.n_iterations;
         row.n_cuts            = step.n_cuts;
         row.n_lost_iterations = step.n_lost_iterations;
-        row.relative_residual = step.newton.relative_residual;
-        row.strain_energy = problem.thickness * finite->energies().strain;
+        row.relative_residual = step.relative_residual;
+        plastic_dissipation += problem.thickness * statics.dissipated();
+        row.strain_energy = problem.thickness * system->strain_energy();
         add_step(row, solution);
       };
       try
@@ -147,6 +152,7 @@ namespace NMM
                            "choose a higher 'Contact/Normal stiffness', or "
                                           "loads that the solid can bear"));
         friction_work += step.dissipated;
+        plastic_dissipation += problem.thickness * step.dissipated_by_material;
         contact->take_state(friction_work);
         row.contact_numbers = contact->numbers(problem.thickness);
         contact->remember_states();
@@ -158,6 +164,8 @@ namespace NMM
       }
       catch (const NumericalFailure &error)
       {
+        n_last_cuts       = statics.last_attempt().n_cuts;
+        n_last_iterations = statics.last_attempt().n_lost_iterations;
         if (history.empty())
           explain_floating(error.message());
         throw;
@@ -246,6 +254,11 @@ namespace NMM
                                                    incremental->stresses());
       if (!has_large_displacements())
         row.strain_energy = small_strain_energy();
+      if (const InelasticTerms *terms = inelastic_terms())
+      {
+        row.strain_energy += problem.thickness * terms->energy();
+        row.plastic_numbers = {plastic_dissipation, terms->yielded_area()};
+      }
       double largest = 0.;
       for (const auto &[element, xi] : output_points)
         largest = std::max(largest, field->displacement(element, xi).norm());
@@ -277,6 +290,10 @@ namespace NMM
       if (finite)
         line << ", " << row.n_cuts << " cut(s), residual " << std::scientific
              << std::setprecision(1) << *row.relative_residual;
+      if (!row.plastic_numbers.empty())
+        line << "; " << std::setprecision(4) << std::defaultfloat
+             << row.plastic_numbers[1] << " "
+             << scene.parameters().output.length_unit << "^2 have yielded";
       if (contact)
         line << "; " << contact->progress();
       progress.message(line.str());
@@ -312,7 +329,13 @@ namespace NMM
         incremental ? CurrentStress::incremental(
                         *covers, *quadrature, problem, incremental->stresses())
         : has_large_displacements() ? CurrentStress::finite(*finite)
-                                    : FieldEvaluator::StressLaw());
+        : inelastic_terms() != nullptr
+          ? CurrentStress::inelastic(
+              *inelastic_terms(), *covers, *quadrature, problem)
+          : FieldEvaluator::StressLaw());
+      if (inelastic_terms() != nullptr)
+        evaluator->set_plastic_strain(CurrentStress::plastic_strain(
+          *inelastic_terms(), *covers, *quadrature));
     }
 
 
@@ -341,8 +364,25 @@ namespace NMM
                   history.back().strain_energy,
                   scene.parameters().output.stress_unit + "*" +
                     scene.parameters().output.length_unit + "^3");
+      if (!history.back().plastic_numbers.empty())
+      {
+        summary.add("plastic_dissipation",
+                    history.back().plastic_numbers[0],
+                    scene.parameters().output.stress_unit + "*" +
+                      scene.parameters().output.length_unit + "^3");
+        summary.add("yielded_area",
+                    history.back().plastic_numbers[1],
+                    scene.parameters().output.length_unit + "^2");
+      }
       if (contact)
         contact->add_to_summary(summary);
+    }
+
+
+    const InelasticTerms *
+    NonlinearAnalysis::inelastic_terms() const
+    {
+      return system ? system->inelastic_terms() : nullptr;
     }
 
 
@@ -382,6 +422,8 @@ namespace NMM
       for (const Probe &probe : scene.parameters().probes)
         if (!probe.is_line)
           out << ',' << probe.name << "_x," << probe.name << "_y";
+      if (inelastic_terms() != nullptr)
+        out << ",plastic_dissipation,yielded_area";
       if (contact)
         for (const std::string &column : contact->columns())
           out << ',' << column;
@@ -396,6 +438,8 @@ namespace NMM
         out << ',' << row.strain_energy << ',' << row.max_displacement;
         for (const Tensor<1, 2> &u : row.probe_displacements)
           out << ',' << u[0] << ',' << u[1];
+        for (const double value : row.plastic_numbers)
+          out << ',' << value;
         for (const double value : row.contact_numbers)
           out << ',' << value;
         out << '\n';

@@ -20,9 +20,9 @@ namespace NMM
   namespace internal
   {
     /**
-     * Large displacements under growing load, by FiniteElasticity and Newton's
-     * method or by IncrementalElasticity; contact, with small or large displacements. If a load step fails, the last one that
-     * converged is what is written.
+     * Statics under growing load that is no linear problem: large displacements, by Newton's method
+     * or step by step (IncrementalElasticity); contact and inelastic materials. If a load step
+     * fails, the last one that converged is what is written.
      */
     class NonlinearAnalysis : public SceneAnalysis
     {
@@ -55,9 +55,12 @@ namespace NMM
         std::vector<dealii::Tensor<1, 2>> probe_displacements;
         /// See ContactAnalysis::columns(); energies times the thickness.
         std::vector<double> contact_numbers;
+        /// Energy that inelastic materials have dissipated so far [J], and the area that has
+        /// yielded [m^2]; empty without such materials.
+        std::vector<double> plastic_numbers;
       };
 
-      /// With contact also that of small displacements, as `system` sees it.
+      /// Not for incremental steps; small displacements as well, as `system` sees it.
       std::unique_ptr<FiniteElasticity>      finite;
       std::unique_ptr<ElasticSystem>         system;
       std::unique_ptr<IncrementalElasticity> incremental;
@@ -73,6 +76,8 @@ namespace NMM
       unsigned int n_last_cuts = 0, n_last_iterations = 0;
       /// Of the last step that converged.
       Vector last_solution;
+      /// Of inelastic materials, of all steps [J].
+      double plastic_dissipation = 0.;
 
       void
       make_system() override;
@@ -80,8 +85,13 @@ namespace NMM
       bool
       has_large_displacements() const;
 
+      /// Null: all materials are elastic.
+      const InelasticTerms *
+      inelastic_terms() const;
+
+      /// Without contact, large or small displacements.
       void
-      run_finite();
+      run_newton();
 
       void
       run_contact();

@@ -38,7 +38,7 @@ namespace NMM
                                                            communicator,
                                                            restart);
       if (model.kinematics == Kinematics::small &&
-          !scene.parameters().contact.is_present())
+          !scene.parameters().is_nonlinear())
         return std::make_unique<internal::StaticAnalysis>(scene,
                                                           progress,
                                                           communicator);

@@ -58,28 +58,44 @@ namespace NMM
     {
       Stage       start_stage(progress, "start");
       StartReport report;
-      settled         = find_start({scene,
-                                    *covers,
-                                    *quadrature,
-                                    *mass_quadrature,
-                                    constraints,
-                                    problem,
-                                    contact.get(),
-                                    start_stage},
+      settled           = find_start({scene,
+                                      *covers,
+                                      *quadrature,
+                                      *mass_quadrature,
+                                      constraints,
+                                      problem,
+                                      contact.get(),
+                                      start_stage},
                            report);
-      n_start_steps   = report.n_steps;
-      settled_contact = contact->contact().history();
+      n_start_steps     = report.n_steps;
+      settled_materials = report.material_state;
+      if (contact)
+        settled_contact = contact->contact().history();
     }
 
 
     StrengthTrial
     SafetyFactorAnalysis::try_factor(const double factor)
     {
-      const SceneParameters &parameters = scene.parameters();
-      contact->divide_strength(factor);
-      AccountedContactModel with_contact(*model, *contact);
-      TimeIntegrator        integrator(
-        with_contact,
+      const SceneParameters                 &parameters = scene.parameters();
+      std::unique_ptr<AccountedContactModel> with_contact;
+      if (contact)
+      {
+        contact->divide_strength(factor);
+        with_contact =
+          std::make_unique<AccountedContactModel>(*model, *contact);
+      }
+      InelasticTerms *const terms = inelastic_terms_of(model.get());
+      if (terms != nullptr)
+      {
+        terms->forget_states();
+        terms->set_materials(reduce_strength(problem.materials, factor));
+      }
+      MechanicalModel *moved = with_contact.get();
+      if (!contact)
+        moved = model.get();
+      TimeIntegrator integrator(
+        *moved,
         parameters.time.time_scheme(Analysis::safety_factor,
                                     parameters.model.kinematics,
                                     /* has_contact = */ true),
@@ -87,7 +103,10 @@ namespace NMM
         motion_newton_parameters(scene));
       if (parameters.safety_factor.start == Start::settled)
       {
-        contact->contact().restore_history(settled_contact);
+        if (contact)
+          contact->contact().restore_history(settled_contact);
+        if (terms != nullptr)
+          terms->restore_internal_state(settled_materials);
         integrator.initialize(settled,
                               Vector(model->locally_owned(), communicator));
       }
@@ -99,7 +118,10 @@ namespace NMM
       {
         shown              = trial;
         shown_displacement = integrator.state().u;
-        shown_contact      = contact->last_state();
+        if (contact)
+          shown_contact = contact->last_state();
+        if (terms != nullptr)
+          shown_materials = terms->internal_state();
       }
       trials.push_back(trial);
       on_first_rank([&]() { write_trials(); });
@@ -137,7 +159,8 @@ namespace NMM
           [this](const double factor) { return try_factor(factor); },
           parameters.search);
       }
-      contact->show_state(shown_contact);
+      if (contact)
+        contact->show_state(shown_contact);
       Stage recovery_stage(progress, "stress recovery");
       show();
       is_solved = result.stands_at > 0. && std::isfinite(result.moves_at) &&
@@ -235,8 +258,19 @@ namespace NMM
       FieldEvaluator::StressLaw law;
       if (scene.parameters().model.kinematics == Kinematics::finite)
         law = CurrentStress::finite(*elasticity);
+      InelasticTerms *const terms = inelastic_terms_of(model.get());
+      if (terms != nullptr)
+      {
+        terms->set_materials(reduce_strength(problem.materials, shown.factor));
+        terms->restore_internal_state(shown_materials);
+        terms->assemble(relevant, /* with_tangent = */ false);
+        law = CurrentStress::inelastic(*terms, *covers, *quadrature, problem);
+      }
       evaluator =
         std::make_unique<FieldEvaluator>(*field, *recovery, problem, law);
+      if (terms != nullptr)
+        evaluator->set_plastic_strain(
+          CurrentStress::plastic_strain(*terms, *covers, *quadrature));
     }
 
 
@@ -253,7 +287,8 @@ namespace NMM
       summary.add("time_steps", n_steps);
       summary.add("shown_factor", shown.factor);
       summary.add("shown_stands", shown.stands() ? 1. : 0.);
-      contact->add_to_summary(summary);
+      if (contact)
+        contact->add_to_summary(summary);
     }
 
 

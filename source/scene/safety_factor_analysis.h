@@ -14,7 +14,7 @@ namespace NMM
   namespace internal
   {
     /**
-     * The factor by which the strength of all contacts can be divided before blocks move:
+     * The factor by which the strength of all contacts and materials can be divided before blocks move:
      * trials of relaxation, each from the same state, between which the factor is
      * bracketed and bisected. What is shown is how it goes: the displacements of the
      * trial with the smallest factor that moves; if none moves, those at the largest
@@ -42,9 +42,10 @@ namespace NMM
       std::unique_ptr<ElasticModel>         model;
 
       /// What each trial starts from, if not from nothing.
-      Vector         settled;
-      ContactHistory settled_contact;
-      unsigned int   n_start_steps = 0;
+      Vector            settled;
+      ContactHistory    settled_contact;
+      std::vector<char> settled_materials;
+      unsigned int      n_start_steps = 0;
 
       SafetyFactor result;
       /// Of trials so far.
@@ -53,6 +54,7 @@ namespace NMM
       StrengthTrial          shown;
       Vector                 shown_displacement;
       ContactAnalysis::State shown_contact;
+      std::vector<char>      shown_materials;
 
       void
       make_system() override;

@@ -68,7 +68,7 @@ namespace NMM
       const bool is_quadratic      = parameters.mathematical_mesh.degree > 1;
       const bool is_iterative      = model.analysis == Analysis::statics &&
                                 model.kinematics == Kinematics::small &&
-                                !parameters.contact.is_present();
+                                !parameters.is_nonlinear();
       const double linear  = is_quadratic ? 3800. : 2000.;
       const double factors = (is_iterative                          ? 0.
                               : model.analysis == Analysis::statics ? 4700.

@@ -1,4 +1,5 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/materials/material_law.h>
 #include <nmm/scene/scene_parameters.h>
 
 #include <algorithm>
@@ -296,6 +297,24 @@ namespace NMM
   }
 
 
+  bool
+  SceneParameters::has_inelastic_material() const
+  {
+    return std::any_of(materials.begin(),
+                       materials.end(),
+                       [](const Material &material) {
+                         return material.law->is_inelastic();
+                       });
+  }
+
+
+  bool
+  SceneParameters::is_nonlinear() const
+  {
+    return contact.is_present() || has_inelastic_material();
+  }
+
+
   void
   SceneParameters::check() const
   {
@@ -316,14 +335,13 @@ namespace NMM
       material.check(model.plane_state);
     for (const BoundaryConditionParameters &condition : boundary_conditions)
       condition.check();
-    const bool has_contact = contact.is_present();
     // a static start is a static analysis before a dynamic one
     const bool starts_static = model.analysis == Analysis::dynamics &&
                                time.start == TimeParameters::Start::equilibrium;
     load_steps.check(model.kinematics,
                      starts_static ? Analysis::statics : model.analysis,
-                     has_contact);
-    newton.check(model.kinematics, model.analysis, has_contact);
+                     is_nonlinear());
+    newton.check(model.kinematics, model.analysis, is_nonlinear());
     output.check();
     exact_solution.check();
     check_kinematics();
@@ -354,6 +372,7 @@ namespace NMM
     check(model.kinematics == Kinematics::small,
           to_string(model.kinematics) + " kinematics");
     check(!contact.is_present(), "a scene with contact");
+    check(!has_inelastic_material(), "a scene with inelastic materials");
     check(mathematical_mesh.type == MathematicalMeshParameters::Type::regular,
           "a scene whose mesh is not of type regular");
     const auto has_own_mesh = [](const RegionMesh &mesh) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <scene/law_entries.h>
 #include <scene/parsing.h>
 
 // Contact: faces, laws, obstacles.
@@ -18,50 +19,11 @@ namespace NMM
       {"penalty", Enforcement::penalty},
       {"augmented Lagrangian", Enforcement::augmented_lagrangian}};
 
-    using LawParameter = ContactLaw::Parameter;
-
-    /// A parameter of a law, with its default in the unit of scenes; the first law that has it.
-    struct DeclaredParameter
+    const LawEntries<ContactLaw> &
+    law_entries()
     {
-      std::string law_name, key, documentation;
-      double      default_value;
-    };
-
-
-    /// Those of all laws, each key once.
-    std::vector<DeclaredParameter>
-    declared_parameters()
-    {
-      std::vector<DeclaredParameter> result;
-      for (const NamedContactLaw &named : contact_laws())
-      {
-        const std::unique_ptr<ContactLaw> law = named.law->clone();
-        for (const LawParameter &parameter : law->parameters())
-        {
-          AssertThrow(parameter.kind == LawParameter::Kind::number ||
-                        *parameter.value == 0.,
-                      dealii::ExcMessage("Angles are 0 by default."));
-          if (std::any_of(result.begin(), result.end(), [&](const auto &known) {
-                return known.key == parameter.key;
-              }))
-            continue;
-          result.push_back({named.name,
-                            parameter.key,
-                            parameter.documentation,
-                            *parameter.value});
-        }
-      }
-      return result;
-    }
-
-
-    const NamedContactLaw &
-    find_law(const std::string &name)
-    {
-      for (const NamedContactLaw &law : contact_laws())
-        if (law.name == name)
-          return law;
-      return contact_laws().front();
+      static const LawEntries<ContactLaw> entries(contact_laws());
+      return entries;
     }
 
 
@@ -94,25 +56,7 @@ namespace NMM
         between[i] = names[i] == any_face ? "" : names[i];
     }
 
-    Words<std::string> laws;
-    std::string        text;
-    for (const NamedContactLaw &law : contact_laws())
-    {
-      laws.emplace_back(law.name, law.name);
-      text += (text.empty() ? "" : "; ") + law.name + ": " + law.documentation;
-    }
-    if (law_name.empty())
-      law_name = contact_laws().front().name;
-    entries.add("Law", law_name, laws, text + ".");
-    for (const DeclaredParameter &parameter : declared_parameters())
-    {
-      double &value =
-        values.emplace(parameter.key, parameter.default_value).first->second;
-      entries.add(parameter.key,
-                  value,
-                  Patterns::Double(),
-                  parameter.documentation);
-    }
+    law_entries().list(entries, law_name, values);
     entries.add("Bonded",
                 is_bonded,
                 "Faces that touch at the start hold together until tension or "
@@ -123,14 +67,8 @@ namespace NMM
   std::unique_ptr<ContactLaw>
   ContactLawParameters::parsed_law() const
   {
-    std::unique_ptr<ContactLaw> law = find_law(law_name).law->clone();
+    std::unique_ptr<ContactLaw> law = law_entries().make(law_name, values);
     law->is_bond                    = is_bonded;
-    for (const LawParameter &parameter : law->parameters())
-      if (const auto given = values.find(parameter.key); given != values.end())
-        *parameter.value =
-          parameter.kind == LawParameter::Kind::tangent
-            ? std::tan(given->second * dealii::numbers::PI / 180.)
-            : given->second;
     return law;
   }
 
@@ -158,31 +96,10 @@ namespace NMM
   void
   ContactLawParameters::check(const bool may_be_damped) const
   {
-    const std::unique_ptr<ContactLaw> law        = parsed_law();
-    const std::vector<LawParameter>   parameters = law->parameters();
-    for (const LawParameter &parameter : parameters)
-    {
-      const double value    = values.at(parameter.key);
-      const bool   is_angle = parameter.kind == LawParameter::Kind::tangent;
-      AssertThrow(value >= 0. && std::isfinite(value) &&
-                    !(is_angle && value >= 90.),
-                  InputError("'" + parameter.key + "' is " + to_text(value) +
-                               (is_angle ? " degrees" : ""),
-                             place(parameter.key),
-                             parameter.remedy));
-    }
-    for (const DeclaredParameter &parameter : declared_parameters())
-      AssertThrow(
-        values.at(parameter.key) == parameter.default_value ||
-          std::any_of(parameters.begin(),
-                      parameters.end(),
-                      [&](const LawParameter &own) {
-                        return own.key == parameter.key;
-                      }),
-        InputError("'" + parameter.key + "' would not be used by the law '" +
-                     law_name + "'",
-                   place(parameter.key),
-                   "remove it, or set 'Law = " + parameter.law_name + "'"));
+    const std::unique_ptr<ContactLaw> law = parsed_law();
+    law_entries().check(law_name, values, [this](const std::string &key) {
+      return place(key);
+    });
     for (const char *key : {"Normal damping", "Shear damping"})
       AssertThrow(may_be_damped || values.at(key) == 0.,
                   InputError(std::string("'") + key + " = " +

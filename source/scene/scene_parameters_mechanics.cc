@@ -1,7 +1,10 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/materials/material_law.h>
 #include <nmm/scene/scene_parameters.h>
 
 #include <cmath>
+#include <map>
+#include <scene/law_entries.h>
 #include <scene/parsing.h>
 
 // Materials, model, loads and supports: the physics of a scene.
@@ -21,10 +24,13 @@ namespace NMM
       {"plane stress", PlaneState::plane_stress},
       {"plane strain", PlaneState::plane_strain}};
 
-    const Words<MaterialLaw> laws = {{"linear", MaterialLaw::linear},
-                                     {"St. Venant-Kirchhoff",
-                                      MaterialLaw::st_venant_kirchhoff},
-                                     {"neo-Hookean", MaterialLaw::neo_hookean}};
+    const LawEntries<MaterialLaw> &
+    law_entries()
+    {
+      static const LawEntries<MaterialLaw> entries(material_laws());
+      return entries;
+    }
+
 
     const Words<BoundaryCondition::Type> condition_types = {
       {"traction", BoundaryCondition::Type::traction},
@@ -72,23 +78,31 @@ namespace NMM
                 material.density,
                 Patterns::Double(0),
                 "rho, the mass per volume that gravity acts on [kg/m^3].");
-    entries.add("Law",
-                material.law,
-                laws,
-                "Finite kinematics: stress from deformation. linear and St. "
-                "Venant-Kirchhoff: the second Piola-Kirchhoff stress is linear "
-                "in the Green-Lagrange strain; neo-Hookean: for large strains. "
-                "Small and incremental kinematics are linear.");
-    auto               &stress     = material.initial_stress;
+    std::map<std::string, double> values;
+    std::string law_name = law_entries().read(*material.law, values);
+    law_entries().list(entries, law_name, values);
+
+    const auto         &stress     = material.initial_stress;
     std::vector<double> components = {stress[0][0], stress[1][1], stress[0][1]};
-    entries.add(
-      "Initial stress",
-      components,
-      Patterns::List(Patterns::Double(), 3, 3, ","),
-      "sigma_xx, sigma_yy, sigma_xy before any load, tension positive [Pa].");
-    stress[0][0] = components[0];
-    stress[1][1] = components[1];
-    stress[0][1] = components[2];
+    if (material.given_initial_stress_zz)
+      components.push_back(*material.given_initial_stress_zz);
+    entries.add("Initial stress",
+                components,
+                Patterns::List(Patterns::Double(), 3, 4, ","),
+                "sigma_xx, sigma_yy, sigma_xy before any load, tension "
+                "positive, and in plane strain sigma_zz; without it nu "
+                "(sigma_xx + sigma_yy) [Pa].");
+    if (!entries.are_parsed())
+      return;
+    law_entries().check(law_name, values, [&](const std::string &key) {
+      return "parameter 'Materials/" + material.name + "/" + key + "'";
+    });
+    material.law                  = law_entries().make(law_name, values);
+    material.initial_stress[0][0] = components[0];
+    material.initial_stress[1][1] = components[1];
+    material.initial_stress[0][1] = components[2];
+    if (components.size() == 4)
+      material.given_initial_stress_zz = components[3];
   }
 
 

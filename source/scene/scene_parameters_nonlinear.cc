@@ -1,5 +1,6 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/contact/coulomb_law.h>
+#include <nmm/materials/material_law.h>
 #include <nmm/scene/scene_parameters.h>
 
 #include <algorithm>
@@ -45,14 +46,14 @@ namespace NMM
   void
   LoadStepParameters::check(const Kinematics kinematics,
                             const Analysis   analysis,
-                            const bool       has_contact) const
+                            const bool       is_nonlinear) const
   {
     const std::string        section = "Load steps";
     const LoadStepParameters defaults;
     const bool               is_static = analysis == Analysis::statics;
     const std::string by = is_static ? to_string(kinematics) + " kinematics"
                                      : "a " + to_string(analysis) + " analysis";
-    if ((kinematics == Kinematics::small && !has_contact) || !is_static)
+    if ((kinematics == Kinematics::small && !is_nonlinear) || !is_static)
     {
       const std::string remedy =
         is_static
@@ -78,7 +79,7 @@ namespace NMM
                        ? "remove it, or set 'Model/Kinematics = incremental'"
                        : "give 'Time/Maximum displacement' instead");
     const bool is_divided =
-      kinematics == Kinematics::finite || has_contact ||
+      kinematics == Kinematics::finite || is_nonlinear ||
       (kinematics == Kinematics::incremental && max_displacement > 0.);
     if (!is_divided || !is_static)
       expect_default(section,
@@ -146,10 +147,10 @@ namespace NMM
   void
   NewtonSectionParameters::check(const Kinematics kinematics,
                                  const Analysis   analysis,
-                                 const bool       has_contact) const
+                                 const bool       is_nonlinear) const
   {
     const NewtonParameters defaults;
-    if (kinematics != Kinematics::finite && !has_contact)
+    if (kinematics != Kinematics::finite && !is_nonlinear)
       expect_defaults("Newton",
                       *this,
                       to_string(kinematics) + " kinematics",
@@ -179,16 +180,25 @@ namespace NMM
   {
     const bool        is_static  = model.analysis == Analysis::statics;
     const std::string kinematics = to_string(model.kinematics) + " kinematics";
-    if (model.kinematics != Kinematics::finite)
-      for (const Material &material : materials)
-        AssertThrow(
-          material.law == MaterialLaw::linear,
-          InputError("a law other than linear would not be used by " +
-                       kinematics,
-                     "parameter 'Materials/" + material.name + "/Law'",
-                     "set 'Law = linear', or 'Model/Kinematics = finite'"));
-    if (model.kinematics == Kinematics::small && is_static &&
-        !contact.is_present())
+    for (const Material &material : materials)
+    {
+      const MaterialLaw &law          = *material.law;
+      const bool         is_inelastic = law.is_inelastic();
+      const bool         is_used      = model.kinematics == Kinematics::finite
+                                          ? !is_inelastic
+                                        : model.kinematics == Kinematics::small
+                                          ? law.has_small_strains()
+                                          : law.has_small_strains() && !is_inelastic;
+      AssertThrow(
+        is_used,
+        InputError("this law would not be used by " + kinematics,
+                   "parameter 'Materials/" + material.name + "/Law'",
+                   is_inelastic
+                     ? "set 'Model/Kinematics = small', or another law"
+                     : "set 'Law = linear', or 'Model/Kinematics = "
+                       "finite'"));
+    }
+    if (model.kinematics == Kinematics::small && is_static && !is_nonlinear())
     {
       expect_default(
         "Output",
@@ -202,8 +212,9 @@ namespace NMM
 
     const std::string name =
       !is_static ? to_string(model.analysis) + " analysis"
-      : model.kinematics == Kinematics::small ? "contact"
-                                              : kinematics;
+      : model.kinematics == Kinematics::small
+        ? (contact.is_present() ? "contact" : "inelastic materials")
+        : kinematics;
     AssertThrow(covers.stabilization != Stabilization::ghost_penalty,
                 InputError("'ghost penalty' is not available with " + name,
                            "parameter 'Covers/Stabilization'",
@@ -325,11 +336,15 @@ namespace NMM
     safety_factor.check(model.analysis);
     if (model.analysis != Analysis::safety_factor)
       return;
-    AssertThrow(contact.is_present(),
-                InputError("a scene without contact has no strength",
+    AssertThrow(is_nonlinear(),
+                InputError("a scene without contact and without a material "
+                           "that yields has no strength",
                            "parameter 'Model/Analysis'",
                            "set 'Contact/Enforcement = penalty', and a "
-                           "friction angle or a cohesion"));
+                           "friction angle or a cohesion, or a material's "
+                           "'Law = Mohr-Coulomb'"));
+    if (has_inelastic_material())
+      return check_safety_output();
     const auto has_strength = [](const ContactLawParameters &law) {
       return law.make_law(CoulombLaw())->has_friction();
     };
@@ -339,6 +354,13 @@ namespace NMM
                 InputError("no law of contact has strength to be reduced",
                            "section 'Contact'",
                            "give a friction angle or a cohesion"));
+    check_safety_output();
+  }
+
+
+  void
+  SceneParameters::check_safety_output() const
+  {
     AssertThrow(
       output.fields_every == 0,
       InputError(

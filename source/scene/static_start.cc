@@ -93,21 +93,24 @@ namespace NMM
                                     /* may_float = */ input.contact != nullptr);
         elasticity.set_amplitudes(amplitudes_at_start(scene));
         const LoadSteps steps = scene.parameters().load_steps.load_steps();
-        if (input.contact == nullptr && is_small(scene))
+        if (is_small(scene) && !scene.parameters().is_nonlinear())
           return solve_small(input, elasticity, report);
+        ElasticSystem system(elasticity, is_small(scene));
+        const auto    keep_materials = [&]() {
+          if (const InelasticTerms *terms = system.inelastic_terms())
+            report.material_state = terms->internal_state();
+        };
         if (input.contact == nullptr)
         {
-          NonlinearStatics statics(elasticity,
-                                   scene.parameters().newton.newton);
+          NonlinearStatics statics(system, scene.parameters().newton.newton);
           statics.run(steps, [&](const LoadStep &step, const Vector &) {
             ++report.n_steps;
-            report.n_iterations +=
-              step.newton.iterations.size() + step.n_lost_iterations;
+            report.n_iterations += step.n_iterations + step.n_lost_iterations;
             show_load(input, report, step.load_factor);
           });
+          keep_materials();
           return owned_part(input, statics.solution());
         }
-        ElasticSystem  system(elasticity, is_small(scene));
         ContactStatics statics(system,
                                input.contact->contact(),
                                contact_newton_parameters(scene));
@@ -116,6 +119,7 @@ namespace NMM
           report.n_iterations += step.n_iterations + step.n_lost_iterations;
           show_load(input, report, step.load_factor);
         });
+        keep_materials();
         return owned_part(input, statics.solution());
       }
 
@@ -173,9 +177,19 @@ namespace NMM
                   return line.str();
                 });
               });
+        if (const InelasticTerms *terms = inelastic_terms_of(model.get()))
+          report.material_state = terms->internal_state();
         return integrator.state().u;
       }
     } // namespace
+
+
+    InelasticTerms *
+    inelastic_terms_of(const ElasticModel *model)
+    {
+      const auto *const small = dynamic_cast<const SmallModel *>(model);
+      return small == nullptr ? nullptr : small->inelastic_terms();
+    }
 
 
     NewtonParameters
@@ -186,7 +200,7 @@ namespace NMM
       newton.residual_tolerance = given.residual_tolerance;
       // without contact more iterations only let steps grow that had better be cut
       if (given.max_iterations != NewtonParameters().max_iterations ||
-          !scene.parameters().contact.is_present())
+          !scene.parameters().is_nonlinear())
         newton.max_iterations = given.max_iterations;
       return newton;
     }

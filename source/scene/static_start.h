@@ -2,6 +2,7 @@
 #define nmm_source_scene_static_start_h
 
 #include <nmm/covers/cover_system.h>
+#include <nmm/dynamics/elastic_models.h>
 #include <nmm/mechanics/finite_elasticity.h>
 #include <nmm/output/progress.h>
 #include <nmm/quadrature/element_quadrature.h>
@@ -11,6 +12,7 @@
 #include <deal.II/lac/affine_constraints.h>
 
 #include <scene/contact_analysis.h>
+#include <vector>
 
 namespace NMM
 {
@@ -35,7 +37,15 @@ namespace NMM
     struct StartReport
     {
       unsigned int n_steps = 0, n_iterations = 0;
+      /// InelasticTerms::internal_state(); empty if all materials are elastic.
+      std::vector<char> material_state;
     };
+
+
+    /// Those of a body in small displacements; null: its materials are elastic, or it is in
+    /// large displacements.
+    InelasticTerms *
+    inelastic_terms_of(const ElasticModel *model);
 
 
     /// Newton's method for time steps and relaxation; more iterations than the default

@@ -1,6 +1,8 @@
 // Contact patch test: blocks with unrelated meshes under uniform stress. What is
 // uniform must stay so across straight and inclined interfaces.
 
+#include <nmm/materials/material_law.h>
+
 #include <contact/contact_model.h>
 #include <support/coulomb.h>
 
@@ -89,7 +91,7 @@ namespace
     options.cell_size           = 0.41;
     auto bodies = std::make_unique<Bodies>(std::move(geometry), options);
     for (Material &m : bodies->problem.materials)
-      m.law = c.is_small ? m.law : MaterialLaw::neo_hookean;
+      m.law = c.is_small ? m.law : material_law("neo-Hookean");
     return bodies;
   }
 
@@ -246,7 +248,7 @@ namespace
         options.cell_size           = 0.41;
         Bodies bodies(std::move(geometry), options);
         for (Material &m : bodies.problem.materials)
-          m.law = c.is_small ? m.law : MaterialLaw::neo_hookean;
+          m.law = c.is_small ? m.law : material_law("neo-Hookean");
         bodies.problem.boundary_conditions = {
           condition(Type::normal_displacement, "lower bottom"),
           condition(Type::normal_displacement,

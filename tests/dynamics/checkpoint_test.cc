@@ -2,6 +2,7 @@
 
 #include <nmm/base/program.h>
 #include <nmm/dynamics/checkpoint.h>
+#include <nmm/materials/material_law.h>
 
 #include <csignal>
 #include <cstdio>
@@ -34,7 +35,7 @@ namespace
        const MPI_Comm communicator   = MPI_COMM_WORLD)
   {
     Material rock = material("rock", youngs_modulus, 0.2, 1.);
-    rock.law      = MaterialLaw::neo_hookean;
+    rock.law      = material_law("neo-Hookean");
     Body body     = box({0., 0.}, {2., 0.4}, 0.3, rock, communicator);
     body.model->problem.boundary_conditions = {
       condition(Type::displacement, "left"),

@@ -1,6 +1,7 @@
 // The energy-momentum conserving scheme on free bodies.
 
 #include <nmm/dynamics/incremental_dynamics.h>
+#include <nmm/materials/material_law.h>
 
 #include <dynamics/dynamic_model.h>
 #include <gtest/gtest.h>
@@ -12,10 +13,10 @@ using namespace NMM::Test;
 namespace
 {
   Body
-  free_square(const MaterialLaw law,
-              const PlaneState  state,
-              const double      youngs_modulus,
-              const MPI_Comm    communicator = MPI_COMM_WORLD)
+  free_square(const std::shared_ptr<const MaterialLaw> &law,
+              const PlaneState                          state,
+              const double                              youngs_modulus,
+              const MPI_Comm communicator = MPI_COMM_WORLD)
   {
     Material rock = material("rock", youngs_modulus, 0.3, 1.);
     rock.law      = law;
@@ -66,7 +67,7 @@ namespace
     // the centrifugal strain, rho omega^2 / (12 E), is below what is asked for
     // of the area
     Body body =
-      free_square(MaterialLaw::linear, PlaneState::plane_strain, 1e10);
+      free_square(material_law("linear"), PlaneState::plane_strain, 1e10);
     TimeIntegrator integrator(*body.mechanics, TimeScheme::energy_momentum());
     RigidVelocity  spin;
     spin.angular_velocity = 1.;
@@ -91,8 +92,8 @@ namespace
 
   TEST(Conserving, SoftBodiesKeepEnergyAndMomenta)
   {
-    for (const MaterialLaw law :
-         {MaterialLaw::st_venant_kirchhoff, MaterialLaw::neo_hookean})
+    for (const std::shared_ptr<const MaterialLaw> &law :
+         {material_law("St. Venant-Kirchhoff"), material_law("neo-Hookean")})
       for (const PlaneState state :
            {PlaneState::plane_strain, PlaneState::plane_stress})
       {
@@ -123,8 +124,8 @@ namespace
 
   TEST(Conserving, TangentIsTheDerivativeByTheMean)
   {
-    for (const MaterialLaw law :
-         {MaterialLaw::st_venant_kirchhoff, MaterialLaw::neo_hookean})
+    for (const std::shared_ptr<const MaterialLaw> &law :
+         {material_law("St. Venant-Kirchhoff"), material_law("neo-Hookean")})
       for (const PlaneState state :
            {PlaneState::plane_strain, PlaneState::plane_stress})
       {
@@ -186,7 +187,7 @@ namespace
   TEST(Conserving, DampingDoesNotStopTurning)
   {
     Body body =
-      free_square(MaterialLaw::linear, PlaneState::plane_strain, 1e10);
+      free_square(material_law("linear"), PlaneState::plane_strain, 1e10);
     TimeIntegrator integrator(*body.mechanics,
                               TimeScheme::energy_momentum(),
                               {/* mass = */ 0., /* stiffness = */ 1e-2});
@@ -206,8 +207,8 @@ namespace
   // body turns as a rigid one.
   TEST(Conserving, DampedSoftBodiesKeepMomenta)
   {
-    for (const MaterialLaw law :
-         {MaterialLaw::st_venant_kirchhoff, MaterialLaw::neo_hookean})
+    for (const std::shared_ptr<const MaterialLaw> &law :
+         {material_law("St. Venant-Kirchhoff"), material_law("neo-Hookean")})
     {
       Body           body = free_square(law, PlaneState::plane_strain, 20.);
       TimeIntegrator integrator(*body.mechanics,
@@ -251,7 +252,7 @@ namespace
   {
     const auto at_end = [](const bool is_finite) {
       Body body =
-        free_square(MaterialLaw::linear, PlaneState::plane_strain, 20.);
+        free_square(material_law("linear"), PlaneState::plane_strain, 20.);
       if (!is_finite)
         body.make_small();
       TimeIntegrator integrator(*body.mechanics,
@@ -279,7 +280,7 @@ namespace
   TEST(ConstantAcceleration, TurningBodiesLoseEnergy)
   {
     Body body =
-      free_square(MaterialLaw::linear, PlaneState::plane_strain, 1e10);
+      free_square(material_law("linear"), PlaneState::plane_strain, 1e10);
     TimeIntegrator integrator(*body.mechanics,
                               TimeScheme::constant_acceleration());
     RigidVelocity  spin;
@@ -297,7 +298,7 @@ namespace
   TEST(Incremental, TurningBodiesGrow)
   {
     Body body =
-      free_square(MaterialLaw::linear, PlaneState::plane_strain, 1e10);
+      free_square(material_law("linear"), PlaneState::plane_strain, 1e10);
     Model                &model = *body.model;
     IncrementalElasticity elasticity(model.covers,
                                      *model.quadrature,

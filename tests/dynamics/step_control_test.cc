@@ -2,6 +2,7 @@
 
 #include <nmm/base/program.h>
 #include <nmm/dynamics/step_control.h>
+#include <nmm/materials/material_law.h>
 #include <nmm/mechanics/nonlinear_statics.h>
 
 #include <dynamics/dynamic_model.h>
@@ -21,7 +22,7 @@ namespace
   cantilever(const double gravity = 4.)
   {
     Material rock = material("rock", 1e4, 0.2, 1.);
-    rock.law      = MaterialLaw::st_venant_kirchhoff;
+    rock.law      = material_law("St. Venant-Kirchhoff");
     Body body     = box({0., 0.}, {2., 0.2}, 0.2, rock);
     body.model->problem.boundary_conditions = {
       condition(Type::displacement, "left")};

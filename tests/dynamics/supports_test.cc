@@ -1,5 +1,7 @@
 // The conserving scheme with supports and bonded joints.
 
+#include <nmm/materials/material_law.h>
+
 #include <dynamics/dynamic_model.h>
 #include <gtest/gtest.h>
 #include <random>
@@ -14,10 +16,10 @@ namespace
   /// A unit square about the origin, cut by a closed joint that is oblique to the
   /// mesh if @p with_joint. Dynamics are those of a soft solid.
   Body
-  square(const MaterialLaw law,
-         const PlaneState  state,
-         const bool        with_joint,
-         const MPI_Comm    communicator = MPI_COMM_WORLD)
+  square(const std::shared_ptr<const MaterialLaw> &law,
+         const PlaneState                          state,
+         const bool                                with_joint,
+         const MPI_Comm communicator = MPI_COMM_WORLD)
   {
     Geometry geometry;
     add_box(geometry, {-0.5, -0.5}, {0.5, 0.5});
@@ -104,8 +106,8 @@ namespace
   TEST(Supports, BondedJointKeepsEnergyAndMomenta)
   {
     for (const auto &[law, n_steps] :
-         {std::make_pair(MaterialLaw::st_venant_kirchhoff, 1000u),
-          std::make_pair(MaterialLaw::neo_hookean, 100u)})
+         {std::make_pair(material_law("St. Venant-Kirchhoff"), 1000u),
+          std::make_pair(material_law("neo-Hookean"), 100u)})
     {
       Body body =
         square(law, PlaneState::plane_strain, /* with_joint = */ true);
@@ -132,8 +134,8 @@ namespace
   /// on rollers, or by a pin.
   TEST(Supports, FixedSupportsKeepEnergy)
   {
-    for (const MaterialLaw law :
-         {MaterialLaw::st_venant_kirchhoff, MaterialLaw::neo_hookean})
+    for (const std::shared_ptr<const MaterialLaw> &law :
+         {material_law("St. Venant-Kirchhoff"), material_law("neo-Hookean")})
       for (const PlaneState state :
            {PlaneState::plane_strain, PlaneState::plane_stress})
         for (const Type type : {Type::displacement, Type::normal_displacement})
@@ -161,7 +163,7 @@ namespace
 
   TEST(Supports, PinKeepsTheMomentAboutIt)
   {
-    Body       body = square(MaterialLaw::st_venant_kirchhoff,
+    Body       body = square(material_law("St. Venant-Kirchhoff"),
                        PlaneState::plane_strain,
                        /* with_joint = */ true);
     FixedPoint pin;
@@ -192,8 +194,8 @@ namespace
 
   TEST(Supports, MovingSupportsDoTheWorkThatIsStored)
   {
-    for (const MaterialLaw law :
-         {MaterialLaw::st_venant_kirchhoff, MaterialLaw::neo_hookean})
+    for (const std::shared_ptr<const MaterialLaw> &law :
+         {material_law("St. Venant-Kirchhoff"), material_law("neo-Hookean")})
     {
       Body body =
         square(law, PlaneState::plane_strain, /* with_joint = */ true);
@@ -236,8 +238,8 @@ namespace
 
   TEST(Supports, TangentIsTheDerivativeByTheMean)
   {
-    for (const MaterialLaw law :
-         {MaterialLaw::st_venant_kirchhoff, MaterialLaw::neo_hookean})
+    for (const std::shared_ptr<const MaterialLaw> &law :
+         {material_law("St. Venant-Kirchhoff"), material_law("neo-Hookean")})
       for (const PlaneState state :
            {PlaneState::plane_strain, PlaneState::plane_stress})
         for (const double size : {0.002, 0.05})

@@ -1,6 +1,7 @@
 // The laws: derivatives against differences, limits, frame indifference.
 
-#include <nmm/materials/hyperelasticity.h>
+#include <nmm/materials/hyperelastic_law.h>
+#include <nmm/materials/material_law.h>
 
 #include <gtest/gtest.h>
 #include <mechanics/model.h>
@@ -10,13 +11,14 @@ using namespace NMM::Test;
 
 namespace
 {
-  constexpr MaterialLaw laws[]   = {MaterialLaw::st_venant_kirchhoff,
-                                    MaterialLaw::neo_hookean};
-  constexpr PlaneState  states[] = {PlaneState::plane_stress,
-                                    PlaneState::plane_strain};
+  const std::shared_ptr<const MaterialLaw> laws[] =
+    {material_law("St. Venant-Kirchhoff"), material_law("neo-Hookean")};
+  constexpr PlaneState states[] = {PlaneState::plane_stress,
+                                   PlaneState::plane_strain};
 
   Material
-  test_material(const MaterialLaw law, const bool has_initial_stress)
+  test_material(const std::shared_ptr<const MaterialLaw> &law,
+                const bool                                has_initial_stress)
   {
     Material m = material("m", 1000., 0.3);
     m.law      = law;
@@ -70,12 +72,13 @@ TEST(Hyperelasticity, DerivativesAgainstDifferences)
   std::mt19937   generator(17);
   constexpr auto step      = 1e-5;
   unsigned int   n_samples = 0;
-  for (const MaterialLaw which : laws)
+  for (const std::shared_ptr<const MaterialLaw> &which : laws)
     for (const PlaneState state : states)
       for (const bool has_initial_stress : {false, true})
       {
-        const HyperelasticLaw law(test_material(which, has_initial_stress),
-                                  state);
+        const auto pointer =
+          test_material(which, has_initial_stress).hyperelastic_law(state);
+        const HyperelasticLaw &law = *pointer;
         for (unsigned int sample = 0; sample < 50; ++sample)
         {
           const Tensor<2, 2> F = random_deformation(generator);
@@ -123,12 +126,13 @@ TEST(Hyperelasticity, DerivativesAgainstDifferences)
 TEST(Hyperelasticity, SmallStrainLimitIsPlaneElasticity)
 {
   const Tensor<2, 2> identity = dealii::unit_symmetric_tensor<2>();
-  for (const MaterialLaw which : laws)
+  for (const std::shared_ptr<const MaterialLaw> &which : laws)
     for (const PlaneState state : states)
     {
-      const Material        m = test_material(which, true);
-      const HyperelasticLaw law(m, state);
-      const auto            r = evaluate(law, identity);
+      const Material         m       = test_material(which, true);
+      const auto             pointer = m.hyperelastic_law(state);
+      const HyperelasticLaw &law     = *pointer;
+      const auto             r       = evaluate(law, identity);
       EXPECT_LT((r.stress - Tensor<2, 2>(m.initial_stress)).norm(), 1e-10);
       // A : H = C : eps(H) + H S_0
       Tensor<2, 2> H;
@@ -153,10 +157,11 @@ TEST(Hyperelasticity, SmallStrainLimitIsPlaneElasticity)
 TEST(Hyperelasticity, RotationTurnsStressAndKeepsEnergy)
 {
   std::mt19937 generator(18);
-  for (const MaterialLaw which : laws)
+  for (const std::shared_ptr<const MaterialLaw> &which : laws)
     for (const PlaneState state : states)
     {
-      const HyperelasticLaw law(test_material(which, true), state);
+      const auto pointer = test_material(which, true).hyperelastic_law(state);
+      const HyperelasticLaw &law = *pointer;
       for (unsigned int sample = 0; sample < 20; ++sample)
       {
         const Tensor<2, 2> F = random_deformation(generator);
@@ -173,10 +178,11 @@ TEST(Hyperelasticity, PlaneStressHasNoStressOutOfPlane)
 {
   // the same material in plane strain with that stretch put in by hand: the
   // out-of-plane derivative of the neo-Hookean energy vanishes
-  std::mt19937          generator(19);
-  const Material        m = test_material(MaterialLaw::neo_hookean, false);
-  const HyperelasticLaw law(m, PlaneState::plane_stress);
-  const double          mu = m.youngs_modulus / (2. * (1. + m.poissons_ratio));
+  std::mt19937           generator(19);
+  const Material         m = test_material(material_law("neo-Hookean"), false);
+  const auto             pointer = m.hyperelastic_law(PlaneState::plane_stress);
+  const HyperelasticLaw &law     = *pointer;
+  const double           mu = m.youngs_modulus / (2. * (1. + m.poissons_ratio));
   const double K = m.youngs_modulus / (3. * (1. - 2. * m.poissons_ratio));
   for (unsigned int sample = 0; sample < 50; ++sample)
   {
@@ -199,10 +205,11 @@ TEST(Hyperelasticity, PlaneStressHasNoStressOutOfPlane)
 TEST(Hyperelasticity, UniaxialCauchyStress)
 {
   // St. Venant-Kirchhoff, plane stress: S_11 = E E_11, E_22 = E_33 = -nu E_11
-  const HyperelasticLaw law(test_material(MaterialLaw::st_venant_kirchhoff,
-                                          false),
-                            PlaneState::plane_stress);
-  const double          E11 = 0.2, l1 = std::sqrt(1. + 2. * E11),
+  const auto pointer =
+    test_material(material_law("St. Venant-Kirchhoff"), false)
+      .hyperelastic_law(PlaneState::plane_stress);
+  const HyperelasticLaw &law = *pointer;
+  const double           E11 = 0.2, l1 = std::sqrt(1. + 2. * E11),
                l2 = std::sqrt(1. - 2. * 0.3 * E11);
   Tensor<2, 2> F;
   F[0][0] = l1;
@@ -224,15 +231,17 @@ TEST(Hyperelasticity, InvertedIsReported)
   SymmetricTensor<2, 2>     sigma;
   for (const PlaneState state : states)
   {
-    const HyperelasticLaw law(test_material(MaterialLaw::neo_hookean, false),
-                              state);
+    const auto pointer =
+      test_material(material_law("neo-Hookean"), false).hyperelastic_law(state);
+    const HyperelasticLaw &law = *pointer;
     EXPECT_TRUE(law.evaluate(F, response) == Deformation::inverted);
     EXPECT_TRUE(law.evaluate_stress(F, response) == Deformation::inverted);
     EXPECT_TRUE(law.tangent_derivative(F, F, derivative) ==
                 Deformation::inverted);
     EXPECT_TRUE(law.cauchy_stress(F, sigma) == Deformation::inverted);
   }
-  const HyperelasticLaw law(test_material(MaterialLaw::neo_hookean, false),
-                            PlaneState::plane_stress);
+  const auto pointer = test_material(material_law("neo-Hookean"), false)
+                         .hyperelastic_law(PlaneState::plane_stress);
+  const HyperelasticLaw &law = *pointer;
   EXPECT_TRUE(law.out_of_plane_stretch(F, s) == Deformation::inverted);
 }

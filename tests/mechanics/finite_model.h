@@ -50,11 +50,11 @@ namespace NMM
     /// A box from (0,0) to (2,1) with a crack, a closed joint and an interface
     /// between two materials, on a mesh that is turned.
     inline std::unique_ptr<Model>
-    jointed_box(const unsigned int degree,
-                const MaterialLaw  law,
-                const PlaneState   state,
-                const double       cell_size    = 0.22,
-                const MPI_Comm     communicator = MPI_COMM_WORLD)
+    jointed_box(const unsigned int                        degree,
+                const std::shared_ptr<const MaterialLaw> &law,
+                const PlaneState                          state,
+                const double                              cell_size = 0.22,
+                const MPI_Comm communicator = MPI_COMM_WORLD)
     {
       Geometry geometry;
       add_box(geometry, {0., 0.}, {2., 1.});

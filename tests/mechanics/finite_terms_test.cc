@@ -1,6 +1,8 @@
 // Forces and tangents of FiniteElasticity: derivatives against differences, term
 // by term, and what rigid motion must not do.
 
+#include <nmm/materials/material_law.h>
+
 #include <gtest/gtest.h>
 #include <mechanics/finite_model.h>
 
@@ -162,8 +164,8 @@ namespace
 TEST(FiniteTerms, TangentAgainstDifferencesMPI)
 {
   unsigned int n = 0, seed = 100;
-  for (const MaterialLaw law :
-       {MaterialLaw::st_venant_kirchhoff, MaterialLaw::neo_hookean})
+  for (const std::shared_ptr<const MaterialLaw> &law :
+       {material_law("St. Venant-Kirchhoff"), material_law("neo-Hookean")})
     for (const PlaneState state :
          {PlaneState::plane_stress, PlaneState::plane_strain})
       for (const unsigned int degree : {1, 2})
@@ -194,8 +196,8 @@ TEST(FiniteTerms, RigidRotationHasNoForceMPI)
   const auto turned = [](const Point<2> &x) {
     return Tensor<1, 2>({-x[1] - x[0] + 0.3, x[0] - x[1] - 0.7});
   };
-  for (const MaterialLaw law :
-       {MaterialLaw::st_venant_kirchhoff, MaterialLaw::neo_hookean})
+  for (const std::shared_ptr<const MaterialLaw> &law :
+       {material_law("St. Venant-Kirchhoff"), material_law("neo-Hookean")})
     for (const unsigned int degree : {1, 2})
     {
       const auto model = jointed_box(degree, law, PlaneState::plane_stress);
@@ -226,7 +228,7 @@ TEST(FiniteTerms, AssembledAgainIsTheSameMPI)
 {
   std::mt19937 generator(5);
   const auto   model =
-    jointed_box(2, MaterialLaw::neo_hookean, PlaneState::plane_strain);
+    jointed_box(2, material_law("neo-Hookean"), PlaneState::plane_strain);
   model->problem.boundary_conditions = {condition(Type::displacement, "left")};
   const auto   elasticity            = finite_elasticity(*model);
   const Vector u = random_displacement(*model, 0.01, generator),
@@ -257,8 +259,9 @@ TEST(FiniteTerms, AssembledAgainIsTheSameMPI)
 TEST(FiniteTerms, IncrementChangesTheTangentOnly)
 {
   std::mt19937 generator(6);
-  const auto   model =
-    jointed_box(2, MaterialLaw::st_venant_kirchhoff, PlaneState::plane_stress);
+  const auto   model                 = jointed_box(2,
+                                 material_law("St. Venant-Kirchhoff"),
+                                 PlaneState::plane_stress);
   model->problem.boundary_conditions = {condition(Type::displacement, "left")};
   const auto   elasticity            = finite_elasticity(*model);
   const Vector u       = random_displacement(*model, 0.01, generator);
@@ -280,8 +283,9 @@ TEST(FiniteTerms, IncrementChangesTheTangentOnly)
 
 TEST(FiniteTerms, AmplitudesScaleAndRelease)
 {
-  const auto model =
-    jointed_box(2, MaterialLaw::st_venant_kirchhoff, PlaneState::plane_stress);
+  const auto model                   = jointed_box(2,
+                                 material_law("St. Venant-Kirchhoff"),
+                                 PlaneState::plane_stress);
   model->problem.boundary_conditions = {
     condition(Type::displacement, "left"),
     condition(Type::displacement, "right", waves),

@@ -1,5 +1,7 @@
 // The same bits on any number of threads.
 
+#include <nmm/materials/material_law.h>
+
 #include <deal.II/base/multithread_info.h>
 
 #include <base/in_order.h>
@@ -52,7 +54,7 @@ namespace
   {
     const ThreadLimit limit(n_threads);
     const auto        model = jointed_box(2,
-                                   MaterialLaw::neo_hookean,
+                                   material_law("neo-Hookean"),
                                    PlaneState::plane_strain,
                                    0.03,
                                    MPI_COMM_SELF);

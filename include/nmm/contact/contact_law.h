@@ -1,6 +1,8 @@
 #ifndef nmm_contact_contact_law_h
 #define nmm_contact_contact_law_h
 
+#include <nmm/base/named_law.h>
+
 #include <algorithm>
 #include <memory>
 #include <string>
@@ -51,21 +53,7 @@ namespace NMM
       double value = 0., by_pressure = 0., by_slip = 0.;
     };
 
-    /// A number of a law that scenes give.
-    struct Parameter
-    {
-      enum class Kind
-      {
-        number,
-        /// Scenes give an angle in degrees, and the law has its tangent.
-        tangent
-      };
-      std::string key;
-      /// Within the law that was asked.
-      double     *value;
-      Kind        kind;
-      std::string documentation, remedy;
-    };
+    using Parameter = LawParameter;
 
     virtual std::unique_ptr<ContactLaw>
     clone() const = 0;
@@ -179,25 +167,10 @@ namespace NMM
     /// Tangent of the dilation angle psi [-], and the slip kappa_max beyond which nothing
     /// opens any more [m]; 0: no limit.
     double dilation = 0., dilation_limit = 0.;
-
-  protected:
-    /// @throws InputError if @p value is not as it has to be.
-    static void
-    check_value(bool               is_good,
-                const std::string &name,
-                double             value,
-                const std::string &where,
-                const std::string &remedy);
   };
 
 
-
-  /// A law that scenes can choose.
-  struct NamedContactLaw
-  {
-    std::string                       name, documentation;
-    std::shared_ptr<const ContactLaw> law;
-  };
+  using NamedContactLaw = NamedLaw<ContactLaw>;
 
   /// All laws; the first one is the default.
   const std::vector<NamedContactLaw> &

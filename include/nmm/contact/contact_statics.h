@@ -50,17 +50,12 @@ namespace NMM
 
 
   /// A load step with contact that converged.
-  struct ContactStep
+  struct ContactStep : public LoadStep
   {
-    double load_factor = 0.;
-    bool   is_asked    = false;
-    /// Of all solutions of the step.
-    unsigned int  n_iterations = 0, n_augmentations = 0;
-    unsigned int  n_cuts = 0, n_lost_iterations = 0;
-    double        relative_residual = 0.;
+    unsigned int  n_augmentations = 0;
     ContactReport contact;
-    /// By friction and breaking bonds in the step [J/m].
-    double dissipated = 0.;
+    /// By friction and breaking bonds in the step, and by inelastic materials [J/m].
+    double dissipated = 0., dissipated_by_material = 0.;
   };
 
 
@@ -99,6 +94,10 @@ namespace NMM
     /// Displacements [m], locally relevant.
     const Vector &
     solution() const;
+
+    /// See NonlinearStatics.
+    const LoadStep &
+    last_attempt() const;
 
   private:
     struct Data;

@@ -5,8 +5,10 @@
 #include <nmm/dynamics/loading.h>
 #include <nmm/dynamics/mechanical_model.h>
 #include <nmm/mechanics/finite_elasticity.h>
+#include <nmm/mechanics/inelastic_terms.h>
 
 #include <functional>
+#include <memory>
 
 namespace NMM
 {
@@ -209,18 +211,51 @@ namespace NMM
    * direction. K contains the conditions; the energy of conditions
    * therefore counts as strain energy u.K u / 2, and prescribed displacements as
    * loads. K changes with releases only; f is assembled when amplitudes change.
+   *
+   * Inelastic materials add their part (InelasticTerms); between two states it is the mean of
+   * the parts at the begin and at the end, so that the account of energy closes with what they
+   * dissipate. Damping in proportion to the stiffness is that of the elastic solid.
    */
-  class SmallModel : public ElasticModel
+  class SmallModel : public ElasticModel, public SteppedModel
   {
   public:
+    using Vector = MechanicalModel::Vector;
+    using Matrix = MechanicalModel::Matrix;
+
     /// See ElasticModel.
     SmallModel(FiniteElasticity           &elasticity,
                const QuadratureCollection &mass_quadrature,
                Loading                     loading       = {},
                const GhostPenalty         *ghost_penalty = nullptr);
+    ~SmallModel() override;
 
     const Matrix &
     stiffness_at_rest() override;
+
+    const Matrix &
+    tangent() const override;
+
+    double
+    force_scale() const override;
+
+    void
+    begin_step(const Vector &begin,
+               const Vector &predicted,
+               double        t,
+               double        h) override;
+
+    double
+    accept_step(const Vector &end, double t) override;
+
+    std::vector<char>
+    internal_state() const override;
+
+    void
+    restore_internal_state(const std::vector<char> &state) override;
+
+    /// Null: all materials are elastic.
+    InelasticTerms *
+    inelastic_terms() const;
 
     ForceProperties
     force_properties() const override;
@@ -258,14 +293,22 @@ namespace NMM
     void
     update(double t);
 
-    /// Forces at the displacements in `owned`.
-    Deformation
+    /// Elastic forces at the displacements in `owned`.
+    void
     assemble_owned(double t);
 
-    Vector       owned, forces, load;
-    unsigned int stiffness_at  = 0;
-    bool         has_stiffness = false, has_load = false;
-    double       strain_energy = 0.;
+    /// Add @p share of inelastic forces at @p u.
+    void
+    add_inelastic(const Vector &u, double share, bool with_tangent);
+
+    Vector                          owned, forces, load;
+    unsigned int                    stiffness_at  = 0;
+    bool                            has_stiffness = false, has_load = false;
+    double                          strain_energy = 0.;
+    std::unique_ptr<InelasticTerms> inelastic;
+    /// With inelastic materials: that of the last assembly.
+    const Matrix *current_tangent = nullptr;
+    bool          has_begun       = false;
   };
 
 

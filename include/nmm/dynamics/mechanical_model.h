@@ -1,11 +1,11 @@
 #ifndef nmm_dynamics_mechanical_model_h
 #define nmm_dynamics_mechanical_model_h
 
+#include <nmm/base/assembly.h>
 #include <nmm/base/exceptions.h>
 #include <nmm/base/step_fault.h>
 #include <nmm/base/types.h>
 #include <nmm/linear_algebra/body_matrix.h>
-#include <nmm/materials/hyperelasticity.h>
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/lac/affine_constraints.h>

@@ -3,6 +3,7 @@
 
 #include <nmm/contact/contact.h>
 #include <nmm/dynamics/step_control.h>
+#include <nmm/materials/material.h>
 
 #include <functional>
 #include <limits>
@@ -20,6 +21,12 @@ namespace NMM
    */
   ContactParameters
   reduce_strength(const ContactParameters &parameters, double factor);
+
+
+  /// Materials whose strength is divided by a factor, see MaterialLaw::reduce_strength().
+  /// @throws InputError for a factor that is not positive.
+  std::vector<Material>
+  reduce_strength(const std::vector<Material> &materials, double factor);
 
 
   /// What became of blocks whose strength was reduced.

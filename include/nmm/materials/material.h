@@ -4,6 +4,8 @@
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <limits>
+#include <memory>
+#include <optional>
 #include <string>
 
 namespace NMM
@@ -17,19 +19,13 @@ namespace NMM
     plane_strain
   };
 
-  /// How stress follows from deformation in `finite` kinematics; `small` and
-  /// `incremental` take the linear law whatever is named here.
-  enum class MaterialLaw
-  {
-    /// Stress is linear in strain; in `finite` kinematics the second
-    /// Piola-Kirchhoff stress in Green-Lagrange strain: the next one.
-    linear,
-    /// W = lambda/2 (tr E)^2 + mu E : E. For large rotations with moderate
-    /// strains; it gives way under strong compression.
-    st_venant_kirchhoff,
-    /// W = mu/2 (J^(-2/3) I_1 - 3) + K/2 (J - 1)^2. For large strains.
-    neo_hookean
-  };
+  class HyperelasticLaw;
+  class InelasticLaw;
+  class MaterialLaw;
+
+  /// The first of material_laws(): linear elasticity.
+  std::shared_ptr<const MaterialLaw>
+  default_material_law();
 
   /**
    * The two constants of plane isotropic elasticity,
@@ -53,8 +49,7 @@ namespace NMM
     largest_eigenvalue() const;
   };
 
-  /// An isotropic, elastic material. Units are any consistent set; SI
-  /// is written here.
+  /// An isotropic material. Units are any consistent set; SI is written here.
   struct Material
   {
     std::string name;
@@ -63,11 +58,15 @@ namespace NMM
     /// nu [-], in (-1, 0.5).
     double poissons_ratio = std::numeric_limits<double>::signaling_NaN();
     /// rho [kg/m^3], >= 0.
-    double      density = 0.;
-    MaterialLaw law     = MaterialLaw::linear;
+    double density = 0.;
+    /// How stress follows from deformation; never null.
+    std::shared_ptr<const MaterialLaw> law = default_material_law();
     /// sigma_0 of the paper's eq. (9), tension positive [Pa]; in `finite`
     /// kinematics the second Piola-Kirchhoff stress at rest.
     dealii::SymmetricTensor<2, 2> initial_stress;
+    /// The initial stress across the plane [Pa] in plane strain; if it is not given, nu times
+    /// the sum of both normal components, as if the plane had never been strained across.
+    std::optional<double> given_initial_stress_zz;
 
     /// @throws InputError naming the material, the parameter and its value.
     void
@@ -80,7 +79,20 @@ namespace NMM
     dealii::SymmetricTensor<4, 2>
     elasticity_tensor(PlaneState plane_state) const;
 
-    /// sigma_zz for in-plane strain @p strain [Pa]; 0 in plane stress.
+    /// sigma_zz of the initial stress [Pa]; 0 in plane stress.
+    double
+    initial_stress_zz(PlaneState plane_state) const;
+
+    /// The law for large deformations. @throws InputError if the material's law has none.
+    std::shared_ptr<const HyperelasticLaw>
+    hyperelastic_law(PlaneState plane_state) const;
+
+    /// The law for small strains; null: stress is linear in strain.
+    std::shared_ptr<const InelasticLaw>
+    inelastic_law(PlaneState plane_state) const;
+
+    /// sigma_zz for in-plane strain @p strain, initial stress included [Pa]; 0 in plane
+    /// stress.
     double
     out_of_plane_stress(const dealii::SymmetricTensor<2, 2> &strain,
                         PlaneState                           plane_state) const;

@@ -2,7 +2,10 @@
 #define nmm_mechanics_elastic_system_h
 
 #include <nmm/mechanics/finite_elasticity.h>
+#include <nmm/mechanics/inelastic_terms.h>
 #include <nmm/solution/newton_solver.h>
+
+#include <memory>
 
 namespace NMM
 {
@@ -11,7 +14,14 @@ namespace NMM
    * sees them: as they are, or linearized at u = 0,
    * @f[ r(u) = K(0)\,u + r(0), @f]
    * which is the theory of small displacements. Loads are those of the load factor in
-   * both.
+   * both. In small displacements inelastic materials add their part (InelasticTerms), and the
+   * equations are linear no longer. The forces r_0 by which their initial stress is out of balance
+   * in the undeformed state act with the load factor as well,
+   * @f[ r(u) = K(0)\,u + r(0) + r_\mathrm{inelastic}(u) - (1 - \lambda)\,r_0, @f]
+   * as by an excavation in small steps: yielding depends on the way.
+   *
+   * Order of calls in a load step: set_load_factor(), begin_step(), assemble() as often as
+   * needed, accept_step() if the step is accepted.
    *
    * Lifetime: the elasticity must outlive this object, and nobody else may
    * assemble it while a linearized one is in use.
@@ -19,7 +29,36 @@ namespace NMM
   class ElasticSystem : public NonlinearSystem
   {
   public:
+    /// @throws InputError for inelastic materials unless @p is_linearized.
     ElasticSystem(FiniteElasticity &elasticity, bool is_linearized);
+    ~ElasticSystem() override;
+
+    /// A step is tried that begins at the accepted displacements @p u.
+    void
+    begin_step(const Vector &u);
+
+    /// The step to @p u is accepted: inelastic materials keep their new states. Returns what they
+    /// dissipated in it [J/m].
+    double
+    accept_step(const Vector &u);
+
+    /// The next step begins at the undeformed state, whose materials remember nothing.
+    void
+    forget_states();
+
+    /// See FiniteElasticity::adapt_penalties(); the theory of small displacements has no need
+    /// for it.
+    void
+    adapt_penalties(const Vector &u);
+
+    /// FiniteElasticity::largest_jump(). 0 in small displacements, where the
+    /// potential is convex and each solution is one.
+    double
+    largest_jump() const;
+
+    /// Null: all materials are elastic.
+    InelasticTerms *
+    inelastic_terms() const;
 
     void
     set_load_factor(double load_factor);
@@ -56,6 +95,9 @@ namespace NMM
     strain_energy() const;
 
   private:
+    void
+    find_initial_imbalance();
+
     FiniteElasticity *elastic;
     bool              linearized;
     double            factor = 0.;
@@ -63,7 +105,11 @@ namespace NMM
     /// Linearized: K(0) is in the elasticity; r(0), and whether both are known.
     bool   has_stiffness = false, has_load = false;
     Vector owned, load, sum;
-    double scale = 0., energy = 0.;
+    /// r_0; empty before the first assembly.
+    Vector                                        initial_imbalance;
+    std::unique_ptr<InelasticTerms>               inelastic;
+    const dealii::TrilinosWrappers::SparseMatrix *stiffness = nullptr;
+    double                                        scale = 0., energy = 0.;
   };
 } // namespace NMM
 

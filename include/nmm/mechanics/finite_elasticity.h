@@ -2,7 +2,7 @@
 #define nmm_mechanics_finite_elasticity_h
 
 #include <nmm/covers/cover_system.h>
-#include <nmm/materials/hyperelasticity.h>
+#include <nmm/materials/hyperelastic_law.h>
 #include <nmm/mechanics/elasticity_problem.h>
 #include <nmm/quadrature/element_quadrature.h>
 
@@ -225,11 +225,18 @@ namespace NMM
     const HyperelasticLaw &
     law(unsigned int region) const;
 
+    /// Whether a region has an inelastic law, of which this knows the elastic part only, without
+    /// initial stress; see InelasticTerms.
+    bool
+    is_inelastic() const;
+
     /// Tables of gradients that whole elements share.
     unsigned int
     n_shared_tables() const;
 
   private:
+    friend class InelasticTerms;
+
     struct Data;
     std::unique_ptr<Data> data;
   };

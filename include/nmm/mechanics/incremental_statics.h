@@ -2,6 +2,7 @@
 #define nmm_mechanics_incremental_statics_h
 
 #include <nmm/mechanics/incremental_elasticity.h>
+#include <nmm/solution/load_stepping.h>
 
 #include <functional>
 #include <limits>
@@ -9,15 +10,11 @@
 
 namespace NMM
 {
-  struct IncrementalSteps
+  struct IncrementalSteps : public LoadSteps
   {
-    /// Load factors at which an answer is wanted, ascending from above 0 [-].
-    std::vector<double> load_factors = {1.};
     /// No cover moves by more in a step [m]; the paper's control of the error of
     /// a step, which grows with the square of its rotation.
     double max_displacement = std::numeric_limits<double>::infinity();
-    /// No step is smaller than this part of the last load factor [-].
-    double min_step = 1e-4;
 
     /// @throws InputError naming the value.
     void
@@ -26,15 +23,10 @@ namespace NMM
 
 
   /// A load step that was taken.
-  struct IncrementalStep
+  struct IncrementalStep : public LoadStep
   {
-    double load_factor = 0.;
-    /// Was an answer wanted here? Else it was put in between.
-    bool is_asked = false;
     /// Of a cover [m].
     double largest_displacement = 0.;
-    /// Larger steps tried before and given up.
-    unsigned int n_cuts = 0;
   };
 
 
@@ -70,10 +62,6 @@ namespace NMM
     load_factor() const;
 
   private:
-    /// To @p wanted at most; @p size is what is tried, and what to try next [-].
-    IncrementalStep
-    take_step(const IncrementalSteps &steps, double wanted, double &size);
-
     IncrementalElasticity *elasticity;
     double                 reached = 0.;
   };

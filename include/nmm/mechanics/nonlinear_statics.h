@@ -1,68 +1,76 @@
 #ifndef nmm_mechanics_nonlinear_statics_h
 #define nmm_mechanics_nonlinear_statics_h
 
-#include <nmm/mechanics/finite_elasticity.h>
-#include <nmm/solution/newton_solver.h>
+#include <nmm/mechanics/elastic_system.h>
+#include <nmm/solution/load_stepping.h>
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 namespace NMM
 {
-  struct LoadSteps
+  /**
+   * How NonlinearStatics finds equilibrium in a step: by Newton's method for the system alone,
+   * or with contact (ContactStatics).
+   */
+  class EquilibriumSearch
   {
-    /// Load factors at which an answer is wanted, ascending from above 0 [-].
-    std::vector<double> load_factors = {1.};
-    /// No step is smaller than this part of the last load factor [-].
-    double min_step = 1e-4;
-    /// A solution with a larger FiniteElasticity::largest_jump() is none: the
-    /// step is divided.
-    double max_jump = 0.5;
+  public:
+    using Vector = NonlinearSystem::Vector;
+
+    virtual ~EquilibriumSearch() = default;
+
     /**
-     * Degree of the polynomial through previous solutions that a step starts
-     * from; 0: the last solution. With NewtonParameters::use_increment
-     * 0 is best (20 iterations instead of 23 or more in step-nmm-2), without
-     * it 2 (27 instead of 31).
+     * From @p u to the equilibrium at the load factor of @p step, with the iterations into
+     * @p step. @p change: how @p u was extrapolated, or null. Returns why there is none; empty:
+     * it was found.
      */
-    unsigned int extrapolation_degree = 0;
+    virtual std::string
+    find(LoadStep &step, Vector &u, const Vector *change) = 0;
 
-    /// @p n equal steps up to @p last.
-    static LoadSteps
-    equal(unsigned int n, double last = 1.);
+    /// The equilibrium at @p u is accepted.
+    virtual void
+    accept(const Vector & /*u*/)
+    {
+    }
 
-    /// @throws InputError naming the value.
-    void
-    check() const;
-  };
+    /// The equilibrium that was found, or was not, is given up.
+    virtual void
+    reject()
+    {
+    }
 
-
-  /// A load step that converged.
-  struct LoadStep
-  {
-    double load_factor = 0.;
-    /// Was an answer wanted here? Else it was put in between.
-    bool         is_asked = false;
-    NewtonReport newton;
-    /// Steps tried and given up before this one, and their iterations.
-    unsigned int n_cuts = 0, n_lost_iterations = 0;
+    /// What the user can do if there is no equilibrium.
+    virtual std::string
+    remedy() const = 0;
   };
 
 
   /**
-   * Static equilibrium of a FiniteElasticity under growing load. Each step tries
-   * the next load factor that is asked for; where Newton's method
-   * fails, the step is halved, and after a success it is doubled again, up to
-   * the next factor asked for.
+   * Static equilibrium under growing load, step by step (take_load_steps()). A solution whose
+   * displacement conditions or ties are missed by a good part of an element
+   * (LoadSteps::max_jump) is none. Between steps, states of the material are accepted and
+   * penalties adapted, see FiniteElasticity::adapt_penalties().
    *
-   * Lifetime: the elasticity must outlive this object.
+   * Lifetime: the arguments must outlive this object.
    */
   class NonlinearStatics
   {
   public:
-    using Vector = FiniteElasticity::Vector;
+    using Vector = NonlinearSystem::Vector;
 
+    /// Of a body in finite kinematics.
     explicit NonlinearStatics(FiniteElasticity       &elasticity,
                               const NewtonParameters &parameters = {});
+
+    /// Of @p elasticity, small or finite.
+    explicit NonlinearStatics(ElasticSystem          &elasticity,
+                              const NewtonParameters &parameters = {});
+
+    /// Of @p elasticity, which @p search knows.
+    NonlinearStatics(ElasticSystem &elasticity, EquilibriumSearch &search);
+    ~NonlinearStatics();
 
     /**
      * From the unloaded state (or the last solution of an earlier call, if
@@ -89,21 +97,13 @@ namespace NMM
     const LoadStep &
     last_attempt() const;
 
+    /// Dissipated by the material in the step accepted last [J/m].
+    double
+    dissipated() const;
+
   private:
-    struct State
-    {
-      double load_factor;
-      Vector solution;
-    };
-
-    /// Where the step to @p load_factor starts.
-    Vector
-    predict(double load_factor, unsigned int degree) const;
-
-    FiniteElasticity  *elasticity;
-    NewtonSolver       newton;
-    std::vector<State> states;
-    LoadStep           current;
+    struct Data;
+    std::unique_ptr<Data> data;
   };
 } // namespace NMM
 

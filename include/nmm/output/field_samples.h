@@ -26,6 +26,8 @@ namespace NMM
       double                        zz = 0.;
     };
     Stress direct, recovered;
+    /// Equivalent plastic strain; 0 where nothing yields [-].
+    double plastic_strain = 0.;
   };
 
   /// sqrt(3/2 s : s) of the three-dimensional deviator s [Pa].
@@ -52,6 +54,10 @@ namespace NMM
                                         const dealii::Point<2>     &xi,
                                         const dealii::Tensor<2, 2> &gradient)>;
 
+    /// A number at reference coordinates xi of an element's cell.
+    using ScalarField =
+      std::function<double(unsigned int element, const dealii::Point<2> &xi)>;
+
     /// With @p law instead of the linear one, if it is given, and with the
     /// velocities of the covers [m/s] as a field @p velocity, if it is given.
     FieldEvaluator(const DisplacementField &field,
@@ -66,6 +72,13 @@ namespace NMM
 
     bool
     has_velocity() const;
+
+    /// From now on samples have the plastic strain @p strain.
+    void
+    set_plastic_strain(ScalarField strain);
+
+    bool
+    has_plastic_strain() const;
 
     /// Blocks that have left are in no output.
     void
@@ -85,6 +98,7 @@ namespace NMM
     std::vector<unsigned int> region_to_material;
     StressLaw                 law;
     const DisplacementField  *velocity;
+    ScalarField               plastic_strain;
     /// By block; empty: none is.
     std::vector<bool> is_hidden;
 
@@ -103,7 +117,8 @@ namespace NMM
     std::vector<QuadraticTriangle>          nodes;
     std::vector<unsigned int>               elements;
     std::vector<std::array<FieldSample, 6>> samples;
-    bool                                    has_velocity = false;
+    bool                                    has_velocity       = false;
+    bool                                    has_plastic_strain = false;
 
     /// Without a solution (@p evaluator null) all samples are zero.
     FieldTriangles(const CoverSystem &covers, const FieldEvaluator *evaluator);

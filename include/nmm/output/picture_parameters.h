@@ -25,6 +25,7 @@ namespace NMM
     velocity,
     velocity_x,
     velocity_y,
+    plastic_strain,
     block,
     material
   };

@@ -168,7 +168,7 @@ namespace NMM
     list_entries(internal::Entries &entries);
     /// @throws InputError for a value that is not used.
     void
-    check(Kinematics kinematics, Analysis analysis, bool has_contact) const;
+    check(Kinematics kinematics, Analysis analysis, bool is_nonlinear) const;
 
     LoadSteps
     load_steps() const;
@@ -184,7 +184,7 @@ namespace NMM
     list_entries(internal::Entries &entries);
     /// @throws InputError for a value that is not used.
     void
-    check(Kinematics kinematics, Analysis analysis, bool has_contact) const;
+    check(Kinematics kinematics, Analysis analysis, bool is_nonlinear) const;
   };
 
 
@@ -301,6 +301,14 @@ namespace NMM
     void
     check() const;
 
+    bool
+    has_inelastic_material() const;
+
+    /// Whether small displacements make no linear problem: with contact, or a material that
+    /// yields.
+    bool
+    is_nonlinear() const;
+
   private:
     void
     list_entries(internal::Entries &entries, const SceneNames &names);
@@ -314,6 +322,8 @@ namespace NMM
     check_analysis() const;
     void
     check_safety_factor() const;
+    void
+    check_safety_output() const;
     void
     check_output_quantities() const;
     void

@@ -1,5 +1,6 @@
 // The cantilever of the paper's Fig. 10, as in step-nmm-2.
 
+#include <nmm/materials/material_law.h>
 #include <nmm/mechanics/incremental_elasticity.h>
 
 #include "staged_model.h"
@@ -53,7 +54,7 @@ namespace NMM
         problem.materials           = {material("beam",
                                       parameters.youngs_modulus,
                                       parameters.poissons_ratio)};
-        problem.materials[0].law    = MaterialLaw::st_venant_kirchhoff;
+        problem.materials[0].law    = material_law("St. Venant-Kirchhoff");
         problem.boundary_conditions = {condition(Type::displacement, "left")};
         const double half           = 0.5 * parameters.force();
         for (const std::string side : {"top", "bottom"})

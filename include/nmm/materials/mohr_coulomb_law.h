@@ -1,0 +1,93 @@
+#ifndef nmm_materials_mohr_coulomb_law_h
+#define nmm_materials_mohr_coulomb_law_h
+
+#include <nmm/materials/material_law.h>
+
+#include <deal.II/base/tensor.h>
+
+namespace NMM
+{
+  /**
+   * Elastic, perfectly plastic rock and soil in plane strain: Mohr-Coulomb's condition with a
+   * tension cut-off. With principal stresses @f$\sigma_1\ge\sigma_2\ge\sigma_3@f$ (tension
+   * positive),
+   * @f[ N\sigma_1-\sigma_3\le 2c\sqrt N,\quad N=\frac{1+\sin\phi}{1-\sin\phi};\qquad
+   *     \sigma_1\le\sigma_t. @f]
+   * Plastic strain flows along the gradients of the same functions, but with the dilation angle
+   * psi in place of phi (not associated unless psi = phi); where several conditions hold with
+   * equality, along a sum of their gradients with multipliers that are not negative (Koiter).
+   *
+   * The stress at the end of a step is found by the fully implicit rule
+   * @f[ \sigma = \sigma^\mathrm{trial} - C\,\Delta\varepsilon^p @f]
+   * in closed form: in principal stresses all conditions are planes, so that the sets of active
+   * planes are tried, one, two and three at a time (planes, edges and apexes; Clausen, Damkilde &
+   * Andersen, Int. J. Numer. Meth. Eng. 66 (2006) 1738). The tangent is the derivative of that
+   * rule, including how principal directions turn.
+   *
+   * A cut-off above the apex c / tan(phi) has no effect.
+   */
+  class MohrCoulombLaw : public MaterialLaw
+  {
+  public:
+    std::unique_ptr<MaterialLaw>
+    clone() const override
+    {
+      return std::make_unique<MohrCoulombLaw>(*this);
+    }
+
+    std::vector<Parameter>
+    parameters() override;
+
+    /// @throws InputError in plane stress as well, for which there is no return here.
+    void
+    check(const std::string &where, PlaneState plane_state) const override;
+
+    bool
+    is_inelastic() const override
+    {
+      return true;
+    }
+
+    std::shared_ptr<const InelasticLaw>
+    inelastic_law(const Material &material,
+                  PlaneState      plane_state) const override;
+
+    /// tan phi, c, sigma_t and tan psi are divided by the factor.
+    void
+    reduce_strength(double factor) override;
+
+    /// tan phi [-].
+    double friction = 0.;
+    /// c [Pa].
+    double cohesion = 0.;
+    /// sigma_t [Pa].
+    double tensile_strength = 1e20;
+    /// tan psi [-].
+    double dilation = 0.;
+  };
+
+
+  namespace internal
+  {
+    /**
+     * The implicit return in principal stresses, sorted @f$\sigma_1\ge\sigma_2\ge\sigma_3@f$.
+     * Separate from the law because it is where mistakes are made and tested.
+     */
+    struct PrincipalReturn
+    {
+      dealii::Tensor<1, 3> stress;
+      /// Delta epsilon^p [-].
+      dealii::Tensor<1, 3> plastic_strain;
+      /// d sigma / d epsilon, C where the trial stress is admissible [Pa].
+      dealii::Tensor<2, 3> tangent;
+      bool                 is_elastic = true;
+    };
+
+    PrincipalReturn
+    return_to_mohr_coulomb(const MohrCoulombLaw       &law,
+                           const PlaneElasticity      &elasticity,
+                           const dealii::Tensor<1, 3> &trial);
+  } // namespace internal
+} // namespace NMM
+
+#endif

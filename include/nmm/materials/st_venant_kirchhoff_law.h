@@ -1,0 +1,48 @@
+#ifndef nmm_materials_st_venant_kirchhoff_law_h
+#define nmm_materials_st_venant_kirchhoff_law_h
+
+#include <nmm/materials/material_law.h>
+
+namespace NMM
+{
+  /**
+   * Stress that is linear in strain. In `finite` kinematics this is St. Venant-Kirchhoff's law,
+   * @f[ W = \lambda/2\,(\mathrm{tr} E)^2 + \mu\,E:E, \qquad E = (F^TF - I)/2, @f]
+   * with the plane lambda of PlaneElasticity, which is the condition S_33 = 0 of plane stress in
+   * closed form. It is defined for all F, and for large rotations with moderate strains: it
+   * gives way under strong compression.
+   */
+  class LinearLaw : public MaterialLaw
+  {
+  public:
+    std::unique_ptr<MaterialLaw>
+    clone() const override
+    {
+      return std::make_unique<LinearLaw>(*this);
+    }
+
+    std::shared_ptr<const HyperelasticLaw>
+    hyperelastic_law(const Material &material,
+                     PlaneState      plane_state) const override;
+  };
+
+
+  /// LinearLaw for those who want to say that they mean large rotations.
+  class StVenantKirchhoffLaw : public LinearLaw
+  {
+  public:
+    std::unique_ptr<MaterialLaw>
+    clone() const override
+    {
+      return std::make_unique<StVenantKirchhoffLaw>(*this);
+    }
+
+    bool
+    has_small_strains() const override
+    {
+      return false;
+    }
+  };
+} // namespace NMM
+
+#endif

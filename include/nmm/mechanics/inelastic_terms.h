@@ -1,0 +1,129 @@
+#ifndef nmm_mechanics_inelastic_terms_h
+#define nmm_mechanics_inelastic_terms_h
+
+#include <nmm/materials/inelastic_law.h>
+#include <nmm/mechanics/finite_elasticity.h>
+
+#include <memory>
+#include <vector>
+
+namespace NMM
+{
+  /**
+   * What inelastic materials add to the linear equations of small displacements. In these
+   * regions the equations K u - f know Hooke's law without initial stress only; this adds, for
+   * the stress sigma of InelasticLaw,
+   * @f[ r(v) = \int_\Omega (\sigma - C\varepsilon(u)):\varepsilon(v)
+   *     - \int_\Gamma \{(\sigma - C\varepsilon(u))N\}\cdot Bv, \qquad
+   *     K = \frac{dr}{du}, @f]
+   * so that the traction of Nitsche's terms at displacement conditions and ties is that of the
+   * same law; the term that makes them symmetric keeps Hooke's law. K is not symmetric in
+   * general. Elements that have never yielded and have no initial stress add nothing.
+   *
+   * The material's states are those of the step accepted last; assembling changes nothing. Order
+   * of calls in a step: begin_step(), assemble() as often as needed, accept_step().
+   *
+   * Cost: one evaluation of the law per quadrature point, and three sweeps over the matrix where
+   * something yields. Memory: two states (80 bytes) per point of inelastic regions.
+   *
+   * Lifetime: the elasticity must outlive this object.
+   */
+  class InelasticTerms
+  {
+  public:
+    using Vector = FiniteElasticity::Vector;
+    using Matrix = dealii::TrilinosWrappers::SparseMatrix;
+
+    explicit InelasticTerms(const FiniteElasticity &elasticity);
+    ~InelasticTerms();
+
+    /// Whether there is no inelastic region on any rank; then the other functions must not be
+    /// called.
+    bool
+    is_empty() const;
+
+    /// A step is tried that begins at the displacements @p u that were accepted last.
+    void
+    begin_step(const Vector &u);
+
+    /// r of the last begin_step(), with the states accepted then [N/m].
+    const Vector &
+    residual_at_begin() const;
+
+    /// r at @p u (locally relevant, [m]) and, if @p with_tangent, K. Collective.
+    void
+    assemble(const Vector &u, bool with_tangent);
+
+    /// r of the last assembly [N/m]; owned unknowns, 0 for constrained ones.
+    const Vector &
+    residual() const;
+
+    /// The sum of @p elastic_stiffness and K of the last assembly with tangent.
+    const Matrix &
+    add_to(const Matrix &elastic_stiffness);
+
+    /// Of the last assembly, of all ranks: InelasticLaw::Response::energy less the energy of
+    /// Hooke's law without initial stress [J/m].
+    double
+    energy() const;
+
+    /// Of the last assembly: quadrature points in the volume that yield, of all ranks.
+    unsigned int
+    n_yielding() const;
+
+    /// Of the last assembly, of all ranks: sigma : Delta epsilon^p since the last accepted state,
+    /// sigma being that at the end of the step, as the law has it; never negative [J/m].
+    double
+    dissipated() const;
+
+    /// Of the last assembly: area with plastic strain, of all ranks [m^2].
+    double
+    yielded_area() const;
+
+    /// Root of the sum over elements of the squares of r, of the last assembly [N/m].
+    double
+    force_scale() const;
+
+    /**
+     * The step to @p u is accepted, with the states there. Returns what closes the account of a
+     * step with the mean of the forces at both ends: the work of (r_0 + r_1) / 2 less the change
+     * of energy() [J/m], the same as dissipated() to first order in the step.
+     */
+    double
+    accept_step(const Vector &u);
+
+    /// Accepted states of all ranks, and back again; on any number of ranks.
+    std::vector<char>
+    internal_state() const;
+
+    void
+    restore_internal_state(const std::vector<char> &state);
+
+    /// As in the undeformed state; for another search from the beginning.
+    void
+    forget_states();
+
+    /// Laws anew, those of @p materials in the order of ElasticityProblem::materials; elastic
+    /// constants and initial stress must be the same. For a search for the factor of safety.
+    void
+    set_materials(const std::vector<Material> &materials);
+
+    /// Stress of the last assembly at an element's quadrature points, in the plane and across
+    /// it [Pa], and the equivalent plastic strain [-]. Empty where the material is elastic.
+    struct PointValues
+    {
+      dealii::SymmetricTensor<2, 2> stress;
+      double                        stress_zz                 = 0.;
+      double                        equivalent_plastic_strain = 0.;
+    };
+
+    std::vector<PointValues>
+    values(unsigned int element) const;
+
+  private:
+    struct Data;
+    std::unique_ptr<Data> data;
+  };
+} // namespace NMM
+
+#endif

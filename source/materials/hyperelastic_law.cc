@@ -1,0 +1,71 @@
+#include <nmm/materials/hyperelastic_law.h>
+
+#include <algorithm>
+
+namespace NMM
+{
+  using dealii::SymmetricTensor;
+  using dealii::Tensor;
+
+  HyperelasticLaw::HyperelasticLaw(const Material  &material,
+                                   const PlaneState plane_state)
+    : plane_state(plane_state)
+    , elasticity(material.plane_elasticity(plane_state))
+    , poissons_ratio(material.poissons_ratio)
+    , initial_stress(material.initial_stress)
+  {
+  }
+
+
+  Deformation
+  HyperelasticLaw::tangent_derivative(const Tensor<2, 2> &F,
+                                      const Tensor<2, 2> &G,
+                                      double (&derivative)[4][4]) const
+  {
+    const double norm = G.norm();
+    if (!(norm > 0.))
+    {
+      for (auto &row : derivative)
+        std::fill_n(row, 4, 0.);
+      return Deformation::admissible;
+    }
+    // truncation step^2 against rounding 1e-16 / step
+    const double step = 1e-4 / norm;
+    Response     plus, minus;
+    if (evaluate(F + step * G, plus) != Deformation::admissible ||
+        evaluate(F - step * G, minus) != Deformation::admissible)
+      return Deformation::inverted;
+    for (unsigned int a = 0; a < 4; ++a)
+      for (unsigned int b = 0; b < 4; ++b)
+        derivative[a][b] =
+          (plus.tangent[a][b] - minus.tangent[a][b]) / (2. * step);
+    return Deformation::admissible;
+  }
+
+
+  Deformation
+  HyperelasticLaw::out_of_plane_stretch(const Tensor<2, 2> &F,
+                                        double             &stretch) const
+  {
+    stretch = 1.;
+    return plane_state == PlaneState::plane_strain
+             ? Deformation::admissible
+             : plane_stress_stretch(F, stretch);
+  }
+
+
+  Deformation
+  HyperelasticLaw::cauchy_stress(const Tensor<2, 2>    &F,
+                                 SymmetricTensor<2, 2> &stress) const
+  {
+    Response     response;
+    double       s;
+    const double j = dealii::determinant(F);
+    if (!(j > 0.) || out_of_plane_stretch(F, s) != Deformation::admissible ||
+        evaluate_stress(F, response) != Deformation::admissible)
+      return Deformation::inverted;
+    stress =
+      dealii::symmetrize(response.stress * dealii::transpose(F)) / (s * j);
+    return Deformation::admissible;
+  }
+} // namespace NMM

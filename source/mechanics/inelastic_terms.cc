@@ -1,0 +1,580 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/mechanics/inelastic_terms.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <boost/archive/binary_iarchive.hpp>
+#include <boost/archive/binary_oarchive.hpp>
+#include <boost/serialization/vector.hpp>
+#include <cmath>
+#include <mechanics/finite_elasticity_data.h>
+#include <mechanics/nodal_values.h>
+#include <sstream>
+
+namespace NMM
+{
+  using namespace internal;
+  namespace Parallel = dealii::Utilities::MPI;
+
+  struct InelasticTerms::Data
+  {
+    using Law  = std::shared_ptr<const InelasticLaw>;
+    using Site = EdgeTables::Site;
+
+    /// A side of a weak point, or a quadrature point: the law and the stress beyond Hooke's.
+    struct Excess
+    {
+      dealii::SymmetricTensor<2, 2> stress;
+      double                        tangent[4][4];
+      bool                          has_tangent;
+    };
+
+    /// An element with what is evaluated in it, in the order of its states.
+    struct Element
+    {
+      unsigned int              element;
+      bool                      is_inelastic;
+      std::vector<const Site *> sites;
+      /// Of the element's quadrature points, then of the sides of its weak points.
+      std::size_t first_state;
+    };
+
+    explicit Data(const FiniteElasticity::Data &elasticity);
+
+    void
+    set_laws(const std::vector<Material> &materials);
+
+    void
+    number_states();
+
+    bool
+    is_inelastic(const unsigned int region) const
+    {
+      return region_to_law[region] != nullptr;
+    }
+
+    /// The law at a point, whose state is @p state; and Hooke's energy is taken off.
+    void
+    evaluate(unsigned int                region,
+             const dealii::Tensor<2, 2> &F,
+             std::size_t                 state,
+             bool                        with_tangent,
+             Excess                     &excess,
+             InelasticLaw::Response     &response);
+
+    void
+    add_volume(const Element &item, bool with_tangent, LocalSystem &local);
+
+    /// False if nothing was added.
+    bool
+    add_weak_points(const Element &item,
+                    const Site    &site,
+                    std::size_t   &state,
+                    bool           with_tangent,
+                    LocalSystem   &local);
+
+    const FiniteElasticity::Data *elastic;
+    std::vector<Law>              region_to_law;
+    std::vector<PlaneElasticity>  region_to_elasticity;
+    std::vector<Element>          elements;
+    std::vector<MaterialState>    accepted, current;
+    /// Of quadrature points in the volume, of the last assembly, in the place of their state.
+    std::vector<PointValues> point_values;
+    bool                     is_empty = true;
+
+    CoverMatrixAssembler assembler;
+    std::vector<double>  nodal;
+    Matrix               matrix, sum;
+    Vector               residual;
+    double energy = 0., force_scale = 0., yielded_area = 0., dissipated = 0.;
+    unsigned int n_yielding = 0;
+    /// Of the last begin_step().
+    Vector residual_at_begin, begin;
+    double energy_at_begin = 0.;
+  };
+
+
+  InelasticTerms::Data::Data(const FiniteElasticity::Data &elasticity)
+    : elastic(&elasticity)
+    , assembler(*elasticity.covers, *elasticity.constraints)
+  {
+    set_laws(elasticity.problem->materials);
+    for (const Law &law : region_to_law)
+      is_empty = is_empty && law == nullptr;
+    if (is_empty)
+      return;
+    number_states();
+
+    std::vector<unsigned int> both;
+    for (const Element &item : elements)
+      for (const Site *site : item.sites)
+        if (site->neighbor != invalid_index)
+        {
+          both.clear();
+          for (const unsigned int e : {site->element, site->neighbor})
+            both.insert(both.end(),
+                        elastic->covers->covers(e).begin(),
+                        elastic->covers->covers(e).end());
+          assembler.couple({both.data(), both.size()});
+        }
+    assembler.ignore_inhomogeneities();
+    assembler.leave_empty_rows();
+    assembler.assemble_in_place();
+    assembler.build();
+  }
+
+
+  void
+  InelasticTerms::Data::set_laws(const std::vector<Material> &materials)
+  {
+    const ElasticityProblem &problem = *elastic->problem;
+    region_to_law.clear();
+    region_to_elasticity.clear();
+    for (const unsigned int m : problem.region_to_material(
+           elastic->covers->manifold_mesh().physical_mesh()))
+    {
+      region_to_law.push_back(materials[m].inelastic_law(problem.plane_state));
+      region_to_elasticity.push_back(
+        materials[m].plane_elasticity(problem.plane_state));
+    }
+  }
+
+
+  /// Elements ascending, so that the states of all ranks one after the other are the same for
+  /// any number of ranks.
+  void
+  InelasticTerms::Data::number_states()
+  {
+    const ManifoldMesh &mesh      = elastic->covers->manifold_mesh();
+    const EdgeTables   &edges     = *elastic->edges;
+    auto                condition = edges.conditions.begin();
+    auto                tie       = edges.ties.begin();
+    const auto [first, last]      = elastic->covers->locally_owned_elements();
+    for (unsigned int e = first; e < last; ++e)
+    {
+      Element    item{e, is_inelastic(mesh.region(e)), {}, accepted.size()};
+      const auto add_sites = [&](auto &site, const auto &end) {
+        for (; site != end && site->element <= e; ++site)
+          if (site->element == e &&
+              (item.is_inelastic ||
+               (site->neighbor != invalid_index &&
+                is_inelastic(mesh.region(site->neighbor)))))
+            item.sites.push_back(&*site);
+      };
+      add_sites(condition, edges.conditions.end());
+      add_sites(tie, edges.ties.end());
+      std::size_t n = item.is_inelastic ? elastic->tables(e).n_points : 0;
+      for (const Site *site : item.sites)
+        for (unsigned int q = site->first_point; q < site->last_point; ++q)
+          n += edges.weak_points[q].n_sides;
+      accepted.resize(accepted.size() + n);
+      if (n > 0)
+        elements.push_back(item);
+    }
+    current = accepted;
+    point_values.resize(accepted.size());
+  }
+
+
+  void
+  InelasticTerms::Data::evaluate(const unsigned int          region,
+                                 const dealii::Tensor<2, 2> &F,
+                                 const std::size_t           state,
+                                 const bool                  with_tangent,
+                                 Excess                     &excess,
+                                 InelasticLaw::Response     &response)
+  {
+    dealii::SymmetricTensor<2, 2> strain = dealii::symmetrize(F);
+    strain[0][0] -= 1.;
+    strain[1][1] -= 1.;
+    region_to_law[region]->evaluate(strain, accepted[state], response);
+    current[state] = response.state;
+
+    const PlaneElasticity        &c     = region_to_elasticity[region];
+    const double                  trace = c.lambda * dealii::trace(strain);
+    dealii::SymmetricTensor<2, 2> hooke = 2. * c.mu * strain;
+    hooke[0][0] += trace;
+    hooke[1][1] += trace;
+    excess.stress = response.stress - hooke;
+    response.energy -= 0.5 * (hooke * strain);
+    excess.has_tangent = with_tangent && !response.is_elastic;
+    if (!excess.has_tangent)
+      return;
+    for (unsigned int ij = 0; ij < 4; ++ij)
+      for (unsigned int kl = 0; kl < 4; ++kl)
+      {
+        const unsigned int i = ij / 2, j = ij % 2, k = kl / 2, l = kl % 2;
+        excess.tangent[ij][kl] =
+          response.tangent[ij][kl] - (i == j && k == l ? c.lambda : 0.) -
+          c.mu * ((i == k && j == l ? 1. : 0.) + (i == l && j == k ? 1. : 0.));
+      }
+  }
+
+
+  void
+  InelasticTerms::Data::add_volume(const Element &item,
+                                   const bool     with_tangent,
+                                   LocalSystem   &local)
+  {
+    const CoverSystem &covers = *elastic->covers;
+    const unsigned int n      = elastic->n_per_cell;
+    const unsigned int region = covers.manifold_mesh().region(item.element);
+    const ElementTables::View table = elastic->tables(item.element);
+    LocalDisplacement         u;
+    u.gather(covers.covers(item.element), nodal);
+    Excess                 excess;
+    InelasticLaw::Response response;
+    for (unsigned int q = 0; q < table.n_points; ++q)
+    {
+      const double(*g)[2]      = table.gradients + q * n;
+      const double      weight = table.weights[q];
+      const std::size_t state  = item.first_state + q;
+      evaluate(region,
+               deformation_gradient(n, u.values, g),
+               state,
+               with_tangent,
+               excess,
+               response);
+      energy += weight * response.energy;
+      dissipated += weight * response.dissipated;
+      n_yielding += !response.is_elastic;
+      if (response.state.equivalent_plastic_strain > 0.)
+        yielded_area += weight;
+      point_values[state] = {response.stress,
+                             response.stress_zz,
+                             response.state.equivalent_plastic_strain};
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int c = 0; c < 2; ++c)
+          local.rhs[2 * i + c] += weight * (excess.stress[c][0] * g[i][0] +
+                                            excess.stress[c][1] * g[i][1]);
+      if (!excess.has_tangent)
+        continue;
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int c = 0; c < 2; ++c)
+        {
+          double *row = local.row(i, c);
+          double  M[4];
+          for (unsigned int b = 0; b < 4; ++b)
+            M[b] = weight * (g[i][0] * excess.tangent[2 * c][b] +
+                             g[i][1] * excess.tangent[2 * c + 1][b]);
+          for (unsigned int j = 0; j < n; ++j)
+          {
+            row[2 * j] += M[0] * g[j][0] + M[1] * g[j][1];
+            row[2 * j + 1] += M[2] * g[j][0] + M[3] * g[j][1];
+          }
+        }
+    }
+  }
+
+
+  bool
+  InelasticTerms::Data::add_weak_points(const Element &item,
+                                        const Site    &site,
+                                        std::size_t   &state,
+                                        const bool     with_tangent,
+                                        LocalSystem   &local)
+  {
+    const EdgeTables        &edges    = *elastic->edges;
+    const unsigned int       n        = elastic->n_per_cell;
+    const std::vector<bool> &released = elastic->amplitudes.released_conditions;
+    const bool               is_absent =
+      elastic->is_absent(item.element) ||
+      (site.neighbor != invalid_index && elastic->is_absent(site.neighbor));
+    LocalDisplacement u;
+    elastic->gather(site, nodal, u);
+    for (unsigned int q = site.first_point; q < site.last_point; ++q)
+    {
+      const EdgeTables::WeakPoint &point = edges.weak_points[q];
+      if (is_absent || (point.condition != invalid_index && !released.empty() &&
+                        released[point.condition]))
+      {
+        state += point.n_sides;
+        continue;
+      }
+      const dealii::Tensor<1, 2> &N = point.normal;
+      for (unsigned int s = 0; s < point.n_sides; ++s, ++state)
+      {
+        const EdgeTables::Side &side = point.sides[s];
+        if (!is_inelastic(side.region))
+          continue;
+        Excess                 excess;
+        InelasticLaw::Response response;
+        evaluate(side.region,
+                 deformation_gradient(n, u.values + s * n, side.gradients),
+                 state,
+                 with_tangent,
+                 excess,
+                 response);
+        const double               weight = -point.weight * side.share;
+        const dealii::Tensor<1, 2> force =
+          weight * (point.projection * (excess.stress * N));
+        for (unsigned int k = 0; k < local.n_covers; ++k)
+          for (unsigned int c = 0; c < 2; ++c)
+            local.rhs[2 * k + c] += point.jump[k] * force[c];
+        if (!excess.has_tangent)
+          continue;
+        // the force by unknown e of cover j of this side
+        for (unsigned int j = 0; j < n; ++j)
+          for (unsigned int e = 0; e < 2; ++e)
+          {
+            dealii::Tensor<1, 2> traction;
+            for (unsigned int a = 0; a < 2; ++a)
+              for (unsigned int J = 0; J < 2; ++J)
+                for (unsigned int L = 0; L < 2; ++L)
+                  traction[a] += excess.tangent[2 * a + J][2 * e + L] * N[J] *
+                                 side.gradients[j][L];
+            const dealii::Tensor<1, 2> derivative =
+              weight * (point.projection * traction);
+            for (unsigned int k = 0; k < local.n_covers; ++k)
+              for (unsigned int c = 0; c < 2; ++c)
+                local.row(k, c)[2 * (s * n + j) + e] +=
+                  point.jump[k] * derivative[c];
+          }
+      }
+    }
+    return !is_absent;
+  }
+
+
+  InelasticTerms::InelasticTerms(const FiniteElasticity &elasticity)
+    : data(std::make_unique<Data>(*elasticity.data))
+  {
+  }
+
+
+  InelasticTerms::~InelasticTerms() = default;
+
+
+  bool
+  InelasticTerms::is_empty() const
+  {
+    return data->is_empty;
+  }
+
+
+  void
+  InelasticTerms::assemble(const Vector &u, const bool with_tangent)
+  {
+    Data              &d      = *data;
+    const CoverSystem &covers = *d.elastic->covers;
+    read_nodal_values(covers, u, d.nodal);
+    d.assembler.reset(with_tangent);
+    d.energy = d.force_scale = d.yielded_area = d.dissipated = 0.;
+    d.n_yielding                                             = 0;
+    const auto hand_over = [&](dealii::ArrayView<const unsigned int> to,
+                               const LocalSystem                    &local) {
+      for (unsigned int i = 0; i < 2 * local.n_covers; ++i)
+        d.force_scale += local.rhs[i] * local.rhs[i];
+      if (with_tangent)
+        d.assembler.add(to, local.matrix, local.rhs);
+      else
+        d.assembler.add_rhs(to, local.rhs);
+    };
+    LocalSystem               local;
+    std::vector<unsigned int> both;
+    for (const Data::Element &item : d.elements)
+    {
+      std::size_t state = item.first_state;
+      if (item.is_inelastic)
+      {
+        if (!d.elastic->is_absent(item.element))
+        {
+          local.reset(d.elastic->n_per_cell);
+          d.add_volume(item, with_tangent, local);
+          hand_over(covers.covers(item.element), local);
+        }
+        state += d.elastic->tables(item.element).n_points;
+      }
+      for (const EdgeTables::Site *site : item.sites)
+      {
+        both.assign(covers.covers(item.element).begin(),
+                    covers.covers(item.element).end());
+        if (site->neighbor != invalid_index)
+          both.insert(both.end(),
+                      covers.covers(site->neighbor).begin(),
+                      covers.covers(site->neighbor).end());
+        local.reset(both.size());
+        if (d.add_weak_points(item, *site, state, with_tangent, local))
+          hand_over({both.data(), both.size()}, local);
+      }
+    }
+    d.energy = Parallel::sum(d.energy, covers.communicator());
+    d.force_scale =
+      std::sqrt(Parallel::sum(d.force_scale, covers.communicator()));
+    d.dissipated   = Parallel::sum(d.dissipated, covers.communicator());
+    d.yielded_area = Parallel::sum(d.yielded_area, covers.communicator());
+    d.n_yielding   = Parallel::sum(d.n_yielding, covers.communicator());
+    if (with_tangent)
+      d.assembler.transfer(d.matrix, d.residual);
+    else
+      d.assembler.transfer_rhs(d.residual);
+  }
+
+
+  const InelasticTerms::Vector &
+  InelasticTerms::residual() const
+  {
+    return data->residual;
+  }
+
+
+  const InelasticTerms::Matrix &
+  InelasticTerms::add_to(const Matrix &elastic_stiffness)
+  {
+    Data &d = *data;
+    if (d.n_yielding == 0)
+      return elastic_stiffness;
+    d.sum.copy_from(elastic_stiffness);
+    d.sum.add(1., d.matrix);
+    return d.sum;
+  }
+
+
+  double
+  InelasticTerms::energy() const
+  {
+    return data->energy;
+  }
+
+
+  unsigned int
+  InelasticTerms::n_yielding() const
+  {
+    return data->n_yielding;
+  }
+
+
+  void
+  InelasticTerms::begin_step(const Vector &u)
+  {
+    assemble(u, /* with_tangent = */ false);
+    Data &d             = *data;
+    d.residual_at_begin = d.residual;
+    d.energy_at_begin   = d.energy;
+    d.begin             = u;
+  }
+
+
+  const InelasticTerms::Vector &
+  InelasticTerms::residual_at_begin() const
+  {
+    return data->residual_at_begin;
+  }
+
+
+  double
+  InelasticTerms::force_scale() const
+  {
+    return data->force_scale;
+  }
+
+
+  double
+  InelasticTerms::accept_step(const Vector &u)
+  {
+    Data &d = *data;
+    assemble(u, /* with_tangent = */ false);
+    d.accepted = d.current;
+    Vector motion(d.residual), force(d.residual);
+    force.sadd(0.5, 0.5, d.residual_at_begin);
+    motion      = u;
+    double work = force * motion;
+    motion      = d.begin;
+    work -= force * motion;
+    return work - (d.energy - d.energy_at_begin);
+  }
+
+
+  double
+  InelasticTerms::dissipated() const
+  {
+    return data->dissipated;
+  }
+
+
+  double
+  InelasticTerms::yielded_area() const
+  {
+    return data->yielded_area;
+  }
+
+
+  void
+  InelasticTerms::forget_states()
+  {
+    std::fill(data->accepted.begin(), data->accepted.end(), MaterialState());
+    data->current = data->accepted;
+  }
+
+
+  void
+  InelasticTerms::set_materials(const std::vector<Material> &materials)
+  {
+    data->set_laws(materials);
+  }
+
+
+  std::vector<char>
+  InelasticTerms::internal_state() const
+  {
+    std::vector<MaterialState> all;
+    for (const std::vector<MaterialState> &part :
+         Parallel::all_gather(data->elastic->covers->communicator(),
+                              data->accepted))
+      all.insert(all.end(), part.begin(), part.end());
+    std::ostringstream out;
+    {
+      boost::archive::binary_oarchive archive(out);
+      archive << all;
+    }
+    const std::string text = out.str();
+    return {text.begin(), text.end()};
+  }
+
+
+  void
+  InelasticTerms::restore_internal_state(const std::vector<char> &state)
+  {
+    std::vector<MaterialState> all;
+    std::istringstream         in(std::string(state.begin(), state.end()));
+    {
+      boost::archive::binary_iarchive archive(in);
+      archive >> all;
+    }
+    Data             &d     = *data;
+    const MPI_Comm    ranks = d.elastic->covers->communicator();
+    const std::size_t total = Parallel::sum(d.accepted.size(), ranks);
+    AssertThrow(all.size() == total,
+                InputError("it has states of " + std::to_string(all.size()) +
+                             " points of inelastic materials, the scene " +
+                             std::to_string(total),
+                           "the checkpoint",
+                           "continue the scene it was written with"));
+    std::size_t first = 0;
+    const auto  sizes = Parallel::all_gather(ranks, d.accepted.size());
+    for (unsigned int rank = 0; rank < Parallel::this_mpi_process(ranks);
+         ++rank)
+      first += sizes[rank];
+    std::copy_n(all.begin() + first, d.accepted.size(), d.accepted.begin());
+    d.current = d.accepted;
+  }
+
+
+  std::vector<InelasticTerms::PointValues>
+  InelasticTerms::values(const unsigned int element) const
+  {
+    const Data &d  = *data;
+    const auto  it = std::lower_bound(d.elements.begin(),
+                                     d.elements.end(),
+                                     element,
+                                     [](const Data::Element &item,
+                                        const unsigned int   wanted) {
+                                       return item.element < wanted;
+                                     });
+    if (it == d.elements.end() || it->element != element || !it->is_inelastic)
+      return {};
+    const auto first = d.point_values.begin() + it->first_state;
+    return {first, first + d.elastic->tables(element).n_points};
+  }
+} // namespace NMM

@@ -203,6 +203,9 @@ namespace NMM
 
     struct MumpsFactorization::Data
     {
+      /// Memory for the factors beyond what the analysis predicts [%].
+      static constexpr int normal_reserve = 30;
+
       bool is_symmetric;
       /// Null before the analysis; and on all ranks but the first one if that factorizes
       /// alone.
@@ -217,15 +220,42 @@ namespace NMM
       /// Of this rank; and of all ranks, on the first one if that factorizes alone.
       Triplets triplets, all_triplets;
 
-      void
-      run(const int job, const std::string &stage)
+      /// INFOG(1) and (2) of a job.
+      std::array<int, 2>
+      try_to_run(const int job)
       {
         std::array<int, 2> info = {{0, 0}};
         if (mumps)
           info = mumps->run(job);
         if (is_serial)
           info = dealii::Utilities::MPI::broadcast(communicator, info);
-        check(info, stage);
+        return info;
+      }
+
+      void
+      run(const int job, const std::string &stage)
+      {
+        check(try_to_run(job), stage);
+      }
+
+      /// Pivots that had to wait may need more memory than the analysis has predicted: then
+      /// once more with twice the reserve.
+      void
+      run_factorization()
+      {
+        constexpr int      too_little_memory = -9;
+        constexpr int      largest_reserve   = 1000; // [%]
+        const auto         factorization = [this]() { return try_to_run(2); };
+        std::array<int, 2> info          = factorization();
+        for (int reserve = 2 * normal_reserve;
+             info[0] == too_little_memory && reserve <= largest_reserve;
+             reserve *= 2)
+        {
+          if (mumps)
+            mumps->control(14) = reserve;
+          info = factorization();
+        }
+        check(info, "factorization");
       }
 
       void
@@ -280,7 +310,9 @@ namespace NMM
       // for 393,000; 2.8 and 4.0 s for 297,000 unknowns of 290 blocks that are tied to
       // each other. METIS_NodeND takes 3.7 and 3.0 s for the last two.
       constexpr unsigned int n_nested_dissection = 350000;
-      mumps->control(7) = n < n_nested_dissection ? 0 : 4;
+      // Matrices that are not symmetric come from contact with friction, where approximate
+      // minimum fill (2) makes smaller factors: NUMBERS.
+      mumps->control(7) = n >= n_nested_dissection ? 4 : is_symmetric ? 0 : 2;
       // The last front is factorized as the others are: ScaLAPACK has no symmetric
       // indefinite factorization, and does twice the work.
       mumps->control(13) = is_symmetric ? 1 : 0;
@@ -288,7 +320,7 @@ namespace NMM
       // pivots nor a compression for 2 x 2 pivots is needed.
       mumps->control(6)  = 0;
       mumps->control(12) = 1;
-      mumps->control(14) = 30; // memory to spare [%]
+      mumps->control(14) = normal_reserve;
     }
 
 
@@ -362,7 +394,7 @@ namespace NMM
                MPI_DOUBLE,
                d.communicator,
                d.all_triplets.values);
-      d.run(2, "factorization");
+      d.run_factorization();
       return true;
     }
 

@@ -225,6 +225,7 @@ namespace NMM
     u.gather(covers.covers(item.element), nodal);
     Excess                 excess;
     InelasticLaw::Response response;
+    double                 forces[2 * WeightFunctions::max_per_cell] = {};
     for (unsigned int q = 0; q < table.n_points; ++q)
     {
       const double(*g)[2]      = table.gradients + q * n;
@@ -246,8 +247,12 @@ namespace NMM
                              response.state.equivalent_plastic_strain};
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int c = 0; c < 2; ++c)
+        {
           local.rhs[2 * i + c] += weight * (excess.stress[c][0] * g[i][0] +
                                             excess.stress[c][1] * g[i][1]);
+          forces[2 * i + c] += weight * (response.stress[c][0] * g[i][0] +
+                                         response.stress[c][1] * g[i][1]);
+        }
       if (!excess.has_tangent)
         continue;
       for (unsigned int i = 0; i < n; ++i)
@@ -265,6 +270,8 @@ namespace NMM
           }
         }
     }
+    for (unsigned int i = 0; i < 2 * n; ++i)
+      force_scale += forces[i] * forces[i];
   }
 
 
@@ -364,8 +371,6 @@ namespace NMM
     d.n_yielding                                             = 0;
     const auto hand_over = [&](dealii::ArrayView<const unsigned int> to,
                                const LocalSystem                    &local) {
-      for (unsigned int i = 0; i < 2 * local.n_covers; ++i)
-        d.force_scale += local.rhs[i] * local.rhs[i];
       if (with_tangent)
         d.assembler.add(to, local.matrix, local.rhs);
       else

@@ -215,8 +215,9 @@ namespace NMM
       const bool         is_index =
         quantity == Quantity::block || quantity == Quantity::material;
       const std::string unit =
-        is_stress
-          ? parameters.stress_unit
+        is_stress ? parameters.stress_unit
+        : quantity == Quantity::plastic_strain
+          ? "-"
           : parameters.length_unit + (is_velocity(quantity) ? "/s" : "");
       if (is_stress && !parameters.recovered)
         text << "direct ";

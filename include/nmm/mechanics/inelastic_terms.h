@@ -80,7 +80,8 @@ namespace NMM
     double
     yielded_area() const;
 
-    /// Root of the sum over elements of the squares of r, of the last assembly [N/m].
+    /// Root of the sum over inelastic elements of the squares of internal forces, of the last
+    /// assembly. The material's strength bounds it, whatever the displacements [N/m].
     double
     force_scale() const;
 

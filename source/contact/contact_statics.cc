@@ -185,8 +185,14 @@ namespace NMM
       double penetration = 0.;
       for (unsigned int i = 0; i < n; ++i)
       {
-        contact->detect(u);
-        const Vector detected(u);
+        // faces are found where the last step has ended, not where it is thought to go
+        Vector detected(u);
+        if (i == 0 && change != nullptr)
+          detected -= *change;
+        contact->detect(detected);
+        // geometry that is frozen is that of the first assembly
+        if (i == 0 && change != nullptr && !contact->is_idle())
+          contact->assemble(detected, /* with_tangent = */ false);
         step.newton =
           newton.solve(system,
                        elasticity->elasticity().affine_constraints(),

@@ -100,6 +100,23 @@ namespace NMM
   }
 
 
+  StepFault
+  FiniteModel::find_fault(const Vector &)
+  {
+    StepFault fault;
+    if (elasticity->largest_jump() > FiniteElasticity::largest_good_jump)
+    {
+      fault.reason =
+        "displacement conditions or ties that are missed by a "
+        "good part of an element";
+      fault.remedy =
+        "let what is prescribed grow from where the solid is, in "
+        "steps that it can follow";
+    }
+    return fault;
+  }
+
+
   /// Steps that do not conserve have no assembly between.
   double
   FiniteModel::accept_step(const Vector &, const double)

@@ -79,7 +79,20 @@ namespace NMM
     EquilibriumSearch                 *search     = nullptr;
     std::vector<State>                 states;
     LoadStep                           current;
-    double                             dissipated = 0.;
+    double                             dissipated         = 0.;
+    bool                               has_initial_stress = false;
+
+    void
+    initialize(ElasticSystem &system, EquilibriumSearch &used_search)
+    {
+      elasticity = &system;
+      search     = &used_search;
+      states.push_back({0., system.elasticity().initial_solution()});
+      for (const Material &material :
+           system.elasticity().elasticity_problem().materials)
+        has_initial_stress =
+          has_initial_stress || material.initial_stress.norm() > 0.;
+    }
   };
 
 
@@ -87,9 +100,7 @@ namespace NMM
                                      EquilibriumSearch &search)
     : data(std::make_unique<Data>())
   {
-    data->elasticity = &elasticity;
-    data->search     = &search;
-    data->states.push_back({0., elasticity.elasticity().initial_solution()});
+    data->initialize(elasticity, search);
   }
 
 
@@ -98,9 +109,7 @@ namespace NMM
     : data(std::make_unique<Data>())
   {
     data->own_search = std::make_unique<PlainSearch>(elasticity, parameters);
-    data->elasticity = &elasticity;
-    data->search     = data->own_search.get();
-    data->states.push_back({0., elasticity.elasticity().initial_solution()});
+    data->initialize(elasticity, *data->own_search);
   }
 
 
@@ -112,9 +121,7 @@ namespace NMM
       std::make_unique<ElasticSystem>(elasticity, /* is_linearized = */ false);
     data->own_search =
       std::make_unique<PlainSearch>(*data->own_system, parameters);
-    data->elasticity = data->own_system.get();
-    data->search     = data->own_search.get();
-    data->states.push_back({0., elasticity.initial_solution()});
+    data->initialize(*data->own_system, *data->own_search);
   }
 
 
@@ -153,10 +160,12 @@ namespace NMM
                                    LoadStep        &step,
                                    Vector          &u)
   {
-    u = predict(step.load_factor, steps.extrapolation_degree);
+    // a step that was cut goes where the last ones do not point
+    const unsigned int degree =
+      step.n_cuts == 0 ? steps.extrapolation_degree : 0;
+    u = predict(step.load_factor, degree);
     Vector     change(u);
-    const bool is_extrapolated =
-      steps.extrapolation_degree > 0 && states.size() > 1;
+    const bool is_extrapolated = degree > 0 && states.size() > 1;
     if (is_extrapolated)
       change -= states.back().solution;
     elasticity->set_load_factor(step.load_factor);
@@ -205,6 +214,10 @@ namespace NMM
       }
       d.dissipated = d.elasticity->accept_step(u);
       d.search->accept(u);
+      // with initial stress the undeformed state is no equilibrium to extrapolate from
+      if (d.has_initial_stress && d.states.size() == 1 &&
+          d.states.front().load_factor == 0.)
+        d.states.clear();
       d.states.push_back({step.load_factor, u});
       if (d.states.size() > steps.extrapolation_degree + 1)
         d.states.erase(d.states.begin());

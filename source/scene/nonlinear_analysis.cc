@@ -160,7 +160,11 @@ namespace NMM
       };
       try
       {
-        statics.run(parameters.load_steps.load_steps(), after_step);
+        LoadSteps steps = parameters.load_steps.load_steps();
+        // between changes of contact states small displacements are linear in the load
+        if (system->is_linearized())
+          steps.extrapolation_degree = 1;
+        statics.run(steps, after_step);
       }
       catch (const NumericalFailure &error)
       {

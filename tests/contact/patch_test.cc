@@ -265,4 +265,31 @@ namespace
                   << steps.back().contact.largest_penetration << std::endl;
       }
   }
+
+
+  /// Static contact keeps the rule of statics without: a solution whose conditions are missed by
+  /// more than LoadSteps::max_jump is none.
+  TEST(ContactPatch, MissedConditionsAreRefused)
+  {
+    const auto solve = [](const double max_jump) {
+      Case c;
+      c.is_small                          = false;
+      c.n_blocks                          = 2;
+      auto bodies                         = jointed_column(c, 0.);
+      bodies->problem.boundary_conditions = {
+        condition(BoundaryCondition::Type::displacement, "bottom"),
+        condition(BoundaryCondition::Type::displacement,
+                  "top",
+                  vector_function([](auto &) {
+                    return Tensor<1, 2>({0., -0.02});
+                  }))};
+      bodies->start(parameters_of(c, *bodies), c.is_small);
+      LoadSteps steps;
+      steps.max_jump = max_jump;
+      steps.min_step = 0.5;
+      return bodies->statics->run(steps).size();
+    };
+    EXPECT_EQ(solve(0.5), 1u);
+    EXPECT_THROW(solve(1e-12), NumericalFailure);
+  }
 } // namespace

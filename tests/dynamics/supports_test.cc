@@ -300,4 +300,25 @@ namespace
           EXPECT_LT(product.l2_norm(), 1e-8 * norm);
         }
   }
+
+
+  /// A support that is elsewhere at once is no solution of the step: the potential of Nitsche's
+  /// method is not bounded from below, and the jump says so.
+  TEST(Supports, JumpsOfSupportsAreRefused)
+  {
+    Body body = square(material_law("St. Venant-Kirchhoff"),
+                       PlaneState::plane_strain,
+                       /* with_joint = */ false,
+                       MPI_COMM_SELF);
+    body.model->problem.boundary_conditions = {
+      condition(Type::displacement, "left", vector_function([](auto &) {
+                  return Tensor<1, 2>({0.3, 0.});
+                }))};
+    body.make_finite();
+    TimeIntegrator   integrator(*body.mechanics, TimeScheme::energy_momentum());
+    const StepReport report = integrator.try_step(1e-4);
+    EXPECT_FALSE(report.converged);
+    EXPECT_NE(report.reason.find("are missed"), std::string::npos)
+      << report.reason;
+  }
 } // namespace

@@ -172,6 +172,11 @@ namespace NMM
     Energies
     energies() const override;
 
+    /// Displacement conditions and ties may not be missed by a good part of an element, see
+    /// FiniteElasticity::largest_jump().
+    StepFault
+    find_fault(const Vector &end) override;
+
     double
     accept_step(const Vector &end, double t) override;
 

@@ -202,10 +202,12 @@ namespace NMM
      * At a solution it is of the order of the discretization error, 0.1 at
      * singular corners of coarse meshes. The potential of Nitsche's
      * method is not bounded from below, and a stationary point with large
-     * jumps is none of the problem.
+     * jumps is none of the problem: one above @c largest_good_jump.
      */
     double
     largest_jump() const;
+
+    static constexpr double largest_good_jump = 0.5;
 
     /// A vector of locally relevant unknowns, zero but for inhomogeneities of
     /// the constraints.

@@ -323,6 +323,12 @@ namespace NMM
             to_string(quantity),
           std::string("parameter 'Output/") + key + "'",
           "choose another quantity, or set 'Model/Analysis = dynamic'"));
+      AssertThrow(has_inelastic_material() ||
+                    quantity != Quantity::plastic_strain,
+                  InputError("no material of the scene yields",
+                             std::string("parameter 'Output/") + key + "'",
+                             "choose another quantity, or a material's 'Law = "
+                             "Mohr-Coulomb'"));
     };
     check(output.quantity, "Picture quantity");
     for (const Quantity quantity : output.animation_quantities)

@@ -75,7 +75,8 @@ namespace NMM
                 quantities,
                 "What the picture is coloured by; displacement is the length "
                 "of the displacement vector, velocity that of the velocity of "
-                "a dynamic analysis.");
+                "a dynamic analysis, plastic strain the equivalent one of "
+                "materials that yield.");
     entries.add("Picture stress",
                 recovered,
                 stress_choices,

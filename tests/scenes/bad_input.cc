@@ -151,6 +151,40 @@ namespace
   }
 
 
+  TEST(BadInput, MaterialsThatYield)
+  {
+    const std::string scene =
+      NMM_SOURCE_DIR "/applications/nmm/scenes/yielding-tunnel.prm";
+    const auto expect_rejected_rock =
+      [&](const std::string &override, const std::vector<std::string> &words) {
+        SCOPED_TRACE(override);
+        expect_rejected({"--set", override, scene}, words);
+      };
+    expect_rejected_rock("Model/Plane state=plane stress",
+                         {"Mohr-Coulomb", "rock", "plane strain"});
+    expect_rejected_rock("Model/Kinematics=finite",
+                         {"Materials/rock/Law", "finite", "small"});
+    expect_rejected_rock("Model/Kinematics=incremental",
+                         {"Materials/rock/Law", "incremental", "small"});
+    expect_rejected_rock("Materials/rock/Cohesion=-1",
+                         {"Materials/rock/Cohesion", "-1"});
+    expect_rejected_rock("Materials/rock/Friction angle=90",
+                         {"Materials/rock/Friction angle", "90 degrees"});
+    expect_rejected_rock("Materials/rock/Dilation angle=31",
+                         {"dilation angle", "rock", "friction angle"});
+    expect_rejected_rock("Materials/rock/Law=linear",
+                         {"Materials/rock/Friction angle",
+                          "linear",
+                          "Mohr-Coulomb"});
+    expect_rejected_rock("Materials/rock/Initial stress=1, 2",
+                         {"Initial stress"});
+    expect_rejected_rock("Solver/Type=iterative",
+                         {"Solver/Type", "inelastic materials"});
+    expect_rejected_override("Output/Picture quantity=plastic strain",
+                             {"Picture quantity", "yields", "Mohr-Coulomb"});
+  }
+
+
   TEST(BadInput, FiniteAndIncrementalKinematics)
   {
     const auto expect_rejected_with =

@@ -92,7 +92,7 @@ namespace NMM
   }
 
 
-  namespace
+  namespace internal
   {
     /**
      * Newton's method for displacements and contact states together; then candidates and
@@ -239,7 +239,7 @@ namespace NMM
            << found.n_augmentations << " augmentations";
       return text.str();
     }
-  } // namespace
+  } // namespace internal
 
 
   struct ContactStatics::Data

@@ -1,3 +1,4 @@
+#include <nmm/base/exceptions.h>
 #include <nmm/materials/inelastic_law.h>
 #include <nmm/materials/mohr_coulomb_law.h>
 

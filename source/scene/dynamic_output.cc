@@ -274,10 +274,14 @@ namespace NMM
       else if (scene.parameters().model.kinematics == Kinematics::finite)
         law = CurrentStress::finite(*elasticity);
       else if (inelastic_terms() != nullptr)
+      {
+        // the last assembly may be that of a step that failed
+        inelastic_terms()->assemble(displacement(), /* with_tangent = */ false);
         law = CurrentStress::inelastic(*inelastic_terms(),
                                        *covers,
                                        *quadrature,
                                        problem);
+      }
       Vector relevant(covers->locally_owned_dofs(2),
                       covers->locally_relevant_dofs(2),
                       communicator);

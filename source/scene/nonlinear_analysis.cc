@@ -325,7 +325,11 @@ namespace NMM
       recovery.reset();
       field =
         std::make_unique<DisplacementField>(*covers, problem, last_solution);
-      recovery  = std::make_unique<StressRecovery>(*field, aggregation);
+      recovery = std::make_unique<StressRecovery>(*field, aggregation);
+      // the last assembly may be that of a step that failed
+      if (inelastic_terms() != nullptr)
+        system->inelastic_terms()->assemble(last_solution,
+                                            /* with_tangent = */ false);
       evaluator = std::make_unique<FieldEvaluator>(
         *field,
         *recovery,

@@ -63,7 +63,8 @@ namespace NMM
                     NumericalFailure(newton.reason,
                                      "the linear problem",
                                      "see that supports hold every block"));
-        report = {1, static_cast<unsigned int>(newton.iterations.size())};
+        report.n_steps      = 1;
+        report.n_iterations = newton.iterations.size();
         return owned_part(input, u);
       }
 

@@ -75,7 +75,8 @@ namespace NMM
   SmallModel::force_scale() const
   {
     const double scale = ElasticModel::force_scale();
-    return inelastic ? std::hypot(scale, inelastic->force_scale()) : scale;
+    return inelastic ? std::hypot(scale, inelastic->totals().force_scale)
+                     : scale;
   }
 
 
@@ -128,7 +129,7 @@ namespace NMM
   {
     inelastic->assemble(u, with_tangent);
     forces.add(share, inelastic->residual());
-    strain_energy += inelastic->energy();
+    strain_energy += inelastic->totals().energy;
     if (with_tangent)
       current_tangent = &inelastic->add_to(elasticity->tangent());
   }

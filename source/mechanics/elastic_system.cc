@@ -53,7 +53,7 @@ namespace NMM
       return 0.;
     // the states accepted are those of this assembly
     inelastic->assemble(u, /* with_tangent = */ false);
-    const double dissipated = inelastic->dissipated();
+    const double dissipated = inelastic->totals().dissipated;
     (void)inelastic->accept_step(u);
     return dissipated;
   }
@@ -154,7 +154,7 @@ namespace NMM
     inelastic->assemble(u, with_tangent);
     sum += inelastic->residual();
     sum.add(factor - 1., initial_imbalance);
-    energy += inelastic->energy();
+    energy += inelastic->totals().energy;
     if (with_tangent)
       stiffness = &inelastic->add_to(elastic->tangent());
     return Deformation::admissible;
@@ -179,7 +179,7 @@ namespace NMM
   ElasticSystem::tangent_is_symmetric() const
   {
     if (linearized)
-      return inelastic == nullptr || inelastic->n_yielding() == 0;
+      return inelastic == nullptr || inelastic->totals().n_yielding == 0;
     return elastic->tangent_is_symmetric();
   }
 
@@ -190,7 +190,8 @@ namespace NMM
     if (!linearized)
       return elastic->force_scale();
     // forces of initial stress are in balance as well as loads
-    return inelastic ? std::hypot(scale, inelastic->force_scale()) : scale;
+    return inelastic ? std::hypot(scale, inelastic->totals().force_scale)
+                     : scale;
   }
 
 

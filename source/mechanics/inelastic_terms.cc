@@ -81,14 +81,12 @@ namespace NMM
     std::vector<MaterialState>    accepted, current;
     /// Of quadrature points in the volume, of the last assembly, in the place of their state.
     std::vector<PointValues> point_values;
-    bool                     is_empty = true;
 
     CoverMatrixAssembler assembler;
     std::vector<double>  nodal;
     Matrix               matrix, sum;
     Vector               residual;
-    double energy = 0., force_scale = 0., yielded_area = 0., dissipated = 0.;
-    unsigned int n_yielding = 0;
+    Totals               totals;
     /// Of the last begin_step().
     Vector residual_at_begin, begin;
     double energy_at_begin = 0.;
@@ -100,10 +98,7 @@ namespace NMM
     , assembler(*elasticity.covers, *elasticity.constraints)
   {
     set_laws(elasticity.problem->materials);
-    for (const Law &law : region_to_law)
-      is_empty = is_empty && law == nullptr;
-    if (is_empty)
-      return;
+    Assert(elasticity.is_inelastic, dealii::ExcInternalError());
     number_states();
 
     std::vector<unsigned int> both;
@@ -237,11 +232,11 @@ namespace NMM
                with_tangent,
                excess,
                response);
-      energy += weight * response.energy;
-      dissipated += weight * response.dissipated;
-      n_yielding += !response.is_elastic;
+      totals.energy += weight * response.energy;
+      totals.dissipated += weight * response.dissipated;
+      totals.n_yielding += !response.is_elastic;
       if (response.state.equivalent_plastic_strain > 0.)
-        yielded_area += weight;
+        totals.yielded_area += weight;
       point_values[state] = {response.stress,
                              response.stress_zz,
                              response.state.equivalent_plastic_strain};
@@ -271,7 +266,7 @@ namespace NMM
         }
     }
     for (unsigned int i = 0; i < 2 * n; ++i)
-      force_scale += forces[i] * forces[i];
+      totals.force_scale += forces[i] * forces[i];
   }
 
 
@@ -353,13 +348,6 @@ namespace NMM
   InelasticTerms::~InelasticTerms() = default;
 
 
-  bool
-  InelasticTerms::is_empty() const
-  {
-    return data->is_empty;
-  }
-
-
   void
   InelasticTerms::assemble(const Vector &u, const bool with_tangent)
   {
@@ -367,8 +355,7 @@ namespace NMM
     const CoverSystem &covers = *d.elastic->covers;
     read_nodal_values(covers, u, d.nodal);
     d.assembler.reset(with_tangent);
-    d.energy = d.force_scale = d.yielded_area = d.dissipated = 0.;
-    d.n_yielding                                             = 0;
+    d.totals             = Totals();
     const auto hand_over = [&](dealii::ArrayView<const unsigned int> to,
                                const LocalSystem                    &local) {
       if (with_tangent)
@@ -404,12 +391,16 @@ namespace NMM
           hand_over({both.data(), both.size()}, local);
       }
     }
-    d.energy = Parallel::sum(d.energy, covers.communicator());
-    d.force_scale =
-      std::sqrt(Parallel::sum(d.force_scale, covers.communicator()));
-    d.dissipated   = Parallel::sum(d.dissipated, covers.communicator());
-    d.yielded_area = Parallel::sum(d.yielded_area, covers.communicator());
-    d.n_yielding   = Parallel::sum(d.n_yielding, covers.communicator());
+    const auto sum = [&](auto &number) {
+      number = Parallel::sum(number, covers.communicator());
+    };
+    for (double *number : {&d.totals.energy,
+                           &d.totals.dissipated,
+                           &d.totals.yielded_area,
+                           &d.totals.force_scale})
+      sum(*number);
+    sum(d.totals.n_yielding);
+    d.totals.force_scale = std::sqrt(d.totals.force_scale);
     if (with_tangent)
       d.assembler.transfer(d.matrix, d.residual);
     else
@@ -424,29 +415,22 @@ namespace NMM
   }
 
 
+  const InelasticTerms::Totals &
+  InelasticTerms::totals() const
+  {
+    return data->totals;
+  }
+
+
   const InelasticTerms::Matrix &
   InelasticTerms::add_to(const Matrix &elastic_stiffness)
   {
     Data &d = *data;
-    if (d.n_yielding == 0)
+    if (d.totals.n_yielding == 0)
       return elastic_stiffness;
     d.sum.copy_from(elastic_stiffness);
     d.sum.add(1., d.matrix);
     return d.sum;
-  }
-
-
-  double
-  InelasticTerms::energy() const
-  {
-    return data->energy;
-  }
-
-
-  unsigned int
-  InelasticTerms::n_yielding() const
-  {
-    return data->n_yielding;
   }
 
 
@@ -456,7 +440,7 @@ namespace NMM
     assemble(u, /* with_tangent = */ false);
     Data &d             = *data;
     d.residual_at_begin = d.residual;
-    d.energy_at_begin   = d.energy;
+    d.energy_at_begin   = d.totals.energy;
     d.begin             = u;
   }
 
@@ -465,13 +449,6 @@ namespace NMM
   InelasticTerms::residual_at_begin() const
   {
     return data->residual_at_begin;
-  }
-
-
-  double
-  InelasticTerms::force_scale() const
-  {
-    return data->force_scale;
   }
 
 
@@ -487,21 +464,7 @@ namespace NMM
     double work = force * motion;
     motion      = d.begin;
     work -= force * motion;
-    return work - (d.energy - d.energy_at_begin);
-  }
-
-
-  double
-  InelasticTerms::dissipated() const
-  {
-    return data->dissipated;
-  }
-
-
-  double
-  InelasticTerms::yielded_area() const
-  {
-    return data->yielded_area;
+    return work - (d.totals.energy - d.energy_at_begin);
   }
 
 

@@ -260,8 +260,9 @@ namespace NMM
         row.strain_energy = small_strain_energy();
       if (const InelasticTerms *terms = inelastic_terms())
       {
-        row.strain_energy += problem.thickness * terms->energy();
-        row.plastic_numbers = {plastic_dissipation, terms->yielded_area()};
+        row.strain_energy += problem.thickness * terms->totals().energy;
+        row.plastic_numbers = {plastic_dissipation,
+                               terms->totals().yielded_area};
       }
       double largest = 0.;
       for (const auto &[element, xi] : output_points)

@@ -34,13 +34,9 @@ namespace NMM
     using Vector = FiniteElasticity::Vector;
     using Matrix = dealii::TrilinosWrappers::SparseMatrix;
 
+    /// @p elasticity has an inelastic region, see FiniteElasticity::is_inelastic().
     explicit InelasticTerms(const FiniteElasticity &elasticity);
     ~InelasticTerms();
-
-    /// Whether there is no inelastic region on any rank; then the other functions must not be
-    /// called.
-    bool
-    is_empty() const;
 
     /// A step is tried that begins at the displacements @p u that were accepted last.
     void
@@ -62,33 +58,32 @@ namespace NMM
     const Matrix &
     add_to(const Matrix &elastic_stiffness);
 
-    /// Of the last assembly, of all ranks: InelasticLaw::Response::energy less the energy of
-    /// Hooke's law without initial stress [J/m].
-    double
-    energy() const;
+    /// Of an assembly, of all ranks.
+    struct Totals
+    {
+      /// InelasticLaw::Response::energy less the energy of Hooke's law without initial stress
+      /// [J/m].
+      double energy = 0.;
+      /// sigma : Delta epsilon^p since the last accepted state, sigma being that at the end of
+      /// the step, as the law has it; never negative [J/m].
+      double dissipated = 0.;
+      /// Area with plastic strain [m^2].
+      double yielded_area = 0.;
+      /// Quadrature points in the volume that yield.
+      unsigned int n_yielding = 0;
+      /// Root of the sum over inelastic elements of the squares of internal forces. The
+      /// material's strength bounds it, whatever the displacements [N/m].
+      double force_scale = 0.;
+    };
 
-    /// Of the last assembly: quadrature points in the volume that yield, of all ranks.
-    unsigned int
-    n_yielding() const;
-
-    /// Of the last assembly, of all ranks: sigma : Delta epsilon^p since the last accepted state,
-    /// sigma being that at the end of the step, as the law has it; never negative [J/m].
-    double
-    dissipated() const;
-
-    /// Of the last assembly: area with plastic strain, of all ranks [m^2].
-    double
-    yielded_area() const;
-
-    /// Root of the sum over inelastic elements of the squares of internal forces, of the last
-    /// assembly. The material's strength bounds it, whatever the displacements [N/m].
-    double
-    force_scale() const;
+    /// Of the last assembly.
+    const Totals &
+    totals() const;
 
     /**
      * The step to @p u is accepted, with the states there. Returns what closes the account of a
      * step with the mean of the forces at both ends: the work of (r_0 + r_1) / 2 less the change
-     * of energy() [J/m], the same as dissipated() to first order in the step.
+     * of Totals::energy [J/m], the same as Totals::dissipated to first order in the step.
      */
     double
     accept_step(const Vector &u);

@@ -25,7 +25,8 @@ namespace NMM
     internal::ActiveItems        active_rows;
     Vector                       sum;
     double                       scale = 0., step_end = 0.;
-    bool                         is_detected = false;
+    double                       dissipated_by_contact = 0.;
+    bool                         is_detected           = false;
     /// See tangent_to_add_to(): factor, and whether the caller adds to it.
     double tangent_factor  = 1.;
     bool   may_be_added_to = false;
@@ -369,7 +370,15 @@ namespace NMM
     const double dissipated = d.steps->accept_step(end, t);
     d.contact->set_time(t);
     d.contact->assemble(end, /* with_tangent = */ false);
-    return dissipated + d.contact->accept();
+    d.dissipated_by_contact = d.contact->accept();
+    return dissipated + d.dissipated_by_contact;
+  }
+
+
+  double
+  ContactModel::dissipated_by_contact() const
+  {
+    return data->dissipated_by_contact;
   }
 
 

@@ -95,15 +95,28 @@ namespace NMM
   {
     if (!inelastic)
       return;
-    inelastic->begin_step(begin);
-    has_begun = true;
+    // an accepted state has a stress
+    (void)inelastic->assemble(begin, /* with_tangent = */ false);
+    forces_at_begin = inelastic->residual();
+    energy_at_begin = inelastic->totals().energy;
+    begin_of_step   = begin;
   }
 
 
   double
   SmallModel::accept_step(const Vector &end, const double)
   {
-    return inelastic && has_begun ? inelastic->accept_step(end) : 0.;
+    // nothing has begun where a state is set
+    if (!inelastic || begin_of_step.size() == 0)
+      return 0.;
+    inelastic->accept(end);
+    Vector motion(end), force(inelastic->residual());
+    motion -= begin_of_step;
+    force.sadd(0.5, 0.5, forces_at_begin);
+    Vector owned_motion(force);
+    owned_motion = motion;
+    return force * owned_motion -
+           (inelastic->totals().energy - energy_at_begin);
   }
 
 
@@ -122,16 +135,18 @@ namespace NMM
   }
 
 
-  void
+  Deformation
   SmallModel::add_inelastic(const Vector &u,
                             const double  share,
                             const bool    with_tangent)
   {
-    inelastic->assemble(u, with_tangent);
+    if (inelastic->assemble(u, with_tangent) != Deformation::admissible)
+      return Deformation::inverted;
     forces.add(share, inelastic->residual());
     strain_energy += inelastic->totals().energy;
     if (with_tangent)
       current_tangent = &inelastic->add_to(elasticity->tangent());
+    return Deformation::admissible;
   }
 
 
@@ -143,9 +158,8 @@ namespace NMM
   {
     owned = u;
     assemble_owned(t);
-    if (inelastic)
-      add_inelastic(u, 1., tangent != Tangent::none);
-    return Deformation::admissible;
+    return inelastic ? add_inelastic(u, 1., tangent != Tangent::none)
+                     : Deformation::admissible;
   }
 
 
@@ -178,10 +192,9 @@ namespace NMM
     assemble_owned(0.5 * (t_0 + t_1));
     if (!inelastic)
       return Deformation::admissible;
+    forces.add(0.5, forces_at_begin);
     // half of the derivative by the end is the one by the mean displacement
-    add_inelastic(end, 0.5, tangent != Tangent::none);
-    forces.add(0.5, inelastic->residual_at_begin());
-    return Deformation::admissible;
+    return add_inelastic(end, 0.5, tangent != Tangent::none);
   }
 
 

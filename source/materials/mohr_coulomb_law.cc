@@ -2,9 +2,11 @@
 #include <nmm/materials/inelastic_law.h>
 #include <nmm/materials/mohr_coulomb_law.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace NMM
@@ -23,31 +25,6 @@ namespace NMM
     {
       const double sine = tangent / std::hypot(1., tangent);
       return (1. + sine) / (1. - sine);
-    }
-
-
-    Matrix3
-    elastic_moduli(const PlaneElasticity &elasticity)
-    {
-      Matrix3 C;
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = 0; j < 3; ++j)
-          C[i][j] = elasticity.lambda + (i == j ? 2. * elasticity.mu : 0.);
-      return C;
-    }
-
-
-    /// Strains of principal stresses.
-    Vector3
-    elastic_strain(const PlaneElasticity &elasticity, const Vector3 &stress)
-    {
-      const double bulk = 3. * elasticity.lambda + 2. * elasticity.mu;
-      const double sum  = stress[0] + stress[1] + stress[2];
-      Vector3      strain;
-      for (unsigned int i = 0; i < 3; ++i)
-        strain[i] =
-          (stress[i] - elasticity.lambda * sum / bulk) / (2. * elasticity.mu);
-      return strain;
     }
 
 
@@ -77,92 +54,199 @@ namespace NMM
     }
 
 
-    /// Solve G x = b of size @p n <= 3 by Gaussian elimination with pivots; false if G is
-    /// singular to rounding.
-    bool
-    solve(const unsigned int n, double (&G)[3][3], double (&b)[3][4])
+    /// What a step to a trial stress comes to, in sorted principal axes.
+    struct PrincipalReturn
     {
-      double largest = 0.;
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = 0; j < n; ++j)
-          largest = std::max(largest, std::abs(G[i][j]));
-      for (unsigned int k = 0; k < n; ++k)
+      bool is_elastic = true;
+      /// Whether one of the active sets is the right one.
+      bool    has_stress = true;
+      Vector3 stress;
+      /// Delta epsilon^p [-].
+      Vector3 flow;
+      /// d sigma / d epsilon [Pa]; not set if the step is elastic.
+      Matrix3 tangent;
+    };
+
+
+    /**
+     * The implicit return in principal stresses. With the planes A sigma <= k of an active set
+     * and their flows B, the multipliers are
+     * @f[ \lambda = (A C B)^{-1}(A\sigma^\mathrm{trial} - k), \quad
+     *     \sigma = \sigma^\mathrm{trial} - C B\lambda, \quad
+     *     \frac{d\sigma}{d\varepsilon} = C - C B (A C B)^{-1} A C; @f]
+     * the set is the right one if no multiplier is negative and all planes are satisfied. All
+     * matrices belong to the law and are made once.
+     */
+    class PrincipalReturnMap
+    {
+    public:
+      PrincipalReturnMap(const MohrCoulombLaw  &law,
+                         const PlaneElasticity &elasticity);
+
+      PrincipalReturn
+      operator()(const Vector3 &trial) const;
+
+    private:
+      struct ActiveSet
       {
-        unsigned int pivot = k;
-        for (unsigned int i = k + 1; i < n; ++i)
-          if (std::abs(G[i][k]) > std::abs(G[pivot][k]))
-            pivot = i;
-        if (!(std::abs(G[pivot][k]) > 1e-10 * largest))
-          return false;
-        std::swap_ranges(G[k], G[k] + 3, G[pivot]);
-        std::swap_ranges(b[k], b[k] + 4, b[pivot]);
-        for (unsigned int i = 0; i < n; ++i)
-          if (i != k)
-          {
-            const double factor = G[i][k] / G[k][k];
-            for (unsigned int j = k; j < n; ++j)
-              G[i][j] -= factor * G[k][j];
-            for (unsigned int j = 0; j < 4; ++j)
-              b[i][j] -= factor * b[k][j];
-          }
-      }
-      for (unsigned int k = 0; k < n; ++k)
-        for (unsigned int j = 0; j < 4; ++j)
-          b[k][j] /= G[k][k];
-      return true;
+        std::vector<unsigned int> planes;
+        /// Rows of (A C B)^-1 A: multipliers by the trial stress; and (A C B)^-1 k.
+        std::vector<Vector3> by_trial;
+        std::vector<double>  at_zero;
+        Matrix3              tangent;
+      };
+
+      bool
+      is_satisfied(const Vector3 &stress, double size) const;
+
+      void
+      add_set(std::vector<unsigned int> planes, const Matrix3 &C);
+
+      std::array<YieldPlane, 6> planes;
+      /// C b of each plane [Pa].
+      std::array<Vector3, 6> stress_of_flow;
+      /// Of one plane first, then of two and of three.
+      std::vector<ActiveSet> sets;
+      double                 mu;
+    };
+
+
+    /// Of a . sigma - k, and of multipliers.
+    constexpr double rounding = 1e-12;
+
+
+    PrincipalReturnMap::PrincipalReturnMap(const MohrCoulombLaw  &law,
+                                           const PlaneElasticity &elasticity)
+      : planes(yield_planes(law))
+      , mu(elasticity.mu)
+    {
+      Matrix3 C;
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = 0; j < 3; ++j)
+          C[i][j] = elasticity.lambda + (i == j ? 2. * elasticity.mu : 0.);
+      const unsigned int n = planes.size();
+      for (unsigned int i = 0; i < n; ++i)
+        stress_of_flow[i] = C * planes[i].flow;
+      for (unsigned int i = 0; i < n; ++i)
+        add_set({i}, C);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = i + 1; j < n; ++j)
+          add_set({i, j}, C);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = i + 1; j < n; ++j)
+          for (unsigned int k = j + 1; k < n; ++k)
+            add_set({i, j, k}, C);
     }
 
 
-    /// Sets of planes that can be active together: one, two, three. The plane of shear between
-    /// the largest and the smallest stress comes first, edges with it next.
-    constexpr unsigned int                                no_plane    = 6;
-    constexpr std::array<std::array<unsigned int, 3>, 18> active_sets = {
-      {{{0, no_plane, no_plane}},
-       {{3, no_plane, no_plane}},
-       {{0, 1, no_plane}},
-       {{0, 2, no_plane}},
-       {{0, 3, no_plane}},
-       {{3, 4, no_plane}},
-       {{1, 3, no_plane}},
-       {{2, 3, no_plane}},
-       {{2, 4, no_plane}},
-       {{0, 1, 3}},
-       {{0, 2, 3}},
-       {{0, 2, 4}},
-       {{0, 3, 4}},
-       {{2, 3, 4}},
-       {{3, 4, 5}},
-       {{0, 1, 2}},
-       {{0, 1, 4}},
-       {{1, 2, 3}}}};
+    /// Not if the planes have no common point, or many.
+    void
+    PrincipalReturnMap::add_set(std::vector<unsigned int> chosen,
+                                const Matrix3            &C)
+    {
+      const unsigned int n = chosen.size();
+      Eigen::MatrixXd    A(n, 3), G(n, n);
+      Eigen::VectorXd    k(n);
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        k[i] = planes[chosen[i]].limit;
+        for (unsigned int j = 0; j < 3; ++j)
+          A(i, j) = planes[chosen[i]].normal[j];
+        for (unsigned int j = 0; j < n; ++j)
+          G(i, j) = planes[chosen[i]].normal * stress_of_flow[chosen[j]];
+      }
+      Eigen::FullPivLU<Eigen::MatrixXd> factors(G);
+      factors.setThreshold(1e-10);
+      if (!factors.isInvertible())
+        return;
+      const Eigen::MatrixXd by_trial = factors.solve(A);
+      const Eigen::VectorXd at_zero  = factors.solve(k);
+      ActiveSet             set{std::move(chosen), {}, {}, C};
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        set.by_trial.emplace_back(
+          Vector3({by_trial(i, 0), by_trial(i, 1), by_trial(i, 2)}));
+        set.at_zero.push_back(at_zero[i]);
+        set.tangent -= dealii::outer_product(stress_of_flow[set.planes[i]],
+                                             set.by_trial[i] * C);
+      }
+      sets.push_back(std::move(set));
+    }
+
+
+    bool
+    PrincipalReturnMap::is_satisfied(const Vector3 &stress,
+                                     const double   size) const
+    {
+      return std::all_of(planes.begin(),
+                         planes.end(),
+                         [&](const YieldPlane &plane) {
+                           return plane.normal * stress - plane.limit <=
+                                  rounding * (plane.normal.norm() * size +
+                                              std::abs(plane.limit));
+                         });
+    }
+
+
+    PrincipalReturn
+    PrincipalReturnMap::operator()(const Vector3 &trial) const
+    {
+      PrincipalReturn result;
+      result.stress     = trial;
+      const double size = trial.norm();
+      if (is_satisfied(trial, size))
+        return result;
+
+      result.is_elastic = false;
+      for (const ActiveSet &set : sets)
+      {
+        result.stress   = trial;
+        result.flow     = 0.;
+        bool is_loading = true;
+        for (unsigned int i = 0; i < set.planes.size() && is_loading; ++i)
+        {
+          const double multiplier = set.by_trial[i] * trial - set.at_zero[i];
+          is_loading              = multiplier >= -rounding * size / mu;
+          result.stress -= multiplier * stress_of_flow[set.planes[i]];
+          result.flow += multiplier * planes[set.planes[i]].flow;
+        }
+        if (is_loading && is_satisfied(result.stress, size))
+        {
+          result.tangent = set.tangent;
+          return result;
+        }
+      }
+      result.has_stress = false;
+      return result;
+    }
 
 
     class MohrCoulomb : public InelasticLaw
     {
     public:
       MohrCoulomb(const MohrCoulombLaw &law, const Material &material)
-        : law(law)
-        , elasticity(material.plane_elasticity(PlaneState::plane_strain))
+        : elasticity(material.plane_elasticity(PlaneState::plane_strain))
+        , return_map(law, elasticity)
         , initial_stress(material.initial_stress)
         , initial_stress_zz(
             material.initial_stress_zz(PlaneState::plane_strain))
       {
       }
 
-      void
+      Deformation
       evaluate(const SymmetricTensor<2, 2> &strain,
                const MaterialState         &state,
                Response                    &response) const override;
 
     private:
-      /// Fill in moduli and stress of Hooke's law.
+      /// Energy and stress of Hooke's law.
       void
       set_elastic(const SymmetricTensor<2, 2> &elastic_strain,
                   double                       elastic_strain_zz,
                   Response                    &response) const;
 
-      MohrCoulombLaw        law;
       PlaneElasticity       elasticity;
+      PrincipalReturnMap    return_map;
       SymmetricTensor<2, 2> initial_stress;
       double                initial_stress_zz;
     };
@@ -185,7 +269,7 @@ namespace NMM
     }
 
 
-    void
+    Deformation
     MohrCoulomb::evaluate(const SymmetricTensor<2, 2> &strain,
                           const MaterialState         &state,
                           Response                    &response) const
@@ -215,15 +299,18 @@ namespace NMM
       for (unsigned int i = 0; i < 3; ++i)
         trial[i] = unsorted[order[i]];
 
-      const internal::PrincipalReturn sorted =
-        internal::return_to_mohr_coulomb(law, elasticity, trial);
+      const PrincipalReturn sorted = return_map(trial);
+      if (!sorted.has_stress)
+        return Deformation::inverted;
       response.is_elastic = sorted.is_elastic;
+      if (sorted.is_elastic)
+        return Deformation::admissible;
       Vector3 stress, flow;
       Matrix3 D;
       for (unsigned int i = 0; i < 3; ++i)
       {
         stress[order[i]] = sorted.stress[i];
-        flow[order[i]]   = sorted.plastic_strain[i];
+        flow[order[i]]   = sorted.flow[i];
         for (unsigned int j = 0; j < 3; ++j)
           D[order[i]][order[j]] = sorted.tangent[i][j];
       }
@@ -232,30 +319,23 @@ namespace NMM
       const auto         pp = dealii::symmetrize(dealii::outer_product(p, p));
       const auto         qq = dealii::symmetrize(dealii::outer_product(q, q));
       const auto pq = 2. * dealii::symmetrize(dealii::outer_product(p, q));
-      if (!sorted.is_elastic)
-      {
-        const SymmetricTensor<2, 2> increment = flow[0] * pp + flow[1] * qq;
-        response.state.plastic_strain += increment;
-        response.state.plastic_strain_zz += flow[2];
-        const double volume = (flow[0] + flow[1] + flow[2]) / 3.;
-        double       square = 0.;
-        for (unsigned int i = 0; i < 3; ++i)
-          square += (flow[i] - volume) * (flow[i] - volume);
-        response.state.equivalent_plastic_strain += std::sqrt(2. / 3. * square);
-        set_elastic(strain - response.state.plastic_strain,
-                    -response.state.plastic_strain_zz,
-                    response);
-        // what was returned to, without what the difference of strains has lost
-        response.stress     = stress[0] * pp + stress[1] * qq;
-        response.stress_zz  = stress[2];
-        response.dissipated = stress * flow;
-      }
+      response.state.plastic_strain += flow[0] * pp + flow[1] * qq;
+      response.state.plastic_strain_zz += flow[2];
+      const double volume = (flow[0] + flow[1] + flow[2]) / 3.;
+      response.state.equivalent_plastic_strain +=
+        std::sqrt(2. / 3. * (flow * flow - 3. * volume * volume));
+      set_elastic(strain - response.state.plastic_strain,
+                  -response.state.plastic_strain_zz,
+                  response);
+      // what was returned to, without what the difference of strains has lost
+      response.stress     = stress[0] * pp + stress[1] * qq;
+      response.stress_zz  = stress[2];
+      response.dissipated = stress * flow;
 
       // principal directions turn with the trial stress: by the ratio of differences, or its
       // limit where the trial stress has no directions
       const double shear_modulus =
-        sorted.is_elastic ? elasticity.mu
-        : radius > 1e-8 * (std::abs(mean) + elasticity.mu * 1e-8)
+        radius > 1e-8 * (std::abs(mean) + elasticity.mu * 1e-8)
           ? elasticity.mu * (stress[0] - stress[1]) / (2. * radius)
           : 0.25 * (D[0][0] - D[0][1] - D[1][0] + D[1][1]);
       const SymmetricTensor<2, 2> *basis[2] = {&pp, &qq};
@@ -269,92 +349,9 @@ namespace NMM
               sum += D[a][b] * (*basis[a])[i][j] * (*basis[b])[k][l];
           response.tangent[ij][kl] = sum;
         }
+      return Deformation::admissible;
     }
   } // namespace
-
-
-  namespace internal
-  {
-    PrincipalReturn
-    return_to_mohr_coulomb(const MohrCoulombLaw  &law,
-                           const PlaneElasticity &elasticity,
-                           const Vector3         &trial)
-    {
-      PrincipalReturn result;
-      const Matrix3   C      = elastic_moduli(elasticity);
-      const auto      planes = yield_planes(law);
-      result.stress          = trial;
-      result.tangent         = C;
-
-      const auto size = [&](const YieldPlane &plane) {
-        return plane.normal.norm() * trial.norm() + std::abs(plane.limit);
-      };
-      // rounding of a . sigma - k
-      constexpr double rounding     = 1e-12;
-      const auto       is_satisfied = [&](const Vector3 &stress) {
-        return std::all_of(planes.begin(),
-                           planes.end(),
-                           [&](const YieldPlane &plane) {
-                             return plane.normal * stress - plane.limit <=
-                                    rounding * size(plane);
-                           });
-      };
-      if (is_satisfied(trial))
-        return result;
-      result.is_elastic = false;
-
-      for (const auto &set : active_sets)
-      {
-        const unsigned int n =
-          std::count_if(set.begin(), set.end(), [](const unsigned int plane) {
-            return plane != no_plane;
-          });
-        // multipliers = G^-1 (a . trial - k) and their derivatives G^-1 a C by strain
-        double G[3][3] = {}, multipliers[3][4] = {};
-        for (unsigned int i = 0; i < n; ++i)
-        {
-          const YieldPlane &plane = planes[set[i]];
-          const Vector3     aC    = plane.normal * C;
-          multipliers[i][0]       = plane.normal * trial - plane.limit;
-          for (unsigned int j = 0; j < 3; ++j)
-            multipliers[i][1 + j] = aC[j];
-          for (unsigned int j = 0; j < n; ++j)
-            G[i][j] = aC * planes[set[j]].flow;
-        }
-        if (!solve(n, G, multipliers))
-          continue;
-        const double least = -rounding * trial.norm() / elasticity.mu;
-        if (std::any_of(multipliers,
-                        multipliers + n,
-                        [&](const double(&row)[4]) { return row[0] < least; }))
-          continue;
-        Vector3 flow;
-        Matrix3 tangent = C;
-        for (unsigned int i = 0; i < n; ++i)
-        {
-          const Vector3 Cb = C * planes[set[i]].flow;
-          flow += multipliers[i][0] * planes[set[i]].flow;
-          for (unsigned int k = 0; k < 3; ++k)
-            for (unsigned int l = 0; l < 3; ++l)
-              tangent[k][l] -= Cb[k] * multipliers[i][1 + l];
-        }
-        const Vector3 stress = trial - C * flow;
-        if (!is_satisfied(stress))
-          continue;
-        result.stress         = stress;
-        result.plastic_strain = flow;
-        result.tangent        = tangent;
-        return result;
-      }
-
-      // Rounding can leave no set; the apex always holds.
-      for (unsigned int i = 0; i < 3; ++i)
-        result.stress[i] = planes[3].limit;
-      result.plastic_strain = elastic_strain(elasticity, trial - result.stress);
-      result.tangent        = 0.;
-      return result;
-    }
-  } // namespace internal
 
 
   std::vector<MohrCoulombLaw::Parameter>

@@ -33,16 +33,14 @@ namespace NMM
   {
     Vector zero(elastic->initial_solution());
     zero = 0.;
-    inelastic->assemble(zero, /* with_tangent = */ false);
+    AssertThrow(inelastic->assemble(zero, /* with_tangent = */ false) ==
+                  Deformation::admissible,
+                NumericalFailure("The initial stress of a material that yields "
+                                 "cannot be brought to its yield surface",
+                                 "the undeformed state",
+                                 "give an initial stress that is within the "
+                                 "material's strength"));
     initial_imbalance = inelastic->residual();
-  }
-
-
-  void
-  ElasticSystem::begin_step(const Vector &u)
-  {
-    if (inelastic)
-      inelastic->begin_step(u);
   }
 
 
@@ -51,11 +49,8 @@ namespace NMM
   {
     if (!inelastic)
       return 0.;
-    // the states accepted are those of this assembly
-    inelastic->assemble(u, /* with_tangent = */ false);
-    const double dissipated = inelastic->totals().dissipated;
-    (void)inelastic->accept_step(u);
-    return dissipated;
+    inelastic->accept(u);
+    return inelastic->totals().dissipated;
   }
 
 
@@ -151,7 +146,8 @@ namespace NMM
     if (!inelastic)
       return Deformation::admissible;
     const bool with_tangent = tangent != Tangent::none;
-    inelastic->assemble(u, with_tangent);
+    if (inelastic->assemble(u, with_tangent) != Deformation::admissible)
+      return Deformation::inverted;
     sum += inelastic->residual();
     sum.add(factor - 1., initial_imbalance);
     energy += inelastic->totals().energy;

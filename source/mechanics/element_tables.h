@@ -87,13 +87,15 @@ namespace NMM
     };
 
 
-    /// F = I + sum_i u_i (x) grad w_i for @p n weight functions.
+    /// @p diagonal I + sum_i u_i (x) grad w_i for @p n weight functions: with 0 the displacement
+    /// gradient, with 1 the deformation gradient.
     inline dealii::Tensor<2, 2>
-    deformation_gradient(const unsigned int n,
-                         const double (*u)[2],
-                         const double (*gradients)[2])
+    displacement_gradient(const unsigned int n,
+                          const double (*u)[2],
+                          const double (*gradients)[2],
+                          const double diagonal = 0.)
     {
-      double f00 = 1., f01 = 0., f10 = 0., f11 = 1.;
+      double f00 = diagonal, f01 = 0., f10 = 0., f11 = diagonal;
       for (unsigned int i = 0; i < n; ++i)
       {
         f00 += u[i][0] * gradients[i][0];
@@ -107,6 +109,16 @@ namespace NMM
       F[1][0] = f10;
       F[1][1] = f11;
       return F;
+    }
+
+
+    /// F = I + sum_i u_i (x) grad w_i for @p n weight functions.
+    inline dealii::Tensor<2, 2>
+    deformation_gradient(const unsigned int n,
+                         const double (*u)[2],
+                         const double (*gradients)[2])
+    {
+      return displacement_gradient(n, u, gradients, 1.);
     }
   } // namespace internal
 } // namespace NMM

@@ -8,6 +8,7 @@
 #include <boost/archive/binary_oarchive.hpp>
 #include <boost/serialization/vector.hpp>
 #include <cmath>
+#include <limits>
 #include <mechanics/finite_elasticity_data.h>
 #include <mechanics/nodal_values.h>
 #include <sstream>
@@ -22,10 +23,11 @@ namespace NMM
     using Law  = std::shared_ptr<const InelasticLaw>;
     using Site = EdgeTables::Site;
 
-    /// A side of a weak point, or a quadrature point: the law and the stress beyond Hooke's.
+    /// The law's response at a quadrature point or a side of a weak point, less Hooke's.
     struct Excess
     {
       dealii::SymmetricTensor<2, 2> stress;
+      double                        energy;
       double                        tangent[4][4];
       bool                          has_tangent;
     };
@@ -54,10 +56,11 @@ namespace NMM
       return region_to_law[region] != nullptr;
     }
 
-    /// The law at a point, whose state is @p state; and Hooke's energy is taken off.
+    /// The law at a point whose displacement gradient is @p gradient and whose state is
+    /// @p state; notes if there is no stress.
     void
     evaluate(unsigned int                region,
-             const dealii::Tensor<2, 2> &F,
+             const dealii::Tensor<2, 2> &gradient,
              std::size_t                 state,
              bool                        with_tangent,
              Excess                     &excess,
@@ -79,17 +82,14 @@ namespace NMM
     std::vector<PlaneElasticity>  region_to_elasticity;
     std::vector<Element>          elements;
     std::vector<MaterialState>    accepted, current;
-    /// Of quadrature points in the volume, of the last assembly, in the place of their state.
-    std::vector<PointValues> point_values;
+    /// Whether the law had a stress everywhere in this assembly.
+    bool is_admissible = true;
 
     CoverMatrixAssembler assembler;
     std::vector<double>  nodal;
     Matrix               matrix, sum;
     Vector               residual;
     Totals               totals;
-    /// Of the last begin_step().
-    Vector residual_at_begin, begin;
-    double energy_at_begin = 0.;
   };
 
 
@@ -168,22 +168,24 @@ namespace NMM
         elements.push_back(item);
     }
     current = accepted;
-    point_values.resize(accepted.size());
   }
 
 
   void
   InelasticTerms::Data::evaluate(const unsigned int          region,
-                                 const dealii::Tensor<2, 2> &F,
+                                 const dealii::Tensor<2, 2> &gradient,
                                  const std::size_t           state,
                                  const bool                  with_tangent,
                                  Excess                     &excess,
                                  InelasticLaw::Response     &response)
   {
-    dealii::SymmetricTensor<2, 2> strain = dealii::symmetrize(F);
-    strain[0][0] -= 1.;
-    strain[1][1] -= 1.;
-    region_to_law[region]->evaluate(strain, accepted[state], response);
+    const dealii::SymmetricTensor<2, 2> strain = dealii::symmetrize(gradient);
+    if (region_to_law[region]->evaluate(strain, accepted[state], response) !=
+        Deformation::admissible)
+    {
+      is_admissible = false;
+      response      = InelasticLaw::Response();
+    }
     current[state] = response.state;
 
     const PlaneElasticity        &c     = region_to_elasticity[region];
@@ -191,8 +193,8 @@ namespace NMM
     dealii::SymmetricTensor<2, 2> hooke = 2. * c.mu * strain;
     hooke[0][0] += trace;
     hooke[1][1] += trace;
-    excess.stress = response.stress - hooke;
-    response.energy -= 0.5 * (hooke * strain);
+    excess.stress      = response.stress - hooke;
+    excess.energy      = response.energy - 0.5 * (hooke * strain);
     excess.has_tangent = with_tangent && !response.is_elastic;
     if (!excess.has_tangent)
       return;
@@ -227,19 +229,16 @@ namespace NMM
       const double      weight = table.weights[q];
       const std::size_t state  = item.first_state + q;
       evaluate(region,
-               deformation_gradient(n, u.values, g),
+               displacement_gradient(n, u.values, g),
                state,
                with_tangent,
                excess,
                response);
-      totals.energy += weight * response.energy;
+      totals.energy += weight * excess.energy;
       totals.dissipated += weight * response.dissipated;
       totals.n_yielding += !response.is_elastic;
       if (response.state.equivalent_plastic_strain > 0.)
         totals.yielded_area += weight;
-      point_values[state] = {response.stress,
-                             response.stress_zz,
-                             response.state.equivalent_plastic_strain};
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int c = 0; c < 2; ++c)
         {
@@ -303,7 +302,7 @@ namespace NMM
         Excess                 excess;
         InelasticLaw::Response response;
         evaluate(side.region,
-                 deformation_gradient(n, u.values + s * n, side.gradients),
+                 displacement_gradient(n, u.values + s * n, side.gradients),
                  state,
                  with_tangent,
                  excess,
@@ -348,7 +347,7 @@ namespace NMM
   InelasticTerms::~InelasticTerms() = default;
 
 
-  void
+  Deformation
   InelasticTerms::assemble(const Vector &u, const bool with_tangent)
   {
     Data              &d      = *data;
@@ -356,6 +355,7 @@ namespace NMM
     read_nodal_values(covers, u, d.nodal);
     d.assembler.reset(with_tangent);
     d.totals             = Totals();
+    d.is_admissible      = true;
     const auto hand_over = [&](dealii::ArrayView<const unsigned int> to,
                                const LocalSystem                    &local) {
       if (with_tangent)
@@ -405,6 +405,9 @@ namespace NMM
       d.assembler.transfer(d.matrix, d.residual);
     else
       d.assembler.transfer_rhs(d.residual);
+    return Parallel::max(d.is_admissible ? 0 : 1, covers.communicator()) == 0
+             ? Deformation::admissible
+             : Deformation::inverted;
   }
 
 
@@ -435,36 +438,12 @@ namespace NMM
 
 
   void
-  InelasticTerms::begin_step(const Vector &u)
+  InelasticTerms::accept(const Vector &u)
   {
-    assemble(u, /* with_tangent = */ false);
-    Data &d             = *data;
-    d.residual_at_begin = d.residual;
-    d.energy_at_begin   = d.totals.energy;
-    d.begin             = u;
-  }
-
-
-  const InelasticTerms::Vector &
-  InelasticTerms::residual_at_begin() const
-  {
-    return data->residual_at_begin;
-  }
-
-
-  double
-  InelasticTerms::accept_step(const Vector &u)
-  {
-    Data &d = *data;
-    assemble(u, /* with_tangent = */ false);
-    d.accepted = d.current;
-    Vector motion(d.residual), force(d.residual);
-    force.sadd(0.5, 0.5, d.residual_at_begin);
-    motion      = u;
-    double work = force * motion;
-    motion      = d.begin;
-    work -= force * motion;
-    return work - (d.totals.energy - d.energy_at_begin);
+    const Deformation state = assemble(u, /* with_tangent = */ false);
+    (void)state;
+    Assert(state == Deformation::admissible, dealii::ExcInternalError());
+    data->accepted = data->current;
   }
 
 
@@ -542,7 +521,27 @@ namespace NMM
                                      });
     if (it == d.elements.end() || it->element != element || !it->is_inelastic)
       return {};
-    const auto first = d.point_values.begin() + it->first_state;
-    return {first, first + d.elastic->tables(element).n_points};
+    const CoverSystem        &covers = *d.elastic->covers;
+    const ElementTables::View table  = d.elastic->tables(element);
+    const unsigned int        n      = d.elastic->n_per_cell;
+    const InelasticLaw       &law =
+      *d.region_to_law[covers.manifold_mesh().region(element)];
+    LocalDisplacement u;
+    u.gather(covers.covers(element), d.nodal);
+    std::vector<PointValues> result;
+    InelasticLaw::Response   response;
+    for (unsigned int q = 0; q < table.n_points; ++q)
+    {
+      const dealii::Tensor<2, 2> gradient =
+        displacement_gradient(n, u.values, table.gradients + q * n);
+      if (law.evaluate(dealii::symmetrize(gradient),
+                       d.accepted[it->first_state + q],
+                       response) != Deformation::admissible)
+        response.stress[0][0] = std::numeric_limits<double>::quiet_NaN();
+      result.push_back({response.stress,
+                        response.stress_zz,
+                        response.state.equivalent_plastic_strain});
+    }
+    return result;
   }
 } // namespace NMM

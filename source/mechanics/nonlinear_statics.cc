@@ -169,7 +169,6 @@ namespace NMM
     if (is_extrapolated)
       change -= states.back().solution;
     elasticity->set_load_factor(step.load_factor);
-    elasticity->begin_step(states.back().solution);
 
     StepVerdict verdict;
     verdict.reason = search->find(step, u, is_extrapolated ? &change : nullptr);

@@ -223,9 +223,13 @@ namespace NMM
         text << "direct ";
       text << to_string(quantity);
       if (!is_index)
-        text << " ["
-             << (exponent == 0 ? "" : "10" + superscript(exponent) + " ")
-             << unit << ']';
+      {
+        const std::string factor =
+          exponent == 0 ? "" : "10" + superscript(exponent);
+        const bool has_unit = quantity != Quantity::plastic_strain;
+        text << " [" << factor << (has_unit && !factor.empty() ? " " : "")
+             << (has_unit || factor.empty() ? unit : "") << ']';
+      }
       if (data.deformation_scale != 0.)
       {
         // No exponent below a million.

@@ -518,7 +518,7 @@ namespace NMM
     AccountedContactModel::accept_step(const Vector &end, const double t)
     {
       const double dissipated = ContactModel::accept_step(end, t);
-      work += dissipated;
+      work += dissipated_by_contact();
       // The integrator assembles once more, where all points stick already.
       analysis->take_state(work);
       return dissipated;

@@ -276,7 +276,8 @@ namespace NMM
       else if (inelastic_terms() != nullptr)
       {
         // the last assembly may be that of a step that failed
-        inelastic_terms()->assemble(displacement(), /* with_tangent = */ false);
+        (void)inelastic_terms()->assemble(displacement(),
+                                          /* with_tangent = */ false);
         law = CurrentStress::inelastic(*inelastic_terms(),
                                        *covers,
                                        *quadrature,

@@ -261,8 +261,8 @@ namespace NMM
       if (const InelasticTerms *terms = inelastic_terms())
       {
         row.strain_energy += problem.thickness * terms->totals().energy;
-        row.plastic_numbers = {plastic_dissipation,
-                               terms->totals().yielded_area};
+        row.plastic = HistoryRow::Plastic{plastic_dissipation,
+                                          terms->totals().yielded_area};
       }
       double largest = 0.;
       for (const auto &[element, xi] : output_points)
@@ -295,9 +295,9 @@ namespace NMM
       if (finite)
         line << ", " << row.n_cuts << " cut(s), residual " << std::scientific
              << std::setprecision(1) << *row.relative_residual;
-      if (!row.plastic_numbers.empty())
+      if (row.plastic)
         line << "; " << std::setprecision(4) << std::defaultfloat
-             << row.plastic_numbers[1] << " "
+             << row.plastic->yielded_area << " "
              << scene.parameters().output.length_unit << "^2 have yielded";
       if (contact)
         line << "; " << contact->progress();
@@ -329,8 +329,8 @@ namespace NMM
       recovery = std::make_unique<StressRecovery>(*field, aggregation);
       // the last assembly may be that of a step that failed
       if (inelastic_terms() != nullptr)
-        system->inelastic_terms()->assemble(last_solution,
-                                            /* with_tangent = */ false);
+        (void)system->inelastic_terms()->assemble(last_solution,
+                                                  /* with_tangent = */ false);
       evaluator = std::make_unique<FieldEvaluator>(
         *field,
         *recovery,
@@ -373,14 +373,14 @@ namespace NMM
                   history.back().strain_energy,
                   scene.parameters().output.stress_unit + "*" +
                     scene.parameters().output.length_unit + "^3");
-      if (!history.back().plastic_numbers.empty())
+      if (history.back().plastic)
       {
         summary.add("plastic_dissipation",
-                    history.back().plastic_numbers[0],
+                    history.back().plastic->dissipation,
                     scene.parameters().output.stress_unit + "*" +
                       scene.parameters().output.length_unit + "^3");
         summary.add("yielded_area",
-                    history.back().plastic_numbers[1],
+                    history.back().plastic->yielded_area,
                     scene.parameters().output.length_unit + "^2");
       }
       if (contact)
@@ -447,8 +447,9 @@ namespace NMM
         out << ',' << row.strain_energy << ',' << row.max_displacement;
         for (const Tensor<1, 2> &u : row.probe_displacements)
           out << ',' << u[0] << ',' << u[1];
-        for (const double value : row.plastic_numbers)
-          out << ',' << value;
+        if (row.plastic)
+          out << ',' << row.plastic->dissipation << ','
+              << row.plastic->yielded_area;
         for (const double value : row.contact_numbers)
           out << ',' << value;
         out << '\n';

@@ -55,9 +55,12 @@ namespace NMM
         std::vector<dealii::Tensor<1, 2>> probe_displacements;
         /// See ContactAnalysis::columns(); energies times the thickness.
         std::vector<double> contact_numbers;
-        /// Energy that inelastic materials have dissipated so far [J], and the area that has
-        /// yielded [m^2]; empty without such materials.
-        std::vector<double> plastic_numbers;
+        /// Of inelastic materials: energy dissipated so far [J] and area that has yielded [m^2].
+        struct Plastic
+        {
+          double dissipation = 0., yielded_area = 0.;
+        };
+        std::optional<Plastic> plastic;
       };
 
       /// Not for incremental steps; small displacements as well, as `system` sees it.

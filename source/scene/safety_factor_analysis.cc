@@ -263,7 +263,7 @@ namespace NMM
       {
         terms->set_materials(reduce_strength(problem.materials, shown.factor));
         terms->restore_internal_state(shown_materials);
-        terms->assemble(relevant, /* with_tangent = */ false);
+        (void)terms->assemble(relevant, /* with_tangent = */ false);
         law = CurrentStress::inelastic(*terms, *covers, *quadrature, problem);
       }
       evaluator =

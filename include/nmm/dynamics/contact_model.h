@@ -176,6 +176,10 @@ namespace NMM
     void
     pass_events(double t) override;
 
+    /// What friction, dashpots and breaking bonds dissipated in the step accepted last [J/m].
+    double
+    dissipated_by_contact() const;
+
     const Contact &
     contact() const;
 

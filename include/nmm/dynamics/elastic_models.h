@@ -217,9 +217,10 @@ namespace NMM
    * therefore counts as strain energy u.K u / 2, and prescribed displacements as
    * loads. K changes with releases only; f is assembled when amplitudes change.
    *
-   * Inelastic materials add their part (InelasticTerms); between two states it is the mean of
-   * the parts at the begin and at the end, so that the account of energy closes with what they
-   * dissipate. Damping in proportion to the stiffness is that of the elastic solid.
+   * Inelastic materials add their forces (InelasticTerms). assemble_between() takes the mean of
+   * these forces at both ends of a step. What a step dissipates is the work of that mean less the
+   * change of the stored energy, so that the energy balance closes. Damping in proportion to the
+   * stiffness is that of the elastic solid.
    */
   class SmallModel : public ElasticModel, public SteppedModel
   {
@@ -303,7 +304,7 @@ namespace NMM
     assemble_owned(double t);
 
     /// Add @p share of inelastic forces at @p u.
-    void
+    Deformation
     add_inelastic(const Vector &u, double share, bool with_tangent);
 
     Vector                          owned, forces, load;
@@ -313,7 +314,9 @@ namespace NMM
     std::unique_ptr<InelasticTerms> inelastic;
     /// With inelastic materials: that of the last assembly.
     const Matrix *current_tangent = nullptr;
-    bool          has_begun       = false;
+    /// Inelastic forces [N/m] and energy [J/m] where the step begins, and u there.
+    Vector forces_at_begin, begin_of_step;
+    double energy_at_begin = 0.;
   };
 
 

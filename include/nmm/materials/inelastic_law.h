@@ -1,6 +1,7 @@
 #ifndef nmm_materials_inelastic_law_h
 #define nmm_materials_inelastic_law_h
 
+#include <nmm/base/assembly.h>
 #include <nmm/materials/material.h>
 
 #include <deal.II/base/symmetric_tensor.h>
@@ -43,21 +44,23 @@ namespace NMM
       /// sigma in the plane and across it, initial stress included [Pa].
       dealii::SymmetricTensor<2, 2> stress;
       double                        stress_zz = 0.;
-      /// d sigma_ij / d epsilon_kl at [2i + j][2k + l], symmetric in i, j and in k, l [Pa].
+      /// d sigma_ij / d epsilon_kl at [2i + j][2k + l], symmetric in i, j and in k, l [Pa]; not
+      /// set if the step is elastic.
       double tangent[4][4];
       /// Energy stored in elastic strains e: e : C : e / 2 + sigma_0 : e [Pa].
       double energy = 0.;
       /// sigma : Delta epsilon^p of the step from the given state, all components [Pa].
       double dissipated = 0.;
-      /// Whether the step from the given state is elastic. Then the tangent is Hooke's.
+      /// Whether the step from the given state is elastic, with the tangent of Hooke's law.
       bool          is_elastic = true;
       MaterialState state;
     };
 
     virtual ~InelasticLaw() = default;
 
-    /// At the strain @p strain in the plane, coming from @p state.
-    virtual void
+    /// At the strain @p strain in the plane, coming from @p state. With @c inverted there is no
+    /// stress for it, and the response is undefined.
+    virtual Deformation
     evaluate(const dealii::SymmetricTensor<2, 2> &strain,
              const MaterialState                 &state,
              Response                            &response) const = 0;

@@ -3,8 +3,6 @@
 
 #include <nmm/materials/material_law.h>
 
-#include <deal.II/base/tensor.h>
-
 namespace NMM
 {
   /**
@@ -19,10 +17,10 @@ namespace NMM
    *
    * The stress at the end of a step is found by the fully implicit rule
    * @f[ \sigma = \sigma^\mathrm{trial} - C\,\Delta\varepsilon^p @f]
-   * in closed form: in principal stresses all conditions are planes, so that the sets of active
-   * planes are tried, one, two and three at a time (planes, edges and apexes; Clausen, Damkilde &
-   * Andersen, Int. J. Numer. Meth. Eng. 66 (2006) 1738). The tangent is the derivative of that
-   * rule, including how principal directions turn.
+   * in closed form: in principal stresses all conditions are planes, so that all sets of one, two
+   * and three active planes are tried (planes, edges and apexes; after Clausen, Damkilde &
+   * Andersen, Int. J. Numer. Meth. Eng. 66 (2006) 1738, who find the set from the geometry). The
+   * tangent is the derivative of that rule, including how principal directions turn.
    *
    * A cut-off above the apex c / tan(phi) has no effect.
    */
@@ -65,29 +63,6 @@ namespace NMM
     /// tan psi [-].
     double dilation = 0.;
   };
-
-
-  namespace internal
-  {
-    /**
-     * The implicit return in principal stresses, sorted @f$\sigma_1\ge\sigma_2\ge\sigma_3@f$.
-     * Separate from the law because it is where mistakes are made and tested.
-     */
-    struct PrincipalReturn
-    {
-      dealii::Tensor<1, 3> stress;
-      /// Delta epsilon^p [-].
-      dealii::Tensor<1, 3> plastic_strain;
-      /// d sigma / d epsilon, C where the trial stress is admissible [Pa].
-      dealii::Tensor<2, 3> tangent;
-      bool                 is_elastic = true;
-    };
-
-    PrincipalReturn
-    return_to_mohr_coulomb(const MohrCoulombLaw       &law,
-                           const PlaneElasticity      &elasticity,
-                           const dealii::Tensor<1, 3> &trial);
-  } // namespace internal
 } // namespace NMM
 
 #endif

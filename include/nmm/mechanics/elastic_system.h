@@ -20,8 +20,8 @@ namespace NMM
    * @f[ r(u) = K(0)\,u + r(0) + r_\mathrm{inelastic}(u) - (1 - \lambda)\,r_0, @f]
    * as by an excavation in small steps: yielding depends on the way.
    *
-   * Order of calls in a load step: set_load_factor(), begin_step(), assemble() as often as
-   * needed, accept_step() if the step is accepted.
+   * Order of calls in a load step: set_load_factor(), assemble() as often as needed, accept_step()
+   * if the step is accepted.
    *
    * Lifetime: the elasticity must outlive this object, and nobody else may
    * assemble it while a linearized one is in use.
@@ -32,10 +32,6 @@ namespace NMM
     /// @throws InputError for inelastic materials unless @p is_linearized.
     ElasticSystem(FiniteElasticity &elasticity, bool is_linearized);
     ~ElasticSystem() override;
-
-    /// A step is tried that begins at the accepted displacements @p u.
-    void
-    begin_step(const Vector &u);
 
     /// The step to @p u is accepted: inelastic materials keep their new states. Returns what they
     /// dissipated in it [J/m].

@@ -20,11 +20,12 @@ namespace NMM
    * same law; the term that makes them symmetric keeps Hooke's law. K is not symmetric in
    * general. Elements that have never yielded and have no initial stress add nothing.
    *
-   * The material's states are those of the step accepted last; assembling changes nothing. Order
-   * of calls in a step: begin_step(), assemble() as often as needed, accept_step().
+   * The material's states are those of the step accepted last; assembling changes nothing, and
+   * accept() makes those at the end of a step the accepted ones.
    *
    * Cost: one evaluation of the law per quadrature point, and three sweeps over the matrix where
-   * something yields. Memory: two states (80 bytes) per point of inelastic regions.
+   * something yields. Memory: two states (80 bytes) per point of
+   * inelastic regions.
    *
    * Lifetime: the elasticity must outlive this object.
    */
@@ -38,16 +39,9 @@ namespace NMM
     explicit InelasticTerms(const FiniteElasticity &elasticity);
     ~InelasticTerms();
 
-    /// A step is tried that begins at the displacements @p u that were accepted last.
-    void
-    begin_step(const Vector &u);
-
-    /// r of the last begin_step(), with the states accepted then [N/m].
-    const Vector &
-    residual_at_begin() const;
-
-    /// r at @p u (locally relevant, [m]) and, if @p with_tangent, K. Collective.
-    void
+    /// r at @p u (locally relevant, [m]) and, if @p with_tangent, K. With @c inverted, the law has
+    /// no stress somewhere and nothing of it may be used. The same result on all ranks.
+    Deformation
     assemble(const Vector &u, bool with_tangent);
 
     /// r of the last assembly [N/m]; owned unknowns, 0 for constrained ones.
@@ -80,13 +74,10 @@ namespace NMM
     const Totals &
     totals() const;
 
-    /**
-     * The step to @p u is accepted, with the states there. Returns what closes the account of a
-     * step with the mean of the forces at both ends: the work of (r_0 + r_1) / 2 less the change
-     * of Totals::energy [J/m], the same as Totals::dissipated to first order in the step.
-     */
-    double
-    accept_step(const Vector &u);
+    /// The step to @p u, where the law has been evaluated before, is accepted: the states there
+    /// are the accepted ones. Assembles; totals() are those of the step.
+    void
+    accept(const Vector &u);
 
     /// Accepted states of all ranks, and back again; on any number of ranks.
     std::vector<char>
@@ -104,8 +95,8 @@ namespace NMM
     void
     set_materials(const std::vector<Material> &materials);
 
-    /// Stress of the last assembly at an element's quadrature points, in the plane and across
-    /// it [Pa], and the equivalent plastic strain [-]. Empty where the material is elastic.
+    /// Stress at an element's quadrature points, in the plane and across it [Pa], and the
+    /// equivalent plastic strain [-].
     struct PointValues
     {
       dealii::SymmetricTensor<2, 2> stress;
@@ -113,6 +104,7 @@ namespace NMM
       double                        equivalent_plastic_strain = 0.;
     };
 
+    /// At the displacements of the last assembly; empty where the material is elastic.
     std::vector<PointValues>
     values(unsigned int element) const;
 

@@ -15,8 +15,8 @@ namespace NMM
     std::vector<double> load_factors = {1.};
     /// No step is smaller than this part of the last load factor [-].
     double min_step = 1e-4;
-    /// A solution with a larger FiniteElasticity::largest_jump() is none: the
-    /// step is divided.
+    /// Solutions whose displacement conditions are missed by more are refused, and the step is
+    /// divided; in the measure of the system that is solved [-].
     double max_jump = 0.5;
     /**
      * Degree of the polynomial through previous solutions that a step starts
@@ -56,7 +56,7 @@ namespace NMM
   struct StepVerdict
   {
     bool is_accepted = false;
-    /// If it was not: why, and what the user can do, for people.
+    /// For a step that was not accepted: why, as part of a message, and what the user can do.
     std::string reason, remedy;
     /// Length of the next step over that of this one, where the attempt knows it; 0: a half if
     /// the step was not accepted, twice if it was.

@@ -332,4 +332,11 @@ namespace NMM
   {
     return data->statics.last_attempt();
   }
+
+
+  const ContactStatics::Vector &
+  ContactStatics::last_iterate() const
+  {
+    return data->statics.last_iterate();
+  }
 } // namespace NMM

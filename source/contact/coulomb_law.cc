@@ -18,8 +18,9 @@ namespace NMM
     list.push_back({"Cohesion",
                     &cohesion,
                     Parameter::Kind::number,
-                    "Shear strength without pressure, of faces in contact; of "
-                    "bonded ones until they break [Pa].",
+                    "Shear strength beside friction [Pa], of faces that press "
+                    "on each other with at least a thousandth of it; of "
+                    "bonded ones until they break.",
                     "give a stress of at least 0"});
     list.push_back({"Dilation angle",
                     &dilation,

@@ -35,15 +35,18 @@ namespace NMM
   {
     const double left  = std::max(0., 1. - slip / weakening_length);
     const double slope = left > 0. ? -1. / weakening_length : 0.;
-    // a bond that has broken has no cohesion
-    const double peak_c     = is_bond ? 0. : cohesion;
-    const double residual_c = is_bond ? 0. : residual_cohesion;
     const double tangent =
       residual_friction + left * (friction - residual_friction);
+    // a bond that has broken has no cohesion
+    const Response peak = cohesion_under(pressure, is_bond ? 0. : cohesion);
+    const Response residual =
+      cohesion_under(pressure, is_bond ? 0. : residual_cohesion);
     const double drop =
-      pressure * (friction - residual_friction) + peak_c - residual_c;
-    return {pressure * tangent + residual_c + left * (peak_c - residual_c),
-            tangent,
+      pressure * (friction - residual_friction) + peak.value - residual.value;
+    return {pressure * tangent + residual.value +
+              left * (peak.value - residual.value),
+            tangent + residual.derivative +
+              left * (peak.derivative - residual.derivative),
             slope * drop};
   }
 

@@ -14,9 +14,11 @@ namespace NMM
       std::ostringstream out;
       out.precision(2);
       out << std::scientific;
-      for (const NewtonReport::Iteration &i : report.iterations)
-        out << (&i == report.iterations.data() ? "" : ", ")
-            << i.relative_residual;
+      constexpr std::size_t n_shown = 5;
+      const std::size_t     n       = report.iterations.size();
+      for (std::size_t i = n - std::min(n, n_shown); i < n; ++i)
+        out << report.iterations[i].relative_residual
+            << (i + 1 < n ? ", " : "");
       return out.str();
     }
 
@@ -79,6 +81,7 @@ namespace NMM
     EquilibriumSearch                 *search     = nullptr;
     std::vector<State>                 states;
     LoadStep                           current;
+    Vector                             iterate;
     double                             dissipated         = 0.;
     bool                               has_initial_stress = false;
 
@@ -206,6 +209,7 @@ namespace NMM
     const auto attempt = [&](LoadStep &step) {
       Vector            u(d.states.back().solution);
       const StepVerdict verdict = d.try_step(steps, step, u);
+      d.iterate                 = u;
       if (!verdict.is_accepted)
       {
         d.search->reject();
@@ -249,6 +253,13 @@ namespace NMM
   NonlinearStatics::last_attempt() const
   {
     return data->current;
+  }
+
+
+  const NonlinearStatics::Vector &
+  NonlinearStatics::last_iterate() const
+  {
+    return data->iterate;
   }
 
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iomanip>
 #include <scene/current_stress.h>
+#include <scene/mechanism.h>
 #include <scene/nonlinear_analysis.h>
 #include <sstream>
 
@@ -170,15 +171,75 @@ namespace NMM
       {
         n_last_cuts       = statics.last_attempt().n_cuts;
         n_last_iterations = statics.last_attempt().n_lost_iterations;
-        if (history.empty())
-          explain_floating(error.message());
-        throw;
+        explain(error, statics);
       }
     }
 
 
+    double
+    NonlinearAnalysis::power_of_loads(const double  load_factor,
+                                      const double  increment,
+                                      const Vector &solution,
+                                      const Vector &direction)
+    {
+      const auto assemble = [&](const double factor) {
+        system->set_load_factor(factor);
+        (void)system->assemble(solution, Tangent::none, nullptr);
+        return system->residual();
+      };
+      // the last assembly is that of the equilibrium, of which results are written
+      Vector change = assemble(load_factor + increment);
+      change.sadd(-1., 1., assemble(load_factor));
+      Vector owned(change);
+      owned = direction;
+      return change * owned;
+    }
+
+
     void
-    NonlinearAnalysis::explain_floating(const std::string &reason) const
+    NonlinearAnalysis::explain(const NumericalFailure &error,
+                               const ContactStatics   &statics)
+    {
+      Vector motion = statics.last_iterate();
+      motion -= statics.solution();
+      const auto field_of = [&](const Vector &u) {
+        return DisplacementField(*covers, problem, u);
+      };
+      const double    reached = last_value();
+      const Mechanism mechanism =
+        find_mechanism(block_motions(field_of(statics.solution()),
+                                     field_of(statics.last_iterate()),
+                                     *quadrature),
+                       power_of_loads(reached,
+                                      statics.last_attempt().load_factor -
+                                        reached,
+                                      statics.solution(),
+                                      motion),
+                       contact->contact().parameters().reach);
+      const std::string reason =
+        error.description() + ". " + mechanism.description;
+      if (history.empty())
+        check_that_all_touch(reason);
+      AssertThrow(
+        !mechanism.does_anything_move,
+        NumericalFailure(
+          reason,
+          error.place(),
+          "friction or cohesion are too low, or the block tips over or lifts "
+          "off; hold it by displacement conditions, or let blocks move with "
+          "'Model/Analysis = relaxation' or 'dynamic'"));
+      AssertThrow(false,
+                  NumericalFailure(
+                    reason,
+                    error.place(),
+                    "set a lower 'Contact/Shear stiffness' or a smaller 'Load "
+                    "steps/Smallest step', or let blocks move with "
+                    "'Model/Analysis = relaxation'"));
+    }
+
+
+    void
+    NonlinearAnalysis::check_that_all_touch(const std::string &reason)
     {
       std::string floating;
       try
@@ -208,18 +269,6 @@ namespace NMM
                          "the first load step",
                          "let faces touch at the start, or "
                          "set 'Model/Analysis = relaxation'"));
-      AssertThrow(
-        false,
-        NumericalFailure(
-          reason +
-            ". Contact alone has to hold the solid. Its faces touch, but "
-            "there is no equilibrium under the least load: blocks slide, "
-            "as friction and cohesion are too low, or they tip over or "
-            "lift off",
-          "the first load step",
-          "increase 'Contact/Friction angle' or 'Contact/Cohesion', hold "
-          "blocks by displacement conditions, or let them move with "
-          "'Model/Analysis = relaxation' or 'dynamic'"));
     }
 
 

@@ -99,10 +99,22 @@ namespace NMM
       void
       run_contact();
 
-      /// @throws NumericalFailure, if contact alone has to hold blocks: beside @p reason
-      /// with the block that touches nothing, or that friction is too low where all touch.
+      /// Work of what loads grow by from @p load_factor with @p increment, at @p solution, in the
+      /// displacements @p direction [J/m].
+      double
+      power_of_loads(double        load_factor,
+                     double        increment,
+                     const Vector &solution,
+                     const Vector &direction);
+
+      /// @throws NumericalFailure: @p error and which block gives way, if one does.
       void
-      explain_floating(const std::string &reason) const;
+      explain(const NumericalFailure &error, const ContactStatics &statics);
+
+      /// @throws NumericalFailure, if contact alone has to hold blocks and one of them touches
+      /// nothing: @p reason and the block.
+      void
+      check_that_all_touch(const std::string &reason);
 
       void
       run_incremental();

@@ -114,7 +114,8 @@ namespace
 
   TEST(ContactLaws, DerivativesAndPotentials)
   {
-    const std::vector<double> pressures = {1e4, 1e5, 1e6, 2e7};
+    // cohesions of 1e5 and 2e5, residual 3e4 Pa, grow up to 100, 200 and 30 Pa
+    const std::vector<double> pressures = {10., 50., 1e4, 1e5, 1e6, 2e7};
     const std::vector<double> slips     = {1e-3, 3e-3, 1e-2};
     check_derivatives(coulomb_law(), {1e-5, 1e-3}, pressures, slips);
     check_derivatives(slip_weakening(), {1e-5, 1e-3}, pressures, slips);
@@ -123,6 +124,19 @@ namespace
                       {1e-9, 1e-7, 1e-5, 1e-4, 1.9e-4, 2.5e-4},
                       pressures,
                       slips);
+  }
+
+
+  // Faces that close get no shear strength at once; see CoulombLaw. Fails for S = p tan(phi) + c.
+  TEST(ContactLaws, CohesionGrowsWithPressure)
+  {
+    const SlipWeakeningLaw weakening = slip_weakening();
+    for (const double slip : {0., 1.})
+      EXPECT_EQ(weakening.strength(0., slip).value, 0.);
+    EXPECT_EQ(coulomb_law().strength(0., 0.).value, 0.);
+    EXPECT_NEAR(coulomb_law().strength(1e4, 0.).value,
+                1e4 * coulomb_law().friction + coulomb_law().cohesion,
+                1e-9);
   }
 
 

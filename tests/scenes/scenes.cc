@@ -12,9 +12,10 @@
 #include <vector>
 
 // Each folder beside this file is a case: expected.csv says in comment lines which
-// scene is run and how ("# scene:", "# arguments:", "# ranks:", "# exit code:"), and
-// has the rows name, value, abs_tol, rel_tol, source of the value. Arguments are
-// separated by vertical bars. A name is a row
+// scene is run and how ("# scene:", "# arguments:", "# ranks:", "# exit code:") and what
+// the run prints among other things ("# says:"), and
+// has the rows name, value, abs_tol, rel_tol, source of the value. Arguments and what
+// is printed are separated by vertical bars. A name is a row
 // of summary.csv, "probes/<probe>/<point>/<column>" of probes.csv, or
 // "history/<step>/<column>" of history.csv, "probes-history/..." likewise; <step> may
 // be "last". A value v passes if
@@ -35,6 +36,7 @@ namespace
     std::vector<std::string> arguments;
     unsigned int             n_ranks   = 1;
     int                      exit_code = 0;
+    std::vector<std::string> says;
     std::vector<Row>         rows;
   };
 
@@ -86,6 +88,8 @@ namespace
         result.n_ranks = std::stoul(ranks.front());
       else if (const auto code = directive("exit code"); !code.empty())
         result.exit_code = std::stoi(code.front());
+      else if (const auto says = directive("says"); !says.empty())
+        result.says = says;
       else if (!line.empty() && line[0] != '#' && line.rfind("name,", 0) != 0)
       {
         const auto fields = split(line, ',');
@@ -191,6 +195,10 @@ namespace
                       cases_dir + GetParam() + "/" + test_case.scene});
     const DriverResult result = run_driver(arguments, test_case.n_ranks);
     ASSERT_EQ(result.exit_code, test_case.exit_code) << result.output;
+    for (const std::string &text : test_case.says)
+      EXPECT_NE(result.output.find(text), std::string::npos)
+        << "not said: " << text << '\n'
+        << result.output;
 
     const auto values = read_results(output);
     for (const Row &row : test_case.rows)

@@ -28,6 +28,19 @@ namespace NMM
     std::string
     message() const;
 
+    /// What is wrong, without where and without the remedy.
+    const std::string &
+    description() const
+    {
+      return what_happened;
+    }
+
+    const std::string &
+    place() const
+    {
+      return where;
+    }
+
   private:
     std::string what_happened;
     std::string where;

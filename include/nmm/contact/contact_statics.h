@@ -99,6 +99,10 @@ namespace NMM
     const LoadStep &
     last_attempt() const;
 
+    /// See NonlinearStatics.
+    const Vector &
+    last_iterate() const;
+
   private:
     struct Data;
     std::unique_ptr<Data> data;

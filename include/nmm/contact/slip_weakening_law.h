@@ -11,7 +11,8 @@ namespace NMM
    * @f[ S = p\,\tan\phi(\kappa) + c(\kappa),\quad
    *     \tan\phi = \tan\phi_r + w (\tan\phi_p - \tan\phi_r),\quad
    *     c = c_r + w (c_p - c_r),\quad w = \langle 1 - \kappa / L\rangle_+ @f]
-   * (Ida, J. Geophys. Res. 77 (1972) 3796). Peak values are those of CoulombLaw.
+   * (Ida, J. Geophys. Res. 77 (1972) 3796). Peak values are those of CoulombLaw,
+   * and as there cohesion grows with the first thousandth of it of pressure.
    *
    * If strength falls faster than the shear spring lets go, @f$ -dS/d\kappa > \epsilon_t @f$,
    * the shear jumps to where both meet: then the shear spring is too soft for the law.

@@ -97,6 +97,11 @@ namespace NMM
     const LoadStep &
     last_attempt() const;
 
+    /// Where the search of the step that was tried last ended [m], locally relevant: after a
+    /// failure no equilibrium, but what moved furthest on the way to it gives way.
+    const Vector &
+    last_iterate() const;
+
     /// Dissipated by the material in the step accepted last [J/m].
     double
     dissipated() const;

@@ -1,0 +1,88 @@
+#include <algorithm>
+#include <cmath>
+#include <scene/mechanism.h>
+#include <sstream>
+
+namespace NMM
+{
+  namespace internal
+  {
+    using dealii::Point;
+    using dealii::Tensor;
+
+    namespace
+    {
+      /// The point with three digits, of parts of @p size that are rounding none.
+      std::string
+      rounded(const Tensor<1, 2> &x, const double size)
+      {
+        std::ostringstream out;
+        out.precision(3);
+        const auto number = [&](const double value) {
+          return std::abs(value) < 1e-3 * size ? 0. : value;
+        };
+        out << '(' << number(x[0]) << ", " << number(x[1]) << ')';
+        return out.str();
+      }
+    } // namespace
+
+
+    Mechanism
+    find_mechanism(std::vector<BlockMotion> motions,
+                   const double             power,
+                   const double             reach)
+    {
+      Mechanism result;
+      if (motions.empty())
+        return result;
+      const auto is_larger = [](const BlockMotion &a, const BlockMotion &b) {
+        return a.size() > b.size();
+      };
+      std::sort(motions.begin(), motions.end(), is_larger);
+      const BlockMotion &first  = motions.front();
+      const double       extent = first.center.norm() + first.radius;
+
+      std::ostringstream text;
+      text.precision(3);
+      text << "Block " << first.block << " around "
+           << rounded(first.center, extent);
+      result.does_anything_move = first.size() > reach;
+      if (!result.does_anything_move)
+      {
+        result.description =
+          "No block gives way, but points of contact stick and slip, or open "
+          "and close, by turns";
+        return result;
+      }
+
+      const double sign = power < 0. ? -1. : 1.;
+      const double turn = sign * first.rotation;
+      // of the translation
+      constexpr double small_turn = 0.01;
+      if (std::abs(turn) * first.radius < small_turn * first.translation.norm())
+        text << " slides towards "
+             << rounded(sign * first.translation / first.translation.norm(),
+                        1.);
+      else
+      {
+        const Point<2> pole =
+          first.center + Point<2>(-first.translation[1], first.translation[0]) /
+                           first.rotation;
+        text << " turns " << (turn > 0. ? "counter-" : "") << "clockwise about "
+             << rounded(pole, extent);
+      }
+      // of the largest motion
+      constexpr double also = 0.1;
+      const auto       n_more =
+        std::count_if(motions.begin() + 1,
+                      motions.end(),
+                      [&](const BlockMotion &motion) {
+                        return motion.size() > also * first.size();
+                      });
+      if (n_more > 0)
+        text << ", and " << n_more << " more with it";
+      result.description = text.str();
+      return result;
+    }
+  } // namespace internal
+} // namespace NMM

@@ -12,6 +12,8 @@ namespace NMM
     TEST(BlockBars, LimitOfTheChainOfColumns)
     {
       EXPECT_NEAR(limit_friction_of_columns(), 0.7851, 1e-4);
+      // column 3 topples instead of sliding: the same recurrence by hand
+      EXPECT_NEAR(limit_friction_of_columns({3, 1}), 0.7709, 1e-4);
     }
 
 

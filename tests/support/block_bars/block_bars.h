@@ -35,14 +35,23 @@ namespace NMM
     void
     topple_columns(const Toppling &toppling, Measurements &measurements);
 
+    /// A column, from 1 at the toe up, that is taken to topple (1) or to slide (2) even where the
+    /// other one takes less; 0: none is.
+    struct ForcedMode
+    {
+      unsigned int column = 0, mode = 0;
+    };
+
     /// What the chain of blocks needs at its toe to be in equilibrium [N/m],
     /// and how each block, from the toe up, fails: 0 not, 1 topples, 2 slides.
     double
-    toe_force(double friction, std::array<unsigned int, 16> &modes);
+    toe_force(double                        friction,
+              std::array<unsigned int, 16> &modes,
+              const ForcedMode             &forced = {});
 
     /// tan phi at which toe_force() is zero.
     double
-    limit_friction_of_columns();
+    limit_friction_of_columns(const ForcedMode &forced = {});
 
 
     /**

@@ -114,7 +114,9 @@ namespace NMM
 
 
     double
-    toe_force(const double friction, std::array<unsigned int, 16> &modes)
+    toe_force(const double                  friction,
+              std::array<unsigned int, 16> &modes,
+              const ForcedMode             &forced)
     {
       const double angle = degrees(base_angle);
       const double s = std::sin(angle), c = std::cos(angle);
@@ -130,6 +132,12 @@ namespace NMM
                                lower;
         const double slides =
           force - weight * (friction * c - s) / (1. - friction * friction);
+        if (forced.column == i)
+        {
+          modes[i - 1] = forced.mode;
+          force        = std::max(0., forced.mode == 1 ? topples : slides);
+          continue;
+        }
         modes[i - 1] = std::max(topples, slides) <= 0. ? 0
                        : topples > slides              ? 1
                                                        : 2;
@@ -140,14 +148,14 @@ namespace NMM
 
 
     double
-    limit_friction_of_columns()
+    limit_friction_of_columns(const ForcedMode &forced)
     {
       std::array<unsigned int, 16> modes;
       double                       moves = 0.6, stands = 0.95;
       for (unsigned int i = 0; i < 60; ++i)
       {
         const double friction = 0.5 * (moves + stands);
-        (toe_force(friction, modes) > 0. ? moves : stands) = friction;
+        (toe_force(friction, modes, forced) > 0. ? moves : stands) = friction;
       }
       return stands;
     }
@@ -202,9 +210,16 @@ namespace NMM
       std::array<unsigned int, 16> expected;
       const double                 limit = limit_friction_of_columns();
       (void)toe_force((1. - 1e-9) * limit, expected);
+      // A column may fail otherwise where it would within the bound of the limit: at 0.982 of its
+      // friction column 3 can topple as well as slide, and rounding decides.
+      const auto is_possible = [&](const unsigned int i) {
+        return modes[i] == expected[i] ||
+               (modes[i] != 0 && limit_friction_of_columns({i + 1, modes[i]}) >=
+                                   (1. - toppling.bound) * limit);
+      };
       unsigned int n_different = 0;
       for (unsigned int i = 0; i < n_columns; ++i)
-        n_different += modes[i] != expected[i];
+        n_different += !is_possible(i);
       measurements.add(1,
                        "Goodman-Bray columns",
                        "limit friction [-]",

@@ -32,9 +32,15 @@ namespace NMM
                    const double             power,
                    const double             reach)
     {
-      Mechanism result;
-      if (motions.empty())
+      Mechanism  result;
+      const auto is_finite = [](const BlockMotion &motion) {
+        return std::isfinite(motion.size());
+      };
+      if (!std::all_of(motions.begin(), motions.end(), is_finite))
+      {
+        result.description = "The search left the range of numbers";
         return result;
+      }
       const auto is_larger = [](const BlockMotion &a, const BlockMotion &b) {
         return a.size() > b.size();
       };

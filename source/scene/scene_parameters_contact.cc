@@ -20,7 +20,7 @@ namespace NMM
       {"augmented Lagrangian", Enforcement::augmented_lagrangian}};
 
     const LawEntries<ContactLaw> &
-    law_entries()
+    contact_law_entries()
     {
       static const LawEntries<ContactLaw> entries(contact_laws());
       return entries;
@@ -56,7 +56,7 @@ namespace NMM
         between[i] = names[i] == any_face ? "" : names[i];
     }
 
-    law_entries().list(entries, law_name, values);
+    contact_law_entries().list(entries, law_name, values);
     entries.add("Bonded",
                 is_bonded,
                 "Faces that touch at the start hold together until tension or "
@@ -67,8 +67,9 @@ namespace NMM
   std::unique_ptr<ContactLaw>
   ContactLawParameters::parsed_law() const
   {
-    std::unique_ptr<ContactLaw> law = law_entries().make(law_name, values);
-    law->is_bond                    = is_bonded;
+    std::unique_ptr<ContactLaw> law =
+      contact_law_entries().make(law_name, values);
+    law->is_bond = is_bonded;
     return law;
   }
 
@@ -97,9 +98,8 @@ namespace NMM
   ContactLawParameters::check(const bool may_be_damped) const
   {
     const std::unique_ptr<ContactLaw> law = parsed_law();
-    law_entries().check(law_name, values, [this](const std::string &key) {
-      return place(key);
-    });
+    contact_law_entries().check(
+      law_name, values, [this](const std::string &key) { return place(key); });
     for (const char *key : {"Normal damping", "Shear damping"})
       AssertThrow(may_be_damped || values.at(key) == 0.,
                   InputError(std::string("'") + key + " = " +

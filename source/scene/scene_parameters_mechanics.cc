@@ -25,7 +25,7 @@ namespace NMM
       {"plane strain", PlaneState::plane_strain}};
 
     const LawEntries<MaterialLaw> &
-    law_entries()
+    material_law_entries()
     {
       static const LawEntries<MaterialLaw> entries(material_laws());
       return entries;
@@ -79,8 +79,8 @@ namespace NMM
                 Patterns::Double(0),
                 "rho, the mass per volume that gravity acts on [kg/m^3].");
     std::map<std::string, double> values;
-    std::string law_name = law_entries().read(*material.law, values);
-    law_entries().list(entries, law_name, values);
+    std::string law_name = material_law_entries().read(*material.law, values);
+    material_law_entries().list(entries, law_name, values);
 
     const auto         &stress     = material.initial_stress;
     std::vector<double> components = {stress[0][0], stress[1][1], stress[0][1]};
@@ -94,10 +94,10 @@ namespace NMM
                 "(sigma_xx + sigma_yy) [Pa].");
     if (!entries.are_parsed())
       return;
-    law_entries().check(law_name, values, [&](const std::string &key) {
+    material_law_entries().check(law_name, values, [&](const std::string &key) {
       return "parameter 'Materials/" + material.name + "/" + key + "'";
     });
-    material.law                  = law_entries().make(law_name, values);
+    material.law = material_law_entries().make(law_name, values);
     material.initial_stress[0][0] = components[0];
     material.initial_stress[1][1] = components[1];
     material.initial_stress[0][1] = components[2];

@@ -52,7 +52,7 @@ namespace NMM
       text.precision(3);
       text << "Block " << first.block << " around "
            << rounded(first.center, extent);
-      result.does_anything_move = first.size() > reach;
+      result.does_anything_move = first.size() > std::max(reach, first.radius);
       if (!result.does_anything_move)
       {
         result.description =

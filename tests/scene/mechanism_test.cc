@@ -1,0 +1,79 @@
+#include <gtest/gtest.h>
+#include <limits>
+#include <scene/mechanism.h>
+
+using namespace NMM;
+using namespace NMM::internal;
+using dealii::Point;
+using dealii::Tensor;
+
+namespace
+{
+  BlockMotion
+  motion(const unsigned int  block,
+         const Tensor<1, 2> &translation,
+         const double        rotation)
+  {
+    BlockMotion result;
+    result.block       = block;
+    result.area        = 1.;
+    result.center      = Point<2>(1. + block, 2.);
+    result.radius      = 0.5;
+    result.translation = translation;
+    result.rotation    = rotation;
+    return result;
+  }
+
+
+  /// What is said of blocks that move as given.
+  void
+  expect(const std::vector<BlockMotion> &motions,
+         const double                    power,
+         const bool                      does_anything_move,
+         const std::string              &description)
+  {
+    const Mechanism mechanism = find_mechanism(motions, power, 0.1);
+    EXPECT_EQ(mechanism.does_anything_move, does_anything_move);
+    EXPECT_EQ(mechanism.description, description);
+  }
+
+
+  TEST(Mechanism, LoadsSayWhichWay)
+  {
+    const auto slide = motion(0, Tensor<1, 2>({-3e6, 4e6}), 1e-3);
+    expect({slide},
+           1.,
+           true,
+           "Block 0 around (1, 2) slides towards (-0.6, 0.8)");
+    expect({slide},
+           -1.,
+           true,
+           "Block 0 around (1, 2) slides towards (0.6, -0.8)");
+    // about (2, 2) + (-t_y, t_x) / omega
+    const auto turn = motion(1, Tensor<1, 2>({2e4, -1e4}), 2e4);
+    expect({motion(0, Tensor<1, 2>(), 0.), turn},
+           1.,
+           true,
+           "Block 1 around (2, 2) turns counter-clockwise about (2.5, 3)");
+    expect(
+      {slide, motion(1, Tensor<1, 2>({-3e6, 4e6}), 0.), turn},
+      -1.,
+      true,
+      "Block 0 around (1, 2) slides towards (0.6, -0.8), and 1 more with it");
+  }
+
+
+  TEST(Mechanism, StatesThatAlternateMoveNothing)
+  {
+    expect({motion(0, Tensor<1, 2>({3e-8, 0.}), 1e-8)},
+           1.,
+           false,
+           "No block gives way, but points of contact stick and slip, or open "
+           "and close, by turns");
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    expect({motion(0, Tensor<1, 2>({nan, 0.}), 0.)},
+           nan,
+           false,
+           "The search left the range of numbers");
+  }
+} // namespace

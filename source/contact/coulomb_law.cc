@@ -18,9 +18,9 @@ namespace NMM
     list.push_back({"Cohesion",
                     &cohesion,
                     Parameter::Kind::number,
-                    "Shear strength beside friction [Pa], of faces that press "
-                    "on each other with at least a thousandth of it; of "
-                    "bonded ones until they break.",
+                    "Shear strength in addition to friction; acts in full from "
+                    "a thousandth of it in pressure on, in bonded faces until "
+                    "they break [Pa].",
                     "give a stress of at least 0"});
     list.push_back({"Dilation angle",
                     &dilation,

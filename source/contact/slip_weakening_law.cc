@@ -37,11 +37,9 @@ namespace NMM
     const double slope = left > 0. ? -1. / weakening_length : 0.;
     const double tangent =
       residual_friction + left * (friction - residual_friction);
-    // a bond that has broken has no cohesion
-    const Response peak = cohesion_under(pressure, is_bond ? 0. : cohesion);
-    const Response residual =
-      cohesion_under(pressure, is_bond ? 0. : residual_cohesion);
-    const double drop =
+    const Response peak     = cohesion_under(pressure, cohesion);
+    const Response residual = cohesion_under(pressure, residual_cohesion);
+    const double   drop =
       pressure * (friction - residual_friction) + peak.value - residual.value;
     return {pressure * tangent + residual.value +
               left * (peak.value - residual.value),

@@ -209,9 +209,9 @@ namespace NMM
     const auto attempt = [&](LoadStep &step) {
       Vector            u(d.states.back().solution);
       const StepVerdict verdict = d.try_step(steps, step, u);
-      d.iterate                 = u;
       if (!verdict.is_accepted)
       {
+        d.iterate = u;
         d.search->reject();
         return verdict;
       }

@@ -38,7 +38,8 @@ namespace NMM
       };
       if (!std::all_of(motions.begin(), motions.end(), is_finite))
       {
-        result.description = "The search left the range of numbers";
+        result.description =
+          "The iteration produced displacements that are not finite";
         return result;
       }
       const auto is_larger = [](const BlockMotion &a, const BlockMotion &b) {
@@ -56,8 +57,8 @@ namespace NMM
       if (!result.does_anything_move)
       {
         result.description =
-          "No block gives way, but points of contact stick and slip, or open "
-          "and close, by turns";
+          "No block gives way: contact points keep changing between sticking "
+          "and slipping, or between open and closed";
         return result;
       }
 
@@ -86,7 +87,7 @@ namespace NMM
                         return motion.size() > also * first.size();
                       });
       if (n_more > 0)
-        text << ", and " << n_more << " more with it";
+        text << ", and " << n_more << " more block(s) move with it";
       result.description = text.str();
       return result;
     }

@@ -177,22 +177,21 @@ namespace NMM
 
 
     double
-    NonlinearAnalysis::power_of_loads(const double  load_factor,
-                                      const double  increment,
-                                      const Vector &solution,
-                                      const Vector &direction)
+    NonlinearAnalysis::power_of_loads(const ContactStatics &statics)
     {
       const auto assemble = [&](const double factor) {
         system->set_load_factor(factor);
-        (void)system->assemble(solution, Tangent::none, nullptr);
+        (void)system->assemble(statics.solution(), Tangent::none, nullptr);
         return system->residual();
       };
       // the last assembly is that of the equilibrium, of which results are written
-      Vector change = assemble(load_factor + increment);
-      change.sadd(-1., 1., assemble(load_factor));
-      Vector owned(change);
-      owned = direction;
-      return change * owned;
+      Vector change = assemble(statics.last_attempt().load_factor);
+      change.sadd(-1., 1., assemble(last_value()));
+      Vector motion(change), before(change);
+      motion = statics.last_iterate();
+      before = statics.solution();
+      motion -= before;
+      return change * motion;
     }
 
 
@@ -200,21 +199,14 @@ namespace NMM
     NonlinearAnalysis::explain(const NumericalFailure &error,
                                const ContactStatics   &statics)
     {
-      Vector motion = statics.last_iterate();
-      motion -= statics.solution();
       const auto field_of = [&](const Vector &u) {
         return DisplacementField(*covers, problem, u);
       };
-      const double    reached = last_value();
       const Mechanism mechanism =
         find_mechanism(block_motions(field_of(statics.solution()),
                                      field_of(statics.last_iterate()),
                                      *quadrature),
-                       power_of_loads(reached,
-                                      statics.last_attempt().load_factor -
-                                        reached,
-                                      statics.solution(),
-                                      motion),
+                       power_of_loads(statics),
                        contact->contact().parameters().reach);
       const std::string reason =
         error.description() + ". " + mechanism.description;

@@ -99,13 +99,10 @@ namespace NMM
       void
       run_contact();
 
-      /// Work of what loads grow by from @p load_factor with @p increment, at @p solution, in the
-      /// displacements @p direction [J/m].
+      /// Work of the increment of loads in a step that failed, from the last equilibrium to where
+      /// the search for the next one ended [J/m].
       double
-      power_of_loads(double        load_factor,
-                     double        increment,
-                     const Vector &solution,
-                     const Vector &direction);
+      power_of_loads(const ContactStatics &statics);
 
       /// @throws NumericalFailure: @p error and which block gives way, if one does.
       void

@@ -11,9 +11,25 @@ namespace NMM
     // Textbooks round the limit of the chain of columns to 0.7855.
     TEST(BlockBars, LimitOfTheChainOfColumns)
     {
-      EXPECT_NEAR(limit_friction_of_columns(), 0.7851, 1e-4);
-      // column 3 topples instead of sliding: the same recurrence by hand
-      EXPECT_NEAR(limit_friction_of_columns({3, 1}), 0.7709, 1e-4);
+      const double limit = limit_friction_of_columns();
+      EXPECT_NEAR(limit, 0.7851, 1e-4);
+      // of all ways that differ in one column only two are possible at 0.98 of the limit: column 3
+      // topples, or column 4 slides
+      std::array<unsigned int, 16> modes;
+      (void)toe_force(0.98 * limit, modes);
+      EXPECT_TRUE(can_move(0.98 * limit, modes));
+      unsigned int n_other = 0;
+      for (unsigned int &mode : modes)
+      {
+        const unsigned int expected = mode;
+        for (const unsigned int other : {0, 1, 2})
+        {
+          mode = other;
+          n_other += other != expected && can_move(0.98 * limit, modes);
+        }
+        mode = expected;
+      }
+      EXPECT_EQ(n_other, 2U);
     }
 
 

@@ -55,11 +55,11 @@ namespace
            1.,
            true,
            "Block 1 around (2, 2) turns counter-clockwise about (2.5, 3)");
-    expect(
-      {slide, motion(1, Tensor<1, 2>({-3e6, 4e6}), 0.), turn},
-      -1.,
-      true,
-      "Block 0 around (1, 2) slides towards (0.6, -0.8), and 1 more with it");
+    expect({slide, motion(1, Tensor<1, 2>({-3e6, 4e6}), 0.), turn},
+           -1.,
+           true,
+           "Block 0 around (1, 2) slides towards (0.6, -0.8), and 1 more "
+           "block(s) move with it");
   }
 
 
@@ -68,12 +68,12 @@ namespace
     expect({motion(0, Tensor<1, 2>({3e-8, 0.}), 1e-8)},
            1.,
            false,
-           "No block gives way, but points of contact stick and slip, or open "
-           "and close, by turns");
+           "No block gives way: contact points keep changing between sticking "
+           "and slipping, or between open and closed");
     const double nan = std::numeric_limits<double>::quiet_NaN();
     expect({motion(0, Tensor<1, 2>({nan, 0.}), 0.)},
            nan,
            false,
-           "The search left the range of numbers");
+           "The iteration produced displacements that are not finite");
   }
 } // namespace

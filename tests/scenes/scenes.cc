@@ -462,7 +462,7 @@ namespace
 
 
   // Two bodies that slide with friction, in steps that are given: what the number of
-  // ranks changes is Newton's tolerance of 1e-9 of all forces at the most, 6e-11 measured. So both
+  // ranks changes is Newton's tolerance of 1e-9 of all forces at the most, 2.5e-10 measured. So both
   // components of a force are compared with the larger one: the shear at the floor is a fifth of the
   // pressure. Left out are the balance, which is a difference of nearly equal numbers, the energy
   // of strain, which is small beside that of motion, and how often states changed on the way.

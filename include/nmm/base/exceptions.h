@@ -35,6 +35,7 @@ namespace NMM
       return what_happened;
     }
 
+    /// Where: the name of a curve or parameter, or coordinates.
     const std::string &
     place() const
     {

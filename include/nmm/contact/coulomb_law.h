@@ -10,12 +10,10 @@ namespace NMM
    * @f[ S = p\tan\phi + \min(c, 1000\,p). @f]
    * Bonds have the strength p tan(phi) + c until they break, and then no cohesion.
    *
-   * With cohesion in full from the first touch on, shear would jump where a point closes or opens.
-   * A point may then have no equilibrium: with its cohesion it opens, and without it closes. So
-   * cohesion grows in proportion to the pressure up to a thousandth of c, which no balance of blocks
-   * notices. The tunnel in jointed rock with joints 4.3 m and 4.7 m apart ended at 0.685 of its load
-   * without that, and takes all of it with slopes from 2 to 1000. On the finer mesh of the shipped
-   * scene a slope of 10 ends in the first step, and 1000 takes as many iterations as the jump.
+   * If cohesion acted in full as soon as faces touch, shear would jump where a point closes or
+   * opens, and the point might have no equilibrium: with its cohesion it opens, without it closes.
+   * So cohesion grows in proportion to the pressure up to a thousandth of c, which no balance of
+   * blocks notices.
    */
   class CoulombLaw : public ContactLaw
   {
@@ -32,7 +30,7 @@ namespace NMM
     Strength
     strength(const double pressure, double /*slip*/) const override
     {
-      const Response c = cohesion_under(pressure, is_bond ? 0. : cohesion);
+      const Response c = cohesion_under(pressure, cohesion);
       return {friction * pressure + c.value, friction + c.derivative, 0.};
     }
 
@@ -60,11 +58,13 @@ namespace NMM
     double cohesion = 0.;
 
   protected:
-    /// min(c, 1000 p) and its derivative by the pressure p.
-    static Response
-    cohesion_under(const double pressure, const double c)
+    /// min(c, 1000 p) and its derivative by the pressure p; 0 for a bond that has broken.
+    Response
+    cohesion_under(const double pressure, const double c) const
     {
       constexpr double slope = 1000.;
+      if (is_bond)
+        return {};
       return slope * pressure < c ? Response{slope * pressure, slope}
                                   : Response{c, 0.};
     }

@@ -97,8 +97,8 @@ namespace NMM
     const LoadStep &
     last_attempt() const;
 
-    /// Where the search of the step that was tried last ended [m], locally relevant: after a
-    /// failure no equilibrium, but what moved furthest on the way to it gives way.
+    /// Where the search for the last equilibrium that was not found ended [m], locally relevant:
+    /// what moved furthest on the way there gives way.
     const Vector &
     last_iterate() const;
 

@@ -35,23 +35,20 @@ namespace NMM
     void
     topple_columns(const Toppling &toppling, Measurements &measurements);
 
-    /// A column, from 1 at the toe up, that is taken to topple (1) or to slide (2) even where the
-    /// other one takes less; 0: none is.
-    struct ForcedMode
-    {
-      unsigned int column = 0, mode = 0;
-    };
-
     /// What the chain of blocks needs at its toe to be in equilibrium [N/m],
     /// and how each block, from the toe up, fails: 0 not, 1 topples, 2 slides.
     double
-    toe_force(double                        friction,
-              std::array<unsigned int, 16> &modes,
-              const ForcedMode             &forced = {});
+    toe_force(double friction, std::array<unsigned int, 16> &modes);
+
+    /// Whether the columns can move as @p modes says, without support at the toe: what stands needs
+    /// no support, what topples or slides does. Below the limit friction there is more than one
+    /// way: from 0.982 of it on column 3 can topple as well as slide, and rounding decides.
+    bool
+    can_move(double friction, const std::array<unsigned int, 16> &modes);
 
     /// tan phi at which toe_force() is zero.
     double
-    limit_friction_of_columns(const ForcedMode &forced = {});
+    limit_friction_of_columns();
 
 
     /**

@@ -63,6 +63,9 @@ namespace NMM
                              "Mathematical mesh/Local sizes",
                              "the size must be positive and the growth in "
                              "(0, 1]"));
+      Assert(local.exponent > 0. && local.exponent <= 1. && local.length > 0.,
+             ExcMessage(
+               "The size of cells must not grow faster than linearly."));
       pieces_of_local_size.emplace_back();
       if (local.kind != LocalSize::Kind::curve)
         continue;
@@ -99,7 +102,15 @@ namespace NMM
             d = std::min(d, distance(piece, x));
           break;
       }
-      size = std::min(size, local.size + local.growth * d);
+      // No power is needed where even the straight line up to `length` is above the size.
+      if (local.size + local.growth * std::min(d, local.length) < size)
+        size = std::min(size,
+                        local.size +
+                          local.growth *
+                            (local.exponent == 1.
+                               ? d
+                               : local.length *
+                                   std::pow(d / local.length, local.exponent)));
     }
     return size;
   }

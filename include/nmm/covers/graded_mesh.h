@@ -14,7 +14,9 @@ namespace NMM
   /**
    * A place that wants smaller cells: edge length `size` there, growing with the
    * distance d from it,
-   * @f[ h(x) = \texttt{size} + \texttt{growth}\; d(x). @f]
+   * @f[ h(x) = \texttt{size}
+       + \texttt{growth}\;\ell\left(\frac{d(x)}{\ell}\right)^{\texttt{exponent}},
+       \qquad \ell = \texttt{length}. @f]
    */
   struct LocalSize
   {
@@ -35,8 +37,12 @@ namespace NMM
 
     /// Wanted edge length [m].
     double size = 0.;
-    /// Increase of the edge length per distance [-], at most 1.
+    /// Increase of the edge length per distance [-], at most 1; with another exponent than 1
+    /// its mean up to the distance `length`.
     double growth = 0.2;
+    /// In (0, 1]. With 1, `length` [m] has no effect. For an exponent less than 1 cells grow
+    /// faster near the place and slower away from it.
+    double exponent = 1., length = 1.;
   };
 
 

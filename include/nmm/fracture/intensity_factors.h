@@ -1,0 +1,167 @@
+#ifndef nmm_fracture_intensity_factors_h
+#define nmm_fracture_intensity_factors_h
+
+#include <nmm/covers/cover_system.h>
+#include <nmm/geometry/crack_tip.h>
+#include <nmm/mechanics/displacement_field.h>
+#include <nmm/mechanics/elasticity_problem.h>
+
+#include <array>
+#include <functional>
+#include <vector>
+
+namespace NMM
+{
+  /// What a crack tip is like under the load.
+  struct IntensityFactors
+  {
+    /// Stress intensity factors [Pa m^(1/2)]: ahead of the tip
+    /// sigma_22 = K_I (2 pi r)^(-1/2), sigma_12 = K_II (2 pi r)^(-1/2).
+    double K_I = 0., K_II = 0.;
+    /// T-stress [Pa]: the part of sigma_11 at the tip that is not singular.
+    double T = 0.;
+    /// Energy that the crack releases where it grows straight on, per area [J/m^2]:
+    /// (K_I^2 + K_II^2) / E'.
+    double energy_release_rate = 0.;
+    /// Radius of the disk they were computed from [m].
+    double radius = 0.;
+    /// How far the intensity factors from smaller disks are from these, the largest
+    /// difference [Pa m^(1/2)]: an estimate of their error.
+    double spread = 0.;
+  };
+
+
+  /// Traction [Pa] on a crack face at x with the unit normal that points out of the solid.
+  using FaceTraction =
+    std::function<dealii::Tensor<1, 2>(const dealii::Point<2> &,
+                                       const dealii::Tensor<1, 2> &)>;
+
+
+  /**
+   * The interaction integrals of a crack tip in domain form, as linear functionals of the
+   * displacement, made once for a disk about the tip.
+   *
+   * Let a be an elastic field without body force, singular at the tip (TipField),
+   * with stress s^a and strain e^a, continued up to the faces of the crack, however these
+   * bend. With a function q that is 1 near the tip and 0 outside the disk, sigma the stress
+   * with initial stress, f the body force and t the traction on the faces, n
+   * pointing out of the solid, and indices in the tip's frame,
+   * @f[ P_j = \sigma_{kl}e^a_{kl}\delta_{1j} - \sigma_{ij}a_{i,1} - s^a_{ij}u_{i,1},
+       \qquad P_{j,j} = f_ia_{i,1}, @f]
+   * @f[ I = \lim_{\rho\to0}\int_{r=\rho}P_jm_j\,ds
+         = -\int_A (P_jq_{,j} + q f_ia_{i,1})\,dA
+         + \int_{\mathrm{faces}} q P_jn_j\,ds. @f]
+   * On the faces derivatives of u appear along the face only,
+   * @f[ P_jn_j = n_1\sigma^0_{kl}e^a_{kl} - t_ia_{i,1} + s^a_{i2}\,\partial_su_i, @f]
+   * s being the direction with the solid on its left. The last term is integrated by parts, so
+   * that I is a bounded functional of u and converges with the square of the energy error:
+   * @f[ \int q s^a_{i2}\,\partial_su_i\,ds
+       = -\int \partial_s(q s^a_{i2})\,(u_i-u_i^{\mathrm{tip}})\,ds. @f]
+   * The displacement of the tip changes nothing but makes the T-stress's integral
+   * exist. On straight faces without traction all of this vanishes and is skipped. A body force
+   * is divided: with its value f^0 at the tip,
+   * @f$ \int_A q f^0_ia_{i,1} = -\int_A q_{,1}f^0_ia_i
+       + \int_{\mathrm{faces}} q f^0_i a_i n_1@f$, which has no singular integrand.
+   *
+   * Then K_I = E' I / 2 with the field of unit K_I, likewise K_II, and with the
+   * point force
+   * @f$ T = E' I + \sigma_{22} + \sigma^0_{11} - \nu'\sigma^0_{22}@f$, sigma_22 being minus the
+   * normal pressure on the faces at the tip and nu' = (3 - kappa) / (1 + kappa).
+   *
+   * q is a polynomial of degree 7 in r between an inner and the outer radius, with three
+   * continuous derivatives. Element rules have the degree 10: their own error is 1e-7 of K
+   * with ten cells and 1e-8 with twenty along the radius.
+   *
+   * Limits: small displacements; initial stress is uniform in the region; no inertia, no
+   * inelastic strain within the disk; nothing but this crack in the disk
+   * (CrackTip::free_radius).
+   *
+   * Sources: M. Stern, E. Becker, R. Dunham, Int. J. Fract. 12 (1976), 359-368; J. Yau, S. Wang, H.
+   * Corten, J. Appl. Mech. 47 (1980), 335-341; the form for bent cracks is derived here.
+   *
+   * Lifetime: the cover system must outlive this object.
+   */
+  class InteractionIntegrals
+  {
+  public:
+    /**
+     * @p outer_radius of the disk [m], at most the tip's free radius.
+     * @p face_traction: empty if the faces are free.
+     * @throws InputError for a larger radius.
+     */
+    InteractionIntegrals(const CoverSystem       &covers,
+                         const ElasticityProblem &problem,
+                         const CrackTip          &tip,
+                         double                   outer_radius,
+                         const FaceTraction      &face_traction = {});
+
+    using Gradient =
+      std::function<dealii::Tensor<2, 2>(unsigned int,
+                                         const dealii::Point<2> &)>;
+    using Displacement =
+      std::function<dealii::Tensor<1, 2>(unsigned int,
+                                         const dealii::Point<2> &)>;
+
+    /// From a displacement and its gradient at reference coordinates of an element.
+    /// Collective.
+    IntensityFactors
+    evaluate(const Displacement &displacement, const Gradient &gradient) const;
+
+    IntensityFactors
+    evaluate(const DisplacementField &field) const;
+
+    /// Points where the gradient is asked for, on this rank.
+    std::size_t
+    n_points() const;
+
+  private:
+    /// Opening, sliding, point force.
+    static constexpr unsigned int n_fields = 3;
+
+    /// Integral of kernel : grad u.
+    struct GradientPoint
+    {
+      unsigned int                               element;
+      dealii::Point<2>                           xi;
+      std::array<dealii::Tensor<2, 2>, n_fields> kernels;
+    };
+
+    /// Integral of kernel . u.
+    struct FacePoint
+    {
+      unsigned int                               element;
+      dealii::Point<2>                           xi;
+      std::array<dealii::Tensor<1, 2>, n_fields> kernels;
+    };
+
+    class Builder;
+
+    const CoverSystem         *covers;
+    CrackTip                   tip;
+    double                     radius;
+    std::vector<GradientPoint> gradient_points;
+    std::vector<FacePoint>     face_points;
+    /// Of what does not depend on the displacement.
+    std::array<double, n_fields> constants{};
+    /// Integral of all face kernels on all ranks.
+    std::array<dealii::Tensor<1, 2>, n_fields> face_resultants;
+    double                                     modulus = 0.;
+    /// sigma_22 + sigma^0_11 - nu' sigma^0_22 [Pa]
+    double normal_part = 0.;
+  };
+
+
+  /**
+   * Intensity factors of a tip from five disks: those of the largest one, with the spread
+   * of all. @p largest_radius [m]; 0 stands for 0.9 times the tip's free radius.
+   * Collective.
+   */
+  IntensityFactors
+  compute_intensity_factors(const DisplacementField &field,
+                            const ElasticityProblem &problem,
+                            const CrackTip          &tip,
+                            double                   largest_radius = 0.,
+                            const FaceTraction      &face_traction  = {});
+} // namespace NMM
+
+#endif

@@ -36,17 +36,6 @@ namespace NMM
     }
 
 
-    template <std::size_t n>
-    void
-    sum_over_ranks(std::array<double, n> &values, const MPI_Comm communicator)
-    {
-      dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(values.data(),
-                                                                  n),
-                                  communicator,
-                                  dealii::ArrayView<double>(values.data(), n));
-    }
-
-
     /// A point of an element's edge, x(t) with t in [0, 1] from its start.
     struct EdgePoint
     {
@@ -78,381 +67,384 @@ namespace NMM
 
 
 
-  class InteractionIntegrals::Builder
+  namespace
   {
-  public:
-    Builder(InteractionIntegrals    &integrals,
-            const ElasticityProblem &problem,
-            const FaceTraction      &face_traction)
-      : integrals(integrals)
-      , tip(integrals.tip)
-      , radius(integrals.radius)
-      , mesh(integrals.covers->manifold_mesh())
-      , problem(problem)
-      , material(problem.materials[problem.region_to_material(
-          mesh.physical_mesh())[tip.region]])
-      , elasticity(material.plane_elasticity(problem.plane_state))
-      , face_traction(face_traction)
-      , e_1(tip.direction)
-      , e_2(Point<2>(-e_1[1], e_1[0]))
-      , fields{{{TipField::Kind::opening, elasticity},
-                {TipField::Kind::sliding, elasticity},
-                {TipField::Kind::point_force, elasticity}}}
-      , force_at_tip(body_force(tip.point))
-      , rules(rule_degree)
-      , gauss(rule_degree)
+    /// Sums up the integrals of one tip.
+    class InteractionIntegrals
     {
-      for (unsigned int i = 0; i < 2; ++i)
+    public:
+      InteractionIntegrals(const CoverSystem         &covers,
+                           const ElasticityProblem   &problem,
+                           const CrackTip            &tip,
+                           const std::vector<double> &radii,
+                           const ElementDisplacement &displacement,
+                           const ElementGradient     &gradient,
+                           const FaceTraction        &face_traction)
+        : covers(covers)
+        , mesh(covers.manifold_mesh())
+        , problem(problem)
+        , tip(tip)
+        , radii(radii)
+        , largest_radius(*std::max_element(radii.begin(), radii.end()))
+        , displacement(displacement)
+        , gradient(gradient)
+        , face_traction(face_traction)
+        , material(problem.materials[problem.region_to_material(
+            mesh.physical_mesh())[tip.region]])
+        , elasticity(material.plane_elasticity(problem.plane_state))
+        , e_1(tip.direction)
+        , e_2(Point<2>(-e_1[1], e_1[0]))
+        , fields{{{TipField::Kind::opening, elasticity},
+                  {TipField::Kind::sliding, elasticity},
+                  {TipField::Kind::point_force, elasticity}}}
+        , force_at_tip(body_force(tip.point))
+        // Does the crack bend within the disks?
+        , is_bent(tip.path.front().radius != 0. ||
+                  tip.point.distance(tip.path.front().end) < largest_radius)
+        , rules(rule_degree)
+        , gauss(rule_degree)
+        , sums(n_fields * radii.size(), 0.)
       {
-        frame[i][0] = e_1[i];
-        frame[i][1] = e_2[i];
+        for (unsigned int i = 0; i < 2; ++i)
+        {
+          frame[i][0] = e_1[i];
+          frame[i][1] = e_2[i];
+        }
+        find_pressures();
       }
-    }
 
 
-    void
-    build()
-    {
-      set_constants();
-      const bool  has_faces    = face_traction || is_bent();
-      const auto &cells        = mesh.mathematical_mesh();
-      const auto [first, last] = integrals.covers->locally_owned_elements();
-      for (unsigned int element = first; element < last; ++element)
+      std::vector<IntensityFactors>
+      evaluate()
       {
-        const unsigned int cell = mesh.cell(element);
-        if (mesh.region(element) != tip.region ||
-            cells.reference_to_real(cell, {1. / 3., 1. / 3.})
-                .distance(tip.point) > radius + cells.cell_diameter(cell))
-          continue;
-        add_area(element);
-        if (has_faces)
-          for (const ElementEdge &edge : mesh.edges(element))
-            if (edge.curve_set != invalid_index)
-              add_face(element, edge);
+        if (is_bent)
+          find_displacement_of_tip();
+        const bool  has_faces = face_traction || !pressures.empty() || is_bent;
+        const auto &cells     = mesh.mathematical_mesh();
+        const auto [first, last] = covers.locally_owned_elements();
+        for (unsigned int element = first; element < last; ++element)
+        {
+          const unsigned int cell = mesh.cell(element);
+          if (mesh.region(element) != tip.region ||
+              cells.reference_to_real(cell, {1. / 3., 1. / 3.})
+                  .distance(tip.point) >
+                largest_radius + cells.cell_diameter(cell))
+            continue;
+          add_area(element);
+          if (has_faces)
+            for (const ElementEdge &edge : mesh.edges(element))
+              if (edge.curve_set != invalid_index)
+                add_face(element, edge);
+        }
+        dealii::Utilities::MPI::sum(sums, covers.communicator(), sums);
+        return factors();
       }
-    }
 
-  private:
-    InteractionIntegrals    &integrals;
-    const CrackTip          &tip;
-    const double             radius;
-    const ManifoldMesh      &mesh;
-    const ElasticityProblem &problem;
-    const Material          &material;
-    const PlaneElasticity    elasticity;
-    const FaceTraction      &face_traction;
-    /// Of the tip's frame; its axes are the columns of `frame`.
-    const Tensor<1, 2>                   e_1, e_2;
-    Tensor<2, 2>                         frame;
-    const std::array<TipField, n_fields> fields;
-    const Tensor<1, 2>                   force_at_tip;
-    ElementRuleBuilder                   rules;
-    const dealii::QGauss<1>              gauss;
+    private:
+      /// Opening, sliding, point force.
+      static constexpr unsigned int n_fields = 3;
 
-
-    Tensor<1, 2>
-    body_force(const Point<2> &x) const
-    {
-      Tensor<1, 2> force = material.density * problem.gravity;
-      if (problem.body_force)
-        for (unsigned int c = 0; c < 2; ++c)
-          force[c] += problem.body_force->value(x, c);
-      return force;
-    }
-
-
-    /// Does the crack bend within the disk?
-    bool
-    is_bent() const
-    {
-      return tip.path.front().radius != 0. ||
-             tip.point.distance(tip.path.front().end) < radius;
-    }
+      const CoverSystem         &covers;
+      const ManifoldMesh        &mesh;
+      const ElasticityProblem   &problem;
+      const CrackTip            &tip;
+      const std::vector<double> &radii;
+      const double               largest_radius;
+      const ElementDisplacement &displacement;
+      const ElementGradient     &gradient;
+      const FaceTraction        &face_traction;
+      const Material            &material;
+      const PlaneElasticity      elasticity;
+      /// Of the tip's frame; its axes are the columns of `frame`.
+      const Tensor<1, 2>                   e_1, e_2;
+      Tensor<2, 2>                         frame;
+      const std::array<TipField, n_fields> fields;
+      const Tensor<1, 2>                   force_at_tip;
+      const bool                           is_bent;
+      ElementRuleBuilder                   rules;
+      const dealii::QGauss<1>              gauss;
+      Tensor<1, 2>                         displacement_of_tip;
+      /// Curves with pressures on their faces: the curve and the condition.
+      std::vector<std::pair<unsigned int, const BoundaryCondition *>> pressures;
+      /// I of each disk and, for each of them, field.
+      std::vector<double> sums;
 
 
-    void
-    set_constants()
-    {
-      const double kappa        = kolosov_constant(elasticity);
-      const double nu           = (3. - kappa) / (1. + kappa);
-      integrals.modulus         = plane_modulus(elasticity);
-      const auto &initial       = material.initial_stress;
-      double      normal_stress = 0.;
-      if (face_traction)
-        normal_stress = -(face_traction(tip.point, -e_2) * e_2);
-      integrals.normal_part =
-        normal_stress + e_1 * (initial * e_1) - nu * (e_2 * (initial * e_2));
-    }
-
-
-    /// The field @p f at @p x on the side of the crack into which @p into_solid points, in
-    /// components of the mesh.
-    TipField::Values
-    field(const unsigned int  f,
-          const Point<2>     &x,
-          const Tensor<1, 2> &into_solid = Tensor<1, 2>()) const
-    {
-      TipField::Values values =
-        fields[f].evaluate(x.distance(tip.point), tip.angle(x, into_solid));
-      const auto turn = [this](const SymmetricTensor<2, 2> &t) {
-        return dealii::symmetrize(frame * Tensor<2, 2>(t) *
-                                  dealii::transpose(frame));
-      };
-      values.displacement = frame * values.displacement;
-      values.gradient     = frame * values.gradient * dealii::transpose(frame);
-      values.stress       = turn(values.stress);
-      for (auto &derivative : values.stress_derivatives)
-        derivative = turn(derivative);
-      return values;
-    }
-
-
-    dealii::Quadrature<2>
-    rule(const unsigned int element)
-    {
-      if (mesh.is_whole(element))
-        return make_triangle_rule(rule_degree);
-      const auto        &cells = mesh.mathematical_mesh();
-      const unsigned int cell  = mesh.cell(element);
-      return rules.build(mesh.edges(element),
-                         {cells.vertices()[cells.cell_vertices(cell)[0]],
-                          cells.jacobian(cell)});
-    }
-
-
-    void
-    add_area(const unsigned int element)
-    {
-      const auto        &cells = mesh.mathematical_mesh();
-      const unsigned int cell  = mesh.cell(element);
-      // Near the tip q is constant: nothing to integrate without a body force that varies.
-      const bool is_on_plateau =
-        std::all_of(cells.cell_vertices(cell).begin(),
-                    cells.cell_vertices(cell).end(),
-                    [&](const unsigned int v) {
-                      return cells.vertices()[v].distance(tip.point) <
-                             plateau * radius;
-                    });
-      if (is_on_plateau && !problem.body_force)
-        return;
-
-      const double                determinant = 2. * cells.cell_area(cell);
-      const dealii::Quadrature<2> points      = rule(element);
-      for (unsigned int p = 0; p < points.size(); ++p)
+      void
+      find_pressures()
       {
-        const Point<2> x = cells.reference_to_real(cell, points.point(p));
-        const double   r = x.distance(tip.point);
-        if (r >= radius || r == 0.)
-          continue;
-        const double weight   = determinant * points.weight(p);
-        const auto [q, slope] = cut_off(r, radius);
-        const Tensor<1, 2> dq = slope / r * (x - tip.point);
+        for (const BoundaryCondition &condition : problem.boundary_conditions)
+          if (condition.is_pressure() && condition.value)
+            for (const unsigned int curve :
+                 mesh.physical_mesh().find_curves(condition.curve))
+              if (mesh.physical_mesh().curves()[curve].role == CurveRole::joint)
+                pressures.emplace_back(curve, &condition);
+      }
 
-        GradientPoint point;
-        point.element = element;
-        point.xi      = points.point(p);
+
+      /// On a face that lies on the curves @p on.
+      Tensor<1, 2>
+      traction_at(const Point<2>                  &x,
+                  const Tensor<1, 2>              &normal,
+                  const std::vector<unsigned int> &on) const
+      {
+        Tensor<1, 2> traction;
+        if (face_traction)
+          traction = face_traction(x, normal);
+        for (const auto &[curve, condition] : pressures)
+          if (std::find(on.begin(), on.end(), curve) != on.end())
+            traction -= condition->value->value(x) * normal;
+        return traction;
+      }
+
+
+      Tensor<1, 2>
+      body_force(const Point<2> &x) const
+      {
+        Tensor<1, 2> force = material.density * problem.gravity;
+        if (problem.body_force)
+          for (unsigned int c = 0; c < 2; ++c)
+            force[c] += problem.body_force->value(x, c);
+        return force;
+      }
+
+
+      /// The field @p f at @p x on the side of the crack into which @p into_solid points, in
+      /// components of the mesh.
+      TipField::Values
+      field(const unsigned int  f,
+            const Point<2>     &x,
+            const Tensor<1, 2> &into_solid = Tensor<1, 2>()) const
+      {
+        TipField::Values values =
+          fields[f].evaluate(x.distance(tip.point), tip.angle(x, into_solid));
+        const auto turn = [this](const SymmetricTensor<2, 2> &t) {
+          return dealii::symmetrize(frame * Tensor<2, 2>(t) *
+                                    dealii::transpose(frame));
+        };
+        values.displacement = frame * values.displacement;
+        values.gradient = frame * values.gradient * dealii::transpose(frame);
+        values.stress   = turn(values.stress);
+        for (auto &derivative : values.stress_derivatives)
+          derivative = turn(derivative);
+        return values;
+      }
+
+
+      dealii::Quadrature<2>
+      rule(const unsigned int element)
+      {
+        if (mesh.is_whole(element))
+          return make_triangle_rule(rule_degree);
+        const auto        &cells = mesh.mathematical_mesh();
+        const unsigned int cell  = mesh.cell(element);
+        return rules.build(mesh.edges(element),
+                           {cells.vertices()[cells.cell_vertices(cell)[0]],
+                            cells.jacobian(cell)});
+      }
+
+
+      void
+      add_area(const unsigned int element)
+      {
+        const auto        &cells = mesh.mathematical_mesh();
+        const unsigned int cell  = mesh.cell(element);
+        // Near the tip q is constant: nothing to integrate without a body force that varies.
+        const double within =
+          plateau * *std::min_element(radii.begin(), radii.end());
+        const bool is_on_plateau =
+          std::all_of(cells.cell_vertices(cell).begin(),
+                      cells.cell_vertices(cell).end(),
+                      [&](const unsigned int v) {
+                        return cells.vertices()[v].distance(tip.point) < within;
+                      });
+        if (is_on_plateau && !problem.body_force)
+          return;
+
+        const double                determinant = 2. * cells.cell_area(cell);
+        const dealii::Quadrature<2> points      = rule(element);
+        for (unsigned int p = 0; p < points.size(); ++p)
+        {
+          const Point<2> x = cells.reference_to_real(cell, points.point(p));
+          const double   r = x.distance(tip.point);
+          if (r >= largest_radius || r == 0.)
+            continue;
+          const double                weight = determinant * points.weight(p);
+          const Tensor<2, 2>          du = gradient(element, points.point(p));
+          const SymmetricTensor<2, 2> stress =
+            elasticity.stress(du) + material.initial_stress;
+          Tensor<1, 2> varying_force;
+          if (problem.body_force)
+            varying_force = body_force(x) - force_at_tip;
+          for (unsigned int f = 0; f < n_fields; ++f)
+          {
+            const TipField::Values a   = field(f, x);
+            const Tensor<1, 2>     a_1 = a.gradient * e_1;
+            // -P_j, but for the term with delta_1j
+            const Tensor<1, 2> flux = stress * a_1 + a.stress * (du * e_1);
+            const double density    = stress * dealii::symmetrize(a.gradient);
+            const double force_work = force_at_tip * a.displacement;
+            for (unsigned int d = 0; d < radii.size(); ++d)
+            {
+              const auto [q, slope] = cut_off(r, radii[d]);
+              const Tensor<1, 2> dq = slope / r * (x - tip.point);
+              sums[n_fields * d + f] +=
+                weight * (flux * dq + (e_1 * dq) * (force_work - density) -
+                          q * (varying_force * a_1));
+            }
+          }
+        }
+      }
+
+
+      /// An edge along the crack. Its points are those of a Gauss rule in the root of the
+      /// distance from the tip, which makes the fields smooth.
+      void
+      add_face(const unsigned int element, const ElementEdge &edge)
+      {
+        const double at_start = tip.point.distance(edge.start),
+                     at_end   = tip.point.distance(edge.end);
+        const double near     = std::min(at_start, at_end),
+                     far      = std::max(at_start, at_end);
+        if (near >= largest_radius)
+          return;
+        std::vector<unsigned int> curves;
+        for (const unsigned int piece : mesh.curve_set(edge.curve_set))
+          curves.push_back(mesh.physical_mesh().piece_to_curve()[piece]);
+        for (unsigned int p = 0; p < gauss.size(); ++p)
+        {
+          // share of the way from the nearer to the farther end
+          double share = gauss.point(p)[0], rate = 1.;
+          if (far > near)
+          {
+            const double root = std::sqrt(near), growth = std::sqrt(far) - root,
+                         reached = root + share * growth;
+            rate                 = 2. * reached * growth / (far - near);
+            share = share * growth * (root + reached) / (far - near);
+          }
+          const EdgePoint at =
+            point_on(edge, at_start < at_end ? share : 1. - share);
+          const double r = at.x.distance(tip.point);
+          if (r < largest_radius && r > 0.)
+            add_face_point(element,
+                           at,
+                           curves,
+                           gauss.weight(p) * rate * at.velocity.norm());
+        }
+      }
+
+
+      void
+      add_face_point(const unsigned int               element,
+                     const EdgePoint                 &at,
+                     const std::vector<unsigned int> &curves,
+                     const double                     weight)
+      {
+        const Point<2>    &x        = at.x;
+        const double       r        = x.distance(tip.point);
+        const Tensor<1, 2> tangent  = at.velocity / at.velocity.norm();
+        const Tensor<1, 2> normal   = Point<2>(tangent[1], -tangent[0]);
+        const Tensor<1, 2> traction = traction_at(x, normal, curves);
+        const Tensor<1, 2> u =
+          displacement(
+            element,
+            mesh.mathematical_mesh().real_to_reference(mesh.cell(element), x)) -
+          displacement_of_tip;
         for (unsigned int f = 0; f < n_fields; ++f)
         {
-          const TipField::Values a = field(f, x);
-          // -P_j q_j = sigma : m + (s^a dq) . u_,1
-          const SymmetricTensor<2, 2> m =
-            dealii::symmetrize(dealii::outer_product(a.gradient * e_1, dq)) -
-            (e_1 * dq) * dealii::symmetrize(a.gradient);
-          point.kernels[f] =
-            weight * (Tensor<2, 2>(elasticity.stress(Tensor<2, 2>(m))) +
-                      dealii::outer_product(a.stress * dq, e_1));
-          integrals.constants[f] +=
-            weight * (material.initial_stress * m +
-                      (e_1 * dq) * (force_at_tip * a.displacement));
-          if (problem.body_force)
-            integrals.constants[f] -=
-              weight * q *
-              ((body_force(x) - force_at_tip) * (a.gradient * e_1));
+          const TipField::Values a = field(f, x, -normal);
+          const double           load_work =
+            traction * (a.gradient * e_1) +
+            (normal * e_1) *
+              (force_at_tip * a.displacement -
+               material.initial_stress * dealii::symmetrize(a.gradient));
+          // s^a e_2 and its derivative along the face, by its parts along the tip's axes
+          const Tensor<1, 2> across = a.stress * e_2;
+          const Tensor<1, 2> across_slope =
+            (tangent * e_1) * (a.stress_derivatives[0] * e_2) +
+            (tangent * e_2) * (a.stress_derivatives[1] * e_2);
+          for (unsigned int d = 0; d < radii.size(); ++d)
+          {
+            const auto [q, slope] = cut_off(r, radii[d]);
+            double sum            = q * load_work;
+            if (is_bent)
+              sum += (slope / r * ((x - tip.point) * tangent)) * (across * u) +
+                     q * (across_slope * u);
+            sums[n_fields * d + f] -= weight * sum;
+          }
         }
-        if (slope != 0.)
-          integrals.gradient_points.push_back(point);
       }
-    }
 
 
-    /// An edge along the crack. Its points are those of a Gauss rule in the root of the
-    /// distance from the tip, which makes the fields smooth.
-    void
-    add_face(const unsigned int element, const ElementEdge &edge)
-    {
-      const auto        &cells    = mesh.mathematical_mesh();
-      const unsigned int cell     = mesh.cell(element);
-      const double       at_start = tip.point.distance(edge.start),
-                   at_end         = tip.point.distance(edge.end);
-      const bool   starts_nearer  = at_start < at_end;
-      const double near           = std::min(at_start, at_end),
-                   far            = std::max(at_start, at_end);
-      if (near >= radius)
-        return;
-      for (unsigned int p = 0; p < gauss.size(); ++p)
+      void
+      find_displacement_of_tip()
       {
-        // share of the way from the nearer to the farther end
-        double share = gauss.point(p)[0], rate = 1.;
-        if (far > near)
+        const unsigned int element = mesh.find_owned_element(tip.point);
+        unsigned int       n_found = 0;
+        if (element != invalid_index)
         {
-          const double root = std::sqrt(near), growth = std::sqrt(far) - root,
-                       reached = root + share * growth;
-          rate                 = 2. * reached * growth / (far - near);
-          share = share * growth * (root + reached) / (far - near);
+          n_found = 1;
+          displacement_of_tip =
+            displacement(element,
+                         mesh.mathematical_mesh().real_to_reference(
+                           mesh.cell(element), tip.point));
         }
-        const EdgePoint at = point_on(edge, starts_nearer ? share : 1. - share);
-        const double    r  = at.x.distance(tip.point);
-        if (r >= radius || r == 0.)
-          continue;
-        const double       speed   = at.velocity.norm();
-        const Tensor<1, 2> tangent = at.velocity / speed;
-        const Tensor<1, 2> normal  = Point<2>(tangent[1], -tangent[0]);
-        const double       weight  = gauss.weight(p) * rate * speed;
-        add_face_point(element,
-                       cells.real_to_reference(cell, at.x),
-                       at.x,
-                       tangent,
-                       normal,
-                       weight);
+        n_found = dealii::Utilities::MPI::sum(n_found, covers.communicator());
+        displacement_of_tip =
+          dealii::Utilities::MPI::sum(displacement_of_tip,
+                                      covers.communicator());
+        displacement_of_tip /= std::max(1u, n_found);
       }
-    }
 
 
-    void
-    add_face_point(const unsigned int  element,
-                   const Point<2>     &xi,
-                   const Point<2>     &x,
-                   const Tensor<1, 2> &tangent,
-                   const Tensor<1, 2> &normal,
-                   const double        weight)
-    {
-      const double r        = x.distance(tip.point);
-      const auto [q, slope] = cut_off(r, radius);
-      const Tensor<1, 2> dq = slope / r * (x - tip.point);
-      Tensor<1, 2>       traction;
-      if (face_traction)
-        traction = face_traction(x, normal);
-
-      FacePoint point;
-      point.element = element;
-      point.xi      = xi;
-      for (unsigned int f = 0; f < n_fields; ++f)
+      std::vector<IntensityFactors>
+      factors() const
       {
-        const TipField::Values a = field(f, x, -normal);
-        // along the face, in the directions of the tip's frame
-        const SymmetricTensor<2, 2> stress_slope =
-          (tangent * e_1) * a.stress_derivatives[0] +
-          (tangent * e_2) * a.stress_derivatives[1];
-        point.kernels[f] = -weight * ((dq * tangent) * (a.stress * e_2) +
-                                      q * (stress_slope * e_2));
-        if (is_bent())
-          integrals.face_resultants[f] += point.kernels[f];
-        integrals.constants[f] -=
-          weight * q *
-          (traction * (a.gradient * e_1) +
-           (normal * e_1) *
-             (force_at_tip * a.displacement -
-              material.initial_stress * dealii::symmetrize(a.gradient)));
+        const double modulus = plane_modulus(elasticity),
+                     kappa   = kolosov_constant(elasticity),
+                     nu      = (3. - kappa) / (1. + kappa);
+        const auto  &initial = material.initial_stress;
+        const double normal_stress =
+          -(traction_at(tip.point, -e_2, {tip.curve}) * e_2);
+        std::vector<IntensityFactors> result(radii.size());
+        for (unsigned int d = 0; d < radii.size(); ++d)
+        {
+          IntensityFactors &k = result[d];
+          k.K_I               = 0.5 * modulus * sums[n_fields * d];
+          k.K_II              = 0.5 * modulus * sums[n_fields * d + 1];
+          k.T = modulus * sums[n_fields * d + 2] + normal_stress +
+                e_1 * (initial * e_1) - nu * (e_2 * (initial * e_2));
+          k.energy_release_rate = (k.K_I * k.K_I + k.K_II * k.K_II) / modulus;
+          k.radius              = radii[d];
+        }
+        return result;
       }
-      if (is_bent())
-        integrals.face_points.push_back(point);
-    }
-  };
+    };
+  } // namespace
 
 
-
-  InteractionIntegrals::InteractionIntegrals(const CoverSystem       &covers,
-                                             const ElasticityProblem &problem,
-                                             const CrackTip          &tip,
-                                             const double        outer_radius,
-                                             const FaceTraction &face_traction)
-    : covers(&covers)
-    , tip(tip)
-    , radius(outer_radius)
+  std::vector<IntensityFactors>
+  interaction_integrals(const CoverSystem         &covers,
+                        const ElasticityProblem   &problem,
+                        const CrackTip            &tip,
+                        const std::vector<double> &radii,
+                        const ElementDisplacement &displacement,
+                        const ElementGradient     &gradient,
+                        const FaceTraction        &face_traction)
   {
-    AssertThrow(outer_radius > 0. && outer_radius <= tip.free_radius,
-                InputError("The interaction integral has a radius of " +
-                             std::to_string(outer_radius) + " m",
-                           "crack tip at " + to_string(tip.point),
-                           "choose it positive and at most " +
-                             std::to_string(tip.free_radius) +
-                             " m, where something else than the crack begins"));
-    Builder(*this, problem, face_traction).build();
-
-    namespace MPI = dealii::Utilities::MPI;
-    sum_over_ranks(constants, covers.communicator());
-    for (auto &resultant : face_resultants)
-      resultant = MPI::sum(resultant, covers.communicator());
+    for (const double radius : radii)
+      AssertThrow(radius > 0. && radius <= tip.free_radius,
+                  InputError("The interaction integral has a radius of " +
+                               std::to_string(radius) + " m",
+                             "crack tip at " + to_string(tip.point),
+                             "choose it positive and at most " +
+                               std::to_string(tip.free_radius) +
+                               " m, where something else than the crack "
+                               "begins"));
+    return InteractionIntegrals(
+             covers, problem, tip, radii, displacement, gradient, face_traction)
+      .evaluate();
   }
-
-
-
-  IntensityFactors
-  InteractionIntegrals::evaluate(const Displacement &displacement,
-                                 const Gradient     &gradient) const
-  {
-    std::array<double, n_fields> sums{};
-    for (const GradientPoint &point : gradient_points)
-    {
-      const Tensor<2, 2> du = gradient(point.element, point.xi);
-      for (unsigned int f = 0; f < n_fields; ++f)
-        sums[f] += dealii::scalar_product(point.kernels[f], du);
-    }
-    for (const FacePoint &point : face_points)
-    {
-      const Tensor<1, 2> u = displacement(point.element, point.xi);
-      for (unsigned int f = 0; f < n_fields; ++f)
-        sums[f] += point.kernels[f] * u;
-    }
-    const ManifoldMesh &mesh    = covers->manifold_mesh();
-    const unsigned int  element = mesh.find_owned_element(tip.point);
-    unsigned int        n_found = element != invalid_index;
-    Tensor<1, 2>        at_tip;
-    if (element != invalid_index)
-      at_tip = displacement(element,
-                            mesh.mathematical_mesh().real_to_reference(
-                              mesh.cell(element), tip.point));
-
-    namespace MPI               = dealii::Utilities::MPI;
-    const MPI_Comm communicator = covers->communicator();
-    sum_over_ranks(sums, communicator);
-    n_found = MPI::sum(n_found, communicator);
-    at_tip  = MPI::sum(at_tip, communicator) / n_found;
-    for (unsigned int f = 0; f < n_fields; ++f)
-      sums[f] += constants[f] - face_resultants[f] * at_tip;
-
-    IntensityFactors result;
-    result.K_I    = 0.5 * modulus * sums[0];
-    result.K_II   = 0.5 * modulus * sums[1];
-    result.T      = modulus * sums[2] + normal_part;
-    result.radius = radius;
-    result.energy_release_rate =
-      (result.K_I * result.K_I + result.K_II * result.K_II) / modulus;
-    return result;
-  }
-
-
-
-  IntensityFactors
-  InteractionIntegrals::evaluate(const DisplacementField &field) const
-  {
-    return evaluate(
-      [&](const unsigned int element, const Point<2> &xi) {
-        return field.displacement(element, xi);
-      },
-      [&](const unsigned int element, const Point<2> &xi) {
-        return field.gradient(element, xi);
-      });
-  }
-
-
-
-  std::size_t
-  InteractionIntegrals::n_points() const
-  {
-    return gradient_points.size();
-  }
-
 
 
   IntensityFactors
@@ -464,21 +456,26 @@ namespace NMM
   {
     const double largest =
       largest_radius > 0. ? largest_radius : 0.9 * tip.free_radius;
-    IntensityFactors result;
+    std::vector<double> radii;
     for (const double share : {1., 0.9, 0.8, 0.7, 0.6})
-    {
-      const IntensityFactors other = InteractionIntegrals(field.cover_system(),
-                                                          problem,
-                                                          tip,
-                                                          share * largest,
-                                                          face_traction)
-                                       .evaluate(field);
-      if (share == 1.)
-        result = other;
+      radii.push_back(share * largest);
+    const std::vector<IntensityFactors> of_disks = interaction_integrals(
+      field.cover_system(),
+      problem,
+      tip,
+      radii,
+      [&](const unsigned int element, const Point<2> &xi) {
+        return field.displacement(element, xi);
+      },
+      [&](const unsigned int element, const Point<2> &xi) {
+        return field.gradient(element, xi);
+      },
+      face_traction);
+    IntensityFactors result = of_disks.front();
+    for (const IntensityFactors &other : of_disks)
       result.spread = std::max({result.spread,
                                 std::abs(other.K_I - result.K_I),
                                 std::abs(other.K_II - result.K_II)});
-    }
     return result;
   }
 } // namespace NMM

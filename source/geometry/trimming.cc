@@ -181,7 +181,12 @@ namespace NMM
                                             });
         const unsigned int n_tips = (edge.halfedge->source()->degree() == 1) +
                                     (edge.halfedge->target()->degree() == 1);
-        const double length = internal::length(faces.geometry(edge));
+        const DirectedEdge geometry = faces.geometry(edge);
+        const double       length   = internal::length(geometry);
+        if (!is_dropped && edge.halfedge->source()->degree() == 1)
+          result.tips.push_back(geometry.start);
+        if (!is_dropped && edge.halfedge->target()->degree() == 1)
+          result.tips.push_back(geometry.end);
         (is_dropped ? result.n_dropped : result.n_kept) += n_tips;
         (is_dropped ? result.length_dropped : result.length_kept) += length;
         if (is_dropped)

@@ -5,6 +5,25 @@ namespace NMM
 {
   namespace internal
   {
+    namespace
+    {
+      bool
+      is_open_joint(const Curve &curve)
+      {
+        return curve.role == CurveRole::joint &&
+               curve.state == JointState::open;
+      }
+
+
+      bool
+      is_boundary(const Curve &curve)
+      {
+        return curve.role == CurveRole::boundary ||
+               curve.role == CurveRole::hole;
+      }
+    } // namespace
+
+
     CurveConditions::CurveConditions(const ManifoldMesh      &mesh,
                                      const ElasticityProblem &problem)
       : mesh(&mesh)
@@ -66,15 +85,18 @@ namespace NMM
       {
         const unsigned int c     = physical_mesh.piece_to_curve()[piece];
         const Curve       &curve = physical_mesh.curves()[c];
-        if (curve.role == CurveRole::boundary || curve.role == CurveRole::hole)
+        if (is_boundary(curve))
         {
           boundary = true;
           if (!curve_to_conditions[c].empty())
             curve_set_has_conditions[index] = true;
         }
-        else if (curve.role == CurveRole::joint &&
-                 curve.state == JointState::open)
+        else if (is_open_joint(curve))
+        {
           open_joint = true;
+          if (!curve_to_conditions[c].empty())
+            curve_set_has_conditions[index] = true;
+        }
       }
       curve_set_to_tied[index] = !boundary && !open_joint;
     }
@@ -87,15 +109,24 @@ namespace NMM
       const ElasticityProblem                      &problem,
       const std::vector<std::vector<unsigned int>> &curve_to_conditions) const
     {
-      const PhysicalMesh        &physical_mesh = mesh->physical_mesh();
+      const PhysicalMesh              &physical_mesh = mesh->physical_mesh();
+      const std::vector<unsigned int> &pieces        = mesh->curve_set(index);
+      const auto curve_of = [&](const unsigned int piece) {
+        return physical_mesh.piece_to_curve()[piece];
+      };
+      const bool is_at_boundary =
+        std::any_of(pieces.begin(), pieces.end(), [&](const unsigned int p) {
+          return is_boundary(physical_mesh.curves()[curve_of(p)]);
+        });
       Face                       result;
       std::vector<unsigned int> &conditions = result.conditions;
-      for (const unsigned int piece : mesh->curve_set(index))
+      for (const unsigned int piece : pieces)
       {
-        const unsigned int c    = physical_mesh.piece_to_curve()[piece];
-        const CurveRole    role = physical_mesh.curves()[c].role;
-        if ((role == CurveRole::boundary || role == CurveRole::hole) &&
-            physical_mesh.is_face_of(c, region))
+        const unsigned int c     = curve_of(piece);
+        const Curve       &curve = physical_mesh.curves()[c];
+        if (is_at_boundary
+              ? is_boundary(curve) && physical_mesh.is_face_of(c, region)
+              : is_open_joint(curve))
           conditions.insert(conditions.end(),
                             curve_to_conditions[c].begin(),
                             curve_to_conditions[c].end());

@@ -20,7 +20,8 @@ namespace NMM
      *
      * A condition holds on the face of the domain whose boundary bears its name
      * (PhysicalMesh::is_face_of()): where two domains share a side, on one of
-     * the two elements there. This class is the only place that decides it.
+     * the two elements there. A pressure on an open joint holds on both of its faces.
+     * This class is the only place that decides it.
      */
     class CurveConditions
     {

@@ -48,12 +48,28 @@ namespace NMM
                              "name one of the boundary curves " +
                                list_of_names(boundaries)));
       const CurveRole role = mesh.curves()[curve].role;
-      AssertThrow(role == CurveRole::boundary || role == CurveRole::hole,
-                  InputError("Curve \"" + condition.curve +
-                               "\" is no boundary of the solid",
-                             where,
-                             "name one of the boundary curves " +
-                               list_of_names(boundaries)));
+      if (role == CurveRole::joint && condition.is_pressure())
+      {
+        // only a joint that is open has faces
+        for (const unsigned int c : mesh.find_curves(condition.curve))
+          AssertThrow(mesh.curves()[c].state == JointState::open,
+                      InputError("Joint \"" + condition.curve +
+                                   "\" is closed and has no faces that a "
+                                   "pressure could act on",
+                                 where,
+                                 "give it 'state=open'"));
+      }
+      else
+      {
+        AssertThrow(role == CurveRole::boundary || role == CurveRole::hole,
+                    InputError("Curve \"" + condition.curve +
+                                 "\" is no boundary of the solid",
+                               where,
+                               "name one of the boundary curves " +
+                                 list_of_names(boundaries) +
+                                 ", or prescribe a pressure if it is a "
+                                 "joint"));
+      }
 
       const unsigned int n_components = n_value_components(condition.type);
       AssertThrow(condition.value == nullptr ||

@@ -117,9 +117,9 @@ namespace NMM
     is_result(const std::string &name, const bool of_end_only)
     {
       const std::string extension = fs::path(name).extension().string();
-      if (name == "summary.csv" || name == "probes.csv" ||
-          name == "picture.png" || name == "contacts.vtp" ||
-          name == "animation.html" ||
+      if (name == "summary.csv" || name == "probes.csv" || name == "tips.csv" ||
+          name == "growth.csv" || name == "picture.png" ||
+          name == "contacts.vtp" || name == "animation.html" ||
           (starts_with(name, "fields.") &&
            (extension == ".vtu" || extension == ".pvtu")))
         return true;
@@ -246,6 +246,12 @@ namespace NMM
                const double       value,
                const std::string &unit)
   {
+    for (Row &row : rows)
+      if (row.name == name)
+      {
+        row = {name, value, unit};
+        return;
+      }
     rows.push_back({name, value, unit});
   }
 

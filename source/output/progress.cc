@@ -77,12 +77,13 @@ namespace NMM
 
   Progress::Stage::Stage(Progress &progress, std::string name)
     : progress(progress)
+    , is_part(progress.n_running++ > 0)
     , name(std::move(name))
     , start(std::chrono::steady_clock::now())
     , last_update(start)
     , n_exceptions(std::uncaught_exceptions())
   {
-    if (progress.prints && progress.is_terminal)
+    if (!is_part && progress.prints && progress.is_terminal)
       progress.out << "  " << this->name << " ..." << std::flush;
   }
 
@@ -93,6 +94,9 @@ namespace NMM
     // Ranks may not all have failed, so nobody waits then.
     if (!failed)
       MPI_Barrier(progress.communicator);
+    --progress.n_running;
+    if (is_part)
+      return;
     const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
         .count();
@@ -125,7 +129,7 @@ namespace NMM
   Progress::Stage::update(
     const std::function<std::string(double seconds)> &words)
   {
-    if (!progress.prints)
+    if (is_part || !progress.prints)
       return;
     const auto   now = std::chrono::steady_clock::now();
     const double since =

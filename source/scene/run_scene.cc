@@ -4,6 +4,7 @@
 #include <nmm/scene/run_scene.h>
 
 #include <memory>
+#include <scene/crack_growth_analysis.h>
 #include <scene/dynamic_analysis.h>
 #include <scene/nonlinear_analysis.h>
 #include <scene/safety_factor_analysis.h>
@@ -39,9 +40,15 @@ namespace NMM
                                                            restart);
       if (model.kinematics == Kinematics::small &&
           !scene.parameters().is_nonlinear())
+      {
+        if (scene.parameters().fracture.n_increments > 0)
+          return std::make_unique<internal::CrackGrowthAnalysis>(scene,
+                                                                 progress,
+                                                                 communicator);
         return std::make_unique<internal::StaticAnalysis>(scene,
                                                           progress,
                                                           communicator);
+      }
       return std::make_unique<internal::NonlinearAnalysis>(scene,
                                                            progress,
                                                            communicator);

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <scene/crack_tips.h>
 #include <scene/expression.h>
 #include <sstream>
 
@@ -292,6 +293,20 @@ namespace NMM
   {
     const MathematicalMeshParameters &parameters =
       scene_parameters.mathematical_mesh;
+    if (scene_parameters.fracture.grades_mesh())
+    {
+      GradedMeshParameters graded = parameters.graded;
+      if (parameters.type == MathematicalMeshParameters::Type::regular)
+        static_cast<RegularMeshParameters &>(graded) = parameters.regular;
+      const auto at_tips = internal::sizes_at_tips(physical_mesh,
+                                                   scene_parameters.fracture,
+                                                   graded.cell_size);
+      graded.local_sizes.insert(graded.local_sizes.end(),
+                                at_tips.begin(),
+                                at_tips.end());
+      check_memory(scene_parameters, graded, physical_mesh, communicator);
+      return make_graded_mesh(physical_mesh, graded, parameters.degree);
+    }
     switch (parameters.type)
     {
       case MathematicalMeshParameters::Type::graded:

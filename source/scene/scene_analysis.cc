@@ -28,16 +28,49 @@ namespace NMM
     void
     SceneAnalysis::build()
     {
+      Geometry geometry = scene.make_geometry();
+      cleaning_actions =
+        clean(geometry, scene.parameters().geometry.cleaning_tolerance);
+      if (scene.parameters().fracture.n_increments > 0)
+        this->geometry = geometry;
+      build(std::move(geometry));
+      if (crack_tips)
+        crack_tips->check();
+    }
+
+
+    void
+    SceneAnalysis::clear()
+    {
+      series.reset();
+      evaluator.reset();
+      recovery.reset();
+      field.reset();
+      crack_tips.reset();
+      probes.reset();
+      quadrature.reset();
+      ghost_penalty.reset();
+      contact.reset();
+      covers.reset();
+      manifold_mesh.reset();
+      mathematical_mesh.reset();
+      physical_mesh.reset();
+    }
+
+
+    void
+    SceneAnalysis::build(Geometry geometry)
+    {
+      clear();
       const SceneParameters &parameters = scene.parameters();
       {
-        Stage    stage(progress, "geometry");
-        Geometry geometry = scene.make_geometry();
-        cleaning_actions =
-          clean(geometry, parameters.geometry.cleaning_tolerance);
+        Stage stage(progress, "geometry");
         physical_mesh = std::make_unique<PhysicalMesh>(std::move(geometry));
         problem       = scene.make_problem();
         problem.check(*physical_mesh);
         check_problem();
+        if (parameters.fracture.intensity_factors)
+          crack_tips = std::make_unique<CrackTips>(scene, *physical_mesh);
       }
       {
         Stage stage(progress, "mathematical mesh");
@@ -67,6 +100,11 @@ namespace NMM
       }
       make_system();
       add_counts();
+      if (directory != nullptr)
+        series = std::make_unique<StateSeries>(scene,
+                                               *covers,
+                                               contact.get(),
+                                               *directory);
     }
 
 
@@ -191,6 +229,24 @@ namespace NMM
     }
 
 
+    std::pair<dealii::Point<2>, double>
+    SceneAnalysis::tip_in_the_largest_cell() const
+    {
+      std::pair<dealii::Point<2>, double> largest;
+      for (const dealii::Point<2> &tip : physical_mesh->dangling_ends().tips)
+      {
+        const unsigned int element = manifold_mesh->find_element(tip);
+        if (element == invalid_index)
+          continue;
+        const double size =
+          mathematical_mesh->cell_diameter(manifold_mesh->cell(element));
+        if (size > largest.second)
+          largest = {tip, size};
+      }
+      return largest;
+    }
+
+
     std::vector<std::string>
     SceneAnalysis::block_notices() const
     {
@@ -211,6 +267,20 @@ namespace NMM
         text << "joints that bound no block are cracks over "
              << ends.length_kept << ' ' << length << ", with " << ends.n_kept
              << " tip(s)";
+        result.push_back(text.str());
+      }
+      const auto [tip, cell_size] = tip_in_the_largest_cell();
+      const double mean_length    = ends.length_kept / ends.n_kept;
+      if (cell_size > 1e-3 * mean_length)
+      {
+        text.str("");
+        text
+          << "a crack opens up to the cell only that holds its tip: the cell "
+             "of the tip at "
+          << to_string(tip) << " is of " << cell_size << ' ' << length
+          << ", cracks have a mean length of " << mean_length << ' ' << length
+          << " per tip; 'Fracture/Tips = graded' makes cells at tips "
+             "small";
         result.push_back(text.str());
       }
       if (summary.value("small_blocks") > 0.)
@@ -351,6 +421,9 @@ namespace NMM
               probes->write(out, samples);
             });
         }
+
+        if (crack_tips && is_first_rank())
+          crack_tips->write(*directory);
 
         const FieldTriangles triangles(*covers, evaluator.get());
         if (fault.empty())

@@ -17,6 +17,7 @@
 #include <functional>
 #include <memory>
 #include <scene/contact_analysis.h>
+#include <scene/crack_tips.h>
 #include <scene/state_series.h>
 #include <string>
 #include <vector>
@@ -77,6 +78,9 @@ namespace NMM
       /// of the last state that is known.
       bool is_solved = false;
 
+      /// With cracks that grow: the geometry as it is now.
+      Geometry geometry;
+
       // Each object refers to those above it.
       std::vector<CleaningAction>       cleaning_actions;
       std::vector<std::string>          own_mesh_notices;
@@ -92,12 +96,23 @@ namespace NMM
       std::unique_ptr<QuadratureCollection> quadrature;
       ElasticityProblem                     problem;
       std::unique_ptr<ProbePoints>          probes;
-      std::unique_ptr<DisplacementField>    field;
-      std::unique_ptr<StressRecovery>       recovery;
-      std::unique_ptr<FieldEvaluator>       evaluator;
+      /// Null unless the scene asks for intensity factors.
+      std::unique_ptr<CrackTips>         crack_tips;
+      std::unique_ptr<DisplacementField> field;
+      std::unique_ptr<StressRecovery>    recovery;
+      std::unique_ptr<FieldEvaluator>    evaluator;
       /// After open().
       const OutputDirectory       *directory = nullptr;
       std::unique_ptr<StateSeries> series;
+
+      /// Make everything, from the physical mesh to the system, for a geometry; what was
+      /// there before is gone. @throws InputError.
+      void
+      build(Geometry geometry);
+
+      /// Drop all that build() makes, last things first.
+      virtual void
+      clear();
 
       bool
       is_first_rank() const;
@@ -149,6 +164,11 @@ namespace NMM
 
       std::vector<std::string>
       block_notices() const;
+
+      /// Of all crack tips that in the largest cell, and the size of this [m]; 0 if
+      /// there is none.
+      std::pair<dealii::Point<2>, double>
+      tip_in_the_largest_cell() const;
 
       void
       cut();

@@ -3,6 +3,7 @@
 #include <nmm/scene/scene_parameters.h>
 
 #include <algorithm>
+#include <cmath>
 #include <scene/parsing.h>
 #include <set>
 
@@ -349,6 +350,7 @@ namespace NMM
     check_analysis();
     check_restraints();
     check_distribution();
+    check_fracture();
   }
 
 
@@ -386,6 +388,63 @@ namespace NMM
                            return has_own_mesh(block.mesh);
                          }),
           "a scene with meshes of blocks or regions");
+  }
+
+
+  void
+  SceneParameters::check_fracture() const
+  {
+    fracture.check();
+    const auto check = [](const bool         is_fine,
+                          const std::string &what,
+                          const std::string &key,
+                          const std::string &remedy) {
+      AssertThrow(is_fine,
+                  InputError(what, "parameter 'Fracture/" + key + "'", remedy));
+    };
+    check(
+      !fracture.grades_mesh() ||
+        (mathematical_mesh.type != MathematicalMeshParameters::Type::gmsh &&
+         !covers.is_distributed && mathematical_mesh.regular.cell_size > 0.),
+      "only a regular or graded mesh of a given cell size, of which all ranks "
+      "hold all, can be graded towards crack tips",
+      "Tips",
+      "set 'Mathematical mesh/Type = regular' and 'Cell size', or let tips be "
+      "'as meshed'");
+    if (!fracture.intensity_factors)
+      return;
+    check(model.kinematics == Kinematics::small &&
+            model.analysis == Analysis::statics,
+          "intensity factors belong to small displacements in equilibrium, not "
+          "to " +
+            to_string(model.kinematics) + " kinematics in a " +
+            to_string(model.analysis) + " analysis",
+          "Intensity factors",
+          "set 'Model/Kinematics = small' and 'Model/Analysis = static', or "
+          "remove it");
+    check(
+      !is_nonlinear(),
+      "intensity factors are not computed with contact or materials that yield",
+      "Intensity factors",
+      "remove it, or the contact or yield");
+    if (fracture.n_increments == 0)
+      return;
+    for (const Material &material : materials)
+    {
+      const std::string where = "parameter 'Materials/" + material.name;
+      AssertThrow(material.toughness > 0. && std::isfinite(material.toughness),
+                  InputError("the toughness is " +
+                               std::to_string(material.toughness) +
+                               " Pa m^0.5, but cracks grow",
+                             where + "/Toughness'",
+                             "give the material's, > 0"));
+      // the load at which a crack grows is proportional to what is given
+      AssertThrow(material.initial_stress.norm() == 0.,
+                  InputError("cracks do not grow in a material with initial "
+                             "stress, to which the load factor does not apply",
+                             where + "/Initial stress'",
+                             "remove it, or 'Fracture/Increments'"));
+    }
   }
 
 

@@ -78,6 +78,11 @@ namespace NMM
                 material.density,
                 Patterns::Double(0),
                 "rho, the mass per volume that gravity acts on [kg/m^3].");
+    entries.add("Toughness",
+                material.toughness,
+                Patterns::Double(0),
+                "K_c: cracks grow where their intensity factor reaches it; 0: "
+                "not known, cracks must not grow in it [Pa m^0.5].");
     std::map<std::string, double> values;
     std::string law_name = material_law_entries().read(*material.law, values);
     material_law_entries().list(entries, law_name, values);

@@ -299,6 +299,7 @@ namespace NMM
         });
     });
     entries.section("Exact solution", &exact_solution);
+    entries.section("Fracture", &fracture);
   }
 
 

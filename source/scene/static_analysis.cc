@@ -24,7 +24,26 @@ namespace NMM
 
 
     void
+    StaticAnalysis::clear()
+    {
+      elasticity.reset();
+      SceneAnalysis::clear();
+    }
+
+
+    void
     StaticAnalysis::solve()
+    {
+      solve_problem();
+      if (crack_tips)
+        for (const std::string &line : crack_tips->description())
+          progress.message("  " + line);
+      is_solved = true;
+    }
+
+
+    void
+    StaticAnalysis::solve_problem()
     {
       {
         Stage stage(progress, "assembly");
@@ -57,7 +76,11 @@ namespace NMM
         evaluator =
           std::make_unique<FieldEvaluator>(*field, *recovery, problem);
       }
-      is_solved = true;
+      if (crack_tips)
+      {
+        Stage stage(progress, "intensity factors");
+        crack_tips->compute(*field, problem);
+      }
     }
 
 
@@ -194,6 +217,8 @@ namespace NMM
       summary.add("direct_stress_covers",
                   dealii::Utilities::MPI::sum(recovery->n_direct(),
                                               communicator));
+      if (crack_tips)
+        crack_tips->add_to(summary);
       if (exact_solution)
         add_errors();
     }

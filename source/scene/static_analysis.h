@@ -25,6 +25,14 @@ namespace NMM
       void
       verify() override;
 
+    protected:
+      /// The linear problem, and the intensity factors of crack tips.
+      void
+      solve_problem();
+
+      void
+      clear() override;
+
     private:
       std::optional<ThickRing>          exact_solution;
       std::unique_ptr<StaticElasticity> elasticity;

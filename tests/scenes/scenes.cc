@@ -18,7 +18,8 @@
 // is printed are separated by vertical bars. A name is a row
 // of summary.csv, "probes/<probe>/<point>/<column>" of probes.csv, or
 // "history/<step>/<column>" of history.csv, "probes-history/..." likewise; <step> may
-// be "last". A value v passes if
+// be "last", "tips/<tip>/<column>" of tips.csv, or "growth/<step>/<column>" of
+// growth.csv. A value v passes if
 // |v - expected| <= abs_tol + rel_tol * |expected|.
 namespace
 {
@@ -58,11 +59,13 @@ namespace
   }
 
 
-  /// NaN for a cell that is empty, since the run has no such number.
+  /// NaN for a cell that is no number, since the run has none there.
   double
   to_number(const std::string &cell)
   {
-    return cell.empty() ? std::nan("") : std::stod(cell);
+    std::istringstream stream(cell);
+    double             value;
+    return stream >> value ? value : std::nan("");
   }
 
 
@@ -107,11 +110,12 @@ namespace
   }
 
 
-  /// Rows of a table with a column `step`, as "<table>/<step>/<column>" and, of the
+  /// Rows of a table with a column @p key, as "<table>/<key>/<column>" and, of the
   /// last one, "<table>/last/<column>".
   void
   read_steps(const fs::path                &file_name,
              const std::string             &table,
+             const std::string             &key_column,
              std::map<std::string, double> &values)
   {
     std::ifstream file(file_name);
@@ -119,12 +123,12 @@ namespace
     while (std::getline(file, line) && line[0] == '#')
       ;
     const auto columns = split(line, ',');
-    const auto step =
-      std::find(columns.begin(), columns.end(), "step") - columns.begin();
+    const auto position =
+      std::find(columns.begin(), columns.end(), key_column) - columns.begin();
     while (std::getline(file, line))
     {
       const auto fields = split(line, ',');
-      for (const std::string &key : {fields.at(step), std::string("last")})
+      for (const std::string &key : {fields.at(position), std::string("last")})
         for (std::size_t i = 0; i < fields.size(); ++i)
           values[table + "/" + key + "/" + columns.at(i)] =
             to_number(fields[i]);
@@ -148,7 +152,12 @@ namespace
     }
 
     for (const char *table : {"history", "probes-history"})
-      read_steps(directory / (std::string(table) + ".csv"), table, values);
+      read_steps(directory / (std::string(table) + ".csv"),
+                 table,
+                 "step",
+                 values);
+    read_steps(directory / "tips.csv", "tips", "tip", values);
+    read_steps(directory / "growth.csv", "growth", "step", values);
 
     std::ifstream probes(directory / "probes.csv");
     if (!std::getline(probes, line))

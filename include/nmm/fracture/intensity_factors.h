@@ -6,7 +6,6 @@
 #include <nmm/mechanics/displacement_field.h>
 #include <nmm/mechanics/elasticity_problem.h>
 
-#include <array>
 #include <functional>
 #include <vector>
 
@@ -37,9 +36,18 @@ namespace NMM
                                        const dealii::Tensor<1, 2> &)>;
 
 
+  /// u [m] at reference coordinates of an element.
+  using ElementDisplacement =
+    std::function<dealii::Tensor<1, 2>(unsigned int, const dealii::Point<2> &)>;
+
+  /// du_i/dx_j [-] there.
+  using ElementGradient =
+    std::function<dealii::Tensor<2, 2>(unsigned int, const dealii::Point<2> &)>;
+
+
   /**
-   * The interaction integrals of a crack tip in domain form, as linear functionals of the
-   * displacement, made once for a disk about the tip.
+   * Intensity factors of a crack tip by interaction integrals in domain form, for each of several
+   * disks about the tip, from any displacement.
    *
    * Let a be an elastic field without body force, singular at the tip (TipField),
    * with stress s^a and strain e^a, continued up to the faces of the crack, however these
@@ -79,76 +87,18 @@ namespace NMM
    * Sources: M. Stern, E. Becker, R. Dunham, Int. J. Fract. 12 (1976), 359-368; J. Yau, S. Wang, H.
    * Corten, J. Appl. Mech. 47 (1980), 335-341; the form for bent cracks is derived here.
    *
-   * Lifetime: the cover system must outlive this object.
+   * @p radii of the disks [m]. @p face_traction acts on the faces besides the pressures of
+   * the problem; empty: none. Collective.
+   * @throws InputError for a radius larger than the tip's free radius.
    */
-  class InteractionIntegrals
-  {
-  public:
-    /**
-     * @p outer_radius of the disk [m], at most the tip's free radius.
-     * @p face_traction: empty if the faces are free.
-     * @throws InputError for a larger radius.
-     */
-    InteractionIntegrals(const CoverSystem       &covers,
-                         const ElasticityProblem &problem,
-                         const CrackTip          &tip,
-                         double                   outer_radius,
-                         const FaceTraction      &face_traction = {});
-
-    using Gradient =
-      std::function<dealii::Tensor<2, 2>(unsigned int,
-                                         const dealii::Point<2> &)>;
-    using Displacement =
-      std::function<dealii::Tensor<1, 2>(unsigned int,
-                                         const dealii::Point<2> &)>;
-
-    /// From a displacement and its gradient at reference coordinates of an element.
-    /// Collective.
-    IntensityFactors
-    evaluate(const Displacement &displacement, const Gradient &gradient) const;
-
-    IntensityFactors
-    evaluate(const DisplacementField &field) const;
-
-    /// Points where the gradient is asked for, on this rank.
-    std::size_t
-    n_points() const;
-
-  private:
-    /// Opening, sliding, point force.
-    static constexpr unsigned int n_fields = 3;
-
-    /// Integral of kernel : grad u.
-    struct GradientPoint
-    {
-      unsigned int                               element;
-      dealii::Point<2>                           xi;
-      std::array<dealii::Tensor<2, 2>, n_fields> kernels;
-    };
-
-    /// Integral of kernel . u.
-    struct FacePoint
-    {
-      unsigned int                               element;
-      dealii::Point<2>                           xi;
-      std::array<dealii::Tensor<1, 2>, n_fields> kernels;
-    };
-
-    class Builder;
-
-    const CoverSystem         *covers;
-    CrackTip                   tip;
-    double                     radius;
-    std::vector<GradientPoint> gradient_points;
-    std::vector<FacePoint>     face_points;
-    /// Of what does not depend on the displacement.
-    std::array<double, n_fields> constants{};
-    /// Integral of all face kernels on all ranks.
-    std::array<dealii::Tensor<1, 2>, n_fields> face_resultants;
-    double                                     modulus = 0.;
-    /// sigma_22 + sigma^0_11 - nu' sigma^0_22 [Pa]
-    double normal_part = 0.;
-  };
+  std::vector<IntensityFactors>
+  interaction_integrals(const CoverSystem         &covers,
+                        const ElasticityProblem   &problem,
+                        const CrackTip            &tip,
+                        const std::vector<double> &radii,
+                        const ElementDisplacement &displacement,
+                        const ElementGradient     &gradient,
+                        const FaceTraction        &face_traction = {});
 
 
   /**

@@ -66,6 +66,8 @@ namespace NMM
       unsigned int n_kept = 0, n_dropped = 0;
       /// [m].
       double length_kept = 0., length_dropped = 0.;
+      /// The crack tips [m].
+      std::vector<dealii::Point<2>> tips;
     };
 
     /**

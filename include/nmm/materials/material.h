@@ -59,6 +59,9 @@ namespace NMM
     double poissons_ratio = std::numeric_limits<double>::signaling_NaN();
     /// rho [kg/m^3], >= 0.
     double density = 0.;
+    /// K_c [Pa m^(1/2)]: a crack grows where its equivalent intensity factor reaches
+    /// it. 0: not known.
+    double toughness = 0.;
     /// How stress follows from deformation; never null.
     std::shared_ptr<const MaterialLaw> law = default_material_law();
     /// sigma_0 of the paper's eq. (9), tension positive [Pa]; in `finite`

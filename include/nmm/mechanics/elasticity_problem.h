@@ -39,13 +39,20 @@ namespace NMM
 
     /// For messages.
     std::string name;
-    /// Curve of the physical mesh it holds on.
+    /// Curve of the physical mesh it holds on: a boundary or hole; of pressures also an open
+    /// joint, on both of whose faces they act.
     std::string curve;
     Type        type = Type::traction;
     /// Two components for traction and displacement, else one. Null: zero.
     std::shared_ptr<const dealii::Function<2>> value;
     /// Which components a displacement condition prescribes.
     bool components[2] = {true, true};
+
+    bool
+    is_pressure() const
+    {
+      return type == Type::pressure || type == Type::follower_pressure;
+    }
   };
 
   /// Eq. (11): a force [N per unit thickness] at a point of the solid.

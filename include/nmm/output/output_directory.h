@@ -66,6 +66,7 @@ namespace NMM
   class Summary
   {
   public:
+    /// A row of that name that there is already is replaced.
     void
     add(const std::string &name, double value, const std::string &unit = "-");
 

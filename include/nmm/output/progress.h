@@ -23,7 +23,8 @@ namespace NMM
   public:
     Progress(std::ostream &out, bool is_terminal, MPI_Comm communicator);
 
-    /// One stage, from construction to destruction.
+    /// One stage, from construction to destruction. A stage within another one is a
+    /// part of that: it has no line and no time of its own.
     class Stage
     {
     public:
@@ -46,6 +47,7 @@ namespace NMM
 
     private:
       Progress                             &progress;
+      bool                                  is_part;
       std::string                           name, text;
       std::chrono::steady_clock::time_point start, last_update;
       int                                   n_exceptions;
@@ -64,6 +66,7 @@ namespace NMM
     bool                                        is_terminal;
     MPI_Comm                                    communicator;
     bool                                        prints;
+    unsigned int                                n_running = 0;
     std::vector<std::pair<std::string, double>> stage_times;
   };
 

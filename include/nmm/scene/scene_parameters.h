@@ -11,6 +11,7 @@
 #include <nmm/scene/scene_parameters_contact.h>
 #include <nmm/scene/scene_parameters_covers.h>
 #include <nmm/scene/scene_parameters_dynamics.h>
+#include <nmm/scene/scene_parameters_fracture.h>
 #include <nmm/scene/scene_parameters_geometry.h>
 #include <nmm/solution/newton_solver.h>
 
@@ -289,6 +290,7 @@ namespace NMM
     OutputParameters                         output;
     std::vector<Probe>                       probes;
     ExactSolutionParameters                  exact_solution;
+    FractureParameters                       fracture;
 
     /// All parameters, with their defaults.
     static void
@@ -330,6 +332,8 @@ namespace NMM
     check_loads_in_time() const;
     void
     check_restraints() const;
+    void
+    check_fracture() const;
 
     /// Is a mesh that is distributed among ranks one that may be?
     void

@@ -1,0 +1,278 @@
+#include <nmm/base/exceptions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <scene/crack_growth_analysis.h>
+#include <sstream>
+
+namespace NMM
+{
+  namespace internal
+  {
+    using dealii::Point;
+    using dealii::Tensor;
+    using Stage = Progress::Stage;
+
+    const GrowthCriterion &
+    CrackGrowthAnalysis::criterion() const
+    {
+      for (const auto &named : growth_criteria())
+        if (named.name == scene.parameters().fracture.criterion)
+          return *named.law;
+      Assert(false, dealii::ExcInternalError());
+      return *growth_criteria().front().law;
+    }
+
+
+    double
+    CrackGrowthAnalysis::drive(const CrackTip                 &tip,
+                               const GrowthCriterion::Verdict &verdict) const
+    {
+      const unsigned int material =
+        problem.region_to_material(*physical_mesh)[tip.region];
+      return verdict.equivalent_intensity /
+             problem.materials[material].toughness;
+    }
+
+
+    double
+    CrackGrowthAnalysis::largest_drive() const
+    {
+      double largest = 0.;
+      for (unsigned int i = 0; i < crack_tips->all_tips().size(); ++i)
+      {
+        const IntensityFactors &k = crack_tips->all_factors()[i];
+        largest                   = std::max(largest,
+                           drive(crack_tips->all_tips()[i],
+                                 criterion().judge(k.K_I, k.K_II)));
+      }
+      return largest;
+    }
+
+
+    std::vector<CrackGrowthAnalysis::GrowingTip>
+    CrackGrowthAnalysis::find_growing_tips() const
+    {
+      const double least =
+        (1. - scene.parameters().fracture.tolerance) * largest_drive();
+      std::vector<GrowingTip> growing;
+      for (unsigned int i = 0; i < crack_tips->all_tips().size(); ++i)
+      {
+        GrowingTip candidate;
+        candidate.tip     = crack_tips->all_tips()[i];
+        candidate.factors = crack_tips->all_factors()[i];
+        candidate.verdict =
+          criterion().judge(candidate.factors.K_I, candidate.factors.K_II);
+        const double driven = drive(candidate.tip, candidate.verdict);
+        if (driven > 0. && driven >= least)
+          growing.push_back(std::move(candidate));
+      }
+      return growing;
+    }
+
+
+    void
+    CrackGrowthAnalysis::take_state()
+    {
+      const double driven = largest_drive();
+      State        state;
+      // where no tip is driven no load factor makes one grow
+      state.load_factor =
+        driven > 0. ? 1. / driven : std::numeric_limits<double>::quiet_NaN();
+      state.crack_length = grown_length;
+      state.strain_energy =
+        state.load_factor * state.load_factor * small_strain_energy();
+      const auto samples = probes->evaluate(*covers, *evaluator);
+      for (unsigned int i = 0; i < samples.size(); ++i)
+        if (!scene.parameters().probes[probes->entries()[i].probe].is_line)
+          for (unsigned int c = 0; c < 2; ++c)
+            state.probes.push_back(
+              samples[i] ? state.load_factor * samples[i]->displacement[c]
+                         : std::numeric_limits<double>::quiet_NaN());
+      states.push_back(std::move(state));
+    }
+
+
+    void
+    CrackGrowthAnalysis::solve()
+    {
+      const unsigned int n = scene.parameters().fracture.n_increments;
+      {
+        Stage stage(progress, "crack growth");
+        solve_problem();
+        take_state();
+        write_tables();
+        while (states.size() <= n && grow())
+        {
+          take_state();
+          write_tables();
+          stage.update([&](double) {
+            return std::to_string(states.size() - 1) + " of " +
+                   std::to_string(n) + " increments";
+          });
+        }
+        stage.remark(std::to_string(states.size() - 1) + " increment(s)");
+      }
+      if (!end_reason.empty())
+        progress.message("  crack growth ended: " + end_reason);
+      for (const std::string &line : crack_tips->description())
+        progress.message("  " + line);
+      is_solved = true;
+    }
+
+
+    bool
+    CrackGrowthAnalysis::grow()
+    {
+      std::vector<GrowingTip> tips = find_growing_tips();
+      if (tips.empty())
+      {
+        end_reason = crack_tips->all_tips().empty() ? "no crack tip is left"
+                                                    : "no crack tip is open";
+        return false;
+      }
+      const Geometry     before   = geometry;
+      const unsigned int n_blocks = physical_mesh->n_blocks();
+      try
+      {
+        // Each turn reduces the shear by a factor of five and more.
+        constexpr unsigned int most_turns = 8;
+        for (unsigned int i = 0; i < most_turns; ++i)
+        {
+          geometry = before;
+          try_increments(tips);
+          if (!criterion().is_implicit() || !turn_increments(tips))
+            break;
+        }
+      }
+      catch (const NumericalFailure &)
+      {
+        if (physical_mesh->n_blocks() <= n_blocks)
+          throw;
+        std::ostringstream reason;
+        reason << "a crack that arrives at " << tips.front().extension.met
+               << " sets a block free that nothing holds, at load factor "
+               << states.back().load_factor;
+        end_reason = reason.str();
+        geometry   = before;
+        build(geometry);
+        solve_problem();
+        return false;
+      }
+      for (GrowingTip &tip : tips)
+      {
+        grown_length += tip.tip.point.distance(tip.extension.end);
+        increments.push_back({static_cast<unsigned int>(states.size()),
+                              states.back().load_factor,
+                              tip});
+      }
+      return true;
+    }
+
+
+    void
+    CrackGrowthAnalysis::try_increments(std::vector<GrowingTip> &tips)
+    {
+      for (GrowingTip &growing : tips)
+      {
+        const double c        = std::cos(growing.verdict.angle),
+                     s        = std::sin(growing.verdict.angle);
+        const Tensor<1, 2> &e = growing.tip.direction;
+        const Point<2>      direction(c * e[0] - s * e[1], s * e[0] + c * e[1]);
+        growing.extension =
+          extend_crack(geometry,
+                       growing.tip.point,
+                       direction,
+                       scene.parameters().fracture.increment,
+                       geometry.curves()[growing.tip.curve].name);
+      }
+      build(geometry);
+      solve_problem();
+    }
+
+
+    bool
+    CrackGrowthAnalysis::turn_increments(std::vector<GrowingTip> &tips) const
+    {
+      constexpr double no_shear = 1e-3;
+      bool             turns    = false;
+      for (GrowingTip &growing : tips)
+        for (unsigned int i = 0; i < crack_tips->all_tips().size(); ++i)
+          if (crack_tips->all_tips()[i].point == growing.extension.end)
+          {
+            const IntensityFactors &k = crack_tips->all_factors()[i];
+            if (k.K_I <= 0. || std::abs(k.K_II) <= no_shear * k.K_I)
+              continue;
+            // For small angles K_II' changes by K_I' / 2 per angle.
+            growing.verdict.angle -= 2. * k.K_II / k.K_I;
+            turns = true;
+          }
+      return turns;
+    }
+
+
+    void
+    CrackGrowthAnalysis::verify()
+    {
+      StaticAnalysis::verify();
+      summary.add("increments", states.size() - 1.);
+      summary.add("grown_length",
+                  grown_length,
+                  scene.parameters().output.length_unit);
+      const auto first_open =
+        std::max_element(states.begin(),
+                         states.end(),
+                         [](const State &a, const State &b) {
+                           return a.load_factor < b.load_factor;
+                         });
+      summary.add("largest_load_factor", first_open->load_factor);
+    }
+
+
+    void
+    CrackGrowthAnalysis::write_tables() const
+    {
+      on_first_rank([&]() {
+        directory->write_text("history.csv", [&](std::ostream &out) {
+          out << "step,load_factor,grown_length,strain_energy";
+          for (const Probe &probe : scene.parameters().probes)
+            if (!probe.is_line)
+              out << ',' << probe.name << "_x," << probe.name << "_y";
+          out << '\n';
+          out.precision(12);
+          for (unsigned int i = 0; i < states.size(); ++i)
+          {
+            out << i << ',' << states[i].load_factor << ','
+                << states[i].crack_length << ',' << states[i].strain_energy;
+            for (const double value : states[i].probes)
+              out << ',' << value;
+            out << '\n';
+          }
+        });
+        directory->write_text("growth.csv", [&](std::ostream &out) {
+          out << "step,load_factor,x,y,K_I,K_II,T,spread,angle,end_x,end_y,"
+                 "met\n";
+          out.precision(12);
+          for (const Increment &row : increments)
+          {
+            const GrowingTip &tip = row.tip;
+            out << row.step << ',' << row.load_factor;
+            for (const double value :
+                 {tip.tip.point[0],
+                  tip.tip.point[1],
+                  tip.factors.K_I,
+                  tip.factors.K_II,
+                  tip.factors.T,
+                  tip.factors.spread,
+                  tip.verdict.angle * 180. / dealii::numbers::PI,
+                  tip.extension.end[0],
+                  tip.extension.end[1]})
+              out << ',' << value;
+            out << ',' << tip.extension.met << '\n';
+          }
+        });
+      });
+    }
+  } // namespace internal
+} // namespace NMM

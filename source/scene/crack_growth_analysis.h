@@ -1,0 +1,106 @@
+#ifndef nmm_source_scene_crack_growth_analysis_h
+#define nmm_source_scene_crack_growth_analysis_h
+
+#include <nmm/fracture/growth_criterion.h>
+#include <nmm/geometry/crack_extension.h>
+
+#include <scene/static_analysis.h>
+#include <string>
+#include <vector>
+
+namespace NMM
+{
+  namespace internal
+  {
+    /**
+     * Cracks that grow in equilibrium: small displacements, elastic materials, no contact.
+     *
+     * Everything is proportional to the loads. A tip is driven by the ratio of its equivalent
+     * intensity factor, under the loads as given, to the toughness; the crack whose ratio is
+     * largest grows first, and does so at the load factor
+     * @f[ \lambda = \min_\mathrm{tips} \frac{K_c}{K_\mathrm{eq}(1)}. @f]
+     * That is the equilibrium path for cracks of all lengths, also where the load that
+     * it takes, or the displacement, goes back. After each increment the solid is cut and
+     * meshed anew and solved; a linear problem has nothing to carry over.
+     *
+     * Fields, pictures, probes and tips are those of the last state under the loads as given.
+     */
+    class CrackGrowthAnalysis : public StaticAnalysis
+    {
+    public:
+      using StaticAnalysis::StaticAnalysis;
+
+      void
+      solve() override;
+
+      void
+      verify() override;
+
+    private:
+      /// A tip that grows, and how.
+      struct GrowingTip
+      {
+        CrackTip                 tip;
+        IntensityFactors         factors;
+        GrowthCriterion::Verdict verdict;
+        CrackExtension           extension;
+      };
+
+      /// A state of equilibrium, at the load factor at which the next increment grows.
+      struct State
+      {
+        double              load_factor, crack_length, strain_energy;
+        std::vector<double> probes;
+      };
+
+      /// A row of growth.csv.
+      struct Increment
+      {
+        unsigned int step;
+        double       load_factor;
+        GrowingTip   tip;
+      };
+
+      std::vector<State>     states;
+      std::vector<Increment> increments;
+      double                 grown_length = 0.;
+      /// Why it came to an end; empty: it did not.
+      std::string end_reason;
+
+      const GrowthCriterion &
+      criterion() const;
+
+      /// K_eq / K_c of a tip.
+      double
+      drive(const CrackTip &tip, const GrowthCriterion::Verdict &verdict) const;
+
+      /// Of all tips the largest drive; 0 or less if none is open.
+      double
+      largest_drive() const;
+
+      void
+      take_state();
+
+      std::vector<GrowingTip>
+      find_growing_tips() const;
+
+      /// One increment of each tip that grows. False if there is none, or a block
+      /// came free; end_reason says so.
+      bool
+      grow();
+
+      /// Cut and solve with all tips grown by their angles.
+      void
+      try_increments(std::vector<GrowingTip> &tips);
+
+      /// Turn increments at whose tips there is shear. False if there are none.
+      bool
+      turn_increments(std::vector<GrowingTip> &tips) const;
+
+      void
+      write_tables() const;
+    };
+  } // namespace internal
+} // namespace NMM
+
+#endif

@@ -1,0 +1,173 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/fracture/tip_grading.h>
+
+#include <algorithm>
+#include <scene/crack_tips.h>
+#include <scene/parsing.h>
+#include <sstream>
+
+namespace NMM
+{
+  namespace internal
+  {
+    CrackTips::CrackTips(const Scene &scene, const PhysicalMesh &physical_mesh)
+      : scene(scene)
+      , tips(find_crack_tips(physical_mesh))
+    {
+    }
+
+
+    const std::vector<CrackTip> &
+    CrackTips::all_tips() const
+    {
+      return tips;
+    }
+
+
+    const std::vector<IntensityFactors> &
+    CrackTips::all_factors() const
+    {
+      return factors;
+    }
+
+
+    void
+    CrackTips::check() const
+    {
+      AssertThrow(!tips.empty(),
+                  InputError("there is no crack tip that could have intensity "
+                             "factors",
+                             "parameter 'Fracture/Intensity factors'",
+                             "let an open joint end inside a block, or remove "
+                             "it"));
+      const double radius = scene.parameters().fracture.radius;
+      for (const CrackTip &tip : tips)
+        AssertThrow(radius <= tip.free_radius,
+                    InputError("the disk of radius " + to_text(radius) +
+                                 " m about the crack tip at " +
+                                 to_string(tip.point) +
+                                 " would hold more than its crack",
+                               "parameter 'Fracture/Radius'",
+                               "choose at most " + to_text(tip.free_radius) +
+                                 " m, or 0 for a radius of its own for each "
+                                 "tip"));
+    }
+
+
+    void
+    CrackTips::compute(const DisplacementField &field,
+                       const ElasticityProblem &problem)
+    {
+      factors.clear();
+      for (const CrackTip &tip : tips)
+        // a tip that has grown may have less room than at first
+        factors.push_back(compute_intensity_factors(
+          field,
+          problem,
+          tip,
+          std::min(scene.parameters().fracture.radius, tip.free_radius)));
+    }
+
+
+    std::string
+    CrackTips::intensity_unit() const
+    {
+      const OutputParameters &output = scene.parameters().output;
+      return output.stress_unit + "*" + output.length_unit + "^0.5";
+    }
+
+
+    std::vector<std::string>
+    CrackTips::description() const
+    {
+      constexpr unsigned int   n_shown = 8;
+      std::vector<std::string> lines;
+      for (unsigned int i = 0;
+           i < std::min<std::size_t>(n_shown, factors.size());
+           ++i)
+      {
+        std::ostringstream text;
+        text << "crack tip at " << to_string(tips[i].point) << ": K_I "
+             << factors[i].K_I << ", K_II " << factors[i].K_II << " (+- "
+             << factors[i].spread << ") " << intensity_unit();
+        lines.push_back(text.str());
+      }
+      if (factors.size() > n_shown)
+        lines.push_back("and " + std::to_string(factors.size() - n_shown) +
+                        " more crack tip(s), see tips.csv");
+      return lines;
+    }
+
+
+    void
+    CrackTips::add_to(Summary &summary) const
+    {
+      const OutputParameters &output = scene.parameters().output;
+      const auto              rate   = [](const IntensityFactors &k) {
+        return k.energy_release_rate;
+      };
+      if (factors.empty())
+        return;
+      const auto most = std::max_element(factors.begin(),
+                                         factors.end(),
+                                         [&](const auto &a, const auto &b) {
+                                           return rate(a) < rate(b);
+                                         });
+      summary.add("tip_of_largest_release", most - factors.begin());
+      summary.add("largest_energy_release_rate",
+                  rate(*most),
+                  output.stress_unit + "*" + output.length_unit);
+      summary.add("largest_intensity_spread",
+                  std::max_element(factors.begin(),
+                                   factors.end(),
+                                   [](const auto &a, const auto &b) {
+                                     return a.spread < b.spread;
+                                   })
+                    ->spread,
+                  intensity_unit());
+    }
+
+
+    void
+    CrackTips::write(const OutputDirectory &directory) const
+    {
+      if (factors.empty())
+        return;
+      directory.write_text("tips.csv", [&](std::ostream &out) {
+        out << "tip,x,y,direction_x,direction_y,K_I,K_II,T,energy_release_rate,"
+               "spread,radius\n";
+        out.precision(12);
+        for (unsigned int i = 0; i < factors.size(); ++i)
+        {
+          const CrackTip         &tip = tips[i];
+          const IntensityFactors &k   = factors[i];
+          out << i;
+          for (const double value : {tip.point[0],
+                                     tip.point[1],
+                                     tip.direction[0],
+                                     tip.direction[1],
+                                     k.K_I,
+                                     k.K_II,
+                                     k.T,
+                                     k.energy_release_rate,
+                                     k.spread,
+                                     k.radius})
+            out << ',' << value;
+          out << '\n';
+        }
+      });
+    }
+
+
+    std::vector<LocalSize>
+    sizes_at_tips(const PhysicalMesh       &physical_mesh,
+                  const FractureParameters &parameters,
+                  const double              cell_size)
+    {
+      std::vector<LocalSize> sizes;
+      for (const CrackTip &tip : find_crack_tips(physical_mesh))
+        sizes.push_back(grade_towards(tip, parameters.grading, cell_size));
+      return sizes;
+    }
+  } // namespace internal
+} // namespace NMM

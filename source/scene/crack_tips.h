@@ -1,0 +1,73 @@
+#ifndef nmm_source_scene_crack_tips_h
+#define nmm_source_scene_crack_tips_h
+
+#include <nmm/fracture/intensity_factors.h>
+#include <nmm/output/output_directory.h>
+#include <nmm/output/progress.h>
+#include <nmm/scene/scene.h>
+
+#include <string>
+#include <vector>
+
+namespace NMM
+{
+  namespace internal
+  {
+    /**
+     * The crack tips of a scene that asks for their intensity factors, and tips.csv.
+     *
+     * Lifetime: the scene must outlive it.
+     */
+    class CrackTips
+    {
+    public:
+      CrackTips(const Scene &scene, const PhysicalMesh &physical_mesh);
+
+      /// @throws InputError if there is no tip, or a radius is larger than the free
+      /// radius of a tip.
+      void
+      check() const;
+
+      const std::vector<CrackTip> &
+      all_tips() const;
+
+      /// After compute().
+      const std::vector<IntensityFactors> &
+      all_factors() const;
+
+      /// From the solution. Collective.
+      void
+      compute(const DisplacementField &field, const ElasticityProblem &problem);
+
+      /// Lines for people: what was computed, of the first few tips.
+      std::vector<std::string>
+      description() const;
+
+      /// Those with the largest energy release rate into the summary.
+      void
+      add_to(Summary &summary) const;
+
+      /// tips.csv. For one rank.
+      void
+      write(const OutputDirectory &directory) const;
+
+    private:
+      const Scene                  &scene;
+      std::vector<CrackTip>         tips;
+      std::vector<IntensityFactors> factors;
+
+      /// Unit of intensity factors.
+      std::string
+      intensity_unit() const;
+    };
+
+
+    /// Local sizes of a mesh that is graded towards the crack tips.
+    std::vector<LocalSize>
+    sizes_at_tips(const PhysicalMesh       &physical_mesh,
+                  const FractureParameters &parameters,
+                  double                    cell_size);
+  } // namespace internal
+} // namespace NMM
+
+#endif

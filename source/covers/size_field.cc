@@ -103,14 +103,15 @@ namespace NMM
           break;
       }
       // No power is needed where even the straight line up to `length` is above the size.
-      if (local.size + local.growth * std::min(d, local.length) < size)
-        size = std::min(size,
-                        local.size +
-                          local.growth *
-                            (local.exponent == 1.
-                               ? d
-                               : local.length *
-                                   std::pow(d / local.length, local.exponent)));
+      if (local.size + local.growth * std::min(d, local.length) >= size)
+        continue;
+      const bool is_linear = local.exponent == 1. || d >= local.length;
+      size                 = std::min(size,
+                      local.size + local.growth *
+                                     (is_linear ? d
+                                                                : local.length *
+                                                    std::pow(d / local.length,
+                                                             local.exponent)));
     }
     return size;
   }

@@ -283,6 +283,8 @@ namespace NMM
         solid_edges.emplace_back(halfedge, edges(halfedge));
     }
 
+    const auto  &corners = physical_mesh.bounding_box().get_boundary_points();
+    const double least_radius = 1e-9 * corners.first.distance(corners.second);
     std::vector<CrackTip> tips;
     for (const Halfedge &end : ends)
     {
@@ -313,7 +315,8 @@ namespace NMM
                          }))
           tip.free_radius =
             std::min(tip.free_radius, distance(edge, tip.point));
-      tips.push_back(std::move(tip));
+      if (tip.free_radius > least_radius)
+        tips.push_back(std::move(tip));
     }
     std::sort(tips.begin(),
               tips.end(),

@@ -220,13 +220,11 @@ namespace NMM
       summary.add("grown_length",
                   grown_length,
                   scene.parameters().output.length_unit);
-      const auto first_open =
-        std::max_element(states.begin(),
-                         states.end(),
-                         [](const State &a, const State &b) {
-                           return a.load_factor < b.load_factor;
-                         });
-      summary.add("largest_load_factor", first_open->load_factor);
+      double largest = 0.;
+      for (const State &state : states)
+        if (std::isfinite(state.load_factor))
+          largest = std::max(largest, state.load_factor);
+      summary.add("largest_load_factor", largest);
     }
 
 
@@ -241,12 +239,20 @@ namespace NMM
               out << ',' << probe.name << "_x," << probe.name << "_y";
           out << '\n';
           out.precision(12);
+          // empty where no load makes a crack grow, or a probe is outside
+          const auto write = [&](const double value) {
+            out << ',';
+            if (std::isfinite(value))
+              out << value;
+          };
           for (unsigned int i = 0; i < states.size(); ++i)
           {
-            out << i << ',' << states[i].load_factor << ','
-                << states[i].crack_length << ',' << states[i].strain_energy;
+            out << i;
+            write(states[i].load_factor);
+            write(states[i].crack_length);
+            write(states[i].strain_energy);
             for (const double value : states[i].probes)
-              out << ',' << value;
+              write(value);
             out << '\n';
           }
         });

@@ -15,7 +15,8 @@ namespace NMM
     {
       static const std::vector<Generator> all = {
         {"geometry", &make_geometry_case, &run_geometry_case},
-        {"scene", &make_scene_case, &run_scene_case}};
+        {"scene", &make_scene_case, &run_scene_case},
+        {"growth", &make_growth_case, &run_scene_case}};
       return all;
     }
 

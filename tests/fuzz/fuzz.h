@@ -58,6 +58,10 @@ namespace NMM
     Case
     make_scene_case(std::uint64_t seed);
 
+    /// A plate with cracks that grow.
+    Case
+    make_growth_case(std::uint64_t seed);
+
     /// Runs the scene as the program nmm does. Wrong are exit codes other than 0, 2 and 3, files written with
     /// 2, and tables with values that are not finite with 0.
     std::string

@@ -39,6 +39,13 @@ TEST(Fuzz, Scenes)
 }
 
 
+TEST(Fuzz, Growth)
+{
+  for (unsigned int seed = 1; seed <= n_samples(100); ++seed)
+    expect_good("growth", seed);
+}
+
+
 // Joints that run within rounding along others and end inside a block: the patch test was
 // off by up to 2e-2 there, or the system singular.
 TEST(Fuzz, StripsThatEndInABlock)

@@ -17,7 +17,8 @@ namespace
 {
   const char *const usage =
     "Usage: nmm-fuzz GENERATOR N [SEED [FOLDER]]\n\n"
-    "Runs N cases of a generator (geometry, scene) with the seeds SEED (1), "
+    "Runs N cases of a generator (geometry, scene, growth) with the seeds SEED "
+    "(1), "
     "SEED + 1, "
     "... A\n"
     "case that fails, crashes or takes more than 10 s is written to\n"

@@ -14,8 +14,9 @@ namespace NMM
   /**
    * A place that wants smaller cells: edge length `size` there, growing with the
    * distance d from it,
-   * @f[ h(x) = \texttt{size}
-       + \texttt{growth}\;\ell\left(\frac{d(x)}{\ell}\right)^{\texttt{exponent}},
+   * @f[ h(x) = \texttt{size} + \texttt{growth}\cdot
+       \begin{cases}\ell\,(d/\ell)^{\texttt{exponent}} & d < \ell\\ d & d \ge \ell
+       \end{cases},
        \qquad \ell = \texttt{length}. @f]
    */
   struct LocalSize
@@ -41,7 +42,7 @@ namespace NMM
     /// its mean up to the distance `length`.
     double growth = 0.2;
     /// In (0, 1]. With 1, `length` [m] has no effect. For an exponent less than 1 cells grow
-    /// faster near the place and slower away from it.
+    /// faster near the place and slower up to `length`.
     double exponent = 1., length = 1.;
   };
 

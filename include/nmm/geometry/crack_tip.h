@@ -66,7 +66,9 @@ namespace NMM
 
   /**
    * The tips of all open joints, in the order of their coordinates x, then y.
-   * Tied joints (JointState::closed) have none: nothing opens there.
+   * Tied joints (JointState::closed) have none: nothing opens there. What ends within
+   * 1e-9 of the solid's size of another curve is no tip either: there is no room for a
+   * field of its own.
    * Cost: tips times curves.
    */
   std::vector<CrackTip>

@@ -1,0 +1,52 @@
+#ifndef nmm_fracture_fracture_h
+#define nmm_fracture_fracture_h
+
+#include <nmm/fracture/energy_release_criterion.h>
+#include <nmm/fracture/growth_criterion.h>
+#include <nmm/fracture/hoop_stress_criterion.h>
+#include <nmm/fracture/intensity_factors.h>
+#include <nmm/fracture/kink_factors.h>
+#include <nmm/fracture/local_symmetry_criterion.h>
+#include <nmm/fracture/tip_field.h>
+#include <nmm/fracture/tip_grading.h>
+
+/**
+ * @defgroup fracture Fracture
+ *
+ * Crack tips: how strongly they are stressed, and where cracks grow to. This room knows covers,
+ * materials and displacement fields; it solves nothing itself.
+ *
+ * **In**: the tips of a physical mesh (find_crack_tips()) and a DisplacementField.
+ * **Out**: IntensityFactors of each tip, and the direction in which it grows.
+ *
+ * | file | job |
+ * |---|---|
+ * | nmm/geometry/crack_tip.h | the tips, their frames, and the angle that jumps on the crack |
+ * | nmm/geometry/crack_extension.h | a crack that is longer, up to what it meets |
+ * | tip_grading.h | cells that become small towards a tip |
+ * | tip_field.h | elastic fields about a tip |
+ * | intensity_factors.h | interaction integrals |
+ * | growth_criterion.h | the interface of criteria, and their list; a file for each of them |
+ * | kink_factors.h | intensity factors of a short kink |
+ *
+ * Order of calls:
+ * @code
+ * const PhysicalMesh physical_mesh(geometry);
+ * const std::vector<CrackTip> tips = find_crack_tips(physical_mesh);
+ * GradedMeshParameters mesh;                        // with its cell size
+ * for (const CrackTip &tip : tips)
+ *   mesh.local_sizes.push_back(grade_towards(tip, 0.25, mesh.cell_size));
+ * // ... covers, StaticElasticity, DisplacementField field ...
+ * for (const CrackTip &tip : tips)
+ *   {
+ *     const IntensityFactors k = compute_intensity_factors(field, problem, tip);
+ *     const auto verdict = HoopStressCriterion().judge(k.K_I, k.K_II);
+ *     if (verdict.equivalent_intensity > toughness)
+ *       extend_crack(geometry, tip.point, turned(tip.direction, verdict.angle), length, "crack");
+ *   }
+ * @endcode
+ * To add a criterion, derive from GrowthCriterion in a file of its own and name it in
+ * growth_criteria().
+ */
+
+#endif

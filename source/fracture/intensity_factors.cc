@@ -24,7 +24,6 @@ namespace NMM
     constexpr double plateau = 0.2;
 
 
-
     /// q(r) and its derivative.
     std::pair<double, double>
     cut_off(const double r, const double outer)
@@ -63,12 +62,8 @@ namespace NMM
       return {edge.center + spoke,
               sign * sweep * Point<2>(-spoke[1], spoke[0])};
     }
-  } // namespace
 
 
-
-  namespace
-  {
     /// Sums up the integrals of one tip.
     class InteractionIntegrals
     {

@@ -116,6 +116,12 @@ namespace NMM
       }
       if (!end_reason.empty())
         progress.message("  crack growth ended: " + end_reason);
+      if (n_with_shear > 0)
+        progress.message(
+          "  warning: there is shear of more than a thousandth of "
+          "K_I at the ends of " +
+          std::to_string(n_with_shear) +
+          " increment(s), which turning did not take away");
       for (const std::string &line : crack_tips->description())
         progress.message("  " + line);
       is_solved = true;
@@ -138,27 +144,39 @@ namespace NMM
       {
         // Each turn reduces the shear by a factor of five and more.
         constexpr unsigned int most_turns = 8;
-        for (unsigned int i = 0; i < most_turns; ++i)
+        bool                   turns      = true;
+        for (unsigned int i = 0; turns && i < most_turns; ++i)
         {
           geometry = before;
           try_increments(tips);
-          if (!criterion().is_implicit() || !turn_increments(tips))
-            break;
+          turns = criterion().is_implicit() && turn_increments(tips);
         }
+        n_with_shear += turns;
       }
       catch (const NumericalFailure &)
       {
-        if (physical_mesh->n_blocks() <= n_blocks)
+        const bool has_come_free =
+          physical_mesh && physical_mesh->n_blocks() > n_blocks;
+        restore(before);
+        if (!has_come_free)
           throw;
         std::ostringstream reason;
         reason << "a crack that arrives at " << tips.front().extension.met
                << " sets a block free that nothing holds, at load factor "
                << states.back().load_factor;
         end_reason = reason.str();
-        geometry   = before;
-        build(geometry);
-        solve_problem();
         return false;
+      }
+      catch (const InputError &error)
+      {
+        // The scene was good; what the crack makes of it is not.
+        restore(before);
+        AssertThrow(false,
+                    NumericalFailure("A crack that grows makes a geometry that "
+                                     "cannot be cut: " +
+                                       error.description(),
+                                     error.place(),
+                                     "choose another 'Fracture/Increment'"));
       }
       for (GrowingTip &tip : tips)
       {
@@ -168,6 +186,15 @@ namespace NMM
                               tip});
       }
       return true;
+    }
+
+
+    void
+    CrackGrowthAnalysis::restore(const Geometry &before)
+    {
+      geometry = before;
+      build(geometry);
+      solve_problem();
     }
 
 

@@ -66,6 +66,8 @@ namespace NMM
       double                 grown_length = 0.;
       /// Why it came to an end; empty: it did not.
       std::string end_reason;
+      /// Increments of which turning did not take away the shear.
+      unsigned int n_with_shear = 0;
 
       const GrowthCriterion &
       criterion() const;
@@ -92,6 +94,10 @@ namespace NMM
       /// Cut and solve with all tips grown by their angles.
       void
       try_increments(std::vector<GrowingTip> &tips);
+
+      /// Back to a geometry that was solved before.
+      void
+      restore(const Geometry &before);
 
       /// Turn increments at whose tips there is shear. False if there are none.
       bool

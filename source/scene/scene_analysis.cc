@@ -100,6 +100,9 @@ namespace NMM
       }
       make_system();
       add_counts();
+      // what lies along another curve within rounding may have been moved onto it
+      if (parameters.fracture.n_increments > 0)
+        this->geometry.curves() = physical_mesh->curves();
       if (directory != nullptr)
         series = std::make_unique<StateSeries>(scene,
                                                *covers,

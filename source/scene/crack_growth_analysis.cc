@@ -94,6 +94,28 @@ namespace NMM
     }
 
 
+    double
+    CrackGrowthAnalysis::last_value() const
+    {
+      return states.empty() ? 0. : states.size() - 1.;
+    }
+
+
+    void
+    CrackGrowthAnalysis::show_state()
+    {
+      const unsigned int every = scene.parameters().output.fields_every,
+                         step  = states.size() - 1;
+      if (every == 0 || step % every != 0)
+        return;
+      std::ostringstream description;
+      description << step << " increment(s)";
+      if (std::isfinite(states.back().load_factor))
+        description << ", load factor " << states.back().load_factor;
+      series->write(step / every, step, description.str(), *evaluator);
+    }
+
+
     void
     CrackGrowthAnalysis::solve()
     {
@@ -107,6 +129,7 @@ namespace NMM
         {
           take_state();
           write_tables();
+          show_state();
           stage.update([&](double) {
             return std::to_string(states.size() - 1) + " of " +
                    std::to_string(n) + " increments";
@@ -231,9 +254,20 @@ namespace NMM
             const IntensityFactors &k = crack_tips->all_factors()[i];
             if (k.K_I <= 0. || std::abs(k.K_II) <= no_shear * k.K_I)
               continue;
-            // For small angles K_II' changes by K_I' / 2 per angle.
-            growing.verdict.angle -= 2. * k.K_II / k.K_I;
-            turns = true;
+            // For small angles K_II' changes by K_I' / 2 per angle; two trials show by how
+            // much it does here.
+            const double angle = growing.verdict.angle, shear = k.K_II / k.K_I;
+            double       slope = 0.5;
+            if (growing.last_trial)
+            {
+              const auto [last_angle, last_shear] = *growing.last_trial;
+              const double secant = (shear - last_shear) / (angle - last_angle);
+              if (secant > 0.1 && secant < 5.)
+                slope = secant;
+            }
+            growing.last_trial    = {angle, shear};
+            growing.verdict.angle = angle - shear / slope;
+            turns                 = true;
           }
       return turns;
     }

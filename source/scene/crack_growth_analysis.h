@@ -4,8 +4,10 @@
 #include <nmm/fracture/growth_criterion.h>
 #include <nmm/geometry/crack_extension.h>
 
+#include <optional>
 #include <scene/static_analysis.h>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace NMM
@@ -44,6 +46,8 @@ namespace NMM
         IntensityFactors         factors;
         GrowthCriterion::Verdict verdict;
         CrackExtension           extension;
+        /// Angle of the trial before and K_II / K_I at its end, if there was one.
+        std::optional<std::pair<double, double>> last_trial;
       };
 
       /// A state of equilibrium, at the load factor at which the next increment grows.
@@ -82,6 +86,13 @@ namespace NMM
 
       void
       take_state();
+
+      /// Fields and a picture of this state, if it is one of those that the scene asks for.
+      void
+      show_state();
+
+      double
+      last_value() const override;
 
       std::vector<GrowingTip>
       find_growing_tips() const;

@@ -42,7 +42,6 @@ namespace NMM
     void
     SceneAnalysis::clear()
     {
-      series.reset();
       evaluator.reset();
       recovery.reset();
       field.reset();
@@ -103,11 +102,8 @@ namespace NMM
       // what lies along another curve within rounding may have been moved onto it
       if (parameters.fracture.n_increments > 0)
         this->geometry.curves() = physical_mesh->curves();
-      if (directory != nullptr)
-        series = std::make_unique<StateSeries>(scene,
-                                               *covers,
-                                               contact.get(),
-                                               *directory);
+      if (series)
+        series->follow(*covers);
     }
 
 

@@ -110,7 +110,7 @@ namespace NMM
       void
       build(Geometry geometry);
 
-      /// Drop all that build() makes, last things first.
+      /// Drop all that build() makes, last things first; what is written goes on.
       virtual void
       clear();
 

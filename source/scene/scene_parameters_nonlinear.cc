@@ -200,13 +200,14 @@ namespace NMM
     }
     if (model.kinematics == Kinematics::small && is_static && !is_nonlinear())
     {
-      expect_default(
-        "Output",
-        "Fields every",
-        output.fields_every,
-        0,
-        kinematics,
-        "remove it, or set 'Model/Kinematics' to finite or incremental");
+      if (fracture.n_increments == 0)
+        expect_default(
+          "Output",
+          "Fields every",
+          output.fields_every,
+          0,
+          kinematics,
+          "remove it, or set 'Model/Kinematics' to finite or incremental");
       return;
     }
 

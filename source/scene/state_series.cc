@@ -91,6 +91,15 @@ namespace NMM
 
 
     void
+    StateSeries::follow(const CoverSystem &new_covers)
+    {
+      Assert(contact == nullptr,
+             dealii::ExcMessage("Contact has a surface of its own."));
+      covers = &new_covers;
+    }
+
+
+    void
     StateSeries::resume(const double last)
     {
       if (!is_first_rank(*covers))
@@ -170,7 +179,10 @@ namespace NMM
       const bool       is_dynamic =
         scene->parameters().model.analysis != Analysis::statics;
       AnimationParameters parameters;
-      parameters.time_name = is_dynamic ? "t" : "load factor";
+      parameters.time_name = is_dynamic ? "t"
+                             : scene->parameters().fracture.n_increments > 0
+                               ? "increment"
+                               : "load factor";
       parameters.time_unit = is_dynamic ? "s" : "";
       parameters.smallest_hole =
         smallest_hole(covers->manifold_mesh().physical_mesh());

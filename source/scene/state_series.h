@@ -47,6 +47,11 @@ namespace NMM
                   const ContactAnalysis *contact,
                   const OutputDirectory &directory);
 
+      /// The solid was cut anew: states that follow are those of @p covers, which must
+      /// outlive this object.
+      void
+      follow(const CoverSystem &covers);
+
       /// Keep the fields of an earlier run up to the state @p last (time or load
       /// factor).
       void

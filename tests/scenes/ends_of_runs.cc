@@ -1,4 +1,5 @@
 #include "rejected_input.h"
+#include <algorithm>
 #include <iterator>
 
 // How runs end that meet a limit: of memory, of numbers, of contact, of the disk.
@@ -54,6 +55,39 @@ namespace
                      "Mathematical mesh/Cell size=3e-5",
                      base_scene},
                     {"GB", "Cell size"});
+  }
+
+
+  // Cracks that grow write fields and pictures as they go, each of the solid as it is cut then.
+  TEST(EndsOfRuns, GrowingCracksAreShownStepByStep)
+  {
+    const DriverResult result =
+      run({"Geometry/Text=" + square +
+             "; joint name=crack LINESTRING (0 0.5, 0.5 0.5)",
+           "Fracture/Intensity factors=true",
+           "Fracture/Grading=0.5",
+           "Fracture/Increments=4",
+           "Fracture/Increment=0.05",
+           "Materials/rock/Toughness=1",
+           "Boundary conditions/held/Value=0; y",
+           "Output/Fields every=2"});
+    if (!is_first_rank())
+      return;
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    for (const char *name : {"fields-0001.vtu",
+                             "fields-0002.vtu",
+                             "picture-0001.png",
+                             "picture-0002.png",
+                             "animation.html",
+                             "tips.csv"})
+      EXPECT_FALSE(content(name).empty()) << name;
+    EXPECT_NE(content("fields.pvd").find("timestep=\"4\""), std::string::npos);
+    const auto n_lines = [](const std::string &text) {
+      return std::count(text.begin(), text.end(), '\n');
+    };
+    // a head, the state before and one after each increment
+    EXPECT_EQ(n_lines(content("history.csv")), 6);
+    EXPECT_EQ(n_lines(content("growth.csv")), 5);
   }
 
 

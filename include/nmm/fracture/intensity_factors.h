@@ -25,7 +25,8 @@ namespace NMM
     /// Radius of the disk they were computed from [m].
     double radius = 0.;
     /// How far the intensity factors from smaller disks are from these, the largest
-    /// difference [Pa m^(1/2)]: an estimate of their error.
+    /// difference [Pa m^(1/2)]: the error that comes from cells within the disk. What is wrong
+    /// outside of it, or with all disks alike, is not seen.
     double spread = 0.;
   };
 

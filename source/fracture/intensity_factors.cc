@@ -80,6 +80,7 @@ namespace NMM
         , problem(problem)
         , tip(tip)
         , radii(radii)
+        , smallest_radius(*std::min_element(radii.begin(), radii.end()))
         , largest_radius(*std::max_element(radii.begin(), radii.end()))
         , displacement(displacement)
         , gradient(gradient)
@@ -87,8 +88,10 @@ namespace NMM
         , material(problem.materials[problem.region_to_material(
             mesh.physical_mesh())[tip.region]])
         , elasticity(material.plane_elasticity(problem.plane_state))
-        , e_1(tip.direction)
-        , e_2(Point<2>(-e_1[1], e_1[0]))
+        , frame({{tip.direction[0], -tip.direction[1]},
+                 {tip.direction[1], tip.direction[0]}})
+        , initial_stress(
+            dealii::symmetrize(in_frame(Tensor<2, 2>(material.initial_stress))))
         , fields{{{TipField::Kind::opening, elasticity},
                   {TipField::Kind::sliding, elasticity},
                   {TipField::Kind::point_force, elasticity}}}
@@ -96,15 +99,11 @@ namespace NMM
         // Does the crack bend within the disks?
         , is_bent(tip.path.front().radius != 0. ||
                   tip.point.distance(tip.path.front().end) < largest_radius)
+        , whole_rule(make_triangle_rule(rule_degree))
         , rules(rule_degree)
         , gauss(rule_degree)
         , sums(n_fields * radii.size(), 0.)
       {
-        for (unsigned int i = 0; i < 2; ++i)
-        {
-          frame[i][0] = e_1[i];
-          frame[i][1] = e_2[i];
-        }
         find_pressures();
       }
 
@@ -144,21 +143,23 @@ namespace NMM
       const ElasticityProblem   &problem;
       const CrackTip            &tip;
       const std::vector<double> &radii;
-      const double               largest_radius;
+      const double               smallest_radius, largest_radius;
       const ElementDisplacement &displacement;
       const ElementGradient     &gradient;
       const FaceTraction        &face_traction;
       const Material            &material;
       const PlaneElasticity      elasticity;
-      /// Of the tip's frame; its axes are the columns of `frame`.
-      const Tensor<1, 2>                   e_1, e_2;
-      Tensor<2, 2>                         frame;
+      /// Its columns are the axes of the tip's frame.
+      const Tensor<2, 2>                   frame;
+      const SymmetricTensor<2, 2>          initial_stress;
       const std::array<TipField, n_fields> fields;
-      const Tensor<1, 2>                   force_at_tip;
-      const bool                           is_bent;
-      ElementRuleBuilder                   rules;
-      const dealii::QGauss<1>              gauss;
-      Tensor<1, 2>                         displacement_of_tip;
+      /// In the tip's frame, as all that follows from it.
+      const Tensor<1, 2>          force_at_tip;
+      const bool                  is_bent;
+      const dealii::Quadrature<2> whole_rule;
+      ElementRuleBuilder          rules;
+      const dealii::QGauss<1>     gauss;
+      Tensor<1, 2>                displacement_of_tip;
       /// Curves with pressures on their faces: the curve and the condition.
       std::vector<std::pair<unsigned int, const BoundaryCondition *>> pressures;
       /// I of each disk and, for each of them, field.
@@ -193,6 +194,7 @@ namespace NMM
       }
 
 
+      /// In the tip's frame.
       Tensor<1, 2>
       body_force(const Point<2> &x) const
       {
@@ -200,42 +202,35 @@ namespace NMM
         if (problem.body_force)
           for (unsigned int c = 0; c < 2; ++c)
             force[c] += problem.body_force->value(x, c);
-        return force;
+        return in_frame(force);
       }
 
 
-      /// The field @p f at @p x on the side of the crack into which @p into_solid points, in
-      /// components of the mesh.
-      TipField::Values
-      field(const unsigned int  f,
-            const Point<2>     &x,
-            const Tensor<1, 2> &into_solid = Tensor<1, 2>()) const
+      /// Vectors and tensors in components of the tip's frame.
+      Tensor<1, 2>
+      in_frame(const Tensor<1, 2> &v) const
       {
-        TipField::Values values =
-          fields[f].evaluate(x.distance(tip.point), tip.angle(x, into_solid));
-        const auto turn = [this](const SymmetricTensor<2, 2> &t) {
-          return dealii::symmetrize(frame * Tensor<2, 2>(t) *
-                                    dealii::transpose(frame));
-        };
-        values.displacement = frame * values.displacement;
-        values.gradient = frame * values.gradient * dealii::transpose(frame);
-        values.stress   = turn(values.stress);
-        for (auto &derivative : values.stress_derivatives)
-          derivative = turn(derivative);
-        return values;
+        return dealii::transpose(frame) * v;
       }
 
 
-      dealii::Quadrature<2>
-      rule(const unsigned int element)
+      Tensor<2, 2>
+      in_frame(const Tensor<2, 2> &t) const
       {
-        if (mesh.is_whole(element))
-          return make_triangle_rule(rule_degree);
-        const auto        &cells = mesh.mathematical_mesh();
-        const unsigned int cell  = mesh.cell(element);
-        return rules.build(mesh.edges(element),
-                           {cells.vertices()[cells.cell_vertices(cell)[0]],
-                            cells.jacobian(cell)});
+        return dealii::transpose(frame) * t * frame;
+      }
+
+
+      /// The fields at @p x, on the side of the crack into which @p into_solid points.
+      std::array<TipField::Values, n_fields>
+      fields_at(const Point<2>     &x,
+                const Tensor<1, 2> &into_solid = Tensor<1, 2>()) const
+      {
+        const double r     = x.distance(tip.point),
+                     theta = tip.angle(x, into_solid);
+        return {{fields[0].evaluate(r, theta),
+                 fields[1].evaluate(r, theta),
+                 fields[2].evaluate(r, theta)}};
       }
 
 
@@ -245,48 +240,66 @@ namespace NMM
         const auto        &cells = mesh.mathematical_mesh();
         const unsigned int cell  = mesh.cell(element);
         // Near the tip q is constant: nothing to integrate without a body force that varies.
-        const double within =
-          plateau * *std::min_element(radii.begin(), radii.end());
         const bool is_on_plateau =
           std::all_of(cells.cell_vertices(cell).begin(),
                       cells.cell_vertices(cell).end(),
                       [&](const unsigned int v) {
-                        return cells.vertices()[v].distance(tip.point) < within;
+                        return cells.vertices()[v].distance(tip.point) <
+                               plateau * smallest_radius;
                       });
         if (is_on_plateau && !problem.body_force)
           return;
 
-        const double                determinant = 2. * cells.cell_area(cell);
-        const dealii::Quadrature<2> points      = rule(element);
-        for (unsigned int p = 0; p < points.size(); ++p)
+        const double          determinant = 2. * cells.cell_area(cell);
+        dealii::Quadrature<2> own_rule;
+        if (!mesh.is_whole(element))
+          own_rule =
+            rules.build(mesh.edges(element),
+                        {cells.vertices()[cells.cell_vertices(cell)[0]],
+                         cells.jacobian(cell)});
+        const dealii::Quadrature<2> &rule =
+          mesh.is_whole(element) ? whole_rule : own_rule;
+        for (unsigned int p = 0; p < rule.size(); ++p)
         {
-          const Point<2> x = cells.reference_to_real(cell, points.point(p));
+          const Point<2> x = cells.reference_to_real(cell, rule.point(p));
           const double   r = x.distance(tip.point);
-          if (r >= largest_radius || r == 0.)
-            continue;
-          const double                weight = determinant * points.weight(p);
-          const Tensor<2, 2>          du = gradient(element, points.point(p));
-          const SymmetricTensor<2, 2> stress =
-            elasticity.stress(du) + material.initial_stress;
-          Tensor<1, 2> varying_force;
-          if (problem.body_force)
-            varying_force = body_force(x) - force_at_tip;
-          for (unsigned int f = 0; f < n_fields; ++f)
+          if (r < largest_radius && r > 0.)
+            add_area_point(x,
+                           in_frame(gradient(element, rule.point(p))),
+                           determinant * rule.weight(p));
+        }
+      }
+
+
+      void
+      add_area_point(const Point<2>     &x,
+                     const Tensor<2, 2> &du,
+                     const double        weight)
+      {
+        const Tensor<1, 2>          ray = in_frame(x - tip.point);
+        const double                r   = ray.norm();
+        const Tensor<1, 2>          du_1({du[0][0], du[1][0]});
+        const SymmetricTensor<2, 2> stress =
+          elasticity.stress(du) + initial_stress;
+        Tensor<1, 2> varying_force;
+        if (problem.body_force)
+          varying_force = body_force(x) - force_at_tip;
+        const auto fields_here = fields_at(x);
+        for (unsigned int f = 0; f < n_fields; ++f)
+        {
+          const TipField::Values &a = fields_here[f];
+          const Tensor<1, 2>      a_1({a.gradient[0][0], a.gradient[1][0]});
+          // -P_j, but for the term with delta_1j
+          const Tensor<1, 2> flux    = stress * a_1 + a.stress * du_1;
+          const double       density = stress * dealii::symmetrize(a.gradient);
+          const double       force_work = force_at_tip * a.displacement;
+          for (unsigned int d = 0; d < radii.size(); ++d)
           {
-            const TipField::Values a   = field(f, x);
-            const Tensor<1, 2>     a_1 = a.gradient * e_1;
-            // -P_j, but for the term with delta_1j
-            const Tensor<1, 2> flux = stress * a_1 + a.stress * (du * e_1);
-            const double density    = stress * dealii::symmetrize(a.gradient);
-            const double force_work = force_at_tip * a.displacement;
-            for (unsigned int d = 0; d < radii.size(); ++d)
-            {
-              const auto [q, slope] = cut_off(r, radii[d]);
-              const Tensor<1, 2> dq = slope / r * (x - tip.point);
-              sums[n_fields * d + f] +=
-                weight * (flux * dq + (e_1 * dq) * (force_work - density) -
-                          q * (varying_force * a_1));
-            }
+            const auto [q, slope] = cut_off(r, radii[d]);
+            sums[n_fields * d + f] +=
+              weight *
+              (slope / r * (flux * ray + ray[0] * (force_work - density)) -
+               q * (varying_force * a_1));
           }
         }
       }
@@ -336,35 +349,37 @@ namespace NMM
                      const double                     weight)
       {
         const Point<2>    &x        = at.x;
-        const double       r        = x.distance(tip.point);
         const Tensor<1, 2> tangent  = at.velocity / at.velocity.norm();
         const Tensor<1, 2> normal   = Point<2>(tangent[1], -tangent[0]);
-        const Tensor<1, 2> traction = traction_at(x, normal, curves);
+        const Tensor<1, 2> traction = in_frame(traction_at(x, normal, curves));
         const Tensor<1, 2> u =
-          displacement(
-            element,
-            mesh.mathematical_mesh().real_to_reference(mesh.cell(element), x)) -
-          displacement_of_tip;
+          in_frame(displacement(element,
+                                mesh.mathematical_mesh().real_to_reference(
+                                  mesh.cell(element), x)) -
+                   displacement_of_tip);
+        const Tensor<1, 2> ray = in_frame(x - tip.point), s = in_frame(tangent),
+                           n     = in_frame(normal);
+        const double r           = ray.norm();
+        const auto   fields_here = fields_at(x, -normal);
         for (unsigned int f = 0; f < n_fields; ++f)
         {
-          const TipField::Values a = field(f, x, -normal);
-          const double           load_work =
-            traction * (a.gradient * e_1) +
-            (normal * e_1) *
-              (force_at_tip * a.displacement -
-               material.initial_stress * dealii::symmetrize(a.gradient));
-          // s^a e_2 and its derivative along the face, by its parts along the tip's axes
-          const Tensor<1, 2> across = a.stress * e_2;
-          const Tensor<1, 2> across_slope =
-            (tangent * e_1) * (a.stress_derivatives[0] * e_2) +
-            (tangent * e_2) * (a.stress_derivatives[1] * e_2);
+          const TipField::Values &a = fields_here[f];
+          const double            load_work =
+            traction * Tensor<1, 2>({a.gradient[0][0], a.gradient[1][0]}) +
+            n[0] * (force_at_tip * a.displacement -
+                    initial_stress * dealii::symmetrize(a.gradient));
+          // s^a e_2 and its derivative along the face
+          const SymmetricTensor<2, 2> stress_slope =
+            s[0] * a.stress_derivatives[0] + s[1] * a.stress_derivatives[1];
+          const double work = a.stress[0][1] * u[0] + a.stress[1][1] * u[1],
+                       work_slope =
+                         stress_slope[0][1] * u[0] + stress_slope[1][1] * u[1];
           for (unsigned int d = 0; d < radii.size(); ++d)
           {
             const auto [q, slope] = cut_off(r, radii[d]);
             double sum            = q * load_work;
             if (is_bent)
-              sum += (slope / r * ((x - tip.point) * tangent)) * (across * u) +
-                     q * (across_slope * u);
+              sum += slope / r * (ray * s) * work + q * work_slope;
             sums[n_fields * d + f] -= weight * sum;
           }
         }
@@ -395,12 +410,13 @@ namespace NMM
       std::vector<IntensityFactors>
       factors() const
       {
-        const double modulus = plane_modulus(elasticity),
-                     kappa   = kolosov_constant(elasticity),
-                     nu      = (3. - kappa) / (1. + kappa);
-        const auto  &initial = material.initial_stress;
+        const double modulus     = plane_modulus(elasticity),
+                     kappa       = kolosov_constant(elasticity),
+                     nu          = (3. - kappa) / (1. + kappa);
+        const Tensor<1, 2> below = -(frame * Point<2>(0., 1.));
+        // sigma_22 at the tip
         const double normal_stress =
-          -(traction_at(tip.point, -e_2, {tip.curve}) * e_2);
+          -in_frame(traction_at(tip.point, below, {tip.curve}))[1];
         std::vector<IntensityFactors> result(radii.size());
         for (unsigned int d = 0; d < radii.size(); ++d)
         {
@@ -408,7 +424,7 @@ namespace NMM
           k.K_I               = 0.5 * modulus * sums[n_fields * d];
           k.K_II              = 0.5 * modulus * sums[n_fields * d + 1];
           k.T = modulus * sums[n_fields * d + 2] + normal_stress +
-                e_1 * (initial * e_1) - nu * (e_2 * (initial * e_2));
+                initial_stress[0][0] - nu * initial_stress[1][1];
           k.energy_release_rate = (k.K_I * k.K_I + k.K_II * k.K_II) / modulus;
           k.radius              = radii[d];
         }
@@ -446,8 +462,7 @@ namespace NMM
   compute_intensity_factors(const DisplacementField &field,
                             const ElasticityProblem &problem,
                             const CrackTip          &tip,
-                            const double             largest_radius,
-                            const FaceTraction      &face_traction)
+                            const double             largest_radius)
   {
     const double largest =
       largest_radius > 0. ? largest_radius : 0.9 * tip.free_radius;
@@ -464,8 +479,7 @@ namespace NMM
       },
       [&](const unsigned int element, const Point<2> &xi) {
         return field.gradient(element, xi);
-      },
-      face_traction);
+      });
     IntensityFactors result = of_disks.front();
     for (const IntensityFactors &other : of_disks)
       result.spread = std::max({result.spread,

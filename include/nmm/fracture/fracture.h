@@ -21,7 +21,7 @@
  *
  * | file | job |
  * |---|---|
- * | nmm/geometry/crack_tip.h | the tips, their frames, and the angle that jumps on the crack |
+ * | nmm/covers/crack_tip.h | the tips, their frames, and the angle that jumps on the crack |
  * | nmm/geometry/crack_extension.h | a crack that is longer, up to what it meets |
  * | tip_grading.h | cells that become small towards a tip |
  * | tip_field.h | elastic fields about a tip |

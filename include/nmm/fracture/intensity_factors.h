@@ -2,7 +2,7 @@
 #define nmm_fracture_intensity_factors_h
 
 #include <nmm/covers/cover_system.h>
-#include <nmm/geometry/crack_tip.h>
+#include <nmm/covers/crack_tip.h>
 #include <nmm/mechanics/displacement_field.h>
 #include <nmm/mechanics/elasticity_problem.h>
 
@@ -111,8 +111,7 @@ namespace NMM
   compute_intensity_factors(const DisplacementField &field,
                             const ElasticityProblem &problem,
                             const CrackTip          &tip,
-                            double                   largest_radius = 0.,
-                            const FaceTraction      &face_traction  = {});
+                            double                   largest_radius = 0.);
 } // namespace NMM
 
 #endif

@@ -1,8 +1,8 @@
 #ifndef nmm_fracture_tip_grading_h
 #define nmm_fracture_tip_grading_h
 
+#include <nmm/covers/crack_tip.h>
 #include <nmm/covers/graded_mesh.h>
-#include <nmm/geometry/crack_tip.h>
 
 namespace NMM
 {

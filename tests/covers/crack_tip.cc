@@ -1,13 +1,13 @@
-#include <nmm/geometry/crack_tip.h>
+#include <nmm/covers/crack_tip.h>
 
-#include "test_helpers.h"
 #include <cmath>
+#include <gtest/gtest.h>
 
 // Crack tips: where they are, their frames, and the angle that jumps on the crack.
 
 namespace
 {
-  using geometry_test::Point;
+  using dealii::Point;
   using NMM::CrackTip;
 
   constexpr double pi = dealii::numbers::PI;
@@ -24,10 +24,10 @@ namespace
   {
     const auto tips = tips_of("joint LINESTRING (-1 0, 1 0)");
     ASSERT_EQ(tips.size(), 2u);
-    EXPECT_EQ(tips[0].point, Point(-1., 0.));
-    EXPECT_EQ(tips[1].point, Point(1., 0.));
-    EXPECT_EQ(tips[0].direction, Point(-1., 0.));
-    EXPECT_EQ(tips[1].direction, Point(1., 0.));
+    EXPECT_EQ(tips[0].point, Point<2>(-1., 0.));
+    EXPECT_EQ(tips[1].point, Point<2>(1., 0.));
+    EXPECT_EQ(tips[0].direction, Point<2>(-1., 0.));
+    EXPECT_EQ(tips[1].direction, Point<2>(1., 0.));
     // up to the other tip
     EXPECT_DOUBLE_EQ(tips[1].free_radius, 2.);
     EXPECT_NEAR(tips[1].angle({0., 1e-9}), pi, 1e-8);
@@ -35,8 +35,8 @@ namespace
     EXPECT_NEAR(tips[1].angle({1., 1.}), 0.5 * pi, 1e-15);
     EXPECT_NEAR(tips[0].angle({-1., 1.}), -0.5 * pi, 1e-15);
     // on the crack the side decides
-    EXPECT_NEAR(tips[1].angle({0., 0.}, Point(0., 1.)), pi, 1e-15);
-    EXPECT_NEAR(tips[1].angle({0., 0.}, Point(0., -1.)), -pi, 1e-15);
+    EXPECT_NEAR(tips[1].angle({0., 0.}, Point<2>(0., 1.)), pi, 1e-15);
+    EXPECT_NEAR(tips[1].angle({0., 0.}, Point<2>(0., -1.)), -pi, 1e-15);
   }
 
 
@@ -93,7 +93,7 @@ namespace
       {
         const double angle = ahead + 2. * pi * i / n;
         const double theta =
-          tip.angle(tip.point + r * Point(std::cos(angle), std::sin(angle)));
+          tip.angle(tip.point + r * Point<2>(std::cos(angle), std::sin(angle)));
         // up to full turns it is the polar angle
         EXPECT_NEAR(std::remainder(theta - 2. * pi * i / n, 2. * pi), 0., 1e-9);
         if (i > 0 && std::abs(theta - last) > 1.)
@@ -119,8 +119,8 @@ namespace
     EXPECT_DOUBLE_EQ(arc[1].free_radius, 2.);
     // (0, 1) at the distance sqrt(2) is on the crack: seen from the tip (1, 0) at 135 degrees,
     // 225 degrees from its direction
-    EXPECT_NEAR(arc[1].angle({0., 1.}, Point(0., -1.)), -0.75 * pi, 1e-12);
-    EXPECT_NEAR(arc[1].angle({0., 1.}, Point(0., 1.)), 1.25 * pi, 1e-12);
+    EXPECT_NEAR(arc[1].angle({0., 1.}, Point<2>(0., -1.)), -0.75 * pi, 1e-12);
+    EXPECT_NEAR(arc[1].angle({0., 1.}, Point<2>(0., 1.)), 1.25 * pi, 1e-12);
     for (const CrackTip &tip : arc)
       expect_continuous(tip);
 

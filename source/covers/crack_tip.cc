@@ -1,8 +1,9 @@
-#include <nmm/geometry/crack_tip.h>
+#include <nmm/covers/crack_tip.h>
+#include <nmm/covers/point_location.h>
 
-#include "geometry/arrangement.h"
 #include <algorithm>
 #include <cmath>
+#include <covers/exact_curves.h>
 #include <utility>
 
 namespace NMM
@@ -31,7 +32,7 @@ namespace NMM
     /// How far along an arc, as an angle in its own direction, in [0, 2 pi), the ray
     /// from its centre along @p ray lies.
     double
-    angle_along(const CrackEdge &arc, const dealii::Tensor<1, 2> &ray)
+    angle_along(const ElementEdge &arc, const dealii::Tensor<1, 2> &ray)
     {
       double angle = angle_between(arc.start - arc.center, ray);
       if (arc.radius < 0.)
@@ -40,34 +41,10 @@ namespace NMM
     }
 
 
-    double
-    swept_angle(const CrackEdge &arc)
-    {
-      return angle_along(arc, arc.end - arc.center);
-    }
-
-
-    double
-    distance(const CrackEdge &edge, const dealii::Point<2> &x)
-    {
-      if (edge.radius == 0.)
-      {
-        const dealii::Tensor<1, 2> chord = edge.end - edge.start;
-        const double               t     = std::min(
-          1., std::max(0., (x - edge.start) * chord / chord.norm_square()));
-        return x.distance(edge.start + t * chord);
-      }
-      const dealii::Tensor<1, 2> ray = x - edge.center;
-      if (angle_along(edge, ray) <= swept_angle(edge))
-        return std::abs(ray.norm() - std::abs(edge.radius));
-      return std::min(x.distance(edge.start), x.distance(edge.end));
-    }
-
-
     /// Distance from @p tip up to which an edge that follows others, which lead away from
     /// it, passes each distance once, these included.
     double
-    distance_passed_once(const CrackEdge &edge, const dealii::Point<2> &tip)
+    distance_passed_once(const ElementEdge &edge, const dealii::Point<2> &tip)
     {
       const double begin = tip.distance(edge.start);
       const double end   = tip.distance(edge.end);
@@ -86,20 +63,20 @@ namespace NMM
 
     /// Does the distance from @p tip grow along the whole edge?
     bool
-    leads_away(const CrackEdge &edge, const dealii::Point<2> &tip)
+    leads_away(const ElementEdge &edge, const dealii::Point<2> &tip)
     {
       if (edge.radius == 0.)
         return (edge.start - tip) * (edge.end - edge.start) >= 0.;
       const double angle_to_turn = angle_along(edge, edge.center - tip);
       return (tip == edge.start || angle_to_turn <= dealii::numbers::PI) &&
-             swept_angle(edge) <= angle_to_turn;
+             std::abs(swept_angle(edge)) <= angle_to_turn;
     }
 
 
     /// The point of an edge at the distance @p r from @p tip, if the distance grows from
     /// below r to above it.
     dealii::Point<2>
-    point_at_distance(const CrackEdge        &edge,
+    point_at_distance(const ElementEdge      &edge,
                       const dealii::Point<2> &tip,
                       const double            r)
     {
@@ -139,26 +116,20 @@ namespace NMM
       {
       }
 
-      CrackEdge
+      ElementEdge
       operator()(const Halfedge &halfedge) const
       {
-        CrackEdge edge;
+        ElementEdge edge;
         edge.start = internal::to_double(halfedge->source()->point());
         edge.end   = internal::to_double(halfedge->target()->point());
 
-        const auto       &curve = halfedge->curve();
-        const CurvePiece &piece = mesh.pieces()[*curve.data().begin()];
-        if (!curve.is_linear() &&
-            !is_nearly_straight(edge.start, edge.end, piece.radius))
-        {
-          const bool is_along_curve =
-            curve.is_directed_right() ==
-            (halfedge->direction() == CGAL::ARR_LEFT_TO_RIGHT);
-          const bool is_counterclockwise =
-            (curve.orientation() == CGAL::COUNTERCLOCKWISE) == is_along_curve;
-          edge.center = piece.center;
-          edge.radius = is_counterclockwise ? piece.radius : -piece.radius;
-        }
+        internal::set_circle(halfedge->curve(),
+                             halfedge->direction() == CGAL::ARR_LEFT_TO_RIGHT,
+                             mesh.pieces(),
+                             edge);
+        if (edge.is_arc() &&
+            is_nearly_straight(edge.start, edge.end, std::abs(edge.radius)))
+          edge.radius = 0.;
         return edge;
       }
 
@@ -208,7 +179,7 @@ namespace NMM
     {
       double radius      = 0.;
       bool   has_changed = false;
-      for (const CrackEdge &edge : tip.path)
+      for (const ElementEdge &edge : tip.path)
         if (has_changed)
           radius = std::min(radius, distance(edge, tip.point));
         else
@@ -230,7 +201,7 @@ namespace NMM
     // Angle of the crack at the same distance, followed from the tip on.
     double               crack    = dealii::numbers::PI;
     dealii::Tensor<1, 2> backward = -direction;
-    for (const CrackEdge &edge : path)
+    for (const ElementEdge &edge : path)
     {
       const bool                 ends_here = point.distance(edge.end) >= r;
       const dealii::Tensor<1, 2> next =
@@ -274,7 +245,7 @@ namespace NMM
     if (ends.empty())
       return {};
 
-    std::vector<std::pair<Halfedge, CrackEdge>> solid_edges;
+    std::vector<std::pair<Halfedge, ElementEdge>> solid_edges;
     for (auto e = arrangement.edges_begin(); e != arrangement.edges_end(); ++e)
     {
       const Halfedge halfedge = e;
@@ -292,9 +263,9 @@ namespace NMM
       CrackTip                    tip;
       for (const Halfedge &halfedge : path)
         tip.path.push_back(edges(halfedge));
-      const CrackEdge &first = tip.path.front();
-      tip.point              = first.start;
-      tip.region             = end->face()->data().region;
+      const ElementEdge &first = tip.path.front();
+      tip.point                = first.start;
+      tip.region               = end->face()->data().region;
       tip.curve = physical_mesh.piece_to_curve()[*end->curve().data().begin()];
       if (first.radius == 0.)
         tip.direction = first.start - first.end;

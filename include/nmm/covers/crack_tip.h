@@ -1,7 +1,7 @@
-#ifndef nmm_geometry_crack_tip_h
-#define nmm_geometry_crack_tip_h
+#ifndef nmm_covers_crack_tip_h
+#define nmm_covers_crack_tip_h
 
-#include <nmm/geometry/physical_mesh.h>
+#include <nmm/covers/manifold_mesh.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
@@ -10,19 +10,6 @@
 
 namespace NMM
 {
-  /// A straight or circular part of a crack. Arcs span at most a half circle.
-  struct CrackEdge
-  {
-    /// First and last point, seen from the tip [m].
-    dealii::Point<2> start, end;
-    /// Arcs only: centre [m].
-    dealii::Point<2> center;
-    /// 0: straight. Positive: an arc of this radius, run through counter-clockwise from
-    /// start to end; negative: clockwise [m].
-    double radius = 0.;
-  };
-
-
   /**
    * A crack tip: the end of an open joint inside a region, where no other curve
    * arrives.
@@ -40,8 +27,8 @@ namespace NMM
     /// Region of the physical mesh, and curve (PhysicalMesh::curves()) that ends.
     unsigned int region = invalid_index, curve = invalid_index;
     /// The crack from the tip to its other end or to the first point where another
-    /// curve arrives.
-    std::vector<CrackEdge> path;
+    /// curve arrives; each edge begins at its end that is nearer to the tip along the crack.
+    std::vector<ElementEdge> path;
     /**
      * The largest R for which the disk |x - point| < R holds nothing but the
      * beginning of `path`, and `path` passes each distance r < R from the tip exactly

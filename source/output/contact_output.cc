@@ -1,4 +1,5 @@
 #include <nmm/output/contact_output.h>
+#include <nmm/output/csv_series.h>
 
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>
@@ -40,16 +41,6 @@ namespace NMM
 
     /// Numbers that stand for a sample between ranks.
     constexpr unsigned int n_packed = 15;
-
-
-    /// In the CSV manner where that is needed.
-    std::string
-    quoted(const std::string &text)
-    {
-      if (text.find_first_of(",\"") == std::string::npos)
-        return text;
-      return '"' + std::regex_replace(text, std::regex("\""), "\"\"") + '"';
-    }
 
 
     template <typename Value>

@@ -3,10 +3,20 @@
 
 #include <cstdio>
 #include <iomanip>
+#include <regex>
 #include <sstream>
 
 namespace NMM
 {
+  std::string
+  quoted(const std::string &text)
+  {
+    if (text.find_first_of(",\"") == std::string::npos)
+      return text;
+    return '"' + std::regex_replace(text, std::regex("\""), "\"\"") + '"';
+  }
+
+
   namespace
   {
     std::string

@@ -26,6 +26,20 @@ namespace NMM
     }
 
 
+    /// Larger side of the box around an undeformed triangle [m].
+    double
+    size_of(const PictureData::Triangle &triangle)
+    {
+      double size = 0.;
+      for (const PictureData::Vertex &vertex : triangle.vertices)
+        for (unsigned int d = 0; d < 2; ++d)
+          size = std::max(size,
+                          std::abs(vertex.at(0.)[d] -
+                                   triangle.vertices[0].at(0.)[d]));
+      return size;
+    }
+
+
     /// 1, 2 or 5 times a power of ten, not larger than @p value.
     double
     rounded_down(const double value)
@@ -97,13 +111,25 @@ namespace NMM
         if (std::isfinite(vertex.displacement.norm()))
           largest = std::max(largest, vertex.displacement.norm());
       }
-      for (const double value : triangle.values)
-        if (std::isfinite(value))
-        {
-          minimum = std::min(minimum, value);
-          maximum = std::max(maximum, value);
-        }
     }
+    // Triangles that are too small to be seen, about a crack tip, would take all the colours.
+    constexpr double least_visible = 1e-3;
+    const double     least =
+      least_visible * std::max(upper[0] - lower[0], upper[1] - lower[1]);
+    const bool has_large =
+      std::any_of(data.triangles.begin(),
+                  data.triangles.end(),
+                  [&](const PictureData::Triangle &triangle) {
+                    return size_of(triangle) >= least;
+                  });
+    for (const PictureData::Triangle &triangle : data.triangles)
+      if (!has_large || size_of(triangle) >= least)
+        for (const double value : triangle.values)
+          if (std::isfinite(value))
+          {
+            minimum = std::min(minimum, value);
+            maximum = std::max(maximum, value);
+          }
     for (const PictureData::Polyline &line : data.obstacles)
       for (const PictureData::Vertex &vertex : line)
         for (unsigned int d = 0; d < 2; ++d)

@@ -1,4 +1,5 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/output/csv_series.h>
 
 #include <algorithm>
 #include <cmath>
@@ -26,37 +27,12 @@ namespace NMM
 
 
     double
-    CrackGrowthAnalysis::drive(const CrackTip                 &tip,
-                               const GrowthCriterion::Verdict &verdict) const
+    CrackGrowthAnalysis::find_growing_tips()
     {
-      const unsigned int material =
-        problem.region_to_material(*physical_mesh)[tip.region];
-      return verdict.equivalent_intensity /
-             problem.materials[material].toughness;
-    }
-
-
-    double
-    CrackGrowthAnalysis::largest_drive() const
-    {
-      double largest = 0.;
-      for (unsigned int i = 0; i < crack_tips->all_tips().size(); ++i)
-      {
-        const IntensityFactors &k = crack_tips->all_factors()[i];
-        largest                   = std::max(largest,
-                           drive(crack_tips->all_tips()[i],
-                                 criterion().judge(k.K_I, k.K_II)));
-      }
-      return largest;
-    }
-
-
-    std::vector<CrackGrowthAnalysis::GrowingTip>
-    CrackGrowthAnalysis::find_growing_tips() const
-    {
-      const double least =
-        (1. - scene.parameters().fracture.tolerance) * largest_drive();
-      std::vector<GrowingTip> growing;
+      const std::vector<unsigned int> region_to_material =
+        problem.region_to_material(*physical_mesh);
+      growing_tips.clear();
+      double most_driven = 0.;
       for (unsigned int i = 0; i < crack_tips->all_tips().size(); ++i)
       {
         GrowingTip candidate;
@@ -64,18 +40,29 @@ namespace NMM
         candidate.factors = crack_tips->all_factors()[i];
         candidate.verdict =
           criterion().judge(candidate.factors.K_I, candidate.factors.K_II);
-        const double driven = drive(candidate.tip, candidate.verdict);
-        if (driven > 0. && driven >= least)
-          growing.push_back(std::move(candidate));
+        candidate.drive =
+          candidate.verdict.equivalent_intensity /
+          problem.materials[region_to_material[candidate.tip.region]].toughness;
+        most_driven = std::max(most_driven, candidate.drive);
+        growing_tips.push_back(std::move(candidate));
       }
-      return growing;
+      const double least =
+        (1. - scene.parameters().fracture.tolerance) * most_driven;
+      growing_tips.erase(std::remove_if(growing_tips.begin(),
+                                        growing_tips.end(),
+                                        [&](const GrowingTip &tip) {
+                                          return tip.drive <= 0. ||
+                                                 tip.drive < least;
+                                        }),
+                         growing_tips.end());
+      return most_driven;
     }
 
 
     void
     CrackGrowthAnalysis::take_state()
     {
-      const double driven = largest_drive();
+      const double driven = find_growing_tips();
       State        state;
       // where no tip is driven no load factor makes one grow
       state.load_factor =
@@ -154,15 +141,15 @@ namespace NMM
     bool
     CrackGrowthAnalysis::grow()
     {
-      std::vector<GrowingTip> tips = find_growing_tips();
-      if (tips.empty())
+      if (growing_tips.empty())
       {
         end_reason = crack_tips->all_tips().empty() ? "no crack tip is left"
                                                     : "no crack tip is open";
         return false;
       }
-      const Geometry     before   = geometry;
-      const unsigned int n_blocks = physical_mesh->n_blocks();
+      std::vector<GrowingTip> tips     = std::move(growing_tips);
+      const Geometry          before   = geometry;
+      const unsigned int      n_blocks = physical_mesh->n_blocks();
       try
       {
         // Each turn reduces the shear by a factor of five and more.
@@ -336,7 +323,7 @@ namespace NMM
                   tip.extension.end[0],
                   tip.extension.end[1]})
               out << ',' << value;
-            out << ',' << tip.extension.met << '\n';
+            out << ',' << quoted(tip.extension.met) << '\n';
           }
         });
       });

@@ -45,7 +45,9 @@ namespace NMM
         CrackTip                 tip;
         IntensityFactors         factors;
         GrowthCriterion::Verdict verdict;
-        CrackExtension           extension;
+        /// K_eq / K_c
+        double         drive = 0.;
+        CrackExtension extension;
         /// Angle of the trial before and K_II / K_I at its end, if there was one.
         std::optional<std::pair<double, double>> last_trial;
       };
@@ -67,7 +69,9 @@ namespace NMM
 
       std::vector<State>     states;
       std::vector<Increment> increments;
-      double                 grown_length = 0.;
+      /// Of the last state.
+      std::vector<GrowingTip> growing_tips;
+      double                  grown_length = 0.;
       /// Why it came to an end; empty: it did not.
       std::string end_reason;
       /// Increments of which turning did not take away the shear.
@@ -76,13 +80,10 @@ namespace NMM
       const GrowthCriterion &
       criterion() const;
 
-      /// K_eq / K_c of a tip.
+      /// The tips that grow next, into growing_tips. Returns the largest K_eq / K_c of all
+      /// tips, 0 if none is open.
       double
-      drive(const CrackTip &tip, const GrowthCriterion::Verdict &verdict) const;
-
-      /// Of all tips the largest drive; 0 or less if none is open.
-      double
-      largest_drive() const;
+      find_growing_tips();
 
       void
       take_state();
@@ -93,9 +94,6 @@ namespace NMM
 
       double
       last_value() const override;
-
-      std::vector<GrowingTip>
-      find_growing_tips() const;
 
       /// One increment of each tip that grows. False if there is none, or a block
       /// came free; end_reason says so.

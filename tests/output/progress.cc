@@ -30,6 +30,26 @@ namespace
   }
 
 
+  TEST(Progress, AStageWithinAnotherIsPartOfIt)
+  {
+    std::ostringstream out;
+    Progress           progress(out, false, MPI_COMM_SELF);
+    {
+      const Progress::Stage whole(progress, "whole");
+      {
+        const Progress::Stage part(progress, "part");
+      }
+    }
+    {
+      const Progress::Stage next(progress, "next");
+    }
+    ASSERT_EQ(progress.times().size(), 2u);
+    EXPECT_EQ(progress.times()[0].first, "whole");
+    EXPECT_EQ(progress.times()[1].first, "next");
+    EXPECT_EQ(out.str().find("part"), std::string::npos);
+  }
+
+
   TEST(DeformationScale, DoesNotCloseHoles)
   {
     EXPECT_EQ(choose_deformation_scale(1e-3, 100.), 5000.);

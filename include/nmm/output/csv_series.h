@@ -8,6 +8,12 @@
 
 namespace NMM
 {
+  /// A word as a cell of a CSV file: between quotation marks where it has a comma or such a
+  /// mark, which is doubled.
+  std::string
+  quoted(const std::string &text);
+
+
   /**
    * A CSV file that grows by rows while a run goes on; it is complete after each of
    * them. A run that continues an earlier one takes away the rows after its start.

@@ -150,7 +150,8 @@ namespace NMM
     view(double margin = 0.) const;
 
     /// Smallest and largest finite value so far; a constant is not spread by its
-    /// rounding errors. (0, 0) if there are none.
+    /// rounding errors. (0, 0) if there are none. Triangles smaller than a thousandth of all do
+    /// not count, unless all are.
     std::pair<double, double>
     range() const;
 

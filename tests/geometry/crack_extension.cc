@@ -1,5 +1,5 @@
-#include <nmm/geometry/crack_extension.h>
 #include <nmm/covers/crack_tip.h>
+#include <nmm/geometry/crack_extension.h>
 
 #include "test_helpers.h"
 #include <gtest/gtest.h>

@@ -23,6 +23,9 @@ namespace NMM
     /// fall, more keeps away from the tip, where the solution is least accurate.
     constexpr double plateau = 0.2;
 
+    /// Over a disk's radius: where the traction of contact is taken to be uniform.
+    constexpr double near_tip = 0.2;
+
 
     /// q(r) and its derivative.
     std::pair<double, double>
@@ -68,13 +71,14 @@ namespace NMM
     class InteractionIntegrals
     {
     public:
-      InteractionIntegrals(const CoverSystem         &covers,
-                           const ElasticityProblem   &problem,
-                           const CrackTip            &tip,
-                           const std::vector<double> &radii,
-                           const ElementDisplacement &displacement,
-                           const ElementGradient     &gradient,
-                           const FaceTraction        &face_traction)
+      InteractionIntegrals(const CoverSystem               &covers,
+                           const ElasticityProblem         &problem,
+                           const CrackTip                  &tip,
+                           const std::vector<double>       &radii,
+                           const ElementDisplacement       &displacement,
+                           const ElementGradient           &gradient,
+                           const FaceTraction              &face_traction,
+                           const std::vector<ContactForce> &contact_forces)
         : covers(covers)
         , mesh(covers.manifold_mesh())
         , problem(problem)
@@ -85,6 +89,7 @@ namespace NMM
         , displacement(displacement)
         , gradient(gradient)
         , face_traction(face_traction)
+        , contact_forces(contact_forces)
         , material(problem.materials[problem.region_to_material(
             mesh.physical_mesh())[tip.region]])
         , elasticity(material.plane_elasticity(problem.plane_state))
@@ -103,6 +108,7 @@ namespace NMM
         , rules(rule_degree)
         , gauss(rule_degree)
         , sums(n_fields * radii.size(), 0.)
+        , contact_stress(radii.size(), 0.)
       {
         find_pressures();
       }
@@ -130,7 +136,12 @@ namespace NMM
               if (edge.curve_set != invalid_index)
                 add_face(element, edge);
         }
+        for (unsigned int d = 0; d < radii.size(); ++d)
+          add_contact_forces(d);
         dealii::Utilities::MPI::sum(sums, covers.communicator(), sums);
+        dealii::Utilities::MPI::sum(contact_stress,
+                                    covers.communicator(),
+                                    contact_stress);
         return factors();
       }
 
@@ -138,17 +149,18 @@ namespace NMM
       /// Opening, sliding, point force.
       static constexpr unsigned int n_fields = 3;
 
-      const CoverSystem         &covers;
-      const ManifoldMesh        &mesh;
-      const ElasticityProblem   &problem;
-      const CrackTip            &tip;
-      const std::vector<double> &radii;
-      const double               smallest_radius, largest_radius;
-      const ElementDisplacement &displacement;
-      const ElementGradient     &gradient;
-      const FaceTraction        &face_traction;
-      const Material            &material;
-      const PlaneElasticity      elasticity;
+      const CoverSystem               &covers;
+      const ManifoldMesh              &mesh;
+      const ElasticityProblem         &problem;
+      const CrackTip                  &tip;
+      const std::vector<double>       &radii;
+      const double                     smallest_radius, largest_radius;
+      const ElementDisplacement       &displacement;
+      const ElementGradient           &gradient;
+      const FaceTraction              &face_traction;
+      const std::vector<ContactForce> &contact_forces;
+      const Material                  &material;
+      const PlaneElasticity            elasticity;
       /// Its columns are the axes of the tip's frame.
       const Tensor<2, 2>                   frame;
       const SymmetricTensor<2, 2>          initial_stress;
@@ -164,6 +176,8 @@ namespace NMM
       std::vector<std::pair<unsigned int, const BoundaryCondition *>> pressures;
       /// I of each disk and, for each of them, field.
       std::vector<double> sums;
+      /// Stress across the crack at its tip that contact transmits, of each disk [Pa].
+      std::vector<double> contact_stress;
 
 
       void
@@ -386,6 +400,61 @@ namespace NMM
       }
 
 
+      /// Of the disk @p d, on the lower face, whose normal points upwards.
+      void
+      add_contact_forces(const unsigned int d)
+      {
+        if (contact_forces.empty())
+          return;
+        // In the first cells at the tip the fields are singular, covers are not divided any more
+        // and forces are as wrong as stresses are there. So the traction is taken to be uniform
+        // in the part w = (1 - s^2)^2, s = r / rho, of all forces. Its resultant follows from
+        // the forces farther out, since the integral of w is 7 times that of s^2 w, and is
+        // 8 / 15 rho times the traction; the integral of w r^(-1/2) is that of a force
+        // at (3/8)^2 rho.
+        // at most the straight piece of the crack that ends in the tip
+        const double       rho = std::min(near_tip * radii[d],
+                                    tip.point.distance(tip.path.front().end));
+        const Tensor<1, 2> upwards =
+          Point<2>(-tip.direction[1], tip.direction[0]);
+        ContactForce at_tip{tip.point - 9. / 64. * rho * tip.direction,
+                            upwards,
+                            Tensor<1, 2>()};
+        for (ContactForce contact : contact_forces)
+        {
+          const double share =
+            std::min(1., contact.x.distance_square(tip.point) / (rho * rho));
+          const double near = (1. - share) * (1. - share);
+          at_tip.force += 7. * share * near *
+                          (contact.normal * upwards > 0. ? 1. : -1.) *
+                          contact.force;
+          contact.force *= 1. - near;
+          add_contact_force(contact, d);
+        }
+        add_contact_force(at_tip, d);
+        contact_stress[d] += upwards * at_tip.force / (8. / 15. * rho);
+      }
+
+
+      void
+      add_contact_force(const ContactForce &contact, const unsigned int d)
+      {
+        const double r = contact.x.distance(tip.point);
+        if (r >= radii[d] || r == 0.)
+          return;
+        const Tensor<1, 2> force = in_frame(contact.force);
+        const auto         here  = fields_at(contact.x, -contact.normal),
+                   other         = fields_at(contact.x, contact.normal);
+        for (unsigned int f = 0; f < n_fields; ++f)
+        {
+          const Tensor<2, 2> jump = here[f].gradient - other[f].gradient;
+          sums[n_fields * d + f] -=
+            cut_off(r, radii[d]).first *
+            (force * Tensor<1, 2>({jump[0][0], jump[1][0]}));
+        }
+      }
+
+
       void
       find_displacement_of_tip()
       {
@@ -424,7 +493,8 @@ namespace NMM
           k.K_I               = 0.5 * modulus * sums[n_fields * d];
           k.K_II              = 0.5 * modulus * sums[n_fields * d + 1];
           k.T = modulus * sums[n_fields * d + 2] + normal_stress +
-                initial_stress[0][0] - nu * initial_stress[1][1];
+                contact_stress[d] + initial_stress[0][0] -
+                nu * initial_stress[1][1];
           k.energy_release_rate = (k.K_I * k.K_I + k.K_II * k.K_II) / modulus;
           k.radius              = radii[d];
         }
@@ -435,13 +505,14 @@ namespace NMM
 
 
   std::vector<IntensityFactors>
-  interaction_integrals(const CoverSystem         &covers,
-                        const ElasticityProblem   &problem,
-                        const CrackTip            &tip,
-                        const std::vector<double> &radii,
-                        const ElementDisplacement &displacement,
-                        const ElementGradient     &gradient,
-                        const FaceTraction        &face_traction)
+  interaction_integrals(const CoverSystem               &covers,
+                        const ElasticityProblem         &problem,
+                        const CrackTip                  &tip,
+                        const std::vector<double>       &radii,
+                        const ElementDisplacement       &displacement,
+                        const ElementGradient           &gradient,
+                        const FaceTraction              &face_traction,
+                        const std::vector<ContactForce> &contact_forces)
   {
     for (const double radius : radii)
       AssertThrow(radius > 0. && radius <= tip.free_radius,
@@ -452,17 +523,24 @@ namespace NMM
                                std::to_string(tip.free_radius) +
                                " m, where something else than the crack "
                                "begins"));
-    return InteractionIntegrals(
-             covers, problem, tip, radii, displacement, gradient, face_traction)
+    return InteractionIntegrals(covers,
+                                problem,
+                                tip,
+                                radii,
+                                displacement,
+                                gradient,
+                                face_traction,
+                                contact_forces)
       .evaluate();
   }
 
 
   IntensityFactors
-  compute_intensity_factors(const DisplacementField &field,
-                            const ElasticityProblem &problem,
-                            const CrackTip          &tip,
-                            const double             largest_radius)
+  compute_intensity_factors(const DisplacementField         &field,
+                            const ElasticityProblem         &problem,
+                            const CrackTip                  &tip,
+                            const double                     largest_radius,
+                            const std::vector<ContactForce> &contact_forces)
   {
     const double largest =
       largest_radius > 0. ? largest_radius : 0.9 * tip.free_radius;
@@ -479,7 +557,9 @@ namespace NMM
       },
       [&](const unsigned int element, const Point<2> &xi) {
         return field.gradient(element, xi);
-      });
+      },
+      {},
+      contact_forces);
     IntensityFactors result = of_disks.front();
     for (const IntensityFactors &other : of_disks)
       result.spread = std::max({result.spread,

@@ -215,6 +215,13 @@ namespace NMM
   }
 
 
+  void
+  ContactSeries::follow(const ContactSurface &new_surface)
+  {
+    surface = &new_surface;
+  }
+
+
   ContactSeries::ContactSeries(const ContactSurface  &surface,
                                const OutputDirectory &directory,
                                std::string            value_name,

@@ -376,6 +376,19 @@ namespace NMM
     }
 
 
+    std::vector<ContactForce>
+    ContactAnalysis::forces_on_faces() const
+    {
+      std::vector<ContactForce> forces;
+      for (const ContactSample &point : points())
+        if (point.weight > 0. && !surface->is_rigid(point.slave) &&
+            !surface->is_rigid(point.master))
+          forces.push_back(
+            {point.reference, -point.normal, point.weight * point.traction()});
+      return forces;
+    }
+
+
     std::string
     ContactAnalysis::progress() const
     {

@@ -3,6 +3,7 @@
 
 #include <nmm/contact/contact_statics.h>
 #include <nmm/dynamics/contact_model.h>
+#include <nmm/fracture/intensity_factors.h>
 #include <nmm/output/contact_output.h>
 #include <nmm/scene/scene.h>
 
@@ -106,6 +107,11 @@ namespace NMM
       /// On the first rank.
       std::vector<ContactSample>
       points() const;
+
+      /// What the faces of cracks exert on each other in the state that was taken last; on the
+      /// first rank.
+      std::vector<ContactForce>
+      forces_on_faces() const;
 
       /// "12 stick, 3 slip, penetration 1e-6 m".
       std::string

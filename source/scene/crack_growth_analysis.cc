@@ -15,6 +15,87 @@ namespace NMM
     using dealii::Tensor;
     using Stage = Progress::Stage;
 
+    void
+    CrackGrowthAnalysis::make_system()
+    {
+      if (contact)
+        contact_equilibrium = std::make_unique<ContactEquilibrium>(
+          scene, *covers, *quadrature, constraints, problem, *contact);
+      else
+        StaticAnalysis::make_system();
+    }
+
+
+    void
+    CrackGrowthAnalysis::clear()
+    {
+      contact_equilibrium.reset();
+      StaticAnalysis::clear();
+    }
+
+
+    void
+    CrackGrowthAnalysis::equilibrate()
+    {
+      if (contact)
+      {
+        equilibrate_contact();
+        return;
+      }
+      solve_problem();
+      const double driven = find_growing_tips();
+      // where no tip is driven no load factor makes one grow
+      load_factor =
+        driven > 0. ? 1. / driven : std::numeric_limits<double>::quiet_NaN();
+    }
+
+
+    void
+    CrackGrowthAnalysis::equilibrate_contact()
+    {
+      constexpr unsigned int most_trials = 20;
+      constexpr double       tolerance   = 1e-3;
+      // load factor and drive of the trial before
+      std::optional<std::pair<double, double>> before;
+      // From below, since a load that goes on needs few iterations.
+      double factor = 0.5 * (states.empty() ? 1. : states.back().load_factor);
+      for (unsigned int i = 0; i < most_trials; ++i)
+      {
+        {
+          Stage stage(progress, "solution");
+          show(contact_equilibrium->solve(factor));
+        }
+        const double driven = find_growing_tips();
+        load_factor =
+          driven > 0. ? factor : std::numeric_limits<double>::quiet_NaN();
+        if (driven <= 0. || std::abs(driven - 1.) <= tolerance)
+          return;
+        double next = factor / driven;
+        if (before && driven != before->second)
+        {
+          const double secant =
+            (factor - before->first) / (driven - before->second);
+          if (secant > 0.)
+            next = factor + (1. - driven) * secant;
+        }
+        before = {factor, driven};
+        // contact may change altogether between loads that are far apart
+        constexpr double most_change = 4.;
+        factor =
+          std::min(most_change * factor, std::max(factor / most_change, next));
+      }
+      AssertThrow(
+        false,
+        NumericalFailure("No load factor was found at which a crack grows; the "
+                         "last trial was " +
+                           std::to_string(before->first) + ", with " +
+                           std::to_string(before->second) +
+                           " of the toughness at the tip",
+                         std::to_string(states.size() - 1) + " increment(s)",
+                         "choose another 'Fracture/Increment'"));
+    }
+
+
     const GrowthCriterion &
     CrackGrowthAnalysis::criterion() const
     {
@@ -59,23 +140,27 @@ namespace NMM
     }
 
 
+    double
+    CrackGrowthAnalysis::scale_of_fields() const
+    {
+      return contact ? 1. : load_factor;
+    }
+
+
     void
     CrackGrowthAnalysis::take_state()
     {
-      const double driven = find_growing_tips();
+      const double scale = scale_of_fields();
       State        state;
-      // where no tip is driven no load factor makes one grow
-      state.load_factor =
-        driven > 0. ? 1. / driven : std::numeric_limits<double>::quiet_NaN();
-      state.crack_length = grown_length;
-      state.strain_energy =
-        state.load_factor * state.load_factor * small_strain_energy();
-      const auto samples = probes->evaluate(*covers, *evaluator);
+      state.load_factor   = load_factor;
+      state.crack_length  = grown_length;
+      state.strain_energy = scale * scale * small_strain_energy();
+      const auto samples  = probes->evaluate(*covers, *evaluator);
       for (unsigned int i = 0; i < samples.size(); ++i)
         if (!scene.parameters().probes[probes->entries()[i].probe].is_line)
           for (unsigned int c = 0; c < 2; ++c)
             state.probes.push_back(
-              samples[i] ? state.load_factor * samples[i]->displacement[c]
+              samples[i] ? scale * samples[i]->displacement[c]
                          : std::numeric_limits<double>::quiet_NaN());
       states.push_back(std::move(state));
     }
@@ -109,7 +194,7 @@ namespace NMM
       const unsigned int n = scene.parameters().fracture.n_increments;
       {
         Stage stage(progress, "crack growth");
-        solve_problem();
+        equilibrate();
         take_state();
         write_tables();
         while (states.size() <= n && grow())
@@ -204,7 +289,7 @@ namespace NMM
     {
       geometry = before;
       build(geometry);
-      solve_problem();
+      equilibrate();
     }
 
 
@@ -225,7 +310,7 @@ namespace NMM
                        geometry.curves()[growing.tip.curve].name);
       }
       build(geometry);
-      solve_problem();
+      equilibrate();
     }
 
 

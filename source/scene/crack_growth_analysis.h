@@ -4,7 +4,9 @@
 #include <nmm/fracture/growth_criterion.h>
 #include <nmm/geometry/crack_extension.h>
 
+#include <limits>
 #include <optional>
+#include <scene/contact_equilibrium.h>
 #include <scene/static_analysis.h>
 #include <string>
 #include <utility>
@@ -15,17 +17,20 @@ namespace NMM
   namespace internal
   {
     /**
-     * Cracks that grow in equilibrium: small displacements, elastic materials, no contact.
+     * Cracks that grow in equilibrium: small displacements, elastic materials.
      *
-     * Everything is proportional to the loads. A tip is driven by the ratio of its equivalent
-     * intensity factor, under the loads as given, to the toughness; the crack whose ratio is
-     * largest grows first, and does so at the load factor
-     * @f[ \lambda = \min_\mathrm{tips} \frac{K_c}{K_\mathrm{eq}(1)}. @f]
-     * That is the equilibrium path for cracks of all lengths, also where the load that
-     * it takes, or the displacement, goes back. After each increment the solid is cut and
-     * meshed anew and solved; a linear problem has nothing to carry over.
+     * A tip is driven by the ratio of its equivalent intensity factor to the toughness. The crack
+     * whose ratio d is largest grows first, at the load factor at which d = 1. That is the
+     * equilibrium path for cracks of all lengths, also where the load that it takes, or the
+     * displacement, goes back. Without contact everything is proportional to the loads, so that
+     * @f[ \lambda = \min_\mathrm{tips} \frac{K_c}{K_\mathrm{eq}(1)}; @f]
+     * fields, pictures, probes and tips are those of the last state under the loads as given. With
+     * contact the secant method finds it to a thousandth of d, and they are those at
+     * that load factor.
      *
-     * Fields, pictures, probes and tips are those of the last state under the loads as given.
+     * After each increment the solid is cut and meshed anew and loaded from zero. With friction
+     * that is the path of a crack whose faces slide in one direction only; slip that
+     * would go back, or lock, while the crack grows is not followed.
      */
     class CrackGrowthAnalysis : public StaticAnalysis
     {
@@ -39,6 +44,12 @@ namespace NMM
       verify() override;
 
     private:
+      void
+      make_system() override;
+
+      void
+      clear() override;
+
       /// A tip that grows, and how.
       struct GrowingTip
       {
@@ -67,11 +78,15 @@ namespace NMM
         GrowingTip   tip;
       };
 
-      std::vector<State>     states;
-      std::vector<Increment> increments;
+      /// Null without contact.
+      std::unique_ptr<ContactEquilibrium> contact_equilibrium;
+      std::vector<State>                  states;
+      std::vector<Increment>              increments;
       /// Of the last state.
       std::vector<GrowingTip> growing_tips;
-      double                  grown_length = 0.;
+      /// At which they grow; not a number if no load makes one grow.
+      double load_factor  = std::numeric_limits<double>::quiet_NaN();
+      double grown_length = 0.;
       /// Why it came to an end; empty: it did not.
       std::string end_reason;
       /// Increments of which turning did not take away the shear.
@@ -80,10 +95,23 @@ namespace NMM
       const GrowthCriterion &
       criterion() const;
 
+      /// Equilibrium at the load factor at which a crack grows, or of the linear problem; the
+      /// tips that do, and that load factor.
+      void
+      equilibrate();
+
+      /// The same with contact.
+      void
+      equilibrate_contact();
+
       /// The tips that grow next, into growing_tips. Returns the largest K_eq / K_c of all
-      /// tips, 0 if none is open.
+      /// tips, 0 if none is driven.
       double
       find_growing_tips();
+
+      /// That of the fields over the load factor at which cracks grow.
+      double
+      scale_of_fields() const;
 
       void
       take_state();

@@ -55,8 +55,9 @@ namespace NMM
 
 
     void
-    CrackTips::compute(const DisplacementField &field,
-                       const ElasticityProblem &problem)
+    CrackTips::compute(const DisplacementField         &field,
+                       const ElasticityProblem         &problem,
+                       const std::vector<ContactForce> &contact_forces)
     {
       factors.clear();
       for (const CrackTip &tip : tips)
@@ -65,7 +66,29 @@ namespace NMM
           field,
           problem,
           tip,
-          std::min(scene.parameters().fracture.radius, tip.free_radius)));
+          std::min(scene.parameters().fracture.radius, tip.free_radius),
+          contact_forces));
+    }
+
+
+    std::vector<std::string>
+    CrackTips::columns() const
+    {
+      std::vector<std::string> names;
+      for (unsigned int i = 0; i < tips.size(); ++i)
+        for (const std::string name : {"K_I_", "K_II_"})
+          names.push_back(name + std::to_string(i));
+      return names;
+    }
+
+
+    std::vector<double>
+    CrackTips::numbers() const
+    {
+      std::vector<double> values;
+      for (const IntensityFactors &k : factors)
+        values.insert(values.end(), {k.K_I, k.K_II});
+      return values;
     }
 
 

@@ -35,9 +35,12 @@ namespace NMM
       const std::vector<IntensityFactors> &
       all_factors() const;
 
-      /// From the solution. Collective.
+      /// From the solution, with the forces where faces touch, as of
+      /// interaction_integrals(). Collective.
       void
-      compute(const DisplacementField &field, const ElasticityProblem &problem);
+      compute(const DisplacementField         &field,
+              const ElasticityProblem         &problem,
+              const std::vector<ContactForce> &contact_forces = {});
 
       /// Lines for people: what was computed, of the first few tips.
       std::vector<std::string>
@@ -46,6 +49,14 @@ namespace NMM
       /// Those with the largest energy release rate into the summary.
       void
       add_to(Summary &summary) const;
+
+      /// Names of the columns of history.csv: K_I and K_II of each tip.
+      std::vector<std::string>
+      columns() const;
+
+      /// What belongs into these columns, after compute().
+      std::vector<double>
+      numbers() const;
 
       /// tips.csv. For one rank.
       void

@@ -64,8 +64,9 @@ namespace NMM
 
       const double sign = power < 0. ? -1. : 1.;
       const double turn = sign * first.rotation;
-      // of the translation
-      constexpr double small_turn = 0.01;
+      // Of the translation: a pole ten times as far away as the block is large is no hinge that
+      // anybody would look for.
+      constexpr double small_turn = 0.1;
       if (std::abs(turn) * first.radius < small_turn * first.translation.norm())
         text << " slides towards "
              << rounded(sign * first.translation / first.translation.norm(),

@@ -89,6 +89,9 @@ namespace NMM
         throw;
       }
       finish();
+      if (crack_tips)
+        for (const std::string &line : crack_tips->description())
+          progress.message("  " + line);
       is_solved = true;
     }
 
@@ -327,6 +330,14 @@ namespace NMM
                                       entry.x));
           row.probe_displacements.push_back(Parallel::sum(u, communicator));
         }
+      if (crack_tips)
+      {
+        crack_tips->compute(*field,
+                            problem,
+                            contact ? contact->forces_on_faces()
+                                    : std::vector<ContactForce>());
+        row.tip_numbers = crack_tips->numbers();
+      }
       history.push_back(row);
 
       std::ostringstream line;
@@ -426,6 +437,8 @@ namespace NMM
       }
       if (contact)
         contact->add_to_summary(summary);
+      if (crack_tips)
+        crack_tips->add_to(summary);
     }
 
 
@@ -477,6 +490,9 @@ namespace NMM
       if (contact)
         for (const std::string &column : contact->columns())
           out << ',' << column;
+      if (crack_tips)
+        for (const std::string &column : crack_tips->columns())
+          out << ',' << column;
       out << '\n' << std::setprecision(12);
       for (unsigned int i = 0; i < history.size(); ++i)
       {
@@ -492,6 +508,8 @@ namespace NMM
           out << ',' << row.plastic->dissipation << ','
               << row.plastic->yielded_area;
         for (const double value : row.contact_numbers)
+          out << ',' << value;
+        for (const double value : row.tip_numbers)
           out << ',' << value;
         out << '\n';
       }

@@ -55,6 +55,8 @@ namespace NMM
         std::vector<dealii::Tensor<1, 2>> probe_displacements;
         /// See ContactAnalysis::columns(); energies times the thickness.
         std::vector<double> contact_numbers;
+        /// See CrackTips::columns().
+        std::vector<double> tip_numbers;
         /// Of inelastic materials: energy dissipated so far [J] and area that has yielded [m^2].
         struct Plastic
         {

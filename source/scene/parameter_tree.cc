@@ -633,26 +633,17 @@ namespace NMM
         if (!path.empty())
           out << "\n## " << join(path, " / ") << "\n";
         if (!keys(section, true).empty())
-          out << "\n| parameter | default | values | meaning |\n"
-                 "|---|---|---|---|\n";
+          out << '\n';
         for (const std::string &key : keys(section, true))
         {
           const Tree       &entry = section.find(key)->second;
           const std::string value = entry.get<std::string>("default_value");
-          const std::string row =
-            "| " + key + " | " + (value.empty() ? "" : "`" + value + "`") +
-            " | " +
-            std::regex_replace(pattern_in_words(
-                                 entry.get<std::string>("pattern_description")),
-                               std::regex("\\|"),
-                               "\\|") +
-            " | " +
-            std::regex_replace(on_one_line(
-                                 entry.get<std::string>("documentation")),
-                               std::regex("\\|"),
-                               "\\|") +
-            " |";
-          out << row << '\n';
+          out << "- **" << key
+              << "** = " << (value.empty() ? "(empty)" : "`" + value + "`")
+              << " ("
+              << pattern_in_words(entry.get<std::string>("pattern_description"))
+              << "): " << on_one_line(entry.get<std::string>("documentation"))
+              << '\n';
         }
         for (const std::string &key : keys(section, false))
         {

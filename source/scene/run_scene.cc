@@ -38,17 +38,15 @@ namespace NMM
                                                            progress,
                                                            communicator,
                                                            restart);
+      if (scene.parameters().fracture.n_increments > 0)
+        return std::make_unique<internal::CrackGrowthAnalysis>(scene,
+                                                               progress,
+                                                               communicator);
       if (model.kinematics == Kinematics::small &&
           !scene.parameters().is_nonlinear())
-      {
-        if (scene.parameters().fracture.n_increments > 0)
-          return std::make_unique<internal::CrackGrowthAnalysis>(scene,
-                                                                 progress,
-                                                                 communicator);
         return std::make_unique<internal::StaticAnalysis>(scene,
                                                           progress,
                                                           communicator);
-      }
       return std::make_unique<internal::NonlinearAnalysis>(scene,
                                                            progress,
                                                            communicator);

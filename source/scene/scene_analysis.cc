@@ -103,7 +103,7 @@ namespace NMM
       if (parameters.fracture.n_increments > 0)
         this->geometry.curves() = physical_mesh->curves();
       if (series)
-        series->follow(*covers);
+        series->follow(*covers, contact.get());
     }
 
 

@@ -1,10 +1,12 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/contact/coulomb_law.h>
+#include <nmm/covers/crack_tip.h>
 #include <nmm/scene/parameter_tree.h>
 #include <nmm/scene/scene.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <scene/parsing.h>
 #include <scene/shapes.h>
@@ -195,7 +197,20 @@ namespace NMM
     const ContactSectionParameters &section = scene_parameters.contact;
     const bool                      is_augmented =
       section.enforcement == Enforcement::augmented_lagrangian;
-    const double              size = contact_cell_size(surface);
+    const bool has_fine_tips = scene_parameters.fracture.grades_mesh();
+    double     size          = contact_cell_size(surface);
+    if (has_fine_tips)
+    {
+      // Cells at tips are up to a million times smaller than the crack. Springs as stiff as these
+      // make the pressure scatter; a crack of the length R is closed by 30 E / (0.003 R) within
+      // 1e-4 of its intensity factors.
+      double shortest = std::numeric_limits<double>::max();
+      for (const CrackTip &tip : find_crack_tips(
+             surface.cover_system().manifold_mesh().physical_mesh()))
+        shortest = std::min(shortest, tip.free_radius);
+      if (shortest < std::numeric_limits<double>::max())
+        size = std::max(size, 3e-3 * shortest);
+    }
     const std::vector<double> moduli =
       block_moduli(surface.cover_system().manifold_mesh().physical_mesh(),
                    problem);
@@ -214,6 +229,8 @@ namespace NMM
     chosen.normal_stiffness = (is_stiff ? 30. : 10.) * modulus / length;
     chosen.shear_stiffness =
       (analysis == Analysis::dynamics ? 10. : 1.) * modulus / length;
+    if (has_fine_tips)
+      chosen.shear_stiffness = chosen.normal_stiffness;
     ContactParameters parameters;
     parameters.law = section.law.make_law(chosen);
     for (const ContactLawParameters &law : section.laws)

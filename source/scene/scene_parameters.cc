@@ -422,11 +422,10 @@ namespace NMM
           "Intensity factors",
           "set 'Model/Kinematics = small' and 'Model/Analysis = static', or "
           "remove it");
-    check(
-      !is_nonlinear(),
-      "intensity factors are not computed with contact or materials that yield",
-      "Intensity factors",
-      "remove it, or the contact or yield");
+    check(!has_inelastic_material(),
+          "intensity factors are not computed in materials that yield",
+          "Intensity factors",
+          "remove it, or choose an elastic material");
     if (fracture.n_increments == 0)
       return;
     for (const Material &material : materials)

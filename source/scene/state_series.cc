@@ -78,24 +78,27 @@ namespace NMM
     {
       const SceneParameters &parameters = scene.parameters();
       if (contact != nullptr && is_first_rank(covers))
-        contact_series =
-          std::make_unique<ContactSeries>(contact->contact().surface(),
-                                          directory,
-                                          parameters.model.analysis ==
-                                              Analysis::statics
-                                            ? "load_factor"
-                                            : "time",
-                                          parameters.output.contacts,
-                                          parameters.output.fields);
+        contact_series = std::make_unique<ContactSeries>(
+          contact->contact().surface(),
+          directory,
+          parameters.fracture.n_increments > 0             ? "step"
+          : parameters.model.analysis == Analysis::statics ? "load_factor"
+                                                           : "time",
+          parameters.output.contacts,
+          parameters.output.fields);
     }
 
 
     void
-    StateSeries::follow(const CoverSystem &new_covers)
+    StateSeries::follow(const CoverSystem     &new_covers,
+                        const ContactAnalysis *new_contact)
     {
-      Assert(contact == nullptr,
-             dealii::ExcMessage("Contact has a surface of its own."));
-      covers = &new_covers;
+      AssertThrow((contact == nullptr) == (new_contact == nullptr),
+                  dealii::ExcInternalError());
+      covers  = &new_covers;
+      contact = new_contact;
+      if (contact_series)
+        contact_series->follow(contact->contact().surface());
     }
 
 

@@ -47,10 +47,10 @@ namespace NMM
                   const ContactAnalysis *contact,
                   const OutputDirectory &directory);
 
-      /// The solid was cut anew: states that follow are those of @p covers, which must
-      /// outlive this object.
+      /// The solid was cut anew: states that follow are those of the arguments, which must
+      /// outlive this object. @p contact is null if it was null at first.
       void
-      follow(const CoverSystem &covers);
+      follow(const CoverSystem &covers, const ContactAnalysis *contact);
 
       /// Keep the fields of an earlier run up to the state @p last (time or load
       /// factor).

@@ -67,11 +67,16 @@ namespace NMM
       }
       if (scene.parameters().solver.estimate_condition)
         estimate_condition();
+      show(elasticity->solution());
+    }
+
+
+    void
+    StaticAnalysis::show(const dealii::TrilinosWrappers::MPI::Vector &solution)
+    {
       {
         Stage stage(progress, "stress recovery");
-        field    = std::make_unique<DisplacementField>(*covers,
-                                                    problem,
-                                                    elasticity->solution());
+        field = std::make_unique<DisplacementField>(*covers, problem, solution);
         recovery = std::make_unique<StressRecovery>(*field, aggregation);
         evaluator =
           std::make_unique<FieldEvaluator>(*field, *recovery, problem);
@@ -79,7 +84,10 @@ namespace NMM
       if (crack_tips)
       {
         Stage stage(progress, "intensity factors");
-        crack_tips->compute(*field, problem);
+        crack_tips->compute(*field,
+                            problem,
+                            contact ? contact->forces_on_faces()
+                                    : std::vector<ContactForce>());
       }
     }
 
@@ -217,6 +225,8 @@ namespace NMM
       summary.add("direct_stress_covers",
                   dealii::Utilities::MPI::sum(recovery->n_direct(),
                                               communicator));
+      if (contact)
+        contact->add_to_summary(summary);
       if (crack_tips)
         crack_tips->add_to(summary);
       if (exact_solution)

@@ -30,6 +30,13 @@ namespace NMM
       void
       solve_problem();
 
+      /// Make field, recovery, evaluator and intensity factors those of a solution.
+      void
+      show(const dealii::TrilinosWrappers::MPI::Vector &solution);
+
+      void
+      make_system() override;
+
       void
       clear() override;
 
@@ -41,9 +48,6 @@ namespace NMM
       /// does not fit.
       void
       check_problem() override;
-
-      void
-      make_system() override;
 
       /// Condition number and its place into the summary; a warning above the
       /// limit.

@@ -18,7 +18,13 @@ endforeach()
 execute_process(
   COMMAND ${CMAKE_COMMAND} -S "${SOURCE_DIR}" -B "${_build}" -G "${GENERATOR}"
           "-DCMAKE_PREFIX_PATH=${_prefix}" -DCMAKE_CXX_FLAGS=-Werror
+          "-DREADME=${SOURCE_DIR}/../../README.md"
           COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${CMAKE_COMMAND} --build "${_build}"
                 COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND "${_build}/downstream" COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND "${_build}/readme" OUTPUT_VARIABLE _stress
+                COMMAND_ERROR_IS_FATAL ANY)
+if(NOT _stress MATCHES "stress beside the bore")
+  message(FATAL_ERROR "README's program printed '${_stress}'")
+endif()

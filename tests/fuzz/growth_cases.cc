@@ -18,6 +18,7 @@ namespace NMM
         explicit PlateMaker(const std::uint64_t seed)
           : generator(seed)
           , digits(chance(0.5) ? 1 + integer(3) : 17)
+          , has_contact(chance(0.2))
         {
         }
 
@@ -37,15 +38,19 @@ namespace NMM
                "name=sides LINESTRING (0 1, 0 0)"
             << curves()
             << "\nend\nsubsection Mathematical mesh\n  set Cell size = "
-            << 0.1 + 0.2 * number()
+            << (has_contact ? 0.2 : 0.1) + 0.2 * number()
             << "\nend\nsubsection Fracture\n  set Intensity factors = true\n"
                "  set Increments = "
             << 1 + integer(3)
             << "\n  set Increment = " << std::pow(10., -2. * number() - 0.3)
-            << "\n  set Grading = " << 0.3 + 0.4 * number()
+            << "\n  set Grading = "
+            << (has_contact ? 0.5 : 0.3) + 0.4 * number()
             << "\n  set Criterion = " << criteria[integer(2)]
             << "\nend\nsubsection Materials\n  set Names = rock\n"
-               "  subsection rock\n    set Young's modulus = 1\n    set "
+               "  subsection rock\n    set Young's modulus = "
+            // contact sees the deformed faces: small strains
+            << (has_contact ? 1e6 : 1.)
+            << "\n    set "
                "Poisson's ratio = 0.25\n    set Toughness = 1\n  end\nend\n"
                "subsection Boundary conditions\n  set Names = held, "
                "pulled\n  subsection held\n    set Boundary = bottom\n    set "
@@ -55,9 +60,16 @@ namespace NMM
             << "\n    set Value = " << number() - 0.5 << "; " << number() - 0.2
             << "\n  end\nend\nsubsection Output\n  set Picture = false\n  "
                "set Fields = false\nend\n";
+          if (has_contact)
+            scene << "subsection Contact\n  set Enforcement = penalty\n"
+                     "  set Friction angle = "
+                  << 60. * number()
+                  << "\nend\nsubsection Load steps\n"
+                     "  set Number of steps = 1\nend\n";
           Case result;
           result.description = std::to_string(n_cracks) + " cracks and " +
-                               std::to_string(n_others) + " other curves";
+                               std::to_string(n_others) + " other curves" +
+                               (has_contact ? ", contact" : "");
           result.files["case.prm"] = scene.str();
           return result;
         }
@@ -65,6 +77,7 @@ namespace NMM
       private:
         std::mt19937_64 generator;
         unsigned int    digits;
+        bool            has_contact;
         unsigned int    n_cracks = 0, n_others = 0;
 
 
@@ -113,7 +126,7 @@ namespace NMM
         curves()
         {
           std::ostringstream text;
-          n_cracks = 1 + integer(3);
+          n_cracks = 1 + integer(has_contact ? 1 : 3);
           n_others = integer(3);
           for (unsigned int i = 0; i < n_cracks; ++i)
           {

@@ -29,7 +29,6 @@ namespace
                                          "Materials/rock/Density=1"},
       "Model/Analysis=relaxation",
       {"intensity factors", "relaxation", "Model/Analysis = static"});
-    rejects("Contact/Enforcement=penalty", {"intensity factors", "contact"});
     rejects("Covers/Distribution=distributed", {"graded", "Fracture/Tips"});
     rejects("Geometry/Text=" + square, {"no crack tip", "open joint"});
     rejects("Geometry/Text=" + square +

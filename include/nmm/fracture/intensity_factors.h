@@ -37,6 +37,19 @@ namespace NMM
                                        const dealii::Tensor<1, 2> &)>;
 
 
+  /// A force that the two faces of a crack exert on each other where they touch.
+  struct ContactForce
+  {
+    /// Where they touch [m].
+    dealii::Point<2> x;
+    /// Unit normal of one of the faces there, out of the solid.
+    dealii::Tensor<1, 2> normal;
+    /// On the face with that normal, per unit thickness [N/m]. The opposite force acts on the
+    /// other face.
+    dealii::Tensor<1, 2> force;
+  };
+
+
   /// u [m] at reference coordinates of an element.
   using ElementDisplacement =
     std::function<dealii::Tensor<1, 2>(unsigned int, const dealii::Point<2> &)>;
@@ -89,29 +102,33 @@ namespace NMM
    * Corten, J. Appl. Mech. 47 (1980), 335-341; the form for bent cracks is derived here.
    *
    * @p radii of the disks [m]. @p face_traction acts on the faces besides the pressures of
-   * the problem; empty: none. Collective.
+   * the problem; empty: none. Forces where faces touch, @p contact_forces, are a sum in place of
+   * an integral of t, as they are in the equilibrium of u; each rank gives its own. Collective.
    * @throws InputError for a radius larger than the tip's free radius.
    */
   std::vector<IntensityFactors>
-  interaction_integrals(const CoverSystem         &covers,
-                        const ElasticityProblem   &problem,
-                        const CrackTip            &tip,
-                        const std::vector<double> &radii,
-                        const ElementDisplacement &displacement,
-                        const ElementGradient     &gradient,
-                        const FaceTraction        &face_traction = {});
+  interaction_integrals(const CoverSystem               &covers,
+                        const ElasticityProblem         &problem,
+                        const CrackTip                  &tip,
+                        const std::vector<double>       &radii,
+                        const ElementDisplacement       &displacement,
+                        const ElementGradient           &gradient,
+                        const FaceTraction              &face_traction  = {},
+                        const std::vector<ContactForce> &contact_forces = {});
 
 
   /**
    * Intensity factors of a tip from five disks: those of the largest one, with the spread
    * of all. @p largest_radius [m]; 0 stands for 0.9 times the tip's free radius.
-   * Collective.
+   * @p contact_forces as in interaction_integrals(). Collective.
    */
   IntensityFactors
-  compute_intensity_factors(const DisplacementField &field,
-                            const ElasticityProblem &problem,
-                            const CrackTip          &tip,
-                            double                   largest_radius = 0.);
+  compute_intensity_factors(
+    const DisplacementField         &field,
+    const ElasticityProblem         &problem,
+    const CrackTip                  &tip,
+    double                           largest_radius = 0.,
+    const std::vector<ContactForce> &contact_forces = {});
 } // namespace NMM
 
 #endif

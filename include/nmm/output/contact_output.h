@@ -86,6 +86,10 @@ namespace NMM
                   bool                   with_table,
                   bool                   with_fields);
 
+    /// States that follow are those of another surface, which must outlive this object.
+    void
+    follow(const ContactSurface &surface);
+
     /// Keep what an earlier run wrote of states up to @p last, but for its end.
     /// @throws InputError if its table has other columns.
     void

@@ -11,7 +11,7 @@
 namespace NMM
 {
   /**
-   * Write @p base .vtu, in parallel one .<rank>.vtu each and .pvtu: manifold
+   * Write @p base .vtu, in parallel one .RANK.vtu each and .pvtu: manifold
    * elements as triangles with six nodes (VTK's quadratic
    * triangle) with displacement, direct and recovered stress, von
    * Mises and principal stresses (of the recovered stress), block, region and

@@ -1,0 +1,74 @@
+#include <nmm/base/exceptions.h>
+
+#include <algorithm>
+#include <scene/contact_equilibrium.h>
+
+namespace NMM
+{
+  namespace internal
+  {
+    ContactEquilibrium::ContactEquilibrium(
+      const Scene                             &scene,
+      const CoverSystem                       &covers,
+      const QuadratureCollection              &quadrature,
+      const dealii::AffineConstraints<double> &constraints,
+      const ElasticityProblem                 &problem,
+      ContactAnalysis                         &contact)
+      : scene(scene)
+      , contact(contact)
+      // what floats may be held by contact
+      , elasticity(covers, quadrature, constraints, problem, true)
+      , system(elasticity, /* is_linearized = */ true)
+    {
+    }
+
+
+    void
+    ContactEquilibrium::begin_anew()
+    {
+      // Contact without gaps is proportional to the load, so that more iterations help where
+      // smaller steps do not (solve()).
+      constexpr unsigned int most_iterations = 40;
+      NewtonParameters       newton          = contact_newton_parameters(scene);
+      newton.max_iterations = std::max(newton.max_iterations, most_iterations);
+      loading.reset();
+      contact.divide_strength(1.);
+      loading =
+        std::make_unique<ContactStatics>(system, contact.contact(), newton);
+      reached = friction_work = 0.;
+    }
+
+
+    const ContactEquilibrium::Vector &
+    ContactEquilibrium::solve(const double load_factor)
+    {
+      LoadSteps steps = scene.parameters().load_steps.load_steps();
+      if (!loading || load_factor <= reached)
+      {
+        begin_anew();
+        const double scale = load_factor / steps.load_factors.back();
+        for (double &factor : steps.load_factors)
+          factor *= scale;
+      }
+      else
+        steps.load_factors = {load_factor};
+      constexpr double least_step = 0.5;
+      steps.min_step              = std::max(steps.min_step, least_step);
+      // between changes of contact states small displacements are linear in the load
+      steps.extrapolation_degree = 1;
+      loading->run(steps, [&](const ContactStep &step, const Vector &) {
+        reached = step.load_factor;
+        friction_work += step.dissipated;
+        contact.take_state(friction_work);
+        contact.remember_states();
+      });
+      const std::string fault = contact.find_deep_penetration();
+      AssertThrow(fault.empty(),
+                  NumericalFailure("There is " + fault,
+                                   "load factor " + std::to_string(load_factor),
+                                   "choose a higher 'Contact/Normal "
+                                   "stiffness'"));
+      return loading->solution();
+    }
+  } // namespace internal
+} // namespace NMM

@@ -1,0 +1,54 @@
+#ifndef nmm_source_scene_contact_equilibrium_h
+#define nmm_source_scene_contact_equilibrium_h
+
+#include <nmm/mechanics/elastic_system.h>
+#include <nmm/quadrature/element_quadrature.h>
+
+#include <memory>
+#include <scene/contact_analysis.h>
+
+namespace NMM
+{
+  namespace internal
+  {
+    /**
+     * Equilibrium of elastic blocks in contact, in small displacements, under load factors that are
+     * not known beforehand. A load factor above the last one continues the loading; a smaller one
+     * begins anew from zero, in the load steps of the scene, since friction remembers.
+     *
+     * Lifetime: the arguments must outlive this object.
+     */
+    class ContactEquilibrium
+    {
+    public:
+      using Vector = ElasticSystem::Vector;
+
+      ContactEquilibrium(const Scene                             &scene,
+                         const CoverSystem                       &covers,
+                         const QuadratureCollection              &quadrature,
+                         const dealii::AffineConstraints<double> &constraints,
+                         const ElasticityProblem                 &problem,
+                         ContactAnalysis                         &contact);
+
+      /// Displacements [m], locally relevant, valid until the next call. The contact analysis has
+      /// taken the state. @throws NumericalFailure if there is no equilibrium.
+      const Vector &
+      solve(double load_factor);
+
+    private:
+      const Scene     &scene;
+      ContactAnalysis &contact;
+      FiniteElasticity elasticity;
+      ElasticSystem    system;
+      /// The loading that goes on; null: none has begun.
+      std::unique_ptr<ContactStatics> loading;
+      /// Its last load factor [-] and what friction has dissipated so far [J/m].
+      double reached = 0., friction_work = 0.;
+
+      void
+      begin_anew();
+    };
+  } // namespace internal
+} // namespace NMM
+
+#endif

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <scene/contact_equilibrium.h>
+#include <scene/mechanism.h>
 
 namespace NMM
 {
@@ -15,6 +16,9 @@ namespace NMM
       const ElasticityProblem                 &problem,
       ContactAnalysis                         &contact)
       : scene(scene)
+      , covers(covers)
+      , quadrature(quadrature)
+      , problem(problem)
       , contact(contact)
       // what floats may be held by contact
       , elasticity(covers, quadrature, constraints, problem, true)
@@ -42,26 +46,25 @@ namespace NMM
     const ContactEquilibrium::Vector &
     ContactEquilibrium::solve(const double load_factor)
     {
-      LoadSteps steps = scene.parameters().load_steps.load_steps();
-      if (!loading || load_factor <= reached)
+      const LoadStepParameters &given = scene.parameters().load_steps;
+      LoadSteps                 steps;
+      if (loading && load_factor > reached)
+        steps.load_factors = {load_factor};
+      else
       {
         begin_anew();
+        if (!given.load_factors.empty() ||
+            given.n_steps != LoadStepParameters::default_n_steps)
+          steps = given.load_steps();
         const double scale = load_factor / steps.load_factors.back();
         for (double &factor : steps.load_factors)
           factor *= scale;
       }
-      else
-        steps.load_factors = {load_factor};
       constexpr double least_step = 0.5;
-      steps.min_step              = std::max(steps.min_step, least_step);
+      steps.min_step              = std::max(given.min_step, least_step);
       // between changes of contact states small displacements are linear in the load
       steps.extrapolation_degree = 1;
-      loading->run(steps, [&](const ContactStep &step, const Vector &) {
-        reached = step.load_factor;
-        friction_work += step.dissipated;
-        contact.take_state(friction_work);
-        contact.remember_states();
-      });
+      load(steps);
       const std::string fault = contact.find_deep_penetration();
       AssertThrow(fault.empty(),
                   NumericalFailure("There is " + fault,
@@ -69,6 +72,38 @@ namespace NMM
                                    "choose a higher 'Contact/Normal "
                                    "stiffness'"));
       return loading->solution();
+    }
+
+
+    void
+    ContactEquilibrium::load(const LoadSteps &steps)
+    {
+      try
+      {
+        loading->run(steps, [&](const ContactStep &step, const Vector &) {
+          reached = step.load_factor;
+          friction_work += step.dissipated;
+          contact.take_state(friction_work);
+          contact.remember_states();
+        });
+      }
+      catch (const NumericalFailure &error)
+      {
+        const Mechanism mechanism =
+          find_mechanism(*loading,
+                         system,
+                         reached,
+                         covers,
+                         problem,
+                         quadrature,
+                         contact.contact().parameters().reach);
+        AssertThrow(false,
+                    NumericalFailure(error.description() + ". " +
+                                       mechanism.description,
+                                     error.place(),
+                                     "hold the block, or choose other laws of "
+                                     "contact"));
+      }
     }
   } // namespace internal
 } // namespace NMM

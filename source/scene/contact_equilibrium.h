@@ -14,7 +14,8 @@ namespace NMM
     /**
      * Equilibrium of elastic blocks in contact, in small displacements, under load factors that are
      * not known beforehand. A load factor above the last one continues the loading; a smaller one
-     * begins anew from zero, in the load steps of the scene, since friction remembers.
+     * begins anew from zero, since friction remembers: in one step, unless the scene has load steps
+     * of its own.
      *
      * Lifetime: the arguments must outlive this object.
      */
@@ -31,15 +32,19 @@ namespace NMM
                          ContactAnalysis                         &contact);
 
       /// Displacements [m], locally relevant, valid until the next call. The contact analysis has
-      /// taken the state. @throws NumericalFailure if there is no equilibrium.
+      /// taken the state. @throws NumericalFailure if there is no equilibrium, with the block that
+      /// gives way.
       const Vector &
       solve(double load_factor);
 
     private:
-      const Scene     &scene;
-      ContactAnalysis &contact;
-      FiniteElasticity elasticity;
-      ElasticSystem    system;
+      const Scene                &scene;
+      const CoverSystem          &covers;
+      const QuadratureCollection &quadrature;
+      const ElasticityProblem    &problem;
+      ContactAnalysis            &contact;
+      FiniteElasticity            elasticity;
+      ElasticSystem               system;
       /// The loading that goes on; null: none has begun.
       std::unique_ptr<ContactStatics> loading;
       /// Its last load factor [-] and what friction has dissipated so far [J/m].
@@ -47,6 +52,9 @@ namespace NMM
 
       void
       begin_anew();
+
+      void
+      load(const LoadSteps &steps);
     };
   } // namespace internal
 } // namespace NMM

@@ -92,5 +92,38 @@ namespace NMM
       result.description = text.str();
       return result;
     }
+
+
+    Mechanism
+    find_mechanism(const ContactStatics       &statics,
+                   ElasticSystem              &system,
+                   const double                last,
+                   const CoverSystem          &covers,
+                   const ElasticityProblem    &problem,
+                   const QuadratureCollection &quadrature,
+                   const double                reach)
+    {
+      using Vector        = ContactStatics::Vector;
+      const auto assemble = [&](const double factor) {
+        system.set_load_factor(factor);
+        (void)system.assemble(statics.solution(), Tangent::none, nullptr);
+        return system.residual();
+      };
+      // Work of the increment of loads from the last equilibrium to where the search ended.
+      Vector change = assemble(statics.last_attempt().load_factor);
+      change.sadd(-1., 1., assemble(last));
+      Vector motion(change), before(change);
+      motion = statics.last_iterate();
+      before = statics.solution();
+      motion -= before;
+      const auto field_of = [&](const Vector &u) {
+        return DisplacementField(covers, problem, u);
+      };
+      return find_mechanism(block_motions(field_of(statics.solution()),
+                                          field_of(statics.last_iterate()),
+                                          quadrature),
+                            change * motion,
+                            reach);
+    }
   } // namespace internal
 } // namespace NMM

@@ -1,7 +1,9 @@
 #ifndef nmm_source_scene_mechanism_h
 #define nmm_source_scene_mechanism_h
 
+#include <nmm/contact/contact_statics.h>
 #include <nmm/mechanics/block_motion.h>
+#include <nmm/quadrature/element_quadrature.h>
 
 #include <string>
 
@@ -34,6 +36,20 @@ namespace NMM
     find_mechanism(std::vector<BlockMotion> motions,
                    double                   power,
                    double                   reach);
+
+
+    /**
+     * The same after @p statics, the loading of @p system, has failed; @p last is the load factor of
+     * the last equilibrium. The last assembly is then that of this equilibrium.
+     */
+    Mechanism
+    find_mechanism(const ContactStatics       &statics,
+                   ElasticSystem              &system,
+                   double                      last,
+                   const CoverSystem          &covers,
+                   const ElasticityProblem    &problem,
+                   const QuadratureCollection &quadrature,
+                   double                      reach);
   } // namespace internal
 } // namespace NMM
 

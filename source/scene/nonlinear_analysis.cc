@@ -179,37 +179,17 @@ namespace NMM
     }
 
 
-    double
-    NonlinearAnalysis::power_of_loads(const ContactStatics &statics)
-    {
-      const auto assemble = [&](const double factor) {
-        system->set_load_factor(factor);
-        (void)system->assemble(statics.solution(), Tangent::none, nullptr);
-        return system->residual();
-      };
-      // the last assembly is that of the equilibrium, of which results are written
-      Vector change = assemble(statics.last_attempt().load_factor);
-      change.sadd(-1., 1., assemble(last_value()));
-      Vector motion(change), before(change);
-      motion = statics.last_iterate();
-      before = statics.solution();
-      motion -= before;
-      return change * motion;
-    }
-
-
     void
     NonlinearAnalysis::explain(const NumericalFailure &error,
                                const ContactStatics   &statics)
     {
-      const auto field_of = [&](const Vector &u) {
-        return DisplacementField(*covers, problem, u);
-      };
       const Mechanism mechanism =
-        find_mechanism(block_motions(field_of(statics.solution()),
-                                     field_of(statics.last_iterate()),
-                                     *quadrature),
-                       power_of_loads(statics),
+        find_mechanism(statics,
+                       *system,
+                       last_value(),
+                       *covers,
+                       problem,
+                       *quadrature,
                        contact->contact().parameters().reach);
       const std::string reason =
         error.description() + ". " + mechanism.description;

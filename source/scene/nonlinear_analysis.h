@@ -101,11 +101,6 @@ namespace NMM
       void
       run_contact();
 
-      /// Work of the increment of loads in a step that failed, from the last equilibrium to where
-      /// the search for the next one ended [J/m].
-      double
-      power_of_loads(const ContactStatics &statics);
-
       /// @throws NumericalFailure: @p error and which block gives way, if one does.
       void
       explain(const NumericalFailure &error, const ContactStatics &statics);

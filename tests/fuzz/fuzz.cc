@@ -16,7 +16,9 @@ namespace NMM
       static const std::vector<Generator> all = {
         {"geometry", &make_geometry_case, &run_geometry_case},
         {"scene", &make_scene_case, &run_scene_case},
-        {"growth", &make_growth_case, &run_scene_case}};
+        {"growth", &make_growth_case, &run_scene_case},
+        // where contact cycles, a solution takes ten seconds until it is given up
+        {"contact-growth", &make_contact_growth_case, &run_scene_case, 60}};
       return all;
     }
 

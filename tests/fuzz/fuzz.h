@@ -32,6 +32,8 @@ namespace NMM
       Case (*make)(std::uint64_t seed);
       /// What is wrong with the library's answer; empty if nothing is.
       std::string (*run)(const Case &);
+      /// What takes longer counts as a hang.
+      unsigned int seconds_at_most = 10;
     };
 
     const std::vector<Generator> &
@@ -61,6 +63,10 @@ namespace NMM
     /// A plate with cracks that grow.
     Case
     make_growth_case(std::uint64_t seed);
+
+    /// The same with faces that touch.
+    Case
+    make_contact_growth_case(std::uint64_t seed);
 
     /// Runs the scene as the program nmm does. Wrong are exit codes other than 0, 2 and 3, files written with
     /// 2, and tables with values that are not finite with 0.

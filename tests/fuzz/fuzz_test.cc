@@ -46,6 +46,13 @@ TEST(Fuzz, Growth)
 }
 
 
+TEST(Fuzz, GrowthWithContact)
+{
+  for (unsigned int seed = 1; seed <= n_samples(6); ++seed)
+    expect_good("contact-growth", seed);
+}
+
+
 // Joints that run within rounding along others and end inside a block: the patch test was
 // off by up to 2e-2 there, or the system singular.
 TEST(Fuzz, StripsThatEndInABlock)

@@ -15,10 +15,10 @@ namespace NMM
       class PlateMaker
       {
       public:
-        explicit PlateMaker(const std::uint64_t seed)
+        PlateMaker(const std::uint64_t seed, const bool has_contact)
           : generator(seed)
           , digits(chance(0.5) ? 1 + integer(3) : 17)
-          , has_contact(chance(0.2))
+          , has_contact(has_contact)
         {
         }
 
@@ -41,7 +41,7 @@ namespace NMM
             << (has_contact ? 0.2 : 0.1) + 0.2 * number()
             << "\nend\nsubsection Fracture\n  set Intensity factors = true\n"
                "  set Increments = "
-            << 1 + integer(3)
+            << 1 + integer(has_contact ? 0 : 3)
             << "\n  set Increment = " << std::pow(10., -2. * number() - 0.3)
             << "\n  set Grading = "
             << (has_contact ? 0.5 : 0.3) + 0.4 * number()
@@ -63,13 +63,10 @@ namespace NMM
           if (has_contact)
             scene << "subsection Contact\n  set Enforcement = penalty\n"
                      "  set Friction angle = "
-                  << 60. * number()
-                  << "\nend\nsubsection Load steps\n"
-                     "  set Number of steps = 1\nend\n";
+                  << 60. * number() << "\nend\n";
           Case result;
           result.description = std::to_string(n_cracks) + " cracks and " +
-                               std::to_string(n_others) + " other curves" +
-                               (has_contact ? ", contact" : "");
+                               std::to_string(n_others) + " other curves";
           result.files["case.prm"] = scene.str();
           return result;
         }
@@ -172,7 +169,14 @@ namespace NMM
     Case
     make_growth_case(const std::uint64_t seed)
     {
-      return PlateMaker(seed).make();
+      return PlateMaker(seed, /* has_contact = */ false).make();
+    }
+
+
+    Case
+    make_contact_growth_case(const std::uint64_t seed)
+    {
+      return PlateMaker(seed, /* has_contact = */ true).make();
     }
   } // namespace Fuzz
 } // namespace NMM

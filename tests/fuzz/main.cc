@@ -17,15 +17,13 @@ namespace
 {
   const char *const usage =
     "Usage: nmm-fuzz GENERATOR N [SEED [FOLDER]]\n\n"
-    "Runs N cases of a generator (geometry, scene, growth) with the seeds SEED "
-    "(1), "
-    "SEED + 1, "
-    "... A\n"
-    "case that fails, crashes or takes more than 10 s is written to\n"
-    "FOLDER/GENERATOR-SEED (output/fuzz) as a scene.\n\n"
+    "Runs N cases of a generator (geometry, scene, growth, contact-growth)\n"
+    "with the seeds SEED (1), SEED + 1, ... A case that fails, crashes or "
+    "takes\n"
+    "more than 10 s (contact-growth: 60 s) is written to "
+    "FOLDER/GENERATOR-SEED\n"
+    "(output/fuzz) as a scene.\n\n"
     "Exit codes: 0 nothing failed, 1 something did, 2 wrong arguments.\n";
-
-  constexpr unsigned int seconds_at_most = 10;
 
   NMM::Fuzz::Case current;
   std::string     current_folder;
@@ -52,6 +50,8 @@ namespace
 
   /// Tenths of a second since the case began, while this process was not stopped.
   std::atomic<unsigned int> tenths(0);
+
+  std::atomic<unsigned int> seconds_at_most(0);
 
   /// A thread, as memory may be allocated in one, which a signal handler must not.
   void
@@ -80,7 +80,6 @@ main(int argc, char **argv)
   dealii::deal_II_exceptions::disable_abort_on_exception();
   for (const int signal : {SIGSEGV, SIGFPE, SIGABRT, SIGBUS})
     std::signal(signal, report_signal);
-  std::thread(watch).detach();
 
   const std::string   name  = argv[1];
   const unsigned long n     = std::strtoul(argv[2], nullptr, 10);
@@ -90,6 +89,8 @@ main(int argc, char **argv)
   try
   {
     const NMM::Fuzz::Generator &generator = NMM::Fuzz::find_generator(name);
+    seconds_at_most                       = generator.seconds_at_most;
+    std::thread(watch).detach();
     for (unsigned long seed = first; seed < first + n; ++seed)
     {
       current        = generator.make(seed);

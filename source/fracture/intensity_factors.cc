@@ -400,57 +400,62 @@ namespace NMM
       }
 
 
-      /// Of the disk @p d, on the lower face, whose normal points upwards.
+      /// Into the integrals over the disk @p d.
       void
       add_contact_forces(const unsigned int d)
       {
         if (contact_forces.empty())
           return;
-        // In the first cells at the tip the fields are singular, covers are not divided any more
-        // and forces are as wrong as stresses are there. So the traction is taken to be uniform
-        // in the part w = (1 - s^2)^2, s = r / rho, of all forces. Its resultant follows from
-        // the forces farther out, since the integral of w is 7 times that of s^2 w, and is
-        // 8 / 15 rho times the traction; the integral of w r^(-1/2) is that of a force
-        // at (3/8)^2 rho.
         // at most the straight piece of the crack that ends in the tip
         const double       rho = std::min(near_tip * radii[d],
                                     tip.point.distance(tip.path.front().end));
         const Tensor<1, 2> upwards =
           Point<2>(-tip.direction[1], tip.direction[0]);
-        ContactForce at_tip{tip.point - 9. / 64. * rho * tip.direction,
-                            upwards,
-                            Tensor<1, 2>()};
-        for (ContactForce contact : contact_forces)
+        // See the header; on the lower face, whose normal points upwards.
+        Tensor<1, 2> near_force;
+        for (const ContactForce &contact : contact_forces)
         {
-          const double share =
-            std::min(1., contact.x.distance_square(tip.point) / (rho * rho));
-          const double near = (1. - share) * (1. - share);
-          at_tip.force += 7. * share * near *
-                          (contact.normal * upwards > 0. ? 1. : -1.) *
-                          contact.force;
-          contact.force *= 1. - near;
-          add_contact_force(contact, d);
+          const double r     = contact.x.distance(tip.point);
+          const double share = std::min(1., r * r / (rho * rho));
+          const double near  = (1. - share) * (1. - share);
+          near_force += 7. * share * near *
+                        (contact.normal * upwards > 0. ? 1. : -1.) *
+                        contact.force;
+          if (r < radii[d] && r > 0.)
+            add_contact_force((1. - near) * contact.force,
+                              fields_at(contact.x, -contact.normal),
+                              fields_at(contact.x, contact.normal),
+                              r,
+                              d);
         }
-        add_contact_force(at_tip, d);
-        contact_stress[d] += upwards * at_tip.force / (8. / 15. * rho);
+        const double                           r = 9. / 64. * rho;
+        std::array<TipField::Values, n_fields> below, above;
+        for (unsigned int f = 0; f < n_fields; ++f)
+        {
+          below[f] = fields[f].evaluate(r, -dealii::numbers::PI);
+          above[f] = fields[f].evaluate(r, dealii::numbers::PI);
+        }
+        add_contact_force(near_force, below, above, r, d);
+        contact_stress[d] += upwards * near_force / (8. / 15. * rho);
       }
 
 
+      /// @p force acts on the face where the fields are @p here, its opposite on the one where
+      /// they are @p other.
       void
-      add_contact_force(const ContactForce &contact, const unsigned int d)
+      add_contact_force(const Tensor<1, 2>                           &force,
+                        const std::array<TipField::Values, n_fields> &here,
+                        const std::array<TipField::Values, n_fields> &other,
+                        const double                                  r,
+                        const unsigned int                            d)
       {
-        const double r = contact.x.distance(tip.point);
-        if (r >= radii[d] || r == 0.)
-          return;
-        const Tensor<1, 2> force = in_frame(contact.force);
-        const auto         here  = fields_at(contact.x, -contact.normal),
-                   other         = fields_at(contact.x, contact.normal);
+        const Tensor<1, 2> components = in_frame(force);
+        const double       q          = cut_off(r, radii[d]).first;
         for (unsigned int f = 0; f < n_fields; ++f)
         {
           const Tensor<2, 2> jump = here[f].gradient - other[f].gradient;
           sums[n_fields * d + f] -=
-            cut_off(r, radii[d]).first *
-            (force * Tensor<1, 2>({jump[0][0], jump[1][0]}));
+            q * (components * Tensor<1, 2>({jump[0][0], jump[1][0]}));
         }
       }
 

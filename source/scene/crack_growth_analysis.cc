@@ -68,8 +68,19 @@ namespace NMM
         const double driven = find_growing_tips();
         load_factor =
           driven > 0. ? factor : std::numeric_limits<double>::quiet_NaN();
-        if (driven <= 0. || std::abs(driven - 1.) <= tolerance)
+        if (std::abs(driven - 1.) <= tolerance)
           return;
+        // contact may change altogether between loads that are far apart
+        constexpr double most_change = 4.;
+        if (driven <= 0.)
+        {
+          // cohesion may hold the faces together until the load is larger
+          constexpr unsigned int most_closed = 3;
+          if (i == most_closed)
+            return;
+          factor *= most_change;
+          continue;
+        }
         double next = factor / driven;
         if (before && driven != before->second)
         {
@@ -79,20 +90,18 @@ namespace NMM
             next = factor + (1. - driven) * secant;
         }
         before = {factor, driven};
-        // contact may change altogether between loads that are far apart
-        constexpr double most_change = 4.;
         factor =
           std::min(most_change * factor, std::max(factor / most_change, next));
       }
-      AssertThrow(
-        false,
-        NumericalFailure("No load factor was found at which a crack grows; the "
-                         "last trial was " +
-                           std::to_string(before->first) + ", with " +
-                           std::to_string(before->second) +
-                           " of the toughness at the tip",
-                         std::to_string(states.size() - 1) + " increment(s)",
-                         "choose another 'Fracture/Increment'"));
+      AssertThrow(false,
+                  NumericalFailure(
+                    "No load factor was found at which a crack grows; the "
+                    "last trial was " +
+                      std::to_string(before->first) + ", with " +
+                      std::to_string(before->second) +
+                      " of the toughness at the tip",
+                    "after " + std::to_string(states.size()) + " length(s)",
+                    "choose another 'Fracture/Increment'"));
     }
 
 

@@ -94,6 +94,14 @@ namespace NMM
    * continuous derivatives. Element rules have the degree 10: their own error is 1e-7 of K
    * with ten cells and 1e-8 with twenty along the radius.
    *
+   * Where faces touch, t is not a function but forces of single points, as in the equilibrium of
+   * u, and their sum stands for the integral of t. In the first cells at the tip these are as
+   * wrong as stresses are there, and covers are not divided any more. So the traction is taken to
+   * be uniform in the part w = (1 - s^2)^2, s = r / rho, of all forces, with rho = 0.2 of the
+   * radius. Its resultant follows from the forces farther out, since the integral of w is 7 times
+   * that of s^2 w, and is 8 / 15 rho times the traction; the integral of w r^(-1/2) is that of a
+   * force at r = (3/8)^2 rho.
+   *
    * Limits: small displacements; initial stress is uniform in the region; no inertia, no
    * inelastic strain within the disk; nothing but this crack in the disk
    * (CrackTip::free_radius).
@@ -102,8 +110,7 @@ namespace NMM
    * Corten, J. Appl. Mech. 47 (1980), 335-341; the form for bent cracks is derived here.
    *
    * @p radii of the disks [m]. @p face_traction acts on the faces besides the pressures of
-   * the problem; empty: none. Forces where faces touch, @p contact_forces, are a sum in place of
-   * an integral of t, as they are in the equilibrium of u; each rank gives its own. Collective.
+   * the problem; empty: none. Of @p contact_forces each rank gives its own. Collective.
    * @throws InputError for a radius larger than the tip's free radius.
    */
   std::vector<IntensityFactors>

@@ -389,7 +389,7 @@ namespace StepNMM4
   }
 
 
-  // @sect3{What is told}
+  // @sect3{What is reported}
 
   Row
   Slope::make_row(const NMM::TimeIntegrator &integrator) const

@@ -412,15 +412,15 @@ namespace NMM
     const ContactTraction traction = find_traction(q, slave, projection);
     report.n_changes += before != point.state;
     if (point.state != ContactState::open)
-      hand_over(q, projection, traction, with_tangent);
+      assemble_point(q, projection, traction, with_tangent);
   }
 
 
   void
-  Contact::Data::hand_over(const unsigned int       q,
-                           const ContactProjection &projection,
-                           const ContactTraction   &traction,
-                           const bool               with_tangent)
+  Contact::Data::assemble_point(const unsigned int       q,
+                                const ContactProjection &projection,
+                                const ContactTraction   &traction,
+                                const bool               with_tangent)
   {
     const ContactPoint &point = points[q];
     const PointData    &fixed = point_data[q];

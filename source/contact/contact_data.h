@@ -273,10 +273,10 @@ namespace NMM
     /// @name One point in an assembly
     /// @{
     void
-    hand_over(unsigned int                       q,
-              const internal::ContactProjection &projection,
-              const internal::ContactTraction   &traction,
-              bool                               with_tangent);
+    assemble_point(unsigned int                       q,
+                   const internal::ContactProjection &projection,
+                   const internal::ContactTraction   &traction,
+                   bool                               with_tangent);
 
     /// Slaves of contact points.
     std::vector<unsigned int>

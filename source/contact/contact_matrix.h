@@ -24,7 +24,7 @@ namespace NMM
      * this can be added.
      *
      * Making a pattern costs more than an assembly, and most candidates never touch. Hence a slave
-     * is in the pattern only if somebody has asked for it: couple_all() in statics, couple_step()
+     * is in the pattern only if one of these has put it there: couple_all() in statics, couple_step()
      * and couple() in time steps. On several ranks it is always all of them.
      *
      * Order of calls: update_candidates() after each search; one of the functions that couple before

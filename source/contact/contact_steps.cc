@@ -413,7 +413,7 @@ namespace NMM
     }
     report.n_changes += before != point.state;
     if (point.state != ContactState::open)
-      hand_over(q, projection, traction, with_tangent);
+      assemble_point(q, projection, traction, with_tangent);
   }
 
 

@@ -30,33 +30,34 @@ namespace NMM
     /// See tangent_to_add_to(): factor, and whether the caller adds to it.
     double tangent_factor  = 1.;
     bool   may_be_added_to = false;
-    /// Null: not needed so far. Is the last tangent there?
+    /// Null until it is needed; and whether it holds the last tangent.
     std::unique_ptr<BodyMatrix> body_matrix;
     bool                        has_body_matrix = false;
     /// See set_active_blocks().
     std::vector<bool> active;
-    /// Couples nothing but contact any blocks? Not known before the first tangent.
-    bool are_blocks_apart = false, is_apart_known = false;
-    /// By block; empty: none is absent.
+    /// Whether the model's tangent couples no two blocks, so that only contact does. This is
+    /// known from the first tangent on.
+    bool is_block_diagonal = false, is_block_diagonal_known = false;
+    /// For each block, whether it is absent; empty: none is.
     std::vector<bool> absent_blocks;
-    /// Up to when events have been passed [s].
+    /// Time up to which events have been applied [s].
     double events_passed = std::numeric_limits<double>::lowest();
 
     void
-    find_out_whether_apart()
+    detect_block_diagonal()
     {
       const std::vector<unsigned int> &block_of = blocks->blocks_of_unknowns();
-      is_apart_known                            = true;
-      are_blocks_apart                          = !block_of.empty();
-      if (!are_blocks_apart)
+      is_block_diagonal_known                   = true;
+      is_block_diagonal                         = !block_of.empty();
+      if (!is_block_diagonal)
         return;
       for (const auto &line : model->constraints().get_lines())
-        are_blocks_apart = are_blocks_apart && line.entries.empty();
+        is_block_diagonal = is_block_diagonal && line.entries.empty();
       const internal::MatrixRows rows(model->tangent());
-      for (unsigned int i = 0; i < block_of.size() && are_blocks_apart; ++i)
+      for (unsigned int i = 0; i < block_of.size() && is_block_diagonal; ++i)
         for (int e = rows.begins[i]; e < rows.begins[i + 1]; ++e)
-          are_blocks_apart =
-            are_blocks_apart && block_of[rows.columns[e]] == block_of[i];
+          is_block_diagonal =
+            is_block_diagonal && block_of[rows.columns[e]] == block_of[i];
     }
 
     void
@@ -82,7 +83,7 @@ namespace NMM
     BodyMatrix *
     begin_body_matrix()
     {
-      has_body_matrix = may_be_added_to && are_blocks_apart &&
+      has_body_matrix = may_be_added_to && is_block_diagonal &&
                         (body_matrix != nullptr ||
                          BodyMatrix::is_suitable(blocks->blocks_of_unknowns()));
       if (!has_body_matrix)
@@ -202,8 +203,9 @@ namespace NMM
     const Deformation state =
       d.model->assemble_between(begin, end, t_0, t_1, tangent);
     const bool with_tangent = tangent != Tangent::none;
-    if (state == Deformation::admissible && with_tangent && !d.is_apart_known)
-      d.find_out_whether_apart();
+    if (state == Deformation::admissible && with_tangent &&
+        !d.is_block_diagonal_known)
+      d.detect_block_diagonal();
     if (with_tangent)
       d.has_body_matrix = false;
     if (state != Deformation::admissible || d.contact->is_idle())
@@ -469,7 +471,7 @@ namespace NMM
   const std::vector<BlockPair> *
   ContactModel::coupled_blocks() const
   {
-    if (!data->are_blocks_apart)
+    if (!data->is_block_diagonal)
       return nullptr;
     static const std::vector<BlockPair> none;
     return data->contact->is_idle() ? &none : &data->contact->coupled_bodies();

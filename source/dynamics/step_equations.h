@@ -170,15 +170,15 @@ namespace NMM
     void
     add_work();
 
-    /// Newton's method, again whenever the result wakes somebody.
+    /// Newton's method, repeated whenever the result wakes a block.
     void
     solve_nonlinear(StepReport &report);
 
-    /// After a step.
+    /// Let blocks fall asleep after a step.
     void
     let_sleep();
 
-    /// The model knows who has left, and what all others weigh is known.
+    /// Tell the model which blocks are absent, and compute the inertia of all others.
     void
     set_absent_blocks();
 
@@ -189,25 +189,25 @@ namespace NMM
     TangentModel    *tangents;
     TimeScheme       scheme;
     RayleighDamping  damping;
-    /// The model has the damping by the stiffness in its forces.
+    /// Whether the model's forces contain the damping by the stiffness.
     bool                                   model_damps = false;
     NewtonSolver                           newton;
     dealii::TrilinosWrappers::SparseMatrix stiffness_at_rest;
     internal::MatrixSum                    matrix;
-    /// The model's, to which mass and damping are added; null: matrix is for that.
+    /// The model's matrix, to which mass and damping are added; null if they are added to `matrix`.
     dealii::TrilinosWrappers::SparseMatrix *in_place = nullptr;
     /// The same if the model's is a body matrix.
     BodyMatrix                             *body_matrix = nullptr;
     internal::MatrixAdder                   mass_adder, damping_adder;
     internal::ActiveItems                   active_rows;
     std::unique_ptr<internal::DirectSolver> mass_solver, linear_solver;
-    /// What linear_solver was factorized for.
+    /// Step size and time of events that linear_solver was factorized for [s].
     double factorized_step = 0., factorized_events = 0.;
 
-    /// Null: nobody may.
+    /// Null if sleeping is disabled.
     std::unique_ptr<internal::SleepingBlocks> sleeping;
 
-    /// Null until blocks are told apart.
+    /// Null until it is needed.
     std::unique_ptr<internal::BlockInertia> inertia;
 
     DynamicState state;

@@ -368,7 +368,7 @@ namespace NMM
           if (!problem->fixed_points.empty())
             add_fixed_points(e, task, volume.u, volume.local);
           gauge(volume.local, known);
-          hand_over(covers->covers(e), task, volume.local);
+          add_local(covers->covers(e), task, volume.local);
         }
       });
     return state;
@@ -398,7 +398,7 @@ namespace NMM
       local.reset(2 * n_per_cell);
       if (add_weak_points(tie, task, u, local) != Deformation::admissible)
         return Deformation::inverted;
-      hand_over({both, 2 * n_per_cell}, task, local);
+      add_local({both, 2 * n_per_cell}, task, local);
     }
     return Deformation::admissible;
   }

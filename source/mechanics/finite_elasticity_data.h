@@ -162,7 +162,7 @@ namespace NMM
     }
 
     void
-    hand_over(dealii::ArrayView<const unsigned int> covers,
+    add_local(dealii::ArrayView<const unsigned int> covers,
               const Task                           &task,
               const LocalSystem                    &local)
     {

@@ -356,7 +356,7 @@ namespace NMM
     d.assembler.reset(with_tangent);
     d.totals             = Totals();
     d.is_admissible      = true;
-    const auto hand_over = [&](dealii::ArrayView<const unsigned int> to,
+    const auto add_local = [&](dealii::ArrayView<const unsigned int> to,
                                const LocalSystem                    &local) {
       if (with_tangent)
         d.assembler.add(to, local.matrix, local.rhs);
@@ -374,7 +374,7 @@ namespace NMM
         {
           local.reset(d.elastic->n_per_cell);
           d.add_volume(item, with_tangent, local);
-          hand_over(covers.covers(item.element), local);
+          add_local(covers.covers(item.element), local);
         }
         state += d.elastic->tables(item.element).n_points;
       }
@@ -388,7 +388,7 @@ namespace NMM
                       covers.covers(site->neighbor).end());
         local.reset(both.size());
         if (d.add_weak_points(item, *site, state, with_tangent, local))
-          hand_over({both.data(), both.size()}, local);
+          add_local({both.data(), both.size()}, local);
       }
     }
     const auto sum = [&](auto &number) {

@@ -18,7 +18,7 @@ namespace NMM
   namespace internal
   {
     /**
-     * Contact of a scene: the surface and the contact itself, and what is told of them
+     * Contact of a scene: its surface and the contact itself, and the numbers that are reported
      * step by step. All functions are collective.
      *
      * Lifetime: the arguments must outlive this object.
@@ -75,12 +75,12 @@ namespace NMM
       void
       remember_states();
 
-      /// The last assembly was that of an accepted state, which all below is told of.
+      /// Keep the last assembly, that of an accepted state, which the functions below report.
       /// @p work: what friction, dashpots and breaking bonds have dissipated so far [J/m].
       void
       take_state(double work);
 
-      /// What was told of the state that was taken last.
+      /// What is reported of the state that was taken last.
       struct State
       {
         std::vector<ContactPoint>         points;

@@ -19,7 +19,7 @@ namespace NMM
     CrackGrowthAnalysis::make_system()
     {
       if (contact)
-        contact_equilibrium = std::make_unique<ContactEquilibrium>(
+        contact_loading = std::make_unique<ContactLoading>(
           scene, *covers, *quadrature, constraints, problem, *contact);
       else
         StaticAnalysis::make_system();
@@ -29,7 +29,7 @@ namespace NMM
     void
     CrackGrowthAnalysis::clear()
     {
-      contact_equilibrium.reset();
+      contact_loading.reset();
       StaticAnalysis::clear();
     }
 
@@ -63,7 +63,7 @@ namespace NMM
       {
         {
           Stage stage(progress, "solution");
-          show(contact_equilibrium->solve(factor));
+          show(contact_loading->solve(factor));
         }
         const double driven = find_growing_tips();
         load_factor =

@@ -6,7 +6,7 @@
 
 #include <limits>
 #include <optional>
-#include <scene/contact_equilibrium.h>
+#include <scene/contact_loading.h>
 #include <scene/static_analysis.h>
 #include <string>
 #include <utility>
@@ -79,9 +79,9 @@ namespace NMM
       };
 
       /// Null without contact.
-      std::unique_ptr<ContactEquilibrium> contact_equilibrium;
-      std::vector<State>                  states;
-      std::vector<Increment>              increments;
+      std::unique_ptr<ContactLoading> contact_loading;
+      std::vector<State>              states;
+      std::vector<Increment>          increments;
       /// Of the last state.
       std::vector<GrowingTip> growing_tips;
       /// At which they grow; not a number if no load makes one grow.

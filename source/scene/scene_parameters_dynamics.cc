@@ -175,7 +175,7 @@ namespace NMM
       Patterns::Double(0),
       "A block whose root mean square speed stays below this may sleep: it is "
       "held where it is and costs nearly nothing until forces on it change "
-      "[m/s]; 0: nobody sleeps. Contact, one rank.");
+      "[m/s]; 0: no block sleeps. Contact, one rank.");
     entries.add("Sleep time",
                 sleep.time,
                 Patterns::Double(0),

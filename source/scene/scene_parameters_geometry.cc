@@ -68,7 +68,7 @@ namespace NMM
     entries.add("Small block area",
                 small_block,
                 Patterns::Double(0),
-                "Blocks smaller than this are told of [m^2].");
+                "Blocks smaller than this are reported [m^2]; 0: none are.");
   }
 
 

@@ -50,12 +50,12 @@ namespace NMM
         if (b < is_held.size() && is_held[b])
           states[b] = State::held;
       }
-      number_roots();
+      update_roots();
     }
 
 
     void
-    NewtonGroups::number_roots()
+    NewtonGroups::update_roots()
     {
       all_roots.clear();
       root_of.resize(groups.size());
@@ -65,12 +65,12 @@ namespace NMM
         if (root_of[b] == b)
           all_roots.push_back(b);
       }
-      list_active();
+      update_active_lists();
     }
 
 
     void
-    NewtonGroups::list_active()
+    NewtonGroups::update_active_lists()
     {
       all_active_roots.clear();
       active_blocks.clear();
@@ -84,7 +84,7 @@ namespace NMM
             all_active_roots.push_back(b);
         }
         else
-          all_blocks[b].is_loud        = all_blocks[b].is_watched =
+          all_blocks[b].is_unconverged = all_blocks[b].is_affected =
             all_blocks[b].is_corrected = false;
       if (!block_of.empty())
         active_unknowns.select(active_blocks.size() == groups.size()
@@ -99,7 +99,7 @@ namespace NMM
                          const double  allowed)
     {
       // of the part of a tolerance
-      constexpr double quiet = 0.1;
+      constexpr double negligible = 0.1;
 
       std::vector<double> squares(groups.size(), 0.);
       const auto          r = residual.begin();
@@ -107,39 +107,41 @@ namespace NMM
         active_unknowns.for_each(n_all, [&](const unsigned int i) {
           squares[block_of[i]] += r[i] * r[i];
         });
-      widen(squares, scale);
-      std::vector<bool> is_any_loud(groups.size(), false);
+      widen_rings(squares, scale);
+      std::vector<bool> has_unconverged(groups.size(), false);
       for (const unsigned int b : active_blocks)
       {
         Block       &block = all_blocks[b];
         const double part  = double(block.n_unknowns) / n_all;
-        block.is_loud      = !block.residual_is_known ||
-                        squares[b] > quiet * quiet * allowed * allowed * part;
-        if (block.is_loud)
-          is_any_loud[root_of[b]] = true;
+        block.is_unconverged =
+          !block.residual_is_known ||
+          squares[b] > negligible * negligible * allowed * allowed * part;
+        if (block.is_unconverged)
+          has_unconverged[root_of[b]] = true;
       }
       for (const unsigned int b : active_blocks)
-        if (!is_any_loud[root_of[b]])
-          all_blocks[b].is_loud = true;
-      extend();
+        if (!has_unconverged[root_of[b]])
+          all_blocks[b].is_unconverged = true;
+      select_corrected();
     }
 
 
     void
-    NewtonGroups::widen(const std::vector<double> &squares, const double scale)
+    NewtonGroups::widen_rings(const std::vector<double> &squares,
+                              const double               scale)
     {
       constexpr double much = 0.1;
 
-      std::vector<double> felt(groups.size(), 0.);
+      std::vector<double> outside(groups.size(), 0.);
       for (const unsigned int b : active_blocks)
-        if (all_blocks[b].is_watched && !all_blocks[b].is_corrected)
-          felt[root_of[b]] += squares[b];
+        if (all_blocks[b].is_affected && !all_blocks[b].is_corrected)
+          outside[root_of[b]] += squares[b];
       for (const unsigned int root : all_active_roots)
       {
         Group &group = groups[root];
-        if (group.goes_round ||
-            (!group.squares.empty() &&
-             felt[root] > much * much * scale * scale * group.squares.back()))
+        if (group.is_cycling || (!group.squares.empty() &&
+                                 outside[root] > much * much * scale * scale *
+                                                   group.squares.back()))
           group.n_rings =
             std::min<unsigned int>(2 * group.n_rings, groups.size());
       }
@@ -147,12 +149,12 @@ namespace NMM
 
 
     std::vector<std::pair<unsigned int, unsigned int>>
-    NewtonGroups::near_loud() const
+    NewtonGroups::unconverged_neighbourhood() const
     {
       std::vector<bool> is_in(groups.size(), false);
       std::vector<std::pair<unsigned int, unsigned int>> result;
       for (const unsigned int b : active_blocks)
-        if (all_blocks[b].is_loud)
+        if (all_blocks[b].is_unconverged)
         {
           is_in[b] = true;
           result.emplace_back(b, 0);
@@ -173,17 +175,17 @@ namespace NMM
 
 
     void
-    NewtonGroups::extend()
+    NewtonGroups::select_corrected()
     {
       for (const unsigned int b : active_blocks)
-        all_blocks[b].is_watched = all_blocks[b].is_corrected = false;
+        all_blocks[b].is_affected = all_blocks[b].is_corrected = false;
       std::vector<bool> is_chosen(groups.size(), false);
       unsigned int      n_chosen = 0;
-      watched_blocks.clear();
-      for (const auto &[b, ring] : near_loud())
+      affected_blocks.clear();
+      for (const auto &[b, ring] : unconverged_neighbourhood())
       {
-        all_blocks[b].is_watched = true;
-        watched_blocks.push_back(b);
+        all_blocks[b].is_affected = true;
+        affected_blocks.push_back(b);
         if (ring > groups[root_of[b]].n_rings)
           continue;
         all_blocks[b].is_corrected = is_chosen[b] = true;
@@ -196,7 +198,7 @@ namespace NMM
 
 
     std::vector<bool>
-    NewtonGroups::without_tangent() const
+    NewtonGroups::blocks_without_tangent() const
     {
       unsigned int      n = 0;
       std::vector<bool> result(groups.size(), false);
@@ -223,7 +225,7 @@ namespace NMM
 
 
     void
-    NewtonGroups::lose_tangents()
+    NewtonGroups::invalidate_tangents()
     {
       for (Block &block : all_blocks)
         block.has_tangent = false;
@@ -269,7 +271,7 @@ namespace NMM
                         const dealii::TrilinosWrappers::SparseMatrix &matrix,
                         const std::vector<BlockPair>                 *pairs)
     {
-      take_neighbours(blocks);
+      store_neighbours(blocks);
       if (block_of.empty())
         return;
       if (pairs == nullptr)
@@ -290,7 +292,7 @@ namespace NMM
     NewtonGroups::unite(const std::vector<bool> &blocks,
                         const BodyMatrix        &matrix)
     {
-      take_neighbours(blocks);
+      store_neighbours(blocks);
       for (unsigned int b = 0; b < all_blocks.size(); ++b)
         if (blocks.empty() || blocks[b])
           matrix.for_each_in_row(b,
@@ -303,7 +305,7 @@ namespace NMM
 
 
     void
-    NewtonGroups::take_neighbours(const std::vector<bool> &blocks)
+    NewtonGroups::store_neighbours(const std::vector<bool> &blocks)
     {
       neighbours_before.clear();
       before_of_block.resize(all_blocks.size());
@@ -343,12 +345,12 @@ namespace NMM
                          neighbours_before.begin() + before_of_block[b].second;
             if (!all_blocks[other].is_corrected &&
                 std::find(before, end, other) == end)
-              all_blocks[other].is_loud = is_any_new = true;
+              all_blocks[other].is_unconverged = is_any_new = true;
           }
       if (has_joined)
-        number_roots();
+        update_roots();
       if (is_any_new)
-        extend();
+        select_corrected();
     }
 
 
@@ -375,8 +377,8 @@ namespace NMM
 
 
     void
-    NewtonGroups::wake(const std::vector<unsigned int> &blocks,
-                       const bool                       is_known)
+    NewtonGroups::reactivate(const std::vector<unsigned int> &blocks,
+                             const bool                       is_known)
     {
       std::vector<unsigned int> roots;
       for (const unsigned int block : blocks)
@@ -386,7 +388,7 @@ namespace NMM
           continue;
         roots.push_back(root);
         all_blocks[block].residual_is_known = is_known;
-        all_blocks[block].is_loud           = true;
+        all_blocks[block].is_unconverged    = true;
       }
       for (const unsigned int root : roots)
       {
@@ -397,14 +399,14 @@ namespace NMM
       }
       if (!roots.empty())
       {
-        list_active();
-        extend();
+        update_active_lists();
+        select_corrected();
       }
     }
 
 
     void
-    NewtonGroups::let_go()
+    NewtonGroups::retire_converged()
     {
       bool is_any = false;
       for (const unsigned int root : all_active_roots)
@@ -414,7 +416,7 @@ namespace NMM
           is_any       = true;
         }
       if (is_any)
-        list_active();
+        update_active_lists();
     }
 
 

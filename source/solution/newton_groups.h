@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <base/disjoint_sets.h>
 #include <linear_algebra/active_items.h>
-#include <solution/share_search.h>
+#include <solution/line_search.h>
 #include <utility>
 #include <vector>
 
@@ -19,14 +19,13 @@ namespace NMM
   namespace internal
   {
     /**
-     * Blocks that hang together in a system of equations, because something of one
-     * presses on something of the other: groups, each of which Newton's
-     * method solves at its own pace. Groups only ever grow during a solution.
-     * One group of all unknowns if there are no blocks to tell apart.
+     * Groups of blocks that touch (connected components of the contact graph), each of which
+     * Newton's method solves at its own pace. Groups only ever grow during a solution. If the
+     * system has no blocks, all unknowns are one group.
      *
-     * Some are being solved (active), others are done, or held: not solved at all.
-     * What an iteration corrects of an active group is what is far from equilibrium and
-     * what is near that: few blocks of a large heap, in the end.
+     * A group is active while it is being solved, then done; a group that is held is not solved
+     * at all. In an active group an iteration corrects the blocks that are far from equilibrium
+     * and the neighbours of these: in the end few blocks of a large heap.
      */
     class NewtonGroups
     {
@@ -35,74 +34,76 @@ namespace NMM
 
       struct Group
       {
-        /// In the last iteration.
+        /// Whether it had converged in the last iteration.
         bool         has_converged = false;
         unsigned int n_unknowns    = 0;
-        /// What touches at so many hands what is far from equilibrium is corrected.
+        /// Largest distance in the contact graph from a block that has not converged at which
+        /// blocks are corrected.
         unsigned int n_rings = 2;
-        /// Of the iterations since it was made, joined another one or was woken:
-        /// |r|^2 over the square of the force scale, and |r . du|.
+        /// |r|^2 over the square of the force scale and |r . du| in each iteration since the
+        /// group was made, joined another one or was reactivated.
         std::vector<double> squares, energies;
-        /// Residuals must go down from now on.
-        bool        goes_round = false;
-        ShareSearch search;
-        /// r . du and |r|^2 now.
+        /// Whether contact states cycle, so that residuals must decrease from now on.
+        bool       is_cycling = false;
+        LineSearch search;
+        /// Current values of r . du and |r|^2.
         double product = 0., square = 0.;
       };
 
-      /// All is active but what @p is_held says (empty: nothing). @p blocks: of each
-      /// owned unknown, or empty.
+      /// Begin a solution: all blocks are active except those that @p is_held names (empty:
+      /// none). @p blocks gives the block of each owned unknown, or is empty.
       void
       reinit(const std::vector<unsigned int> &blocks,
              const std::vector<bool>         &is_held,
              const Vector                    &like);
 
-      /// What is corrected from now on: in each active group blocks the residual of which
-      /// is not known, or above a tenth of their part of @p allowed, and what touches
-      /// those at second hand; all if there are none, or if it goes round. What is left out feels
-      /// corrections as forces, see watched(): where those are above a tenth of the
-      /// residual of the group, equilibrium is a matter of more than neighbours (a tower
-      /// at rest), and from then on twice as many hands count. @p scale: of forces.
+      /// Choose the blocks that are corrected from now on. In each active group these are the
+      /// blocks whose residual is unknown or above a tenth of their part of @p allowed, and their
+      /// neighbours up to Group::n_rings; if there are none, all blocks of the group. Blocks just
+      /// outside feel the corrections as forces, see affected(). Where these are above a tenth of
+      /// the group's residual, as in a tower at rest, or if the group cycles, the number of rings
+      /// doubles. @p scale is the force scale [N/m].
       void
       choose(const Vector &residual, double scale, double allowed);
 
-      /// Blocks that are to be corrected and have no tangent yet.
+      /// Corrected blocks whose rows of the tangent have not been assembled.
       std::vector<bool>
-      without_tangent() const;
+      blocks_without_tangent() const;
 
-      /// All blocks that are to be corrected have one?
+      /// Whether the rows of all corrected blocks have been assembled.
       bool
       have_tangents() const;
 
-      /// Rows of @p blocks (empty: all) of the tangent @p matrix are new. What is coupled in
-      /// them, by @p pairs or, if those are not known (null), by values other than zero,
-      /// is one group from now on; what joins begins its history anew. Blocks that
-      /// were not coupled before are corrected, too.
+      /// The rows of @p blocks (empty: all) of the tangent @p matrix have been assembled. Blocks
+      /// that are coupled in them, by @p pairs or, if these are unknown (null), by values other
+      /// than zero, are one group from now on; a group that joins another one begins its history
+      /// anew. Blocks that were not coupled before are corrected, too.
       void
       unite(const std::vector<bool>                      &blocks,
             const dealii::TrilinosWrappers::SparseMatrix &matrix,
             const std::vector<BlockPair>                 *pairs = nullptr);
 
-      /// The same of a matrix that has no other blocks.
+      /// The same for a body matrix.
       void
       unite(const std::vector<bool> &blocks, const BodyMatrix &matrix);
 
-      /// With which each block was coupled when its rows were new.
+      /// For each block, the blocks that it was coupled with when its rows were assembled last.
       const std::vector<std::vector<unsigned int>> &
       couplings() const
       {
         return neighbours;
       }
 
-      /// No block has its tangent.
+      /// The rows of all blocks have to be assembled again.
       void
-      lose_tangents();
+      invalidate_tangents();
 
-      /// The residual of @p blocks (empty: all) is known.
+      /// The residual of @p blocks (empty: all) has been assembled.
       void
       note_residual(const std::vector<bool> &blocks);
 
-      /// Roots, one block of each group: of all groups, and of active ones.
+      /// The root of each group, one of its blocks, by which groups are addressed; here of all
+      /// groups, below of active ones.
       const std::vector<unsigned int> &
       roots() const
       {
@@ -139,7 +140,7 @@ namespace NMM
         return !all_active_roots.empty();
       }
 
-      /// Share of all unknowns that are being corrected.
+      /// Part of all unknowns that is corrected [-].
       double
       corrected_share() const;
 
@@ -149,26 +150,26 @@ namespace NMM
         return n_all;
       }
 
-      /// The groups of these blocks are active again, from the beginning, if they are
-      /// done; is the residual of these blocks known?
+      /// Make the groups of these blocks active again, with a new history, if they are done.
+      /// @p is_known: whether the residual of these blocks has been assembled.
       void
-      wake(const std::vector<unsigned int> &blocks,
-           const bool                       is_known = false);
+      reactivate(const std::vector<unsigned int> &blocks,
+                 const bool                       is_known = false);
 
-      /// Active groups that have converged are done.
+      /// Mark active groups that have converged as done.
       void
-      let_go();
+      retire_converged();
 
-      /// Blocks of active groups for which @p is_meant the residual of which corrections
-      /// change: those that are corrected, and what touches them. Empty if that is all
-      /// blocks.
+      /// Blocks whose residual changes with the corrections: those that are corrected and the
+      /// blocks that touch them, of active groups for which @p is_meant is true. Empty if these
+      /// are all blocks.
       template <typename Predicate>
       std::vector<bool>
-      watched(const Predicate &is_meant) const
+      affected(const Predicate &is_meant) const
       {
         unsigned int      n = 0;
         std::vector<bool> result(groups.size(), false);
-        for (const unsigned int b : watched_blocks)
+        for (const unsigned int b : affected_blocks)
           if (is_meant(groups[root_of[b]]))
           {
             result[b] = true;
@@ -177,7 +178,7 @@ namespace NMM
         return n == groups.size() ? std::vector<bool>() : result;
       }
 
-      /// Is the i-th owned unknown in a block of a mask()?
+      /// Whether the i-th owned unknown belongs to one of @p blocks (empty: all).
       bool
       is_in(const std::vector<bool> &blocks, const unsigned int i) const
       {
@@ -191,26 +192,26 @@ namespace NMM
         return active_unknowns;
       }
 
-      /// And those that are being corrected.
+      /// Owned unknowns that are corrected.
       const ActiveItems &
       corrected() const
       {
         return corrected_unknowns;
       }
 
-      /// Group of the i-th owned unknown.
+      /// The group of the i-th owned unknown.
       Group &
       of_unknown(const unsigned int i)
       {
         return groups[block_of.empty() ? 0 : root_of[block_of[i]]];
       }
 
-      /// Products and squares of active groups, from the residual and a correction,
-      /// which is zero but for what is being corrected.
+      /// Set product and square of active groups from the residual and a correction, which is
+      /// zero in unknowns that are not corrected.
       void
       sum(const Vector &residual, const Vector &correction);
 
-      /// Squares of all groups.
+      /// Set the squares of all groups.
       void
       sum_squares(const Vector &residual);
 
@@ -224,21 +225,20 @@ namespace NMM
 
       struct Block
       {
-        bool residual_is_known = false, is_loud = false, is_corrected = false,
-             is_watched = false, has_tangent = false;
+        bool residual_is_known = false, is_unconverged = false,
+             is_corrected = false, is_affected = false, has_tangent = false;
         unsigned int n_unknowns = 0;
       };
 
-      /// To neighbours_before what was coupled with @p blocks before their rows were new;
-      /// nothing is, then.
+      /// Move the neighbours of @p blocks to neighbours_before, and leave these blocks without.
       void
-      take_neighbours(const std::vector<bool> &blocks);
+      store_neighbours(const std::vector<bool> &blocks);
 
-      /// Blocks that are coupled now are one group.
+      /// Join the groups of blocks that are coupled now.
       void
       unite_neighbours(const std::vector<bool> &blocks);
 
-      /// Neighbours of @p blocks by values.
+      /// Find the neighbours of @p blocks from values other than zero.
       void
       find_neighbours(const std::vector<bool>                      &blocks,
                       const dealii::TrilinosWrappers::SparseMatrix &matrix);
@@ -252,38 +252,38 @@ namespace NMM
       }
 
       void
-      number_roots();
+      update_roots();
 
-      /// Lists of what is active.
+      /// Make the lists of active groups, blocks and unknowns anew.
       void
-      list_active();
+      update_active_lists();
 
-      /// Groups that need more rings have them.
+      /// Double the number of rings of groups that need more, see choose().
       void
-      widen(const std::vector<double> &squares, double scale);
+      widen_rings(const std::vector<double> &squares, double scale);
 
-      /// What is loud (not known to be in equilibrium) and what is near that, each with
-      /// its distance: 0, 1, ... rings, one more than are corrected.
+      /// Blocks that have not converged and their neighbours, each with its distance: 0, 1, ...
+      /// rings, up to one more than are corrected.
       std::vector<std::pair<unsigned int, unsigned int>>
-      near_loud() const;
+      unconverged_neighbourhood() const;
 
-      /// What is loud and what is near is corrected.
+      /// Correct the blocks that have not converged and their neighbours.
       void
-      extend();
+      select_corrected();
 
       void
       join(const unsigned int i, const unsigned int j);
 
       DisjointSets              joined;
       std::vector<unsigned int> block_of, root_of, all_roots, all_active_roots,
-        active_blocks, watched_blocks;
+        active_blocks, affected_blocks;
       std::vector<Group> groups;
       std::vector<State> states;
       std::vector<Block> all_blocks;
-      /// See couplings().
+      /// What couplings() returns.
       std::vector<std::vector<unsigned int>> neighbours;
-      /// See take_neighbours(): of one block after the other, and where those of each
-      /// begin and end; kept, since it is asked for in each iteration.
+      /// Neighbours before the last assembly, one block after the other, and where those of each
+      /// block begin and end, see store_neighbours().
       std::vector<unsigned int> neighbours_before;
       std::vector<BlockPair>    before_of_block;
       ActiveItems               active_unknowns, corrected_unknowns;

@@ -12,8 +12,8 @@
 
 namespace NMM
 {
+  using internal::LineSearch;
   using internal::NewtonGroups;
-  using internal::ShareSearch;
 
 
   const std::vector<unsigned int> &
@@ -97,7 +97,7 @@ namespace NMM
     begin_searches(bool use_slopes);
 
     Deformation
-    search_shares(Vector &u);
+    search_step_lengths(Vector &u);
 
     bool
     iterate(Vector &u, const Vector *increment);
@@ -132,8 +132,9 @@ namespace NMM
     return assemble_blocks(u,
                            Tangent::none,
                            nullptr,
-                           groups.are_there_several() ? groups.watched(is_meant)
-                                                      : std::vector<bool>());
+                           groups.are_there_several()
+                             ? groups.affected(is_meant)
+                             : std::vector<bool>());
   }
 
 
@@ -190,21 +191,21 @@ namespace NMM
   }
 
 
-  /// Of what is corrected and of what it presses on, with residual and groups. What is
-  /// pressed on may press on something else: each time only the rows of what is
-  /// new are assembled.
+  /// Assemble the tangent and residual of corrected blocks and update the groups. A corrected
+  /// block may press on one that has not been corrected so far, which may press on another one:
+  /// each time only the rows of the new blocks are assembled.
   Deformation
   NewtonSolver::Data::assemble_tangent(const Vector &u, const Vector *increment)
   {
     const unsigned int k      = report->iterations.size();
     unsigned int       before = invalid_index;
     groups.choose(residual, scale, parameters.residual_tolerance * scale);
-    groups.lose_tangents();
+    groups.invalidate_tangents();
     system->forget_tangent();
     do
     {
       const std::vector<bool> blocks = groups.are_there_several()
-                                         ? groups.without_tangent()
+                                         ? groups.blocks_without_tangent()
                                          : std::vector<bool>();
       touched.clear();
       const Deformation state =
@@ -218,9 +219,9 @@ namespace NMM
       // a matrix of another pattern has lost what was assembled before
       const unsigned int version = system->pattern_version();
       if (before != invalid_index && version != before)
-        groups.lose_tangents();
+        groups.invalidate_tangents();
       before = version;
-      groups.wake(touched);
+      groups.reactivate(touched);
       if (const BodyMatrix *body_matrix = system->body_tangent())
         groups.unite(blocks, *body_matrix);
       else
@@ -307,12 +308,12 @@ namespace NMM
 
   namespace
   {
-    /// Is |r| what it was two or three iterations ago, or did none of the last ones bring
-    /// it far below what had been reached before? Contact points that stick and slip by
-    /// turns make Newton's method go round three states and more, between which
-    /// r . du goes up and down as it should.
+    /// Whether |r| is what it was two or three iterations ago, or none of the last iterations
+    /// brought it far below what had been reached before. Contact points that stick and slip by
+    /// turns make Newton's method cycle among three states and more, between which r . du grows and
+    /// falls as if it converged.
     bool
-    is_going_round(const std::vector<double> &squares)
+    is_cycling_among_states(const std::vector<double> &squares)
     {
       constexpr unsigned int n_last = 3;
       constexpr double       enough = 0.7, same = 0.01;
@@ -344,11 +345,12 @@ namespace NMM
       const auto k = group.energies.size();
       const bool is_late =
         k > n_young && group.energies[k - 1] > group.energies[k - 2];
-      use_increment    = use_increment && !is_late;
-      group.goes_round = group.goes_round || is_going_round(group.squares);
-      group.search.begin(group.goes_round        ? ShareSearch::Mode::descend
-                         : is_late || use_slopes ? ShareSearch::Mode::slope
-                                                 : ShareSearch::Mode::none,
+      use_increment = use_increment && !is_late;
+      group.is_cycling =
+        group.is_cycling || is_cycling_among_states(group.squares);
+      group.search.begin(group.is_cycling        ? LineSearch::Mode::descend
+                         : is_late || use_slopes ? LineSearch::Mode::slope
+                                                 : LineSearch::Mode::none,
                          group.product,
                          std::sqrt(group.square),
                          parameters.min_line_search);
@@ -356,9 +358,9 @@ namespace NMM
   }
 
 
-  /// Moves u by shares of the correction and assembles its residual.
+  /// Finds the step length of each group; u is moved and its residual assembled.
   Deformation
-  NewtonSolver::Data::search_shares(Vector &u)
+  NewtonSolver::Data::search_step_lengths(Vector &u)
   {
     const auto is_open = [](const Group &group) {
       return !group.search.is_done();
@@ -372,7 +374,7 @@ namespace NMM
     while (goes_on)
     {
       groups.corrected().for_each(n, [&](const unsigned int i) {
-        x[i] = a[i] - groups.of_unknown(i).search.share() * c[i];
+        x[i] = a[i] - groups.of_unknown(i).search.step_length() * c[i];
       });
       distribute(u);
       touched.clear();
@@ -429,18 +431,19 @@ namespace NMM
     }
 
     begin_searches(parameters.always_search);
-    const Deformation state = search_shares(u);
+    const Deformation state = search_step_lengths(u);
     for (const unsigned int root : groups.active_roots())
     {
-      const ShareSearch &search = groups[root].search;
-      iteration.line_search = std::min(iteration.line_search, search.share());
+      const LineSearch &search = groups[root].search;
+      iteration.line_search =
+        std::min(iteration.line_search, search.step_length());
       report->n_line_search_cuts += search.n_cuts();
     }
     if (use_increment)
       note_increment();
     if (state != Deformation::admissible)
       report->reason =
-        "every share of the correction gives a deformation that "
+        "every step length of the correction gives a deformation that "
         "is not admissible";
     return state == Deformation::admissible;
   }
@@ -466,8 +469,9 @@ namespace NMM
   NewtonSolver::Data::refine(Vector &u)
   {
     const auto is_new = [](const Group &group) { return group.has_converged; };
-    const std::vector<bool> blocks =
-      groups.are_there_several() ? groups.watched(is_new) : std::vector<bool>();
+    const std::vector<bool> blocks = groups.are_there_several()
+                                       ? groups.affected(is_new)
+                                       : std::vector<bool>();
     for (unsigned int i = 0; i < parameters.n_refinements; ++i)
     {
       solve(residual, correction, blocks);
@@ -505,8 +509,8 @@ namespace NMM
     if (is_any_new && !refine(u))
       return false;
     // before, since what stays in place in active groups is pressed on all the time
-    groups.wake(touched);
-    groups.let_go();
+    groups.reactivate(touched);
+    groups.retire_converged();
     if (groups.is_any_active())
       return false;
     if (!groups.are_there_several())
@@ -526,7 +530,7 @@ namespace NMM
       if (groups[root].square * groups.n_unknowns() >
           allowed * allowed * groups[root].n_unknowns)
         touched.push_back(root);
-    groups.wake(touched, /* is_known = */ true);
+    groups.reactivate(touched, /* is_known = */ true);
     return !groups.is_any_active();
   }
 

@@ -31,32 +31,32 @@ namespace NMM
 
   struct ContactParameters
   {
-    /// Of faces that no pair names.
+    /// The law of faces that no pair names.
     std::shared_ptr<const ContactLaw> law;
-    /// The first one that fits holds.
+    /// Laws between certain faces; the first pair that fits is used.
     std::vector<ContactPair> pairs;
-    /// Augmented Lagrangian: weighted penetration that is allowed, see Contact
-    /// [m]; 0: the penalty method.
+    /// Augmented Lagrangian: the weighted penetration that is allowed [m], see Contact;
+    /// 0 stands for the penalty method.
     double       penetration_tolerance = 0.;
     unsigned int max_augmentations     = 30;
-    /// Distance within which faces are looked at [m]; 0: a tenth of the longest
-    /// edge. No point may move further than this in a step.
+    /// Candidate pairs of faces are searched for within this distance [m]; 0 stands for a tenth
+    /// of the longest edge. No point may move further than this in a step.
     double reach = 0.;
     /// Gauss-Lobatto points on each piece of an edge, at least 2.
     unsigned int       n_points    = 4;
     ContactIntegration integration = ContactIntegration::length;
-    /// Of two blocks the one with the lower number carries the contact points:
-    /// the softer or finer one is the better choice. Empty: the block's number.
+    /// Of two blocks the one with the lower rank is the slave, which carries the contact points;
+    /// the softer or finer one is the better choice. Empty: a block's number is its rank.
     std::vector<unsigned int> body_ranks;
-    /// Whether points that cannot touch anything within a time step are left out of its
-    /// assemblies. Without it results are the same, and assemblies take longer.
+    /// Whether assemblies of a time step skip points that cannot touch anything within it.
+    /// This changes the time that assemblies take, and no result.
     bool skip_clear_points = true;
 
     /// @throws InputError naming the value.
     void
     check() const;
 
-    /// Does any law have friction?
+    /// Whether any of the laws has friction.
     bool
     has_friction() const;
   };
@@ -73,34 +73,34 @@ namespace NMM
   /// A point at which a slave edge may touch a master.
   struct ContactPoint
   {
-    /// Edge of the surface and parameter on it.
+    /// Slave edge of the surface, and the parameter of the point on it.
     unsigned int edge = invalid_index;
     double       s    = 0.;
     /// Reference length times the cosine of the angle between both faces [m];
     /// ContactIntegration::points: share of the vertex [-].
     double weight = 0.;
-    /// Edge and parameter of the nearest point; invalid_index: none.
+    /// Master edge and parameter of the nearest point on it; invalid_index if there is none.
     unsigned int master = invalid_index;
     double       t      = 0.;
-    /// Positive: open [m].
+    /// Distance from the master along its normal, negative for penetration [m].
     double gap = 0.;
-    /// By which slip has opened the faces: gap without pressure [m].
+    /// Gap at which the pressure vanishes, where dilation has opened the faces [m].
     double opening = 0.;
-    /// Per reference length of the slave [Pa].
+    /// Force per reference length of the slave [Pa].
     double       pressure = 0., shear = 0.;
     ContactState state = ContactState::open;
-    /// What the shear spring alone would exert [Pa], and whether the slip has just
-    /// changed its sign from one iteration to the next.
+    /// Shear that the spring alone would exert [Pa], and whether the slip changed its sign in the
+    /// last iteration.
     double spring_shear = 0.;
     bool   has_turned   = false;
-    /// Edge and parameter at which it sticks.
+    /// Edge and parameter of the anchor, the material point of the master at which it sticks.
     unsigned int stick_edge = invalid_index;
     double       stick_t    = 0.;
     /// Multiplier of the augmented Lagrangian [Pa].
     double multiplier = 0.;
-    /// Of a joint whose strength has not been exceeded.
+    /// Whether the point belongs to a bonded joint whose strength has not been exceeded.
     bool is_bonded = false;
-    /// Current position and normal of the master.
+    /// Current position of the point, and normal of the master there.
     dealii::Point<2>     x;
     dealii::Tensor<1, 2> normal;
   };
@@ -110,17 +110,17 @@ namespace NMM
   struct ContactReport
   {
     unsigned int n_points = 0, n_open = 0, n_stick = 0, n_slip = 0;
-    /// States that differ from those of the assembly before.
+    /// Number of states that differ from those of the previous assembly.
     unsigned int n_changes = 0;
-    /// Points that stick because their bond holds.
+    /// Number of points that stick because their bond holds.
     unsigned int n_bonded = 0;
-    /// Of what presses, from the nearest face of the other body [m].
+    /// Largest penetration over all closed points, from the nearest face of the other body [m].
     double largest_penetration = 0.;
-    /// Was it an assembly between two states, so that penetrations are means of both?
+    /// Whether it was an assembly between two states, so that penetrations are means of both.
     bool is_between = false;
-    /// Stored in springs [J/m].
+    /// Energy that is stored in springs [J/m].
     double energy = 0.;
-    /// On the slaves [N/m].
+    /// Sum of the forces on the slaves [N/m].
     dealii::Tensor<1, 2> force;
   };
 
@@ -137,9 +137,9 @@ namespace NMM
    *
    * Friction: the shear at a point is eps_t times the distance, along the
    * master, from the material point of the master where it sticks; beyond
-   * q_max = p tan phi + c that point is dragged along (moving friction cone;
-   * Wriggers & Krstulovic-Opara, ZAMM 80 (2000)). So the history is a
-   * place, and nothing is lost when a point passes from one edge to the next.
+   * q_max = p tan phi + c that anchor is dragged along (moving friction cone;
+   * Wriggers & Krstulovic-Opara, ZAMM 80 (2000)). So the history of a point is a place on the
+   * master, and nothing is lost when the point passes from one edge to the next.
    *
    * Corners: faces that are nearly parallel touch along the length that they have in
    * common; a convex corner, of either side, that points at a face touches it as a point
@@ -155,7 +155,7 @@ namespace NMM
    * @f$ -\int g\,\phi_i\,ds / \int \phi_i\,ds @f$
    * until they change by less than eps_n times the tolerance.
    *
-   * It knows positions and normals, not materials. All per unit thickness.
+   * The class knows positions and normals, not materials. All quantities are per unit thickness.
    *
    * Order of calls. Each function asserts that it is called at one of the stages from which an
    * arrow leads to it; set_time() and functions that only tell something may be called at any.
@@ -190,7 +190,7 @@ namespace NMM
             const ContactParameters                 &parameters);
     ~Contact();
 
-    /// Obstacles move.
+    /// Move the obstacles to where they are at @p time [s].
     void
     set_time(double time);
 
@@ -212,7 +212,7 @@ namespace NMM
     void
     detect(const Vector &u, double least_reach = 0.);
 
-    /// No candidates on any rank: assemble() would add nothing.
+    /// Whether no rank has a candidate pair, so that assemble() would add nothing.
     bool
     is_idle() const;
 
@@ -226,27 +226,27 @@ namespace NMM
     const Vector &
     residual() const;
 
-    /// In a pattern that holds that of the elasticity, too.
+    /// dr/du; its sparsity pattern contains that of the elasticity, too.
     const Matrix &
     tangent() const;
 
-    /// Who adds to it finds that gone from a row once that is assembled again.
+    /// Entries that a caller adds are lost when their row is assembled again.
     Matrix &
     tangent();
 
-    /// Until the next assembly tangent() is that plus @p factor times @p matrix, whose pattern
-    /// lies within its own, in the rows of active bodies: that of what is in contact.
+    /// Add @p factor times @p matrix to the tangent, in the rows of active bodies, until the next
+    /// assembly. The pattern of the matrix must lie within that of the tangent.
     void
     add_to_tangent(const Matrix &matrix, double factor = 1.);
 
-    /// Grows whenever the pattern of tangent() changes.
+    /// A number that grows whenever the sparsity pattern of tangent() changes.
     unsigned int
     pattern_version() const;
 
     bool
     tangent_is_symmetric() const;
 
-    /// Of the last assembly.
+    /// The report of the last assembly.
     const ContactReport &
     report() const;
 
@@ -290,17 +290,18 @@ namespace NMM
     void
     begin_step(const Vector &u, double time);
 
-    /// By body: does anything press on it in the last assembly? On the points of this rank.
+    /// For each body, whether it had a closed contact point of this rank in the last assembly.
     std::vector<bool>
     pressed_bodies() const;
 
-    /// The step that has begun goes to about @p u: what may touch on the way there will be
-    /// in the pattern of the tangent, so that it need not be made anew in the course of
-    /// the step. Without this, what may touch until the first assembly with a tangent.
+    /// Say that the step that has begun goes to about @p u. The sparsity pattern of the tangent
+    /// then has the couplings of all pairs that may touch on the way there, and need not be made
+    /// anew within the step. Otherwise it has those of pairs that may touch until the first
+    /// assembly with a tangent.
     void
     expect(const Vector &u);
 
-    /// Largest way of a point of a face between two displacements [m].
+    /// Largest distance that a point of a face moves between two displacements [m].
     double
     largest_motion(const Vector &from, const Vector &to);
 
@@ -321,9 +322,9 @@ namespace NMM
      * tangent() is the derivative by the mean displacement at given begin: of forces
      * in the mean position and gaps at the end, so it is not symmetric.
      * Multipliers are not used.
-     * @p tangent_factor: tangent() is that many times the derivative. @p body_matrix: to
-     * which the tangent is added instead, and tangent() means nothing. On one rank, if
-     * constraints couple no unknowns; its blocks are the blocks of the mesh.
+     * tangent() is multiplied by @p tangent_factor. If @p body_matrix is not null, the tangent is
+     * added to it instead, and tangent() is undefined: on one rank, if constraints couple no
+     * unknowns; its bodies are the blocks of the mesh.
      */
     void
     assemble_between(const Vector &end,
@@ -332,24 +333,24 @@ namespace NMM
                      double        tangent_factor = 1.,
                      BodyMatrix   *body_matrix    = nullptr);
 
-    /// @name Blocks that are not moved for a while
+    /// @name Inactive blocks, which do not move for a while
     /// @{
 
-    /// From now on assemblies leave points between bodies none of which
-    /// is active as the last one found them, and leave the rows of others alone, or wrong.
-    /// Those that are held do not count as touched(). By block; empty: all are
-    /// active, none is held.
+    /// From now on assemblies skip points between two inactive bodies, which stay as the last
+    /// assembly found them; the rows of inactive bodies are undefined. Bodies that are held are
+    /// not returned by take_touched(). One entry for each block; empty: all are active, and none
+    /// is held.
     void
     set_active_bodies(const std::vector<bool> &is_active,
                       const std::vector<bool> &is_held);
 
-    /// Blocks that are neither active nor held and that touched an active one in an
-    /// assembly since the last call.
+    /// Blocks that are neither active nor held and that touched an active one in an assembly
+    /// since the last call of this function.
     std::vector<unsigned int>
     take_touched();
 
-    /// Of bodies with unknowns: what the last assemble_between() with a tangent has coupled
-    /// in rows of active ones, some perhaps several times. One rank.
+    /// Pairs of bodies with unknowns that the last assemble_between() with a tangent has coupled
+    /// in rows of active bodies; a pair may occur several times. For one rank.
     const std::vector<BlockPair> &
     coupled_bodies() const;
     /// @}
@@ -360,26 +361,26 @@ namespace NMM
     work_of_obstacles(double time_begin, double time_end);
     /// @}
 
-    /// Why a step from detect() to @p end, at the time that is set, is not to be trusted: points
-    /// that moved further than faces were looked for, penetrate half as far, or have passed
-    /// through a body on the way. The last assembly was that of @p end.
+    /// The reason why a step from detect() to @p end, at the time that is set, must not be
+    /// accepted: a point has moved further than the reach of the search, penetrates by half of
+    /// it, or has passed through a body on the way. The last assembly must be that of @p end.
     StepFault
     find_fault(const Vector &end);
 
-    /// What is remembered of the last accepted state. Collective.
+    /// The history of the last accepted state. Collective.
     ContactHistory
     history() const;
 
     /**
-     * From now on these bodies of the surface are not there, see
-     * ContactSurface::set_absent_bodies(). What springs against them stored at the last
-     * accepted state is forgotten, and does not count as dissipated. detect() has to be called
-     * before the next assembly, unless the same bodies were absent before.
+     * From now on these bodies of the surface are absent, see
+     * ContactSurface::set_absent_bodies(). The energy that springs against them stored at the last
+     * accepted state is lost and does not count as dissipated. detect() has to be called before
+     * the next assembly, unless the same bodies were absent before.
      */
     void
     set_absent_bodies(const std::vector<bool> &is_absent);
 
-    /// Take over what history() returned, on any number of ranks.
+    /// Restore what history() returned, on any number of ranks.
     void
     restore_history(const ContactHistory &history);
 

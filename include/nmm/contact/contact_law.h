@@ -102,8 +102,7 @@ namespace NMM
       return strength(pressure, 0.).value;
     }
 
-    /// Whether there is any shear: otherwise faces are smooth, and nobody asks where points
-    /// stick.
+    /// Whether there is any shear; otherwise faces are smooth, and points have no anchors.
     virtual bool
     has_friction() const = 0;
 

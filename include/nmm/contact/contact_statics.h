@@ -54,7 +54,8 @@ namespace NMM
   {
     unsigned int  n_augmentations = 0;
     ContactReport contact;
-    /// By friction and breaking bonds in the step, and by inelastic materials [J/m].
+    /// Energy dissipated in the step by friction and breaking bonds, and by inelastic materials
+    /// [J/m].
     double dissipated = 0., dissipated_by_material = 0.;
   };
 

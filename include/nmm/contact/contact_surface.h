@@ -72,7 +72,7 @@ namespace NMM
       /// Along the boundary, or invalid_index.
       unsigned int previous = invalid_index, next = invalid_index;
       Corner       at_start = Corner::end, at_end = Corner::end;
-      /// Of the element's cell: xi = inverse (X - origin).
+      /// Map to the reference coordinates of the element's cell: xi = inverse (X - origin).
       dealii::Point<2>     origin;
       dealii::Tensor<2, 2> inverse;
       /// [m]
@@ -183,7 +183,7 @@ namespace NMM
     void
     set_time(double time_begin, double time_end);
 
-    /// Of an obstacle, at the time that was set [m].
+    /// Displacement of an obstacle at the time that was set [m].
     const dealii::Tensor<1, 2> &
     obstacle_displacement(unsigned int obstacle) const;
 
@@ -244,8 +244,8 @@ namespace NMM
     dealii::Tensor<1, 2>
     displacement(unsigned int edge, double t) const;
 
-    /// Of a straight edge, at the current displacements and time; of arcs it says
-    /// nothing.
+    /// Displacement along a straight edge at the current displacements and time; undefined for
+    /// arcs.
     EdgeDisplacement
     edge_displacement(const unsigned int edge) const
     {
@@ -285,10 +285,10 @@ namespace NMM
     name(unsigned int edge) const;
 
   private:
-    /// Of an obstacle.
+    /// Distance from an obstacle.
     struct Nearest
     {
-      /// From its nearest point [m], and the same with a sign: negative behind it.
+      /// Distance from its nearest point [m], and the same with a sign, negative behind the face.
       double distance = std::numeric_limits<double>::max();
       double gap      = 0.;
       /// The nearest point is an end of a chain that is not closed.
@@ -329,10 +329,10 @@ namespace NMM
     std::pair<unsigned int, unsigned int> owned;
     unsigned int                          degree, n_blocks;
     const std::vector<double>            *nodal = nullptr;
-    /// Of blocks, as set_displacements() was told; and those that count.
+    /// Displacements along edges of blocks, from set_displacements(), and those in use.
     std::vector<EdgeDisplacement> edge_displacements;
     const EdgeDisplacement       *current = nullptr;
-    /// Of straight edges' elements at t = 0, one edge after the other: weight functions and
+    /// For the elements of straight edges, one edge after the other, at t = 0: weight functions and
     /// their first and half their second derivatives by t.
     std::vector<std::array<double, 3>> start_weights;
     std::vector<unsigned int>          start_weights_begin;

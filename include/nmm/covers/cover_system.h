@@ -119,7 +119,7 @@ namespace NMM
     void
     distribute();
 
-    /// On a distributed mesh: global numbers, and local ones in the same order.
+    /// Give covers global numbers on a distributed mesh, and local ones in the same order.
     void
     number_globally();
 

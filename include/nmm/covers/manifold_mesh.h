@@ -61,7 +61,7 @@ namespace NMM
   public:
     ElementEdges() = default;
 
-    /// Edges that somebody keeps.
+    /// Edges that are stored elsewhere, and must outlive this object.
     explicit ElementEdges(const dealii::ArrayView<const ElementEdge> &edges)
       : kept(edges.data())
       , n(edges.size())

@@ -58,7 +58,7 @@ namespace NMM
     {
       /// The largest step, and the first one tried; the smallest allowed [s].
       double max_step, min_step;
-      /// Of a cover in a step [m].
+      /// Largest displacement of a cover in a step [m].
       double max_displacement;
     };
 
@@ -91,7 +91,7 @@ namespace NMM
     struct Account
     {
       double kinetic = 0., strain = 0.;
-      /// Of loads that keep their direction, IncrementalElasticity::work_of_loads().
+      /// Work of loads that keep their direction, IncrementalElasticity::work_of_loads().
       double work = 0.;
       /// kinetic + strain - work less that at the start: what the scheme, supports and
       /// follower pressure add (> 0) or take away.

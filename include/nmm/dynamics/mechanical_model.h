@@ -75,7 +75,8 @@ namespace NMM
     virtual const Matrix &
     stiffness_at_rest() = 0;
 
-    /// At present: contact, for example, makes forces nonlinear as soon as something is near.
+    /// Properties of the forces at present; contact, for example, makes them nonlinear as soon as
+    /// faces are near each other.
     virtual ForceProperties
     force_properties() const = 0;
 
@@ -117,11 +118,11 @@ namespace NMM
     {
       /// Stored in the material [J/m].
       double strain = 0.;
-      /// Of displacement conditions, ties, springs and contacts [J/m].
+      /// Energy of displacement conditions, ties, springs and contacts [J/m].
       double conditions = 0.;
     };
 
-    /// Of the last assemble(), not assemble_between().
+    /// Energies at the last assemble(); assemble_between() does not change them.
     virtual Energies
     energies() const = 0;
 
@@ -241,8 +242,8 @@ namespace NMM
     {
     }
 
-    /// By block: does anything press on it where the step begins? Empty: nothing does, or
-    /// blocks are not told apart.
+    /// For each block, whether it has a closed contact point where the step begins. Empty: none
+    /// has, or all blocks are solved for together.
     virtual std::vector<bool>
     pressed_blocks() const
     {
@@ -301,12 +302,11 @@ namespace NMM
     virtual ~BlockModel() = default;
 
     /**
-     * These blocks (ManifoldMesh::block(), by number) exert and feel no forces from
-     * now on and are nowhere: nothing of theirs is assembled, nobody touches
-     * them, what their contacts held is forgotten. Their unknowns
-     * stay in the layout, held where they are: of their equations the rows of
-     * mass() are left, with nothing on the other side. Empty: all
-     * blocks are there. @throws InputError if the model has no blocks to leave.
+     * Make blocks (ManifoldMesh::block(), by number) absent: from now on they exert and feel no
+     * forces, they are not assembled, nothing touches them, and the energy that their contacts
+     * held is lost. Their unknowns stay in the layout and are held where they are: their equations
+     * keep the rows of mass(), with a right-hand side of zero. Empty: no block is absent.
+     * @throws InputError if the model has no blocks.
      */
     virtual void
     set_absent_blocks(const std::vector<bool> &is_absent)
@@ -318,15 +318,14 @@ namespace NMM
                              "keep them"));
     }
 
-    /// Blocks that there are, absent ones included; 0: there are none to leave.
+    /// Number of blocks, absent ones included; 0 if the model has none.
     virtual unsigned int
     n_blocks() const
     {
       return 0;
     }
 
-    /// Block of each owned unknown; empty: they are not told apart, see
-    /// NonlinearSystem.
+    /// Block of each owned unknown; empty if all are solved for together, see NonlinearSystem.
     virtual const std::vector<unsigned int> &
     blocks_of_unknowns() const
     {
@@ -334,9 +333,9 @@ namespace NMM
       return none;
     }
 
-    /// From now on forces are needed in the rows of these blocks, and those of
-    /// others may be wrong, as energies and force_scale() are. Empty: all.
-    /// @p is_held: not active, and nobody wants to know who touches them.
+    /// From now on forces are needed in the rows of these blocks only (empty: all); other rows,
+    /// energies and force_scale() are undefined. Blocks that @p is_held names are inactive, and
+    /// take_touched_blocks() leaves them out.
     virtual void
     set_active_blocks(const std::vector<bool> & /*is_active*/,
                       const std::vector<bool> & /*is_held*/)

@@ -93,7 +93,7 @@ namespace NMM
   };
 
 
-  /// By how much strength can be divided before blocks move.
+  /// The number by which strength can be divided before blocks move.
   struct SafetyFactor
   {
     /// Largest factor known to stand, 0 if there is none; smallest known to move,

@@ -21,7 +21,7 @@ namespace NMM
     double initial = 0.;
     /// Done by loads, moving supports and, in a release, by what is taken away.
     double external_work = 0.;
-    /// By Rayleigh and kinetic damping.
+    /// Energy dissipated by Rayleigh damping and by stops of a relaxation [J/m].
     double dissipated = 0.;
     /// Kinetic + strain + conditions of blocks that have left, when they did.
     double left = 0.;
@@ -45,7 +45,7 @@ namespace NMM
     EnergySums sums;
     /// Blocks that have left, in the order in which they did.
     std::vector<unsigned int> left_blocks;
-    /// Of each block: how long it has been at rest [s], infinity if it sleeps, and if
+    /// For each block, how long it has been at rest [s], infinity if it sleeps, and if
     /// so forces [N/m] and moment [N] on it when it fell asleep. Empty if none
     /// may. See SleepParameters.
     std::vector<std::array<double, 4>> rest;
@@ -149,7 +149,7 @@ namespace NMM
     void
     initialize(const Vector &u, const Vector &v, double time = 0.);
 
-    /// At rest, undeformed.
+    /// Begin at rest, undeformed.
     void
     initialize();
 
@@ -201,7 +201,7 @@ namespace NMM
     void
     set_next_step(double step);
 
-    /// Of the current state.
+    /// The energy account of the current state.
     const Account &
     account() const;
 

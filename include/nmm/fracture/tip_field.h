@@ -24,7 +24,7 @@ namespace NMM
        \qquad z = r e^{i\theta},\ \theta\in(-\pi,\pi) @f]
    * leaves the faces @f$\theta=\pm\pi@f$ free of stress.
    *
-   * The angle is given by who asks, so that the field can be continued beyond
+   * The caller gives the angle, so that the field can be continued beyond
    * @f$\pm\pi@f$ to a crack that bends: it remains an elastic field, and only its
    * tractions on the faces no longer vanish.
    *
@@ -48,7 +48,7 @@ namespace NMM
 
     TipField(Kind kind, const PlaneElasticity &elasticity);
 
-    /// In components of the tip's frame.
+    /// Values of the field in components of the tip's frame.
     struct Values
     {
       /// u [m]; of a point force up to a translation.
@@ -61,7 +61,7 @@ namespace NMM
       std::array<dealii::SymmetricTensor<2, 2>, 2> stress_derivatives;
     };
 
-    /// At the distance @p r > 0 [m] and angle @p theta [rad] from the tip.
+    /// The field at the distance @p r > 0 [m] and angle @p theta [rad] from the tip.
     Values
     evaluate(double r, double theta) const;
 

@@ -115,8 +115,8 @@ namespace NMM
     /// one may reach beyond its domain, and overlap others, as an excavation does.
     bool is_clipped = false;
 
-    /// Of a boundary: the material of its domain; of a closed interface: the
-    /// material inside it. Empty: not said here.
+    /// For a boundary, the material of its domain; for a closed interface, the material inside it.
+    /// Empty: this curve does not give one.
     std::string material;
 
     /// Where it was read, as "file:line"; empty if made by a call.

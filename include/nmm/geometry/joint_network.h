@@ -28,7 +28,7 @@ namespace NMM
    */
   struct JointSet
   {
-    /// Of all its joints, for laws of contact.
+    /// Name of all its joints, by which laws of contact refer to them.
     std::string name;
     /// Angle alpha from the x-axis to the joints, counter-clockwise [degrees].
     double dip = 0.;

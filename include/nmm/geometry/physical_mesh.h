@@ -134,7 +134,7 @@ namespace NMM
     const std::vector<std::string> &
     notices() const;
 
-    /// Of joints that keep theirs, and of those that do not (Curve::drops_ends).
+    /// Dangling ends of joints, kept or dropped (Curve::drops_ends).
     const DanglingEnds &
     dangling_ends() const;
 

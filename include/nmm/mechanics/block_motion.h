@@ -37,7 +37,7 @@ namespace NMM
     size() const;
   };
 
-  /// Of all blocks of @p before's covers, to @p after; the same on all ranks. Collective.
+  /// Motions of all blocks from @p before to @p after; the same on all ranks. Collective.
   std::vector<BlockMotion>
   block_motions(const DisplacementField    &before,
                 const DisplacementField    &after,

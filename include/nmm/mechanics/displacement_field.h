@@ -24,7 +24,7 @@ namespace NMM
                       const ElasticityProblem                     &problem,
                       const dealii::TrilinosWrappers::MPI::Vector &solution);
 
-    /// From given values of all covers [m], e.g. to interpolate a known field.
+    /// Make a field from given values of all covers [m], e.g. to interpolate a known one.
     DisplacementField(const CoverSystem                &covers,
                       const ElasticityProblem          &problem,
                       std::vector<dealii::Tensor<1, 2>> nodal_values);

@@ -171,19 +171,19 @@ namespace NMM
     bool
     tangent_is_symmetric() const;
 
-    /// Of the last assembly, per unit thickness.
+    /// Energies of the last assembly, per unit thickness.
     struct Energies
     {
       /// Integral of W [J/m].
       double strain = 0.;
-      /// Of weak conditions, ties and springs of fixed points [J/m].
+      /// Energy of weak conditions, ties and springs of fixed points [J/m].
       double conditions = 0.;
       /// Minus the work of loads that keep direction and size, at the current
       /// factor [J/m].
       double loads = 0.;
       /// Done in assemble_between() by the change of what is prescribed [J/m].
       double work_of_conditions = 0.;
-      /// In assemble_between() by damping [J/m].
+      /// Energy dissipated by damping in assemble_between() [J/m].
       double dissipated = 0.;
     };
 

@@ -101,8 +101,7 @@ namespace NMM
     {
       /// Owned unknowns [m].
       Vector solution;
-      /// At the quadrature points and at points of displacement conditions and
-      /// ties [Pa].
+      /// Stresses at quadrature points, and at points of displacement conditions and ties [Pa].
       std::vector<dealii::SymmetricTensor<2, 2>> stress, weak_stress;
       double                                     work_of_loads = 0.;
     };
@@ -114,8 +113,8 @@ namespace NMM
     void
     restore(const State &state);
 
-    /// Of the stress on the current geometry, by the law of small strain,
-    /// initial stress included [J/m].
+    /// Strain energy of the stress on the current geometry, by the law of small strain, initial
+    /// stress included [J/m].
     double
     strain_energy() const;
 

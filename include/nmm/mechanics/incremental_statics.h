@@ -25,7 +25,7 @@ namespace NMM
   /// A load step that was taken.
   struct IncrementalStep : public LoadStep
   {
-    /// Of a cover [m].
+    /// Largest displacement of a cover in the step [m].
     double largest_displacement = 0.;
   };
 

@@ -52,7 +52,7 @@ namespace NMM
     const Matrix &
     add_to(const Matrix &elastic_stiffness);
 
-    /// Of an assembly, of all ranks.
+    /// Sums over an assembly and all ranks.
     struct Totals
     {
       /// InelasticLaw::Response::energy less the energy of Hooke's law without initial stress
@@ -70,7 +70,7 @@ namespace NMM
       double force_scale = 0.;
     };
 
-    /// Of the last assembly.
+    /// Sums of the last assembly.
     const Totals &
     totals() const;
 
@@ -104,7 +104,8 @@ namespace NMM
       double                        equivalent_plastic_strain = 0.;
     };
 
-    /// At the displacements of the last assembly; empty where the material is elastic.
+    /// Values of an element's points at the displacements of the last assembly; empty if its material
+    /// is elastic.
     std::vector<PointValues>
     values(unsigned int element) const;
 

@@ -60,15 +60,15 @@ namespace NMM
   public:
     using Vector = NonlinearSystem::Vector;
 
-    /// Of a body in finite kinematics.
+    /// Statics of a body in finite kinematics.
     explicit NonlinearStatics(FiniteElasticity       &elasticity,
                               const NewtonParameters &parameters = {});
 
-    /// Of @p elasticity, small or finite.
+    /// Statics of @p elasticity, in small or finite kinematics.
     explicit NonlinearStatics(ElasticSystem          &elasticity,
                               const NewtonParameters &parameters = {});
 
-    /// Of @p elasticity, which @p search knows.
+    /// Statics of @p elasticity, whose equilibria @p search finds.
     NonlinearStatics(ElasticSystem &elasticity, EquilibriumSearch &search);
     ~NonlinearStatics();
 

@@ -59,14 +59,14 @@ namespace NMM
 
   struct AnimationParameters
   {
-    /// Of the pictures, at most [pixels].
+    /// Largest width of the pictures [pixels].
     unsigned int width = 800;
     /// Where there are more, so many are chosen, evenly; the last one is kept.
     unsigned int max_frames = 300;
     /// Steps of the colour map: with fewer the page is smaller.
     unsigned int n_colours = 256;
-    /// Of the smallest hole, which displacements drawn at a scale of their own must
-    /// not close; infinity: there is none [m].
+    /// Size of the smallest hole [m], which displacements must not close when their scale is
+    /// chosen; infinity if there is none.
     double smallest_hole = std::numeric_limits<double>::infinity();
     /// What frames follow each other by: "t = 0.25 s".
     std::string time_name = "t", time_unit = "s";
@@ -138,7 +138,7 @@ namespace NMM
     struct Record
     {
       double time;
-      /// Of its row in the file; or what is not in the file.
+      /// Position of the record in the file; or the data of a record that is not in the file.
       std::streamoff     position;
       const PictureData *data = nullptr;
     };
@@ -146,7 +146,7 @@ namespace NMM
     PictureData
     read(const Record &record) const;
 
-    /// Of @p quantities those that all of @p records have.
+    /// Those of @p quantities that all of @p records have.
     std::vector<Quantity>
     common_quantities(const std::vector<Record>   &records,
                       const std::vector<Quantity> &quantities) const;

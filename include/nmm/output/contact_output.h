@@ -17,7 +17,7 @@ namespace NMM
   {
     /// Place on the undeformed slave and where that is now [m].
     dealii::Point<2> reference, x;
-    /// Of the master, out of its body.
+    /// Unit normal of the master, out of its body.
     dealii::Tensor<1, 2> normal;
     /// Edges of the surface, and parameter on the slave.
     unsigned int slave = invalid_index, master = invalid_index;
@@ -122,7 +122,7 @@ namespace NMM
     std::string            value_name;
     bool                   with_table, with_fields;
     FileSeries             files;
-    /// From its first state on.
+    /// The table contacts.csv, once there is a first state.
     std::optional<CsvSeries> table;
     /// Values of states in the table.
     std::vector<double> written;

@@ -66,7 +66,7 @@ namespace NMM
                    StressLaw                law      = {},
                    const DisplacementField *velocity = nullptr);
 
-    /// At @p x [m] of @p element.
+    /// Displacement and stresses at @p x [m] of @p element.
     FieldSample
     operator()(unsigned int element, const dealii::Point<2> &x) const;
 
@@ -99,7 +99,7 @@ namespace NMM
     StressLaw                 law;
     const DisplacementField  *velocity;
     ScalarField               plastic_strain;
-    /// By block; empty: none is.
+    /// For each block, whether it is left out; empty: none is.
     std::vector<bool> is_hidden;
 
     double

@@ -64,7 +64,7 @@ namespace NMM
       };
 
       Vertex foot;
-      /// On the face [Pa].
+      /// Traction on the face [Pa].
       dealii::Tensor<1, 2> traction;
       Kind                 kind = sticks;
 
@@ -165,7 +165,7 @@ namespace NMM
 
   private:
     dealii::Point<2> lower{1e300, 1e300}, upper{-1e300, -1e300};
-    /// Of obstacles.
+    /// Bounding box of obstacles [m]; then ranges of what is drawn.
     dealii::Point<2> rigid_lower{1e300, 1e300}, rigid_upper{-1e300, -1e300};
     double           traction = 0.;
     double           minimum = 1e300, maximum = -1e300;

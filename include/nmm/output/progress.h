@@ -70,8 +70,7 @@ namespace NMM
     std::vector<std::pair<std::string, double>> stage_times;
   };
 
-  /// Of @p notices that differ in numbers only the first one, with how many there
-  /// are.
+  /// Keep only the first one of @p notices that differ in numbers, with their count.
   std::vector<std::string>
   merge_alike(const std::vector<std::string> &notices);
 

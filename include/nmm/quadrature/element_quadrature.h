@@ -120,7 +120,7 @@ namespace NMM
     {
       dealii::Point<2>                    origin;
       std::array<dealii::Tensor<1, 2>, 2> sides;
-      /// Of the reference cell's coordinates.
+      /// Twice the area in coordinates of the reference cell [-].
       double twice_the_area;
     };
 
@@ -178,8 +178,8 @@ namespace NMM
 
     const ManifoldMesh   *mesh;
     dealii::Quadrature<2> whole_rule, triangle_rule;
-    /// Of elements from first_element on: how they are divided, or the number of the
-    /// rule, or invalid_index if they are whole.
+    /// For each element from first_element on, how it is divided, or the number of the
+    /// rule, or invalid_index if it is whole.
     std::vector<unsigned int> element_to_rule;
     /// Points of rule i: from first_point[i] on.
     std::vector<unsigned int>     first_point;

@@ -91,11 +91,11 @@ namespace NMM
     Geometry
     make_geometry() const;
 
-    /// Of the scene: blocks that leave them are dropped; empty: none are.
+    /// Limits of the scene: blocks that leave all of them are dropped. Empty: no block is.
     std::vector<Curve>
     make_limits() const;
 
-    /// Of several ranks, those of @p communicator share it if the scene says so.
+    /// The mathematical mesh; the ranks of @p communicator share it if the scene says so.
     /// @throws InputError for a curve that does not exist, an unreadable file.
     MathematicalMesh
     make_mathematical_mesh(const PhysicalMesh &physical_mesh,

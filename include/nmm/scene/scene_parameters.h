@@ -153,7 +153,7 @@ namespace NMM
   };
 
 
-  /// At which load factors there are answers.
+  /// The section `Load steps`: load factors at which results are computed.
   struct LoadStepParameters
   {
     unsigned int n_steps  = default_n_steps;

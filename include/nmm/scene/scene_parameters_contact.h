@@ -33,11 +33,11 @@ namespace NMM
   /// How two faces act on each other: entries of `Contact` and of its laws.
   struct ContactLawParameters
   {
-    /// Of a law's subsection; empty: the section `Contact` itself.
+    /// Name of the law's subsection; empty for the section `Contact` itself.
     std::string name;
     /// Names of faces, "any" for all. Laws only.
     std::array<std::string, 2> between;
-    /// Of contact_laws().
+    /// Name of the law in contact_laws().
     std::string law_name;
     /// What the scene gives, by key: of all laws.
     std::map<std::string, double> values;

@@ -35,7 +35,7 @@ namespace NMM
     Stabilization stabilization = Stabilization::aggregation;
     /// Least element_support() that makes an element good [-].
     double threshold = default_aggregation_threshold;
-    /// Of all regions but those of `blocks`, see make_own_meshes().
+    /// The mesh of all regions that `blocks` does not name, see make_own_meshes().
     RegionMesh                       mesh;
     std::vector<BlockMeshParameters> blocks;
     /// Does each rank hold a part of the mathematical mesh only, see

@@ -29,7 +29,7 @@ namespace NMM
     dynamics,
     /// Equilibrium, found by motion with kinetic damping.
     relaxation,
-    /// By how much the strength of contact can be divided before blocks move.
+    /// Find the number by which strength can be divided before blocks move.
     safety_factor
   };
 
@@ -92,7 +92,7 @@ namespace NMM
     double beta = 0.25, gamma = 0.5, spectral_radius = 0.8;
     /// Stiffness below 0: chosen, see Scene::make_damping().
     RayleighDamping damping = {0., -1.};
-    /// Speed 0: nobody sleeps.
+    /// With a speed of 0 no block sleeps.
     SleepParameters sleep = {0., 0.25, 1.};
 
     void

@@ -29,12 +29,12 @@ namespace NMM
     Tips tips              = Tips::automatic;
     /// See grade_towards() [-].
     double grading = 0.25;
-    /// Of the disks about the tips [m]; 0: 0.9 times each tip's free radius.
+    /// Radius of the disks about the tips [m]; 0 stands for 0.9 times each tip's free radius.
     double radius = 0.;
 
     /// How often cracks grow; 0: they do not.
     unsigned int n_increments = 0;
-    /// By how much each time [m].
+    /// Length by which a crack grows each time [m].
     double increment = 0.;
     /// See growth_criteria(); empty: the first one.
     std::string criterion;

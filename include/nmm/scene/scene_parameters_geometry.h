@@ -34,7 +34,7 @@ namespace NMM
     double cleaning_tolerance = 0.;
     /// Joints lose what bounds no block.
     bool drops_ends = false;
-    /// Blocks below this are told of [m^2]; 0: none.
+    /// Blocks with a smaller area are reported [m^2]; 0: none are.
     double small_block = 0.;
 
     void
@@ -59,7 +59,7 @@ namespace NMM
     std::string name;
     /// DXF drawing (.dxf) or geometry file, relative to the scene file.
     std::string file;
-    /// Of a drawing, those that are read; empty: all.
+    /// Layers of a drawing that are read; empty: all of them.
     std::vector<std::string> layers;
     /// What all are called; empty: after their layers, or as in the file.
     std::string label;
@@ -95,7 +95,7 @@ namespace NMM
     /// A closed shape, or a geometry file with one.
     std::string shape, file;
     Use         use = Use::place;
-    /// Of blocks inside; empty: what they have.
+    /// Material of the blocks inside; empty: it does not change.
     std::string material;
     /// Restraint [s]; negative: never.
     double release_time = -1.;

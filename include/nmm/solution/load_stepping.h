@@ -44,10 +44,10 @@ namespace NMM
     bool is_asked = false;
     /// Steps tried and given up before this one, and their iterations.
     unsigned int n_cuts = 0, n_lost_iterations = 0;
-    /// Of Newton's method, of this step.
+    /// Iterations of Newton's method in this step, and the residual that they left [-].
     unsigned int n_iterations      = 0;
     double       relative_residual = 0.;
-    /// Of the last system that was solved in the step.
+    /// Report on the last system that was solved in the step.
     NewtonReport newton;
   };
 

@@ -47,19 +47,19 @@ namespace NMM
     virtual double
     force_scale() const = 0;
 
-    /// Another number whenever tangent() has another pattern. Its values then are right
-    /// in rows that were assembled last, and nowhere else.
+    /// A number that changes whenever tangent() has a new sparsity pattern. Only the rows that
+    /// were assembled last have valid values then.
     virtual unsigned int
     pattern_version() const
     {
       return 0;
     }
 
-    /// @name Blocks: what no force couples unless it touches
+    /// @name Blocks, which forces couple only where they touch
     /// @{
 
-    /// Block of each owned unknown, from 0 on; of a constrained one any of those
-    /// that it follows. Empty, as on more than one rank: they are not told apart.
+    /// Block of each owned unknown, from 0 on; of a constrained unknown any block of those that
+    /// it follows. Empty if all unknowns are solved for together, as on several ranks.
     virtual const std::vector<unsigned int> &
     blocks_of_unknowns() const;
 
@@ -67,8 +67,8 @@ namespace NMM
     virtual const std::vector<bool> &
     held_blocks() const;
 
-    /// From now on assemble() has to be right in the rows of these blocks and
-    /// nowhere else, also not in force_scale(); tangent() stays regular. Empty: all.
+    /// From now on assemble() needs to be right in the rows of these blocks only (empty: all);
+    /// rows of inactive blocks and force_scale() are undefined, but tangent() stays regular.
     virtual void
     set_active_blocks(const std::vector<bool> & /*is_active*/)
     {
@@ -82,23 +82,22 @@ namespace NMM
       return {};
     }
 
-    /// Which blocks the last assembly of tangent() has coupled in rows of active ones,
-    /// some perhaps several times; null: values other than zero tell.
+    /// Pairs of blocks that the last assembly of tangent() has coupled in rows of active blocks;
+    /// a pair may occur several times. Null: values other than zero tell which they are.
     virtual const std::vector<BlockPair> *
     coupled_blocks() const
     {
       return nullptr;
     }
 
-    /// Tangents to come are of another state: rows that have been assembled before need
-    /// not be kept.
+    /// The next tangents belong to another state: rows assembled before need not be kept.
     virtual void
     forget_tangent()
     {
     }
 
-    /// The last tangent as a body matrix, those of blocks_of_unknowns(): what is not
-    /// coupled is not in it. tangent() is not asked for then. Null: it is tangent().
+    /// The last tangent as a body matrix of blocks_of_unknowns(), without entries for blocks that
+    /// are not coupled; tangent() is not used then. Null: tangent() is the matrix.
     virtual const BodyMatrix *
     body_tangent() const
     {
@@ -116,7 +115,7 @@ namespace NMM
     /// being the last correction.
     double       energy_tolerance = 1e-12;
     unsigned int max_iterations   = 12;
-    /// Least share of a correction that the line search tries.
+    /// Least step length that the line search tries [-].
     double min_line_search = 1. / 64.;
     /// Search from the first iteration on, for what is stiff on one side only, such as
     /// contact; otherwise from the fifth, when r . du grows.
@@ -136,18 +135,18 @@ namespace NMM
   {
     struct Iteration
     {
-      /// |r| / force_scale() before the correction, of what was being solved for [-].
+      /// |r| / force_scale() of the active unknowns before the correction [-].
       double relative_residual = 0.;
       /// |r . du| before the correction du [J/m].
       double energy = 0.;
-      /// Share of the correction that was taken, the least of all groups.
+      /// Step length of the correction, the least of all groups [-].
       double line_search = 1.;
-      /// Share of the unknowns that were corrected [-].
+      /// Part of the unknowns that was corrected [-].
       double active_share = 1.;
     };
 
     bool converged = false;
-    /// Why not, for people.
+    /// Why it did not converge, as part of a message.
     std::string            reason;
     std::vector<Iteration> iterations;
     /// |r| / force_scale() in the end.
@@ -172,31 +171,29 @@ namespace NMM
    * Analysis 1, section 9.4), for which no potential is needed. From then on the tangent
    * is the plain one.
    *
-   * Points of contact that stick and slip, or open and close, by turns can make it go
-   * round several states for ever. Once three iterations in a row have not brought
+   * Contact points that stick and slip, or open and close, by turns can make the iteration cycle
+   * among several states. Once three iterations in a row have not brought
    * |r| below 0.7 of what it was before (not within the first six), eta is halved
    * until |r| goes down by a quarter of eta and more, or the best of five is taken:
    * where r is linear piece by piece, that follows the path on which |r| falls
    * from piece to piece (Katzenelson, Bell Syst. Tech. J. 44 (1965) 1605). The first
    * 0.3 s of the slide of step-nmm-4 take 36 steps and one cut, and took 92 and 23.
    *
-   * Blocks that do not touch are systems of their own: groups, told from values of K
-   * other than zero. Each group has its own eta and its own end, its part of
-   * both tolerances being that of its unknowns, so that all of them together
-   * are below; what has converged is neither assembled nor factorized any more until
-   * something presses on it. In the end all is assembled once more to see that
-   * it is so. So what many blocks cost does not depend on the one that needs
-   * most iterations.
+   * Groups of blocks that do not touch each other are separate systems. Each group has its own
+   * eta and converges by itself; its part of both tolerances is its part of the unknowns, so that
+   * all groups together are below them. A group that has converged is neither assembled nor
+   * factorized until an active one presses on it. In the end everything is assembled once more to
+   * verify the solution. So the cost of many blocks does not depend on the block that needs most
+   * iterations.
    *
-   * In a large group few blocks keep it from its end, one that begins to slip, say. An
-   * iteration corrects those whose |r| is above a tenth of their part of the
-   * tolerance, and two rings of neighbours around them; what is further away stays, and
-   * is corrected in the next iteration if it feels that (nonlinear elimination: Lanzkron,
-   * Rose & Wilkes, SIAM J. Sci. Comput. 17 (1996) 538). Corrections that reach
-   * further than neighbours, as in a tower at rest, would need many such iterations: where
-   * what is felt outside is above a tenth of the |r| before, the number of rings
-   * doubles, and in each iteration of a group in which |r| goes round. In a heap of 2,000
-   * blocks a block takes part in 5.8 of 13.6 iterations of a step.
+   * In a large group few blocks, such as one that begins to slip, delay convergence. An iteration
+   * corrects the blocks whose |r| is above a tenth of their part of the tolerance, and two rings
+   * of neighbours around them. Blocks further away stay where they are, and are corrected in the
+   * next iteration if their |r| has grown (nonlinear elimination: Lanzkron, Rose & Wilkes, SIAM J.
+   * Sci. Comput. 17 (1996) 538). Corrections that reach further than neighbours, as in a tower at
+   * rest, would need many such iterations. So the number of rings doubles where the |r| just
+   * outside exceeds a tenth of the |r| before, and in each iteration of a group that cycles. In a
+   * heap of 2,000 blocks a block takes part in 5.8 of 13.6 iterations of a step.
    *
    * Expected failures (no convergence, inadmissible, singular) are results, with
    * a reason; who calls cuts the step. The direct solver analyses the

@@ -1,29 +1,29 @@
 #include <cmath>
-#include <solution/share_search.h>
+#include <solution/line_search.h>
 
 namespace NMM
 {
   namespace internal
   {
     void
-    ShareSearch::begin(const Mode   new_mode,
-                       const double slope,
-                       const double norm,
-                       const double least)
+    LineSearch::begin(const Mode   new_mode,
+                      const double slope,
+                      const double norm,
+                      const double least)
     {
-      *this       = ShareSearch();
+      *this       = LineSearch();
       mode        = new_mode;
       first_slope = lower_slope = slope;
       first_norm                = norm;
-      min_share                 = least;
+      min_step_length           = least;
       done                      = false;
     }
 
 
     void
-    ShareSearch::judge(const bool   is_admissible,
-                       const double slope,
-                       const double norm)
+    LineSearch::judge(const bool   is_admissible,
+                      const double slope,
+                      const double norm)
     {
       if (mode == Mode::descend)
         judge_norm(is_admissible, norm);
@@ -35,7 +35,7 @@ namespace NMM
 
 
     void
-    ShareSearch::halve()
+    LineSearch::halve()
     {
       eta *= 0.5;
       ++cuts;
@@ -43,7 +43,7 @@ namespace NMM
 
 
     void
-    ShareSearch::judge_slope(const bool is_admissible, const double slope)
+    LineSearch::judge_slope(const bool is_admissible, const double slope)
     {
       // what is left of the slope along the correction: not less than this must
       // go, and when the slope has changed its sign, not more
@@ -84,16 +84,16 @@ namespace NMM
           return;
         }
       }
-      done = eta <= min_share;
+      done = eta <= min_step_length;
       if (!done)
         halve();
     }
 
 
     void
-    ShareSearch::judge_norm(const bool is_admissible, const double norm)
+    LineSearch::judge_norm(const bool is_admissible, const double norm)
     {
-      constexpr double least_share = 1. / 16.;
+      constexpr double least_step_length = 1. / 16.;
 
       done =
         is_last || (is_admissible && norm <= (1. - 0.25 * eta) * first_norm);
@@ -101,13 +101,13 @@ namespace NMM
         return;
       if (is_admissible && norm < best)
       {
-        best       = norm;
-        best_share = eta;
+        best             = norm;
+        best_step_length = eta;
       }
       halve();
-      if (eta < (best == unknown ? min_share : least_share))
+      if (eta < (best == unknown ? min_step_length : least_step_length))
       {
-        eta     = best_share;
+        eta     = best_step_length;
         is_last = true;
       }
     }

@@ -1,14 +1,14 @@
 #include <nmm/base/exceptions.h>
 
 #include <algorithm>
-#include <scene/contact_equilibrium.h>
+#include <scene/contact_loading.h>
 #include <scene/mechanism.h>
 
 namespace NMM
 {
   namespace internal
   {
-    ContactEquilibrium::ContactEquilibrium(
+    ContactLoading::ContactLoading(
       const Scene                             &scene,
       const CoverSystem                       &covers,
       const QuadratureCollection              &quadrature,
@@ -28,7 +28,7 @@ namespace NMM
 
 
     void
-    ContactEquilibrium::begin_anew()
+    ContactLoading::begin_anew()
     {
       // Contact without gaps is proportional to the load, so that more iterations help where
       // smaller steps do not (solve()).
@@ -43,8 +43,8 @@ namespace NMM
     }
 
 
-    const ContactEquilibrium::Vector &
-    ContactEquilibrium::solve(const double load_factor)
+    const ContactLoading::Vector &
+    ContactLoading::solve(const double load_factor)
     {
       const LoadStepParameters &given = scene.parameters().load_steps;
       LoadSteps                 steps;
@@ -76,7 +76,7 @@ namespace NMM
 
 
     void
-    ContactEquilibrium::load(const LoadSteps &steps)
+    ContactLoading::load(const LoadSteps &steps)
     {
       try
       {

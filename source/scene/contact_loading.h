@@ -1,5 +1,5 @@
-#ifndef nmm_source_scene_contact_equilibrium_h
-#define nmm_source_scene_contact_equilibrium_h
+#ifndef nmm_source_scene_contact_loading_h
+#define nmm_source_scene_contact_loading_h
 
 #include <nmm/mechanics/elastic_system.h>
 #include <nmm/quadrature/element_quadrature.h>
@@ -12,24 +12,24 @@ namespace NMM
   namespace internal
   {
     /**
-     * Equilibrium of elastic blocks in contact, in small displacements, under load factors that are
-     * not known beforehand. A load factor above the last one continues the loading; a smaller one
+     * Loading of elastic blocks in contact, in small displacements, to load factors that are not
+     * known beforehand. A load factor above the last one continues the loading; a smaller one
      * begins anew from zero, since friction remembers: in one step, unless the scene has load steps
      * of its own.
      *
      * Lifetime: the arguments must outlive this object.
      */
-    class ContactEquilibrium
+    class ContactLoading
     {
     public:
       using Vector = ElasticSystem::Vector;
 
-      ContactEquilibrium(const Scene                             &scene,
-                         const CoverSystem                       &covers,
-                         const QuadratureCollection              &quadrature,
-                         const dealii::AffineConstraints<double> &constraints,
-                         const ElasticityProblem                 &problem,
-                         ContactAnalysis                         &contact);
+      ContactLoading(const Scene                             &scene,
+                     const CoverSystem                       &covers,
+                     const QuadratureCollection              &quadrature,
+                     const dealii::AffineConstraints<double> &constraints,
+                     const ElasticityProblem                 &problem,
+                     ContactAnalysis                         &contact);
 
       /// Displacements [m], locally relevant, valid until the next call. The contact analysis has
       /// taken the state. @throws NumericalFailure if there is no equilibrium, with the block that

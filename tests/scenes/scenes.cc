@@ -200,7 +200,7 @@ namespace
     const Case        test_case = read_case(GetParam());
     const std::string output    = fresh_output_dir(GetParam());
     ASSERT_FALSE(test_case.rows.empty());
-#ifdef DEBUG
+#ifndef NDEBUG
     if (!test_case.release_only.empty())
       GTEST_SKIP() << test_case.release_only;
 #endif

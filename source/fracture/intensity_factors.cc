@@ -136,8 +136,7 @@ namespace NMM
               if (edge.curve_set != invalid_index)
                 add_face(element, edge);
         }
-        for (unsigned int d = 0; d < radii.size(); ++d)
-          add_contact_forces(d);
+        add_contact_forces();
         dealii::Utilities::MPI::sum(sums, covers.communicator(), sums);
         dealii::Utilities::MPI::sum(contact_stress,
                                     covers.communicator(),
@@ -400,48 +399,55 @@ namespace NMM
       }
 
 
-      /// Into the integrals over the disk @p d.
+      /// See the header for what is done near the tip.
       void
-      add_contact_forces(const unsigned int d)
+      add_contact_forces()
       {
         if (contact_forces.empty())
           return;
-        // at most the straight piece of the crack that ends in the tip
-        const double       rho = std::min(near_tip * radii[d],
-                                    tip.point.distance(tip.path.front().end));
         const Tensor<1, 2> upwards =
           Point<2>(-tip.direction[1], tip.direction[0]);
-        // See the header; on the lower face, whose normal points upwards.
-        Tensor<1, 2> near_force;
+        // of each disk; at most the straight piece of the crack that ends in the tip
+        std::vector<double> rho;
+        for (const double radius : radii)
+          rho.push_back(std::min(near_tip * radius,
+                                 tip.point.distance(tip.path.front().end)));
+        // on the lower face, whose normal points upwards
+        std::vector<Tensor<1, 2>> near_force(radii.size());
         for (const ContactForce &contact : contact_forces)
         {
-          const double r     = contact.x.distance(tip.point);
-          const double share = std::min(1., r * r / (rho * rho));
-          const double near  = (1. - share) * (1. - share);
-          near_force += 7. * share * near *
-                        (contact.normal * upwards > 0. ? 1. : -1.) *
-                        contact.force;
-          if (r < radii[d] && r > 0.)
-            add_contact_force((1. - near) * contact.force,
-                              fields_at(contact.x, -contact.normal),
-                              fields_at(contact.x, contact.normal),
-                              r,
-                              d);
+          const double r = contact.x.distance(tip.point);
+          if (r >= largest_radius || r == 0.)
+            continue;
+          const auto here  = fields_at(contact.x, -contact.normal),
+                     other = fields_at(contact.x, contact.normal);
+          for (unsigned int d = 0; d < radii.size(); ++d)
+          {
+            const double share = std::min(1., r * r / (rho[d] * rho[d]));
+            const double near  = (1. - share) * (1. - share);
+            near_force[d] += 7. * share * near *
+                             (contact.normal * upwards > 0. ? 1. : -1.) *
+                             contact.force;
+            add_contact_force((1. - near) * contact.force, here, other, r, d);
+          }
         }
-        const double                           r = 9. / 64. * rho;
-        std::array<TipField::Values, n_fields> below, above;
-        for (unsigned int f = 0; f < n_fields; ++f)
+        for (unsigned int d = 0; d < radii.size(); ++d)
         {
-          below[f] = fields[f].evaluate(r, -dealii::numbers::PI);
-          above[f] = fields[f].evaluate(r, dealii::numbers::PI);
+          const double                           r = 9. / 64. * rho[d];
+          std::array<TipField::Values, n_fields> below, above;
+          for (unsigned int f = 0; f < n_fields; ++f)
+          {
+            below[f] = fields[f].evaluate(r, -dealii::numbers::PI);
+            above[f] = fields[f].evaluate(r, dealii::numbers::PI);
+          }
+          add_contact_force(near_force[d], below, above, r, d);
+          contact_stress[d] += upwards * near_force[d] / (8. / 15. * rho[d]);
         }
-        add_contact_force(near_force, below, above, r, d);
-        contact_stress[d] += upwards * near_force / (8. / 15. * rho);
       }
 
 
-      /// @p force acts on the face where the fields are @p here, its opposite on the one where
-      /// they are @p other.
+      /// Into the integrals over the disk @p d. @p force acts on the face where the fields are
+      /// @p here, its opposite on the one where they are @p other.
       void
       add_contact_force(const Tensor<1, 2>                           &force,
                         const std::array<TipField::Values, n_fields> &here,

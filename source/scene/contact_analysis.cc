@@ -69,7 +69,7 @@ namespace NMM
 
 
     void
-    ContactAnalysis::divide_strength(const double factor)
+    ContactAnalysis::begin_anew(const double factor)
     {
       contact_pointer =
         std::make_unique<Contact>(*surface,

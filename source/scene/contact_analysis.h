@@ -69,7 +69,7 @@ namespace NMM
       /// Contact anew, without history, its strength divided by @p factor, see
       /// reduce_strength(). Whoever refers to contact() has to go first.
       void
-      divide_strength(double factor);
+      begin_anew(double factor = 1.);
 
       /// Changes are counted from the present states on.
       void

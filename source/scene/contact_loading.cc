@@ -36,7 +36,7 @@ namespace NMM
       NewtonParameters       newton          = contact_newton_parameters(scene);
       newton.max_iterations = std::max(newton.max_iterations, most_iterations);
       loading.reset();
-      contact.divide_strength(1.);
+      contact.begin_anew();
       loading =
         std::make_unique<ContactStatics>(system, contact.contact(), newton);
       reached = friction_work = 0.;

@@ -310,14 +310,9 @@ namespace NMM
                                       entry.x));
           row.probe_displacements.push_back(Parallel::sum(u, communicator));
         }
+      compute_intensity_factors();
       if (crack_tips)
-      {
-        crack_tips->compute(*field,
-                            problem,
-                            contact ? contact->forces_on_faces()
-                                    : std::vector<ContactForce>());
         row.tip_numbers = crack_tips->numbers();
-      }
       history.push_back(row);
 
       std::ostringstream line;

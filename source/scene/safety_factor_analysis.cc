@@ -81,7 +81,7 @@ namespace NMM
       std::unique_ptr<AccountedContactModel> with_contact;
       if (contact)
       {
-        contact->divide_strength(factor);
+        contact->begin_anew(factor);
         with_contact =
           std::make_unique<AccountedContactModel>(*model, *contact);
       }

@@ -342,6 +342,19 @@ namespace NMM
     }
 
 
+    void
+    SceneAnalysis::compute_intensity_factors()
+    {
+      if (!crack_tips)
+        return;
+      Stage stage(progress, "intensity factors");
+      crack_tips->compute(*field,
+                          problem,
+                          contact ? contact->forces_on_faces()
+                                  : std::vector<ContactForce>());
+    }
+
+
     bool
     SceneAnalysis::is_first_rank() const
     {

@@ -114,6 +114,10 @@ namespace NMM
       virtual void
       clear();
 
+      /// Of all crack tips, from `field`, if the scene asks for them. Collective.
+      void
+      compute_intensity_factors();
+
       bool
       is_first_rank() const;
 

@@ -81,14 +81,7 @@ namespace NMM
         evaluator =
           std::make_unique<FieldEvaluator>(*field, *recovery, problem);
       }
-      if (crack_tips)
-      {
-        Stage stage(progress, "intensity factors");
-        crack_tips->compute(*field,
-                            problem,
-                            contact ? contact->forces_on_faces()
-                                    : std::vector<ContactForce>());
-      }
+      compute_intensity_factors();
     }
 
 

@@ -38,7 +38,8 @@ namespace
              const double                                         radius,
              const std::function<Tensor<1, 2>(const Point<2> &)> &u,
              const std::function<Tensor<2, 2>(const Point<2> &)> &gradient,
-             const FaceTraction                                  &traction = {})
+             const FaceTraction                                  &traction = {},
+             const std::vector<ContactForce>                     &forces   = {})
   {
     return interaction_integrals(
              model.covers,
@@ -51,7 +52,8 @@ namespace
              [&](const unsigned int element, const Point<2> &xi) {
                return gradient(real_point(model, element, xi));
              },
-             traction)
+             traction,
+             forces)
       .front();
   }
 
@@ -123,6 +125,53 @@ namespace
                     tip.direction * (stress(tip.point) * tip.direction),
                     1e-1);
       }
+    }
+  }
+
+
+  TEST(InteractionIntegrals, UniformStressAcrossFacesThatTouchHasNoIntensity)
+  {
+    // A bent crack whose faces transmit a uniform stress by the forces of 300 points on each piece:
+    // K_I = K_II = 0 and T = sigma_11 in the frame of each tip.
+    const std::vector<Point<2>> corners = {{-0.5, 0.}, {0.1, 0.1}, {0.4, -0.2}};
+    Model model(square_with("joint LINESTRING (-0.5 0, 0.1 0.1, 0.4 -0.2)"),
+                mesh_parameters(0.1),
+                2);
+    model.problem.plane_state = PlaneState::plane_strain;
+    model.problem.materials   = {material()};
+    std::mt19937          generator(3);
+    const QuadraticField  field = random_field(generator, 1);
+    const PlaneElasticity e =
+      model.problem.materials[0].plane_elasticity(model.problem.plane_state);
+    const SymmetricTensor<2, 2> stress = e.stress(field.gradient(Point<2>()));
+    std::vector<ContactForce>   forces;
+    constexpr unsigned int      n_points = 300;
+    for (unsigned int piece = 0; piece + 1 < corners.size(); ++piece)
+    {
+      const Tensor<1, 2> way    = corners[piece + 1] - corners[piece];
+      const Tensor<1, 2> normal = Point<2>(-way[1], way[0]) / way.norm();
+      for (unsigned int i = 0; i < n_points; ++i)
+        forces.push_back({corners[piece] + (i + 0.5) / n_points * way,
+                          normal,
+                          way.norm() / n_points * (stress * normal)});
+    }
+    const auto tips = find_crack_tips(model.physical_mesh);
+    ASSERT_EQ(tips.size(), 2u);
+    for (const CrackTip &tip : tips)
+    {
+      const IntensityFactors k = factors_of(
+        model,
+        tip,
+        0.9 * tip.free_radius,
+        [&](const Point<2> &x) { return field.displacement(x); },
+        [&](const Point<2> &x) { return field.gradient(x); },
+        {},
+        forces);
+      // of stresses of this size; the sum of points is off by its second-order rule
+      const double size = stress.norm();
+      EXPECT_NEAR(k.K_I, 0., 1e-4 * size);
+      EXPECT_NEAR(k.K_II, 0., 1e-4 * size);
+      EXPECT_NEAR(k.T, tip.direction * (stress * tip.direction), 1e-3 * size);
     }
   }
 

@@ -29,6 +29,11 @@ namespace
                                          "Materials/rock/Density=1"},
       "Model/Analysis=relaxation",
       {"intensity factors", "relaxation", "Model/Analysis = static"});
+    expect_rejected_with(
+      cracked + std::vector<std::string>{"Model/Plane state=plane strain",
+                                         "Materials/rock/Cohesion=1"},
+      "Materials/rock/Law=Mohr-Coulomb",
+      {"intensity factors", "yield", "elastic"});
     rejects("Covers/Distribution=distributed", {"graded", "Fracture/Tips"});
     rejects("Geometry/Text=" + square, {"no crack tip", "open joint"});
     rejects("Geometry/Text=" + square +

@@ -13,8 +13,8 @@
 
 // Each folder beside this file is a case: expected.csv says in comment lines which
 // scene is run and how ("# scene:", "# arguments:", "# ranks:", "# exit code:") and what
-// the run prints among other things ("# says:"), why a long case is left out in Debug
-// ("# release only:"), and has the rows name, value, abs_tol, rel_tol, source of the value. Arguments and what
+// the run prints among other things ("# says:"), and
+// has the rows name, value, abs_tol, rel_tol, source of the value. Arguments and what
 // is printed are separated by vertical bars. A name is a row
 // of summary.csv, "probes/<probe>/<point>/<column>" of probes.csv, or
 // "history/<step>/<column>" of history.csv, "probes-history/..." likewise; <step> may
@@ -38,9 +38,7 @@ namespace
     unsigned int             n_ranks   = 1;
     int                      exit_code = 0;
     std::vector<std::string> says;
-    /// Why a case that takes a minute in a Debug build is left out there; empty: it is not.
-    std::string      release_only;
-    std::vector<Row> rows;
+    std::vector<Row>         rows;
   };
 
 
@@ -95,8 +93,6 @@ namespace
         result.exit_code = std::stoi(code.front());
       else if (const auto says = directive("says"); !says.empty())
         result.says = says;
-      else if (const auto reason = directive("release only"); !reason.empty())
-        result.release_only = reason.front();
       else if (!line.empty() && line[0] != '#' && line.rfind("name,", 0) != 0)
       {
         const auto fields = split(line, ',');
@@ -200,10 +196,6 @@ namespace
     const Case        test_case = read_case(GetParam());
     const std::string output    = fresh_output_dir(GetParam());
     ASSERT_FALSE(test_case.rows.empty());
-#ifndef NDEBUG
-    if (!test_case.release_only.empty())
-      GTEST_SKIP() << test_case.release_only;
-#endif
 
     std::vector<std::string> arguments = test_case.arguments;
     arguments.insert(arguments.end(),

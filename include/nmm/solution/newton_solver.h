@@ -171,8 +171,8 @@ namespace NMM
    * Analysis 1, section 9.4), for which no potential is needed. From then on the tangent
    * is the plain one.
    *
-   * Contact points that stick and slip, or open and close, by turns can make the iteration cycle
-   * among several states. Once three iterations in a row have not brought
+   * The state of a contact point may alternate between stick and slip, or between open and closed,
+   * so that the iteration cycles and never converges. Once three iterations in a row have not brought
    * |r| below 0.7 of what it was before (not within the first six), eta is halved
    * until |r| goes down by a quarter of eta and more, or the best of five is taken:
    * where r is linear piece by piece, that follows the path on which |r| falls

@@ -30,6 +30,7 @@
 
 #include "fitted_ring.h"
 #include "study.h"
+#include "tutorial/tutorial.h"
 #include <cmath>
 #include <iostream>
 #include <map>
@@ -344,36 +345,23 @@ int
 main(int argc, char **argv)
 {
   using namespace StepNMM1;
-  try
-  {
-    const NMM::MPISession mpi(argv[0]);
-    const Parameters      parameters =
-      read_parameters(argc > 1 ? argv[1] : "", argc > 2 ? argv[2] : ".");
+  return Tutorial::run(argc,
+                       argv,
+                       [](const std::string &parameter_file,
+                          const std::string &output_directory) {
+                         const Parameters parameters =
+                           read_parameters(parameter_file, output_directory);
+                         Tutorial::make_output_directory(output_directory);
 
-    std::map<std::string, HoopProfile> profiles;
-    const std::vector<Measurement>     study =
-      run_convergence_study(parameters, profiles);
-    const std::vector<Measurement> placements = run_placement_study(parameters);
+                         std::map<std::string, HoopProfile> profiles;
+                         const std::vector<Measurement>     study =
+                           run_convergence_study(parameters, profiles);
+                         const std::vector<Measurement> placements =
+                           run_placement_study(parameters);
 
-    print_table(study);
-    print_placements(placements);
-    write_results(parameters, study, placements, profiles);
-    draw_figures(parameters);
-  }
-  catch (const NMM::InputError &error)
-  {
-    error.print_info(std::cerr);
-    return 2;
-  }
-  catch (const NMM::NumericalFailure &error)
-  {
-    error.print_info(std::cerr);
-    return 3;
-  }
-  catch (const std::exception &error)
-  {
-    std::cerr << error.what() << std::endl;
-    return 1;
-  }
-  return 0;
+                         print_table(study);
+                         print_placements(placements);
+                         write_results(parameters, study, placements, profiles);
+                         draw_figures(parameters);
+                       });
 }

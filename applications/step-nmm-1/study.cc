@@ -6,6 +6,7 @@
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
 
+#include "tutorial/tutorial.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -97,28 +98,7 @@ namespace StepNMM1
   {
     ParameterHandler prm;
     declare(prm);
-    if (!file_name.empty())
-    {
-      std::ifstream file(file_name);
-      AssertThrow(file,
-                  NMM::InputError("the parameter file cannot be read",
-                                  file_name,
-                                  "check its name"));
-      try
-      {
-        prm.parse_input(file, file_name);
-      }
-      catch (const ExceptionBase &exception)
-      {
-        std::ostringstream reason;
-        exception.print_info(reason);
-        AssertThrow(false,
-                    NMM::InputError("the parameter file is wrong (" +
-                                      reason.str() + ")",
-                                    file_name,
-                                    "see step-nmm-1.prm"));
-      }
-    }
+    Tutorial::read_parameter_file(prm, file_name, "step-nmm-1.prm");
 
     Parameters        parameters;
     const std::string ring           = prm.get("Ring");
@@ -135,21 +115,18 @@ namespace StepNMM1
                                          : NMM::MeshPattern::right_angled;
     parameters.aggregation_threshold = prm.get_double("Aggregation threshold");
     parameters.refined_width         = prm.get_double("Refined width");
-    parameters.cell_sizes            = Utilities::string_to_double(
-      Utilities::split_string_list(prm.get("Cell sizes")));
-    const std::vector<double> offset = Utilities::string_to_double(
-      Utilities::split_string_list(prm.get("Offset")));
-    parameters.offset              = Tensor<1, 2>({offset[0], offset[1]});
-    parameters.rotation            = prm.get_double("Rotation");
-    parameters.n_placements        = prm.get_integer("Placements");
-    parameters.placement_cell_size = prm.get_double("Placement cell size");
-    parameters.seed                = prm.get_integer("Seed");
-    const std::string solver       = prm.get("Solver");
-    using Type                     = NMM::LinearSolverParameters::Type;
-    parameters.solver.type         = solver == "direct"      ? Type::direct
-                                     : solver == "iterative" ? Type::iterative
-                                                             : Type::automatic;
-    parameters.output_directory    = output_directory;
+    parameters.cell_sizes            = Tutorial::get_numbers(prm, "Cell sizes");
+    parameters.offset                = Tutorial::get_vector(prm, "Offset");
+    parameters.rotation              = prm.get_double("Rotation");
+    parameters.n_placements          = prm.get_integer("Placements");
+    parameters.placement_cell_size   = prm.get_double("Placement cell size");
+    parameters.seed                  = prm.get_integer("Seed");
+    const std::string solver         = prm.get("Solver");
+    using Type                       = NMM::LinearSolverParameters::Type;
+    parameters.solver.type           = solver == "direct"      ? Type::direct
+                                       : solver == "iterative" ? Type::iterative
+                                                               : Type::automatic;
+    parameters.output_directory      = output_directory;
     return parameters;
   }
 
@@ -422,7 +399,6 @@ namespace StepNMM1
                 const std::map<std::string, HoopProfile> &profiles)
   {
     const std::string prefix = parameters.output_directory + "/step-nmm-1-";
-    std::filesystem::create_directories(parameters.output_directory);
     write_measurements(prefix + "study.csv", study);
     write_measurements(prefix + "placements.csv", placements);
     for (const auto &[name, profile] : profiles)
@@ -476,17 +452,8 @@ plot f skip 1 using 11:(strcol(1) eq 'uniform' && $2 == 1 ? $7 : NaN) pt 7 lc 's
   void
   draw_figures(const Parameters &parameters)
   {
-    const std::string prefix = parameters.output_directory + "/step-nmm-1-";
-    {
-      std::ofstream script(prefix + "figures.gp");
-      script << Utilities::replace_in_string(figures_script, "PREFIX", prefix);
-    }
-    const std::string command = "gnuplot '" + prefix + "figures.gp'";
-    if (std::system(command.c_str()) == 0)
-      std::cout << "Figures: " << prefix << "hoop.png, " << prefix
-                << "error-against-time.png" << std::endl;
-    else
-      std::cout << "No figures: gnuplot is missing or failed; " << prefix
-                << "figures.gp draws them" << std::endl;
+    Tutorial::draw_figures(parameters.output_directory + "/step-nmm-1-",
+                           figures_script,
+                           {"hoop.png", "error-against-time.png"});
   }
 } // namespace StepNMM1

@@ -1,6 +1,7 @@
 #include <deal.II/base/utilities.h>
 
 #include "study.h"
+#include "tutorial/tutorial.h"
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
@@ -78,18 +79,10 @@ plot f skip 1 using 11:(row('dead', 'finite', 1, 'uniform')) pt 5 lc 'orange' ti
   void
   draw_figures(const Parameters &parameters)
   {
-    const std::string prefix = parameters.output_directory + "/step-nmm-2-";
-    {
-      std::ofstream script(prefix + "figures.gp");
-      script << Utilities::replace_in_string(figures_script, "PREFIX", prefix);
-    }
-    const std::string command = "gnuplot '" + prefix + "figures.gp'";
-    if (std::system(command.c_str()) == 0)
-      std::cout << "Figures: " << prefix << "shapes.png, " << prefix
-                << "curves.png, " << prefix << "error-against-time.png"
-                << std::endl;
-    else
-      std::cout << "No figures: gnuplot is missing or failed; " << prefix
-                << "figures.gp draws them" << std::endl;
+    Tutorial::draw_figures(parameters.output_directory + "/step-nmm-2-",
+                           figures_script,
+                           {"shapes.png",
+                            "curves.png",
+                            "error-against-time.png"});
   }
 } // namespace StepNMM2

@@ -29,6 +29,7 @@
 #include <deal.II/base/timer.h>
 
 #include "study.h"
+#include "tutorial/tutorial.h"
 #include <cmath>
 #include <iostream>
 #include <random>
@@ -422,40 +423,22 @@ int
 main(int argc, char **argv)
 {
   using namespace StepNMM2;
-  try
-  {
-    const NMM::MPISession mpi(argv[0]);
-    AssertThrow(dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1,
-                NMM::InputError("The program runs on several ranks",
-                                "step-nmm-2",
-                                "start it without mpirun: its tables are times "
-                                "of one core"));
-    const Parameters parameters =
-      read_parameters(argc > 1 ? argv[1] : "", argc > 2 ? argv[2] : ".");
+  return Tutorial::run(
+    argc,
+    argv,
+    [](const std::string &parameter_file, const std::string &output_directory) {
+      Tutorial::check_that_there_is_one_rank("step-nmm-2");
+      const Parameters parameters =
+        read_parameters(parameter_file, output_directory);
+      Tutorial::make_output_directory(output_directory);
 
-    const std::vector<Measurement> study      = run_study(parameters);
-    const std::vector<Measurement> placements = run_placements(parameters);
-    print_placements(placements);
-    std::map<Load, Curves> curves;
-    for (const Load load : loads)
-      curves[load] = compute_curves(parameters, load);
-    write_results(parameters, study, placements, curves);
-    draw_figures(parameters);
-  }
-  catch (const NMM::InputError &error)
-  {
-    error.print_info(std::cerr);
-    return 2;
-  }
-  catch (const NMM::NumericalFailure &error)
-  {
-    error.print_info(std::cerr);
-    return 3;
-  }
-  catch (const std::exception &error)
-  {
-    std::cerr << error.what() << std::endl;
-    return 1;
-  }
-  return 0;
+      const std::vector<Measurement> study      = run_study(parameters);
+      const std::vector<Measurement> placements = run_placements(parameters);
+      print_placements(placements);
+      std::map<Load, Curves> curves;
+      for (const Load load : loads)
+        curves[load] = compute_curves(parameters, load);
+      write_results(parameters, study, placements, curves);
+      draw_figures(parameters);
+    });
 }

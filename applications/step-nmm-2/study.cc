@@ -7,6 +7,7 @@
 #include <deal.II/base/utilities.h>
 
 #include "cantilever_data.h"
+#include "tutorial/tutorial.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -98,39 +99,15 @@ namespace StepNMM2
   {
     ParameterHandler prm;
     declare(prm);
-    if (!file_name.empty())
-    {
-      std::ifstream file(file_name);
-      AssertThrow(file,
-                  NMM::InputError("the parameter file cannot be read",
-                                  file_name,
-                                  "check its name"));
-      try
-      {
-        prm.parse_input(file, file_name);
-      }
-      catch (const ExceptionBase &exception)
-      {
-        std::ostringstream reason;
-        exception.print_info(reason);
-        AssertThrow(false,
-                    NMM::InputError("the parameter file is wrong (" +
-                                      reason.str() + ")",
-                                    file_name,
-                                    "see step-nmm-2.prm"));
-      }
-    }
+    Tutorial::read_parameter_file(prm, file_name, "step-nmm-2.prm");
 
     Parameters parameters;
-    parameters.cell_sizes = Utilities::string_to_double(
-      Utilities::split_string_list(prm.get("Cell sizes")));
-    parameters.corner_ratio          = prm.get_double("Corner ratio");
-    parameters.corner_growth         = prm.get_double("Corner growth");
-    const std::vector<double> offset = Utilities::string_to_double(
-      Utilities::split_string_list(prm.get("Offset")));
-    parameters.offset       = Tensor<1, 2>({offset[0], offset[1]});
-    parameters.rotation     = prm.get_double("Rotation");
-    parameters.n_load_steps = prm.get_integer("Load steps");
+    parameters.cell_sizes    = Tutorial::get_numbers(prm, "Cell sizes");
+    parameters.corner_ratio  = prm.get_double("Corner ratio");
+    parameters.corner_growth = prm.get_double("Corner growth");
+    parameters.offset        = Tutorial::get_vector(prm, "Offset");
+    parameters.rotation      = prm.get_double("Rotation");
+    parameters.n_load_steps  = prm.get_integer("Load steps");
     for (const int n : Utilities::string_to_int(
            Utilities::split_string_list(prm.get("Increments"))))
       parameters.increments.push_back(n);
@@ -275,7 +252,6 @@ namespace StepNMM2
                 const std::map<Load, Curves>   &curves)
   {
     const std::string prefix = parameters.output_directory + "/step-nmm-2-";
-    std::filesystem::create_directories(parameters.output_directory);
     write_measurements(prefix + "study.csv", measurements);
     write_measurements(prefix + "placements.csv", placements);
     for (const auto &[load, curve] : curves)

@@ -1,6 +1,7 @@
 #include <deal.II/base/utilities.h>
 
 #include "study.h"
+#include "tutorial/tutorial.h"
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
@@ -100,18 +101,9 @@ unset multiplot
   void
   draw_figures(const Parameters &parameters)
   {
-    const std::string prefix = parameters.output_directory + "/step-nmm-3-";
-    {
-      std::ofstream script(prefix + "figures.gp");
-      script << Utilities::replace_in_string(figures_script, "PREFIX", prefix);
-    }
-    const std::string command = "gnuplot '" + prefix + "figures.gp'";
-    if (std::system(command.c_str()) == 0)
-      std::cout << "Figures: " << prefix << "pressure.png, " << prefix
-                << "force.png, " << prefix << "stages.png, " << prefix
-                << "shapes.png" << std::endl;
-    else
-      std::cout << "No figures: gnuplot is missing or failed; " << prefix
-                << "figures.gp draws them" << std::endl;
+    Tutorial::draw_figures(
+      parameters.output_directory + "/step-nmm-3-",
+      figures_script,
+      {"pressure.png", "force.png", "stages.png", "shapes.png"});
   }
 } // namespace StepNMM3

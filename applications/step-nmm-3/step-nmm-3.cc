@@ -27,6 +27,7 @@
 #include <deal.II/base/timer.h>
 
 #include "study.h"
+#include "tutorial/tutorial.h"
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -708,50 +709,34 @@ int
 main(int argc, char **argv)
 {
   using namespace StepNMM3;
-  try
-  {
-    const NMM::MPISession mpi(argv[0]);
-    // All ranks know all results; the first one tells, and its times are its own.
-    const bool is_first =
-      dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-    if (!is_first)
-      std::cout.setstate(std::ios::failbit);
-    const Parameters parameters =
-      read_parameters(argc > 1 ? argv[1] : "", argc > 2 ? argv[2] : ".");
+  return Tutorial::run(
+    argc,
+    argv,
+    [](const std::string &parameter_file, const std::string &output_directory) {
+      // All ranks know all results; the first one tells, and its times are its own.
+      const bool is_first =
+        dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+      const Parameters parameters =
+        read_parameters(parameter_file, output_directory);
+      Tutorial::make_output_directory(output_directory);
 
-    const std::vector<Measurement> hertz      = run_hertz_study(parameters);
-    const std::vector<Measurement> placements = run_placements(parameters);
-    print_placements(placements);
-    const std::vector<Measurement> compression =
-      run_compression_study(parameters);
-    std::vector<PressResult> press;
-    for (const Enforcement enforcement :
-         {Enforcement::penalty, Enforcement::augmented})
-    {
-      press.push_back(
-        run_press(parameters, parameters.press_size, enforcement));
-      print_press(parameters, press.back());
-    }
-    if (is_first)
-    {
-      write_results(parameters, hertz, placements, compression, press);
-      draw_figures(parameters);
-    }
-  }
-  catch (const NMM::InputError &error)
-  {
-    error.print_info(std::cerr);
-    return 2;
-  }
-  catch (const NMM::NumericalFailure &error)
-  {
-    error.print_info(std::cerr);
-    return 3;
-  }
-  catch (const std::exception &error)
-  {
-    std::cerr << error.what() << std::endl;
-    return 1;
-  }
-  return 0;
+      const std::vector<Measurement> hertz      = run_hertz_study(parameters);
+      const std::vector<Measurement> placements = run_placements(parameters);
+      print_placements(placements);
+      const std::vector<Measurement> compression =
+        run_compression_study(parameters);
+      std::vector<PressResult> press;
+      for (const Enforcement enforcement :
+           {Enforcement::penalty, Enforcement::augmented})
+      {
+        press.push_back(
+          run_press(parameters, parameters.press_size, enforcement));
+        print_press(parameters, press.back());
+      }
+      if (is_first)
+      {
+        write_results(parameters, hertz, placements, compression, press);
+        draw_figures(parameters);
+      }
+    });
 }

@@ -8,6 +8,7 @@
 #include <deal.II/base/utilities.h>
 
 #include "disk_compression_data.h"
+#include "tutorial/tutorial.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -102,48 +103,25 @@ namespace StepNMM3
   {
     ParameterHandler prm;
     declare(prm);
-    if (!file_name.empty())
-    {
-      std::ifstream file(file_name);
-      AssertThrow(file,
-                  NMM::InputError("the parameter file cannot be read",
-                                  file_name,
-                                  "check its name"));
-      try
-      {
-        prm.parse_input(file, file_name);
-      }
-      catch (const ExceptionBase &exception)
-      {
-        std::ostringstream reason;
-        exception.print_info(reason);
-        AssertThrow(false,
-                    NMM::InputError("the parameter file is wrong (" +
-                                      reason.str() + ")",
-                                    file_name,
-                                    "see step-nmm-3.prm"));
-      }
-    }
+    Tutorial::read_parameter_file(prm, file_name, "step-nmm-3.prm");
 
     const auto numbers = [&](const std::string &entry) {
-      return Utilities::string_to_double(
-        Utilities::split_string_list(prm.get(entry)));
+      return Tutorial::get_numbers(prm, entry);
     };
     Parameters parameters;
-    parameters.half_widths           = numbers("Half-widths");
-    parameters.contact_ratios        = numbers("Contact ratios");
-    parameters.cell_size             = prm.get_double("Cell size");
-    parameters.growth                = prm.get_double("Growth");
-    const std::vector<double> offset = numbers("Offset");
-    parameters.offset                = Tensor<1, 2>({offset[0], offset[1]});
-    parameters.rotation              = prm.get_double("Rotation");
-    parameters.n_placements          = prm.get_integer("Placements");
-    parameters.seed                  = prm.get_integer("Seed");
-    parameters.n_repetitions         = prm.get_integer("Repetitions");
-    parameters.compression_sizes     = numbers("Compression sizes");
-    parameters.n_load_steps          = prm.get_integer("Load steps");
-    parameters.press_size            = prm.get_double("Press size");
-    parameters.output_directory      = output_directory;
+    parameters.half_widths       = numbers("Half-widths");
+    parameters.contact_ratios    = numbers("Contact ratios");
+    parameters.cell_size         = prm.get_double("Cell size");
+    parameters.growth            = prm.get_double("Growth");
+    parameters.offset            = Tutorial::get_vector(prm, "Offset");
+    parameters.rotation          = prm.get_double("Rotation");
+    parameters.n_placements      = prm.get_integer("Placements");
+    parameters.seed              = prm.get_integer("Seed");
+    parameters.n_repetitions     = prm.get_integer("Repetitions");
+    parameters.compression_sizes = numbers("Compression sizes");
+    parameters.n_load_steps      = prm.get_integer("Load steps");
+    parameters.press_size        = prm.get_double("Press size");
+    parameters.output_directory  = output_directory;
     return parameters;
   }
 
@@ -571,7 +549,6 @@ namespace StepNMM3
                 const std::vector<PressResult> &press)
   {
     const std::string prefix = parameters.output_directory + "/step-nmm-3-";
-    std::filesystem::create_directories(parameters.output_directory);
     write_measurements(prefix + "hertz.csv", hertz);
     write_measurements(prefix + "placements.csv", placements);
     write_measurements(prefix + "compression.csv", compression);

@@ -29,6 +29,7 @@
 #include <deal.II/base/timer.h>
 
 #include "study.h"
+#include "tutorial/tutorial.h"
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -464,64 +465,49 @@ int
 main(int argc, char **argv)
 {
   using namespace StepNMM4;
-  try
-  {
-    const NMM::MPISession mpi(argv[0]);
-    const bool            is_first =
-      dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-    if (!is_first)
-      std::cout.setstate(std::ios::failbit);
-    const Parameters parameters =
-      read_parameters(argc > 1 ? argv[1] : "", argc > 2 ? argv[2] : ".");
+  return Tutorial::run(
+    argc,
+    argv,
+    [](const std::string &parameter_file, const std::string &output_directory) {
+      const bool is_first =
+        dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+      const Parameters parameters =
+        read_parameters(parameter_file, output_directory);
+      Tutorial::make_output_directory(output_directory);
 
-    std::vector<Outcome> outcomes;
-    for (const double friction_angle : parameters.friction_angles)
-    {
-      std::ostringstream number;
-      number << std::setprecision(12) << friction_angle;
-      const std::string name = number.str();
-      outcomes.push_back(
-        Slope(parameters, friction_angle).run(parameters.step, name));
-      if (outcomes.back().stands())
-        continue;
-      if (parameters.is_halved)
-        outcomes.push_back(Slope(parameters, friction_angle)
-                             .run(0.5 * parameters.step, name + "-half-step"));
-      const unsigned int n_perturbed =
-        parameters.perturbation > 0. ? parameters.n_perturbed : 0;
-      for (unsigned int k = 1; k <= n_perturbed; ++k)
+      std::vector<Outcome> outcomes;
+      for (const double friction_angle : parameters.friction_angles)
       {
-        const double perturbed = friction_angle + k * parameters.perturbation;
-        const std::string run_name =
-          name + "-perturbed" +
-          (n_perturbed == 1 ? "" : "-" + std::to_string(k));
+        std::ostringstream number;
+        number << std::setprecision(12) << friction_angle;
+        const std::string name = number.str();
         outcomes.push_back(
-          Slope(parameters, perturbed).run(parameters.step, run_name));
-        if (n_perturbed > 1 && parameters.is_halved)
+          Slope(parameters, friction_angle).run(parameters.step, name));
+        if (outcomes.back().stands())
+          continue;
+        if (parameters.is_halved)
           outcomes.push_back(
-            Slope(parameters, perturbed)
-              .run(0.5 * parameters.step, run_name + "-half-step"));
+            Slope(parameters, friction_angle)
+              .run(0.5 * parameters.step, name + "-half-step"));
+        const unsigned int n_perturbed =
+          parameters.perturbation > 0. ? parameters.n_perturbed : 0;
+        for (unsigned int k = 1; k <= n_perturbed; ++k)
+        {
+          const double perturbed = friction_angle + k * parameters.perturbation;
+          const std::string run_name =
+            name + "-perturbed" +
+            (n_perturbed == 1 ? "" : "-" + std::to_string(k));
+          outcomes.push_back(
+            Slope(parameters, perturbed).run(parameters.step, run_name));
+          if (n_perturbed > 1 && parameters.is_halved)
+            outcomes.push_back(
+              Slope(parameters, perturbed)
+                .run(0.5 * parameters.step, run_name + "-half-step"));
+        }
       }
-    }
-    print_summary(outcomes);
-    print_means(outcomes);
-    if (is_first)
-      write_results(parameters, outcomes);
-  }
-  catch (const NMM::InputError &error)
-  {
-    error.print_info(std::cerr);
-    return 2;
-  }
-  catch (const NMM::NumericalFailure &error)
-  {
-    error.print_info(std::cerr);
-    return 3;
-  }
-  catch (const std::exception &error)
-  {
-    std::cerr << error.what() << std::endl;
-    return 1;
-  }
-  return 0;
+      print_summary(outcomes);
+      print_means(outcomes);
+      if (is_first)
+        write_results(parameters, outcomes);
+    });
 }

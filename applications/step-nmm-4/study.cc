@@ -7,6 +7,7 @@
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
 
+#include "tutorial/tutorial.h"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -90,31 +91,9 @@ namespace StepNMM4
   {
     ParameterHandler prm;
     declare(prm);
-    if (!file_name.empty())
-    {
-      std::ifstream file(file_name);
-      AssertThrow(file,
-                  NMM::InputError("the parameter file cannot be read",
-                                  file_name,
-                                  "check its name"));
-      try
-      {
-        prm.parse_input(file, file_name);
-      }
-      catch (const ExceptionBase &exception)
-      {
-        std::ostringstream reason;
-        exception.print_info(reason);
-        AssertThrow(false,
-                    NMM::InputError("the parameter file is wrong (" +
-                                      reason.str() + ")",
-                                    file_name,
-                                    "see step-nmm-4.prm"));
-      }
-    }
+    Tutorial::read_parameter_file(prm, file_name, "step-nmm-4.prm");
     const auto numbers = [&](const std::string &entry) {
-      return Utilities::string_to_double(
-        Utilities::split_string_list(prm.get(entry)));
+      return Tutorial::get_numbers(prm, entry);
     };
     Parameters parameters;
     parameters.friction_angles  = numbers("Friction angles");
@@ -131,19 +110,6 @@ namespace StepNMM4
     parameters.n_perturbed      = prm.get_integer("Perturbed runs");
     parameters.output_directory = output_directory;
     std::sort(parameters.stages.begin(), parameters.stages.end());
-    try
-    {
-      std::filesystem::create_directories(output_directory);
-    }
-    catch (const std::filesystem::filesystem_error &error)
-    {
-      AssertThrow(false,
-                  NMM::InputError(std::string("the folder for results cannot "
-                                              "be made (") +
-                                    error.code().message() + ")",
-                                  output_directory,
-                                  "name one that can be written to"));
-    }
     return parameters;
   }
 

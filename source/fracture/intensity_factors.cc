@@ -266,10 +266,7 @@ namespace NMM
         const double          determinant = 2. * cells.cell_area(cell);
         dealii::Quadrature<2> own_rule;
         if (!mesh.is_whole(element))
-          own_rule =
-            rules.build(mesh.edges(element),
-                        {cells.vertices()[cells.cell_vertices(cell)[0]],
-                         cells.jacobian(cell)});
+          own_rule = rules.build(mesh.edges(element), cell_frame(cells, cell));
         const dealii::Quadrature<2> &rule =
           mesh.is_whole(element) ? whole_rule : own_rule;
         for (unsigned int p = 0; p < rule.size(); ++p)

@@ -8,16 +8,6 @@ namespace NMM
 {
   namespace internal
   {
-    CellFrame
-    cell_frame(const MathematicalMesh &mesh, const unsigned int cell)
-    {
-      CellFrame frame;
-      frame.origin   = mesh.vertices()[mesh.cell_vertices(cell)[0]];
-      frame.jacobian = mesh.jacobian(cell);
-      return frame;
-    }
-
-
     TraceConstants::TraceConstants(
       const CoverSystem                       &covers,
       const QuadratureCollection              &quadrature,

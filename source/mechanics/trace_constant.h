@@ -15,10 +15,6 @@ namespace NMM
 {
   namespace internal
   {
-    /// The affine frame of a cell, for quadrature.
-    CellFrame
-    cell_frame(const MathematicalMesh &mesh, unsigned int cell);
-
     /**
      * The constants of the discrete trace inequality that Nitsche's penalty is
      * made of: for stresses of degree p - 1 on an element E with weakly held

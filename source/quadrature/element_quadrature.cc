@@ -25,6 +25,13 @@ namespace NMM
 
 
 
+  CellFrame
+  cell_frame(const MathematicalMesh &mesh, const unsigned int cell)
+  {
+    return {mesh.vertices()[mesh.cell_vertices(cell)[0]], mesh.jacobian(cell)};
+  }
+
+
   EdgeRule
   make_edge_rule(const ElementEdge &edge,
                  const CellFrame   &frame,

@@ -74,14 +74,6 @@ namespace NMM
     constexpr unsigned int to_be_made = invalid_index - 1;
 
 
-    CellFrame
-    cell_frame(const MathematicalMesh &mesh, const unsigned int cell)
-    {
-      return {mesh.vertices()[mesh.cell_vertices(cell)[0]],
-              mesh.jacobian(cell)};
-    }
-
-
     /// On the threads that deal.II may use.
     template <typename Action>
     void

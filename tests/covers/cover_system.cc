@@ -230,10 +230,8 @@ namespace
       for (const ElementEdge &edge : manifold.edges(e))
         if (edge.curve_set != invalid_index && edge.neighbor == invalid_index)
         {
-          const CellFrame frame = {
-            mesh.vertices()[mesh.cell_vertices(manifold.cell(e))[0]],
-            mesh.jacobian(manifold.cell(e))};
-          const EdgeRule rule = make_edge_rule(edge, frame, 8);
+          const EdgeRule rule =
+            make_edge_rule(edge, cell_frame(mesh, manifold.cell(e)), 8);
           for (unsigned int q = 0; q < rule.points.size(); ++q)
             for (unsigned int i = 0; i < 6; ++i)
               local_rhs(i) +=

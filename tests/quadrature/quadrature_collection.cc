@@ -132,9 +132,8 @@ namespace
     for (unsigned int e = 0; e < mesh.n_elements(); ++e)
       if (!mesh.is_whole(e))
       {
-        const unsigned int cell = mesh.cell(e);
-        const CellFrame frame = {cells.vertices()[cells.cell_vertices(cell)[0]],
-                                 cells.jacobian(cell)};
+        const unsigned int   cell  = mesh.cell(e);
+        const CellFrame      frame = cell_frame(cells, cell);
         dealii::Tensor<1, 2> closed;
         double               twice_area = 0.;
         for (const ElementEdge &edge : mesh.edges(e))

@@ -66,10 +66,10 @@ namespace NMM
     std::shared_ptr<const MaterialLaw> law = default_material_law();
     /// sigma_0 of the paper's eq. (9), tension positive [Pa]; in `finite`
     /// kinematics the second Piola-Kirchhoff stress at rest.
-    dealii::SymmetricTensor<2, 2> initial_stress;
+    dealii::SymmetricTensor<2, 2> initial_stress = {};
     /// The initial stress across the plane [Pa] in plane strain; if it is not given, nu times
     /// the sum of both normal components, as if the plane had never been strained across.
-    std::optional<double> given_initial_stress_zz;
+    std::optional<double> given_initial_stress_zz = std::nullopt;
 
     /// @throws InputError naming the material, the parameter and its value.
     void

@@ -23,6 +23,10 @@ namespace NMM
     dealii::Tensor<2, 2> jacobian;
   };
 
+  /// The frame of a cell of the mathematical mesh.
+  CellFrame
+  cell_frame(const MathematicalMesh &mesh, unsigned int cell);
+
   /**
    * A quadrature rule on one manifold element E of the cell with @p frame.
    * @f[ \int_E q\,dA = |\det J| \sum_k w_k\,q(x_k) \quad\forall q\in P_m @f]

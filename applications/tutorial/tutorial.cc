@@ -1,0 +1,139 @@
+#include "tutorial/tutorial.h"
+
+#include <nmm/base/program.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+namespace Tutorial
+{
+  using namespace dealii;
+
+  int
+  run(const int                                                       argc,
+      char                                                          **argv,
+      const std::function<void(const std::string &parameter_file,
+                               const std::string &output_directory)> &study)
+  {
+    try
+    {
+      const NMM::MPISession mpi(argv[0]);
+      if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
+        std::cout.setstate(std::ios::failbit);
+      study(argc > 1 ? argv[1] : "", argc > 2 ? argv[2] : ".");
+    }
+    catch (...)
+    {
+      const NMM::ProgramEnd end =
+        NMM::explain_exception(/* has_output = */ false);
+      std::cerr << end.message << std::endl;
+      return static_cast<int>(end.code);
+    }
+    return static_cast<int>(NMM::ExitCode::success);
+  }
+
+
+  void
+  check_that_there_is_one_rank(const std::string &program)
+  {
+    AssertThrow(Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1,
+                NMM::InputError("The program runs on several ranks",
+                                program,
+                                "start it without mpirun: its tables are times "
+                                "of one core"));
+  }
+
+
+  void
+  read_parameter_file(ParameterHandler  &prm,
+                      const std::string &file_name,
+                      const std::string &example)
+  {
+    if (file_name.empty())
+      return;
+    std::ifstream file(file_name);
+    AssertThrow(file,
+                NMM::InputError("the parameter file cannot be read",
+                                file_name,
+                                "check its name"));
+    try
+    {
+      prm.parse_input(file, file_name);
+    }
+    catch (const ExceptionBase &exception)
+    {
+      std::ostringstream reason;
+      exception.print_info(reason);
+      AssertThrow(false,
+                  NMM::InputError("the parameter file is wrong (" +
+                                    reason.str() + ")",
+                                  file_name,
+                                  "see " + example));
+    }
+  }
+
+
+  void
+  make_output_directory(const std::string &name)
+  {
+    try
+    {
+      std::filesystem::create_directories(name);
+    }
+    catch (const std::filesystem::filesystem_error &error)
+    {
+      AssertThrow(false,
+                  NMM::InputError("the folder for results cannot be made (" +
+                                    error.code().message() + ")",
+                                  name,
+                                  "name one that can be written to"));
+    }
+  }
+
+
+  std::vector<double>
+  get_numbers(const ParameterHandler &prm, const std::string &name)
+  {
+    return Utilities::string_to_double(
+      Utilities::split_string_list(prm.get(name)));
+  }
+
+
+  Tensor<1, 2>
+  get_vector(const ParameterHandler &prm, const std::string &name)
+  {
+    const std::vector<double> numbers = get_numbers(prm, name);
+    AssertThrow(numbers.size() == 2,
+                NMM::InputError("'" + name + "' needs two numbers",
+                                prm.get(name),
+                                "separate them by a comma"));
+    return Tensor<1, 2>({numbers[0], numbers[1]});
+  }
+
+
+  void
+  draw_figures(const std::string              &prefix,
+               const std::string              &script,
+               const std::vector<std::string> &figures)
+  {
+    const std::string file_name = prefix + "figures.gp";
+    std::ofstream(file_name)
+      << Utilities::replace_in_string(script, "PREFIX", prefix);
+    if (std::system(("gnuplot '" + file_name + "'").c_str()) != 0)
+    {
+      std::cout << "No figures: gnuplot is missing or failed; " << file_name
+                << " draws them" << std::endl;
+      return;
+    }
+    std::cout << "Figures:";
+    for (const std::string &figure : figures)
+      std::cout << (figure == figures.front() ? " " : ", ") << prefix << figure;
+    std::cout << std::endl;
+  }
+} // namespace Tutorial

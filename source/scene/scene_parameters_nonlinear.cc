@@ -77,7 +77,7 @@ namespace NMM
                      by,
                      is_static
                        ? "remove it, or set 'Model/Kinematics = incremental'"
-                       : "give 'Time/Maximum displacement' instead");
+                       : "give 'Time/Largest displacement' instead");
     const bool is_divided =
       kinematics == Kinematics::finite || is_nonlinear ||
       (kinematics == Kinematics::incremental && max_displacement > 0.);

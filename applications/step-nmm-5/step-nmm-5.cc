@@ -1,0 +1,394 @@
+// step-nmm-5: crack tips, intensity factors, and cracks that grow.
+//
+// A crack is an open joint that ends inside a block. The mesh knows nothing of it, so a crack
+// that grows needs no new mesh around it but only a longer joint: the loop that lets it grow is
+// a few lines, and it is on this page.
+
+// @sect3{Include files}
+
+#include <nmm/covers/aggregation.h>
+#include <nmm/fracture/fracture.h>
+#include <nmm/geometry/crack_extension.h>
+#include <nmm/mechanics/error_norms.h>
+#include <nmm/mechanics/static_elasticity.h>
+#include <nmm/mechanics/stress_recovery.h>
+#include <nmm/output/output.h>
+#include <nmm/scene/run_scene.h>
+
+#include <deal.II/base/function.h>
+#include <deal.II/base/timer.h>
+
+#include "study.h"
+#include "tutorial/tutorial.h"
+#include <cmath>
+#include <iostream>
+
+namespace StepNMM5
+{
+  using namespace dealii;
+
+  // @sect3{A solid with cracks}
+
+  // From curves to the displacement, as in step-nmm-1. What is new is the mesh. The stress is
+  // infinite at the tip, like $r^{-1/2}$, and cells of one size would give back little for their
+  // number: grade_towards() makes them small towards the tip, so that each has the same share in the
+  // error. With a growth of 0 the mesh knows nothing of the tip.
+  class CrackedSolid
+  {
+  public:
+    CrackedSolid(const NMM::Geometry          &geometry,
+                 const NMM::ElasticityProblem &problem,
+                 const double                  cell_size,
+                 const double                  growth,
+                 const unsigned int            degree = 2)
+      : problem(problem)
+      , solid(NMM::Geometry(geometry))
+      , triangles(make_mesh(solid, cell_size, growth, degree))
+      , elements(triangles, solid)
+      , covers(elements, MPI_COMM_SELF)
+      , aggregation(NMM::aggregate(covers))
+      , constraints(NMM::make_constraints(covers, aggregation, 2))
+      , quadrature(elements,
+                   std::max(1u, 2 * (degree - 1)),
+                   2 * degree,
+                   covers.locally_owned_elements())
+      , elasticity(covers, quadrature, constraints, this->problem)
+    {
+      elasticity.assemble();
+      elasticity.solve({});
+    }
+
+    std::vector<NMM::CrackTip>
+    tips() const
+    {
+      return NMM::find_crack_tips(solid);
+    }
+
+    NMM::DisplacementField
+    field() const
+    {
+      return NMM::DisplacementField(covers, problem, elasticity.solution());
+    }
+
+    // Interaction integrals over disks about the tip.
+    NMM::IntensityFactors
+    factors(const NMM::CrackTip &tip) const
+    {
+      return NMM::compute_intensity_factors(field(), problem, tip);
+    }
+
+    unsigned int
+    n_unknowns() const
+    {
+      return 2 * (covers.n_covers() - aggregation.cover_to_root.size());
+    }
+
+    void
+    draw(const std::string &title,
+         const double       range,
+         const std::string &file_name) const;
+
+  private:
+    static NMM::MathematicalMesh
+    make_mesh(const NMM::PhysicalMesh &solid,
+              const double             cell_size,
+              const double             growth,
+              const unsigned int       degree)
+    {
+      NMM::GradedMeshParameters mesh;
+      mesh.cell_size = cell_size;
+      if (growth > 0.)
+        for (const NMM::CrackTip &tip : NMM::find_crack_tips(solid))
+          mesh.local_sizes.push_back(
+            NMM::grade_towards(tip, growth, cell_size));
+      return NMM::make_graded_mesh(solid, mesh, degree);
+    }
+
+    const NMM::ElasticityProblem    problem;
+    const NMM::PhysicalMesh         solid;
+    const NMM::MathematicalMesh     triangles;
+    const NMM::ManifoldMesh         elements;
+    NMM::CoverSystem                covers;
+    const NMM::Aggregation          aggregation;
+    const AffineConstraints<double> constraints;
+    const NMM::QuadratureCollection quadrature;
+    NMM::StaticElasticity           elasticity;
+  };
+
+
+  void
+  CrackedSolid::draw(const std::string &title,
+                     const double       range,
+                     const std::string &file_name) const
+  {
+    const NMM::DisplacementField displacement = field();
+    const NMM::StressRecovery    recovery(displacement, aggregation);
+    const NMM::FieldEvaluator    evaluator(displacement, recovery, problem);
+    const NMM::FieldTriangles    samples(covers, &evaluator);
+    NMM::PictureParameters       parameters;
+    parameters.range_max   = range;
+    parameters.length_unit = "in";
+    parameters.stress_unit = "psi";
+    NMM::draw_picture(
+      NMM::make_picture_data(covers, samples, &evaluator, parameters),
+      parameters,
+      title,
+      file_name);
+  }
+
+
+  // @sect3{Against the exact solution}
+
+  // A square of 2 m around one tip of a crack in an infinite plane. The crack runs obliquely
+  // through the triangles. On the outline the exact displacement is prescribed, and the faces of the
+  // crack are free, as they are in the exact solution.
+  Measurement
+  solve_westergaard(const double       cell_size,
+                    const double       growth,
+                    const unsigned int degree)
+  {
+    Measurement result;
+    result.mesh   = growth > 0. ? "graded" : "uniform";
+    result.degree = degree;
+    Timer timer;
+
+    const NMM::Geometry    geometry = NMM::parse_geometry(R"(
+      boundary name=outline material=rock POLYGON ((-1 -1, 1 -1, 1 1, -1 1))
+      joint    name=crack   LINESTRING (-2 -0.3, 0.1 0.05))",
+                                                       "the square");
+    NMM::ElasticityProblem problem;
+    problem.plane_state = NMM::PlaneState::plane_strain;
+    problem.materials   = {{"rock", 1000., 0.3}};
+    const NMM::PlaneElasticity elasticity =
+      problem.materials[0].plane_elasticity(problem.plane_state);
+    const Westergaard exact(
+      NMM::find_crack_tips(NMM::PhysicalMesh(NMM::Geometry(geometry))).front(),
+      elasticity);
+    problem.boundary_conditions = {
+      {"as in the plane",
+       "outline",
+       NMM::BoundaryCondition::Type::displacement,
+       std::make_shared<FunctionFromFunctionObjects<2>>(
+         std::vector<std::function<double(const Point<2> &)>>{
+           [exact](const Point<2> &x) { return exact.displacement(x)[0]; },
+           [exact](const Point<2> &x) { return exact.displacement(x)[1]; }})}};
+
+    const CrackedSolid solid(geometry, problem, cell_size, growth, degree);
+    const NMM::IntensityFactors k = solid.factors(solid.tips().front());
+    result.seconds                = timer.wall_time();
+    result.n_unknowns             = solid.n_unknowns();
+    result.error_K =
+      std::max(std::abs(k.K_I - Westergaard::K_I()), std::abs(k.K_II)) /
+      Westergaard::K_I();
+    const NMM::ErrorNorms errors = NMM::compute_errors(
+      solid.field(),
+      [&](const Point<2> &x) { return exact.displacement(x); },
+      [&](const Point<2> &x) { return exact.stress(x); });
+    result.error_u      = errors.displacement;
+    result.error_stress = errors.stress;
+    return result;
+  }
+
+
+  // Second order on graded meshes, the same on meshes that know nothing of the tip, and
+  // first order on graded ones.
+  std::vector<Measurement>
+  run_study(const Parameters &parameters)
+  {
+    std::vector<Measurement> measurements;
+    const auto               add = [&](const double       cell_size,
+                         const double       growth,
+                         const unsigned int degree) {
+      measurements.push_back(solve_westergaard(cell_size, growth, degree));
+      print(measurements.back());
+    };
+    // the first solution loads libraries, which is not to be measured
+    solve_westergaard(0.4, 0.5, 2);
+    print_header();
+    for (const double growth : parameters.gradings)
+      add(0.8 * growth, growth, 2);
+    for (const double cell_size : parameters.cell_sizes)
+      add(cell_size, 0., 2);
+    for (const double growth : parameters.gradings)
+      add(0.4 * growth, 0.5 * growth, 1);
+    return measurements;
+  }
+
+
+  // @sect3{A crack that grows}
+
+  // Bittencourt, Wawrzynek, Ingraffea and Sousa (1996) bent beams with three holes and a notch
+  // in three points. Lengths are inches, stresses psi; the load is 1 lb per inch of thickness.
+  NMM::Geometry
+  make_beam()
+  {
+    return NMM::parse_geometry(R"(
+      boundary name=outline material=PMMA POLYGON ((-10 0, 10 0, 10 8, -10 8))
+      hole  name=lower  CIRCLE (-4 2.75, 0.25)
+      hole  name=middle CIRCLE (-4 4.75, 0.25)
+      hole  name=upper  CIRCLE (-4 6.75, 0.25)
+      joint name=notch  LINESTRING (-6 -1, -6 1))",
+                               "the beam");
+  }
+
+
+  NMM::ElasticityProblem
+  make_bending()
+  {
+    NMM::ElasticityProblem problem;
+    problem.plane_state = NMM::PlaneState::plane_strain;
+    problem.materials   = {{"PMMA", 4.75e5, 0.35}};
+    problem.point_forces.resize(1);
+    problem.point_forces[0].point = Point<2>(0., 8.);
+    problem.point_forces[0].force = Tensor<1, 2>({0., -1.});
+    problem.fixed_points.resize(2);
+    problem.fixed_points[0].point         = Point<2>(-9., 0.);
+    problem.fixed_points[1].point         = Point<2>(9., 0.);
+    problem.fixed_points[1].components[0] = false;
+    return problem;
+  }
+
+
+  Tensor<1, 2>
+  turned(const Tensor<1, 2> &direction, const double angle)
+  {
+    return Tensor<1, 2>(
+      {std::cos(angle) * direction[0] - std::sin(angle) * direction[1],
+       std::sin(angle) * direction[0] + std::cos(angle) * direction[1]});
+  }
+
+
+  // The loop. Everything is proportional to the load, so the load at which the crack of this
+  // length grows is the toughness over the equivalent intensity factor under a load of 1; only its
+  // ratio to the first one is printed, for which the toughness does not matter. A criterion gives the direction.
+  //
+  // Local symmetry asks that $K_{II}$ vanishes at the tip of the increment, which is known only
+  // when the increment has been made: it is made, looked at, and turned. For small angles a turn by
+  // $\alpha$ changes $K_{II}/K_I$ by $\alpha/2$ (see NMM::kink_factors()), so each turn leaves a
+  // small part of what there was.
+  CrackPath
+  grow_crack(const Parameters           &parameters,
+             const std::string          &name,
+             const NMM::GrowthCriterion &criterion,
+             const double                increment)
+  {
+    const NMM::ElasticityProblem problem  = make_bending();
+    NMM::Geometry                geometry = make_beam();
+    CrackPath                    path;
+    path.criterion = name;
+    path.increment = increment;
+
+    const auto solve = [&](const NMM::Geometry &with_crack) {
+      return std::make_unique<CrackedSolid>(with_crack,
+                                            problem,
+                                            parameters.beam_cell_size,
+                                            0.25);
+    };
+    std::unique_ptr<CrackedSolid> beam = solve(geometry);
+    path.points.push_back(beam->tips().front().point);
+    double                 first_intensity = 0.;
+    constexpr unsigned int most_increments = 1000, most_turns = 8;
+    for (unsigned int i = 0; i < most_increments && path.end.empty(); ++i)
+    {
+      const NMM::CrackTip           tip     = beam->tips().front();
+      const NMM::IntensityFactors   k       = beam->factors(tip);
+      NMM::GrowthCriterion::Verdict verdict = criterion.judge(k.K_I, k.K_II);
+      if (i == 0)
+        first_intensity = verdict.equivalent_intensity;
+      path.loads.push_back(first_intensity / verdict.equivalent_intensity);
+
+      const NMM::Geometry before = geometry;
+      for (unsigned int turn = 0; turn < most_turns; ++turn)
+      {
+        geometry = before;
+        const NMM::CrackExtension extension =
+          NMM::extend_crack(geometry,
+                            tip.point,
+                            turned(tip.direction, verdict.angle),
+                            increment,
+                            "crack");
+        path.end = extension.met;
+        path.points.resize(i + 1);
+        path.points.push_back(extension.end);
+        // what is drawn in the end has a tip
+        if (!path.end.empty())
+          break;
+        beam = solve(geometry);
+        if (!criterion.is_implicit())
+          break;
+        const NMM::IntensityFactors at_end =
+          beam->factors(beam->tips().front());
+        if (std::abs(at_end.K_II) < 1e-3 * at_end.K_I)
+          break;
+        verdict.angle -= 2. * at_end.K_II / at_end.K_I;
+      }
+    }
+    beam->draw("A crack by " + name + ", increments of " +
+                 std::to_string(increment).substr(0, 4) + " in",
+               1.5,
+               parameters.output_directory + "/step-nmm-5-beam.png");
+    print(path);
+    return path;
+  }
+
+
+  std::vector<CrackPath>
+  run_beam(const Parameters &parameters)
+  {
+    std::vector<CrackPath> paths;
+    for (const double increment : parameters.increments)
+      paths.push_back(grow_crack(
+        parameters, "hoop stress", NMM::HoopStressCriterion(), increment));
+    for (const double increment : parameters.increments)
+      paths.push_back(grow_crack(parameters,
+                                 "local symmetry",
+                                 NMM::LocalSymmetryCriterion(),
+                                 increment));
+    return paths;
+  }
+
+
+  // @sect3{Wings of a closed flaw}
+
+  // Under compression the faces of a crack touch and slide with friction. Contact is the matter of
+  // step-nmm-3, and growth with contact needs a search for the load of each length. The library does
+  // both for scenes, so this part reads one, sets the increments, and runs it: what the
+  // program `nmm` does with `flaw.prm`.
+  void
+  run_flaw(const Parameters &parameters)
+  {
+    const NMM::Scene scene(
+      STEP_NMM_5_FLAW,
+      {"Fracture/Increments=" + std::to_string(parameters.n_wing_increments),
+       "Fracture/Increment=" + std::to_string(parameters.wing_increment)});
+    NMM::SceneRunOptions options;
+    options.output = parameters.output_directory + "/step-nmm-5-flaw";
+    NMM::Progress progress(std::cout,
+                           /* is_terminal = */ false,
+                           MPI_COMM_WORLD);
+    bool          has_output = false;
+    NMM::run_scene(scene, options, progress, MPI_COMM_WORLD, has_output);
+  }
+} // namespace StepNMM5
+
+
+// @sect3{The main function}
+
+int
+main(int argc, char **argv)
+{
+  using namespace StepNMM5;
+  return Tutorial::run(
+    argc,
+    argv,
+    [](const std::string &parameter_file, const std::string &output_directory) {
+      Tutorial::check_that_there_is_one_rank("step-nmm-5");
+      const Parameters parameters =
+        read_parameters(parameter_file, output_directory);
+      Tutorial::make_output_directory(output_directory);
+      const std::vector<Measurement> measurements = run_study(parameters);
+      const std::vector<CrackPath>   paths        = run_beam(parameters);
+      write_results(parameters, measurements, paths);
+      run_flaw(parameters);
+    });
+}

@@ -1,0 +1,273 @@
+#include "study.h"
+
+#include <deal.II/base/parameter_handler.h>
+
+#include "tutorial/tutorial.h"
+#include <cmath>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <limits>
+#include <sstream>
+
+namespace StepNMM5
+{
+  using namespace dealii;
+  using Complex = std::complex<double>;
+
+  // @sect3{Parameters}
+
+  Parameters
+  read_parameters(const std::string &file_name,
+                  const std::string &output_directory)
+  {
+    const Patterns::List numbers(Patterns::Double(0.), 1);
+    ParameterHandler     prm;
+    prm.declare_entry(
+      "Gradings",
+      "0.5, 0.35, 0.25, 0.175, 0.125",
+      numbers,
+      "Sizes of cells at the free radius of the tip over that radius [-].");
+    prm.declare_entry(
+      "Cell sizes",
+      "0.2, 0.1, 0.05, 0.025",
+      numbers,
+      "Sizes of cells of meshes that know nothing of the tip [m].");
+    prm.declare_entry("Increments",
+                      "0.4, 0.2, 0.1",
+                      numbers,
+                      "Increments of the crack in the beam [in].");
+    prm.declare_entry("Beam cell size",
+                      "0.5",
+                      Patterns::Double(0.),
+                      "Size of the beam's cells [in].");
+    prm.declare_entry("Wing increments",
+                      "6",
+                      Patterns::Integer(1),
+                      "Number of the wings' increments.");
+    prm.declare_entry("Wing increment",
+                      "0.05",
+                      Patterns::Double(0.),
+                      "Length of the wings' increments [m].");
+    Tutorial::read_parameter_file(prm, file_name, "step-nmm-5.prm");
+
+    Parameters parameters;
+    parameters.gradings          = Tutorial::get_numbers(prm, "Gradings");
+    parameters.cell_sizes        = Tutorial::get_numbers(prm, "Cell sizes");
+    parameters.increments        = Tutorial::get_numbers(prm, "Increments");
+    parameters.beam_cell_size    = prm.get_double("Beam cell size");
+    parameters.n_wing_increments = prm.get_integer("Wing increments");
+    parameters.wing_increment    = prm.get_double("Wing increment");
+    parameters.output_directory  = output_directory;
+    return parameters;
+  }
+
+
+  // @sect3{The exact solution}
+
+  Westergaard::Westergaard(const NMM::CrackTip        &tip,
+                           const NMM::PlaneElasticity &elasticity)
+    : tip(tip.point)
+    , elasticity(elasticity)
+  {
+    for (unsigned int i = 0; i < 2; ++i)
+      frame[i][0] = tip.direction[i];
+    frame[0][1] = -tip.direction[1];
+    frame[1][1] = tip.direction[0];
+  }
+
+
+  double
+  Westergaard::K_I()
+  {
+    return sigma * std::sqrt(numbers::PI * a);
+  }
+
+
+  Complex
+  Westergaard::local(const Point<2> &x) const
+  {
+    const Tensor<1, 2> d = transpose(frame) * (x - tip);
+    return {d[0], d[1]};
+  }
+
+
+  namespace
+  {
+    /// sqrt(z (z + 2a)), which jumps on the crack.
+    Complex
+    root(const Complex &z)
+    {
+      return std::sqrt(z) * std::sqrt(z + 2. * Westergaard::a);
+    }
+  } // namespace
+
+
+  Tensor<1, 2>
+  Westergaard::displacement(const Point<2> &x) const
+  {
+    if (x == tip)
+      return {};
+    const double  mu = elasticity.mu, lambda = elasticity.lambda;
+    const double  kappa = (lambda + 3. * mu) / (lambda + mu);
+    const Complex z = local(x), Z = sigma * (z + a) / root(z),
+                  integral = sigma * root(z);
+    return frame *
+           Tensor<1, 2>(
+             {(0.5 * (kappa - 1.) * integral.real() - z.imag() * Z.imag()) /
+                (2. * mu),
+              (0.5 * (kappa + 1.) * integral.imag() - z.imag() * Z.real()) /
+                (2. * mu)});
+  }
+
+
+  SymmetricTensor<2, 2>
+  Westergaard::stress(const Point<2> &x) const
+  {
+    // sigma_11 = Re Z - x_2 Im Z', sigma_22 = Re Z + x_2 Im Z', sigma_12 = -x_2 Re Z'
+    const Complex z = local(x), Z = sigma * (z + a) / root(z);
+    const Complex derivative = -sigma * a * a / std::pow(root(z), 3);
+    Tensor<2, 2>  stress;
+    stress[0][0] = Z.real() - z.imag() * derivative.imag();
+    stress[1][1] = Z.real() + z.imag() * derivative.imag();
+    stress[0][1] = stress[1][0] = -z.imag() * derivative.real();
+    return symmetrize(frame * stress * transpose(frame));
+  }
+
+
+  // @sect3{Tables and figures}
+
+  void
+  print_header()
+  {
+    std::cout << "A crack in an infinite plane (Westergaard); relative errors\n"
+              << "   mesh  order unknowns   error of K  error of u  error of "
+                 "stress       s"
+              << std::endl;
+  }
+
+
+  void
+  print(const Measurement &m)
+  {
+    std::ostringstream line;
+    line << std::setw(7) << m.mesh << std::setw(7) << m.degree << std::setw(9)
+         << m.n_unknowns << std::scientific << std::setprecision(2)
+         << std::setw(13) << m.error_K << std::setw(12) << m.error_u
+         << std::setw(17) << m.error_stress << std::fixed
+         << std::setprecision(3) << std::setw(8) << m.seconds;
+    std::cout << line.str() << std::endl;
+  }
+
+
+  double
+  CrackPath::x_at(const double y) const
+  {
+    for (unsigned int i = 1; i < points.size(); ++i)
+      if (points[i - 1][1] <= y && y <= points[i][1])
+        return points[i - 1][0] + (y - points[i - 1][1]) /
+                                    (points[i][1] - points[i - 1][1]) *
+                                    (points[i][0] - points[i - 1][0]);
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+
+
+  void
+  print(const CrackPath &path)
+  {
+    std::ostringstream line;
+    line << "beam, " << path.criterion << ", increments of " << path.increment
+         << " in: " << path.points.size() - 1 << " increments, " << std::fixed
+         << std::setprecision(4) << "x = " << path.x_at(3.) << " at y = 3; "
+         << (path.end.empty() ? "arrives nowhere" : "ends at " + path.end)
+         << " at (" << path.points.back()[0] << ", " << path.points.back()[1]
+         << ")";
+    std::cout << line.str() << std::endl;
+  }
+
+
+  namespace
+  {
+    /// PREFIX stands for the path and the beginning of the files' names.
+    const char *const figures_script = R"(set datafile separator ','
+set terminal pngcairo size 1000,900 font 'DejaVu Sans,13'
+set grid
+set logscale xy
+set format '%.0e'
+set key outside bottom center maxrows 3
+set output 'PREFIXerrors.png'
+set title 'A crack tip anywhere in the mesh: error against time, one core'
+set xlabel 'seconds'
+set ylabel 'relative error'
+f = 'PREFIXstudy.csv'
+set style data linespoints
+row(mesh, degree, column) = strcol(1) eq mesh && $2 == degree ? column : NaN
+plot f skip 1 using 7:(row('graded', 2, $4)) pt 7 lc 'blue' title 'K, second order, graded', \
+     f skip 1 using 7:(row('graded', 1, $4)) pt 6 lc 'blue' dt 2 title 'K, first order, graded', \
+     f skip 1 using 7:(row('uniform', 2, $4)) pt 4 lc 'gray50' title 'K, second order, cells of one size', \
+     f skip 1 using 7:(row('graded', 2, $6)) pt 7 lc 'dark-red' title 'stress, second order, graded', \
+     f skip 1 using 7:(row('graded', 1, $6)) pt 6 lc 'dark-red' dt 2 title 'stress, first order, graded', \
+     f skip 1 using 7:(row('uniform', 2, $6)) pt 4 lc 'orange' title 'stress, second order, cells of one size'
+unset logscale
+set format '%g'
+set size ratio -1
+set output 'PREFIXpaths.png'
+set title 'Paths of the crack from the notch [in]'
+set xrange [-7:-3]
+set yrange [0:8]
+set xlabel 'x [in]'
+set ylabel 'y [in]'
+set key outside right top
+set object 1 circle at -4,2.75 size 0.25 fc 'gray70' fs solid border lc 'black'
+set object 2 circle at -4,4.75 size 0.25 fc 'gray70' fs solid border lc 'black'
+set object 3 circle at -4,6.75 size 0.25 fc 'gray70' fs solid border lc 'black'
+set style data lines
+set datafile separator whitespace
+plot for [i=0:*] 'PREFIXpaths.txt' index i using 1:2 lw 2 title columnheader(1), \
+     '-' using 1:2 lw 3 lc 'black' title 'notch'
+-6 0
+-6 1
+e
+)";
+  } // namespace
+
+
+  void
+  write_results(const Parameters               &parameters,
+                const std::vector<Measurement> &measurements,
+                const std::vector<CrackPath>   &paths)
+  {
+    const std::string prefix = parameters.output_directory + "/step-nmm-5-";
+    std::ofstream     study(prefix + "study.csv");
+    study << "mesh,order,unknowns,error_K,error_u,error_stress,seconds\n"
+          << std::setprecision(6);
+    for (const Measurement &m : measurements)
+      study << m.mesh << ',' << m.degree << ',' << m.n_unknowns << ','
+            << m.error_K << ',' << m.error_u << ',' << m.error_stress << ','
+            << m.seconds << '\n';
+
+    std::ofstream table(prefix + "paths.csv"), curves(prefix + "paths.txt");
+    table << "criterion,increment_in,step,x_in,y_in,load\n"
+          << std::setprecision(9);
+    curves << std::setprecision(9);
+    for (const CrackPath &path : paths)
+    {
+      // gnuplot reads blocks that are two empty lines apart, each with its title
+      curves << '"' << path.criterion << ", " << path.increment << " in\"\n";
+      for (unsigned int i = 0; i < path.points.size(); ++i)
+      {
+        table << path.criterion << ',' << path.increment << ',' << i << ','
+              << path.points[i][0] << ',' << path.points[i][1] << ',';
+        if (i < path.loads.size())
+          table << path.loads[i];
+        table << '\n';
+        curves << path.points[i][0] << ' ' << path.points[i][1] << '\n';
+      }
+      curves << "\n\n";
+    }
+    study.close();
+    table.close();
+    curves.close();
+    Tutorial::draw_figures(prefix, figures_script, {"errors.png", "paths.png"});
+  }
+} // namespace StepNMM5

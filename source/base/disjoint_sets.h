@@ -10,9 +10,9 @@ namespace NMM
   namespace internal
   {
     /**
-     * Disjoint sets of 0, 1, ... n - 1, with path halving; the least member stands for
-     * its set at any time, which is what numbers that do not depend on the order of calls
-     * need. (boost::disjoint_sets has that only after another pass over all.)
+     * Disjoint sets of 0, 1, ... n - 1, with path halving. At any time the least member of a set
+     * represents it, so that the numbers of sets do not depend on the order of calls.
+     * (boost::disjoint_sets needs another pass over all members for that.)
      */
     class DisjointSets
     {
@@ -22,7 +22,7 @@ namespace NMM
         reinit(n);
       }
 
-      /// Each member is a set.
+      /// Starts again with @p n members, each in a set of its own.
       void
       reinit(const unsigned int n)
       {
@@ -46,7 +46,8 @@ namespace NMM
         parent[std::max(a, b)] = std::min(a, b);
       }
 
-      /// Number the sets through by their least members; returns how many.
+      /// Numbers the sets consecutively, in the order of their least members. Returns the number
+      /// of sets.
       unsigned int
       number(std::vector<unsigned int> &member_to_set)
       {

@@ -30,9 +30,9 @@ namespace NMM
     }
 
 
-    /// a b without error: by Veltkamp's splitting where the machine has no
-    /// fused multiply-add; where it has, the compiler would contract, and
-    /// break, the splitting.
+    /// The product a b without error. Veltkamp's splitting is used where the machine has no
+    /// fused multiply-add. Where it has one, the compiler would contract the operations of the
+    /// splitting and thereby make it wrong.
     inline DoubleDouble
     two_product(const double a, const double b)
     {

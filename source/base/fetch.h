@@ -7,8 +7,8 @@ namespace NMM
 {
   namespace internal
   {
-    /// Bring @p n items into the cache before it is their turn: for what does not lie one
-    /// after the other, so that the processor cannot foresee it. Has no other effect.
+    /// Prefetches @p n items into the cache, for accesses that are scattered in memory, which the
+    /// processor cannot predict. It has no other effect.
     template <typename Item>
     void
     fetch(const Item *items, const std::size_t n)

@@ -13,11 +13,11 @@ namespace NMM
   namespace internal
   {
     /**
-     * For each i in [@p first, @p last) call work(i, result), on as many threads as
-     * deal.II may use (dealii::MultithreadInfo), and then take(i, result), in ascending
-     * order and never two at once: what is summed up by take() has the same bits for any
-     * number of threads. Results are used again: work() must overwrite what it finds.
-     * On one thread both are called in turns, without any copy.
+     * Calls work(i, result) for each i in [@p first, @p last), on as many threads as
+     * deal.II may use (dealii::MultithreadInfo), and take(i, result) in ascending order of i, one
+     * at a time. Sums that take() makes are therefore the same to the last bit for any number of
+     * threads. Objects of type Result are used again, so that work() must overwrite what they
+     * contain. On one thread both functions are called alternately, without any copy.
      */
     template <typename Result, typename Work, typename Take>
     void
@@ -26,7 +26,7 @@ namespace NMM
                       const Work        &work,
                       const Take        &take)
     {
-      // a hundred microseconds of work for an element's system
+      // Assembling the systems of this many elements takes about a hundred microseconds.
       constexpr unsigned int block_size = 32;
       const unsigned int     n_threads  = dealii::MultithreadInfo::n_threads();
       if (n_threads == 1 || last <= first + block_size)

@@ -18,7 +18,8 @@ namespace NMM
     constexpr double unlimited = std::numeric_limits<double>::max();
 
 
-    /// The number behind @p key in a file of such pairs, else 0.
+    /// The number that follows @p key in a file with a key and a number on each line; 0 if there
+    /// is none.
     double
     number_in_file(const fs::path &file, const std::string &key)
     {
@@ -56,7 +57,8 @@ namespace NMM
     }
 
 
-    /// In the control group at @p folder and those above it.
+    /// Memory that the control group @p group and those above it leave [bytes]. The limit and
+    /// the usage are in files of the names @p limit_name and @p usage_name.
     double
     left_in_groups(const fs::path    &root,
                    const std::string &group,
@@ -68,7 +70,7 @@ namespace NMM
       fs::path folder = root / fs::path(group).relative_path();
       while (true)
       {
-        // What was read from files is given up when memory is needed.
+        // The kernel drops cached files when memory is needed, so these count as free.
         const double limit = first_number(folder / limit_name, unlimited);
         if (limit < unlimited)
           left = std::min(left,
@@ -87,7 +89,7 @@ namespace NMM
       const fs::path root = "/sys/fs/cgroup";
       double         left = unlimited;
       std::ifstream  in("/proc/self/cgroup");
-      // "0::/path" (version 2), "7:memory:/path" (version 1)
+      // Lines are "0::/path" for version 2 of control groups, and "7:memory:/path" for version 1.
       for (std::string line; std::getline(in, line);)
       {
         const auto        first = line.find(':');

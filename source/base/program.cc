@@ -64,7 +64,7 @@ namespace NMM
     }
     catch (const std::system_error &error)
     {
-      // files and streams
+      // The standard library throws this for files and streams.
       return {input,
               std::string("a file or folder cannot be used (") + error.what() +
                 "): see whether the disk is full, and whether the file system "

@@ -13,13 +13,13 @@ namespace NMM
   namespace internal
   {
     /**
-     * The bodies that are worked on, and the contact points, covers, rows and edges that belong to
-     * them. Points between bodies none of which is active are left out of assemblies. All bodies
-     * are active until select() is called.
+     * Active bodies, and the contact points, covers, rows and edges that belong to them. Points
+     * between two inactive bodies are left out of assemblies. All bodies are active until select()
+     * is called.
      *
-     * Order of calls: select() at any time; clear_points() when contact points are made anew, after
-     * which list_points() has to be called with the new ones if has_to_list_points().
-     * The surface must outlive this object.
+     * Order of calls: select() at any time; clear_points() when contact points are made again, and
+     * then list_points() with the new points if has_to_list_points(). The surface must outlive this
+     * object.
      */
     class ActiveBodies
     {
@@ -34,7 +34,7 @@ namespace NMM
       select(const std::vector<bool> &is_active,
              const std::vector<bool> &is_held);
 
-      /// By body; empty: all are active.
+      /// For each body, whether it is active; empty if all are.
       const std::vector<bool> &
       flags() const
       {
@@ -53,8 +53,8 @@ namespace NMM
         return !is_active.empty() && points.empty();
       }
 
-      /// For each of @p n_points contact points @p for_each calls its argument with the point
-      /// and each block that it belongs to.
+      /// List the bodies of each point: @p for_each calls its argument with each of the @p n_points
+      /// contact points and each block that the point belongs to.
       template <typename ForEach>
       void
       list_points(const unsigned int n_points, const ForEach &for_each)
@@ -71,7 +71,7 @@ namespace NMM
         points.for_each(n_points, action);
       }
 
-      /// The same for covers and edges of active bodies.
+      /// Call action(k) for the covers of active bodies, ascending.
       template <typename Action>
       void
       for_each_cover(const unsigned int n_covers, const Action &action) const
@@ -92,7 +92,8 @@ namespace NMM
         return rows;
       }
 
-      /// Two edges press on each other: remember a body that is neither active nor held.
+      /// Record that two edges exert forces on each other. Bodies that are neither active nor held
+      /// are stored for take_touched().
       void
       note_pressed(const unsigned int edge, const unsigned int master)
       {
@@ -113,7 +114,8 @@ namespace NMM
         return std::exchange(touched, {});
       }
 
-      /// Two edges couple their bodies in the tangent.
+      /// Record that two edges couple their bodies in the tangent, unless one of them is an
+      /// obstacle.
       void
       note_coupled(const unsigned int edge, const unsigned int master)
       {

@@ -85,7 +85,7 @@ namespace NMM
       by_log = roughness();
       angle += by_log * std::log10(ratio);
     }
-    // includes pressure 0
+    // This includes a pressure of 0, for which the ratio is infinite.
     if (!(angle < largest_angle))
     {
       angle  = largest_angle;
@@ -123,7 +123,7 @@ namespace NMM
     const double at    = std::min(d, end);
     const double ratio = at / largest_closure;
     const double more  = d - at;
-    // -(x + ln(1 - x)) = x^2 / 2 + x^3 / 3 + ..., whose digits the difference loses
+    // -(x + ln(1 - x)) = x^2 / 2 + x^3 / 3 + ... is used for small x to avoid cancellation.
     constexpr double small = 1e-3;
     const double     sum =
       ratio < small ? ratio * ratio *
@@ -152,8 +152,8 @@ namespace NMM
   {
     const double change = d_1 - d_0;
     const double larger = std::max(std::abs(d_0), std::abs(d_1));
-    // Close to each other the quotient of differences loses its digits: mean value of the
-    // cubic through both ends, whose error is of the fifth order
+    // The difference quotient loses digits if both ends are close. The mean value of the cubic
+    // through both ends is used instead, whose error is of the fifth order.
     constexpr double close = 1e-3;
     const Response   p_0 = pressure(d_0), p_1 = pressure(d_1);
     if (std::abs(change) <= close * larger || change == 0.)

@@ -17,10 +17,10 @@ namespace NMM
 
   namespace
   {
-    /// Strength of a law that depends on the slip, after the slip s that it lets happen itself,
-    /// @f$ S(p, \kappa + s) = |q| - k s @f$, q being the shear if nothing slides and k [Pa/m]
-    /// the stiffness of the spring. The derivative by_slip is that of S by q, times k. Newton's
-    /// method with bisection: the root is between 0 and |q| / k.
+    /// Strength of a law that depends on the slip, after the additional slip s that this strength
+    /// allows, @f$ S(p, \kappa + s) = |q| - k s @f$. q is the shear if nothing slides, and k [Pa/m]
+    /// the stiffness of the spring. by_slip is the derivative of S by q, times k. The equation is
+    /// solved by Newton's method with bisection; the root is between 0 and |q| / k.
     ContactLaw::Strength
     strength_after_slip(const ContactLaw &law,
                         const double      pressure,
@@ -50,7 +50,7 @@ namespace NMM
       }
       const double by_spring = strength.by_slip / stiffness;
       if (by_spring <= -1.)
-        // the shear has jumped: no derivative tells where to
+        // The shear has jumped, so that there is no derivative.
         return {strength.value, strength.by_pressure, 0.};
       return {strength.value,
               strength.by_pressure / (1. + by_spring),
@@ -145,7 +145,7 @@ namespace NMM
     d.step.nodal_begin   = d.nodal;
     d.step.time_detected = d.time;
     d.reach              = std::max(least_reach, d.parameters.reach);
-    // faces that have parted by dilation are still in contact
+    // Faces that have parted by dilation are still in contact.
     const double reach = d.reach + d.largest_opening();
     if (d.search.update(reach))
     {
@@ -177,8 +177,8 @@ namespace NMM
   Contact::Data::set_admitted_depth()
   {
     constexpr double rounding = 1e-6;
-    // conserving steps need no such bound: what is found deep brings no energy
-    // with it, and must not be lost for good when it is missed once
+    // Conserving steps need no limit: contact that is found deep inside brings no energy, and would
+    // be lost for good if it were missed once.
     admitted_depth = is_conserving()
                        ? std::numeric_limits<double>::max()
                        : 2. * search.motion_since_begin() + rounding * reach;
@@ -192,15 +192,14 @@ namespace NMM
   }
 
 
-  /// Pressure, shear and what they depend on.
+  /// Pressure and shear of a point, and their derivatives.
   ContactTraction
   Contact::Data::find_traction(const unsigned int           q,
                                const ContactSurface::Place &slave,
                                const ContactProjection     &projection)
   {
-    // faces that touch are in contact, whatever rounding makes of their gap:
-    // a block that lies on another one is held by it from the start. In statics
-    // rounding makes nothing of it
+    // Faces that touch count as closed in spite of rounding in their gap, so that a block that lies
+    // on another one is held by it from the start. In statics the gap has no rounding.
     const double touching = is_moving() ? 1e-9 : 0.;
 
     ContactTraction   traction;
@@ -284,7 +283,7 @@ namespace NMM
     result.opening            = opening_before(q);
     if (law.dilation == 0. || slip_is_frozen || point.is_bonded)
       return result;
-    // bodies that do not touch anywhere do not slide on each other
+    // Bodies that do not touch anywhere do not slide on each other.
     const auto &edges = surface->edges();
     if (memory.energies_of_pairs.count(
           std::minmax(edges[point.edge].body, edges[projection.master].body)) ==
@@ -296,13 +295,13 @@ namespace NMM
     if (most == 0.)
       return result;
 
-    // shear and pressure if nothing slides
+    // Trial shear and closure if nothing slides.
     const Tensor<1, 2> tangent = projection.place.a / projection.place.a.norm();
     const double       eps     = law.shear_spring();
     const double       trial   = eps * (way_from_stick(q, slave) * tangent);
     const double       closure = result.opening + fixed.offset - projection.gap;
-    // |trial| - eps_t s = S(p(closure + tan psi s), kappa + s), by Newton's method, which ends
-    // after one step if all is linear
+    // Solve |trial| - eps_t s = S(p(closure + tan psi s), kappa + s) for the slip s by Newton's
+    // method, which needs one step if everything is linear.
     double slip = 0., by_closure = 0., h = 1.;
     bool   is_held = true;
     for (unsigned int i = 0; i < max_iterations; ++i)
@@ -348,7 +347,7 @@ namespace NMM
     ContactPoint     &point = points[q];
     PointData        &fixed = point_data[q];
     const ContactLaw &law   = *fixed.law;
-    // what opens by slip knows already how far it slides
+    // find_dilation() has already computed the slip if the law has dilation.
     const bool finds_slip =
       law.depends_on_slip() && law.dilation == 0. && !slip_is_frozen;
     if (finds_slip)
@@ -358,7 +357,7 @@ namespace NMM
         ? strength_after_slip(law, point.pressure, fixed.slip, trial, stiffness)
         : law.strength(point.pressure, fixed.slip + fixed.new_slip);
     const double limit = strength.value;
-    // a residual and its tangent are two assemblies at the same displacements
+    // The residual and its tangent are two assemblies at the same displacements.
     if (trial != point.spring_shear)
       point.has_turned = std::abs(trial) > limit && was_slipping &&
                          trial * point.spring_shear < 0.;
@@ -377,12 +376,12 @@ namespace NMM
       if (finds_slip)
       {
         traction.shear_stiffness = point.weight * strength.by_slip;
-        // a step's shear is that of its middle
+        // The shear of a step is that in its middle, after half of the slip.
         fixed.new_slip =
           (is_between() ? 2. : 1.) * (std::abs(trial) - limit) / stiffness;
       }
-      // it slides to and fro from one iteration to the next, because the tangent
-      // of sliding does not hold it: the secant does
+      // The point slides in alternating directions in the iterations, because the tangent stiffness
+      // of sliding is too small. The secant stiffness is used instead.
       if (point.has_turned)
       {
         traction.shear_stiffness =
@@ -427,16 +426,16 @@ namespace NMM
     active.note_pressed(point.edge, point.master);
     ++(point.state == ContactState::stick ? report.n_stick : report.n_slip);
     report.n_bonded += point.is_bonded;
-    // What presses tells how deep it is: not what was found behind a face without
-    // having come in by it, which stores nothing, nor a piece of a face too
-    // short to bear anything, where the other face does that meets it in a corner.
+    // The largest penetration is taken over points with pressure. This leaves out points that were
+    // found behind a face without having passed it, which store no energy, and pieces of faces that
+    // are too short to bear anything, because the other face of the corner does.
     double depth = point.opening - projection.gap;
     if (point.pressure > 0. && depth > report.largest_penetration &&
         (fixed.corner < PointKind::along ||
          fixed.piece_length > CornerRules::shortest_piece * size_at(q)))
     {
-      // a point is pushed out through the face by which it came, which may be
-      // further away than another one
+      // A point is pushed out through the face by which it came in, which may be further away than
+      // another face.
       if (point.opening == 0.)
         depth =
           std::min(depth,
@@ -467,8 +466,8 @@ namespace NMM
     local.n_covers = 0;
     local.append(surface->covers(point.edge));
     local.append(surface->covers(projection.master));
-    // does anything depend on how far it is from where it sticks? In a step only what slip
-    // opens does
+    // The anchor matters only if something depends on the distance from it. In a step only dilation
+    // does.
     if (traction.shear_stiffness != 0. || traction.pressure_by_slip != 0.)
     {
       surface->weights(point.stick_edge, point.stick_t, stick);

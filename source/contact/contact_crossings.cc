@@ -1,4 +1,4 @@
-// What passes through each other in a step.
+// Detection of bodies that pass through each other in a step.
 #include <algorithm>
 #include <cmath>
 #include <contact/contact_crossings.h>
@@ -17,11 +17,12 @@ namespace NMM
     {
       using Corner = ContactSurface::Corner;
 
-      /// Cosine of 32 degrees: faces that look the same way.
+      /// Cosine of 32 degrees: faces whose normals differ by less look the same way.
       constexpr double same_way = 0.85;
-      /// Rotation of a body on a piece of its path [rad].
+      /// Largest rotation of a body on a piece of its path [rad].
       constexpr double piece_angle = 0.2;
-      /// Part of a chord by which it goes on beyond its ends, so that none passes between two.
+      /// Fraction of a chord by which it is continued beyond its ends, so that no point passes
+      /// between two chords.
       constexpr double chord_slack = 1e-9;
 
 
@@ -40,8 +41,8 @@ namespace NMM
       }
 
 
-      /// When a point meets a chord, both moving straight on from 0 to 1: calls action(time,
-      /// parameter of the chord).
+      /// Find the times, from 0 to 1, at which a point p meets a chord from a to b, all of which
+      /// move on straight lines. Calls action(time, parameter of the chord).
       template <typename Action>
       void
       meet(const Point<2> &p_0,
@@ -69,7 +70,7 @@ namespace NMM
         for (unsigned int i = 0; i < n; ++i)
         {
           const double time = times[i];
-          // false for what is no number, too
+          // This is false for NaN, too.
           if (!(time >= 0. && time <= 1.))
             continue;
           const Tensor<1, 2> chord = B + time * dB, way = P + time * dP;
@@ -87,7 +88,7 @@ namespace NMM
       , bodies(surface.n_bodies())
       , least_thickness(std::numeric_limits<double>::max())
     {
-      // see the class
+      // Parts of tau, see the class.
       constexpr double reach_part = 0.5, circumference_part = 1. / 40.;
 
       const auto         &edges = surface.edges();
@@ -101,7 +102,7 @@ namespace NMM
         const auto        &edge = edges[e];
         const unsigned int body = edge.body;
         circumference[body] += edge.length;
-        // of the polygon; an arc adds to it
+        // Area of the polygon; arcs add to it.
         area[body] +=
           0.5 * (edge.start[0] * edge.end[1] - edge.end[0] * edge.start[1]);
         is_convex[body] = is_convex[body] && edge.radius >= 0. &&
@@ -115,7 +116,7 @@ namespace NMM
       {
         if (first[body] == invalid_index)
           continue;
-        // one boundary
+        // Follow one closed boundary.
         unsigned int e = first[body], n = 0;
         do
         {
@@ -128,7 +129,7 @@ namespace NMM
         bodies[body].width = area[body] > 0. && n == n_edges[body]
                                ? 2. * area[body] / circumference[body]
                                : circumference[body];
-        // a line that is the boundary of half of the plane
+        // A straight line is the boundary of a half-plane.
         if (n_edges[body] == 1 && edges[first[body]].next == invalid_index &&
             edges[first[body]].radius == 0.)
           bodies[body].thickness = tau;
@@ -183,7 +184,7 @@ namespace NMM
       for (unsigned int body = 0; body < bodies.size(); ++body)
       {
         bodies[body].angle = std::atan2(turns[body][1], turns[body][0]);
-        // what is straight to within rounding of lengths is straight
+        // Smaller rotations are neglected: the path is then one straight piece.
         if (std::abs(bodies[body].angle) < 0.5 * piece_angle)
           bodies[body].angle = 0.;
       }
@@ -206,7 +207,7 @@ namespace NMM
     unsigned int
     ContactCrossings::n_chords(const unsigned int edge) const
     {
-      // part of the body's width, and the most chords of an edge
+      // Tolerance as a fraction of the body's width, and the largest number of chords of an edge.
       constexpr double precision = 0.02, most = 64.;
       const double     tolerance =
         precision * bodies[surface->edges()[edge].body].width;
@@ -257,7 +258,7 @@ namespace NMM
                               const double              bound,
                               std::vector<Chord>       *near) const
     {
-      // distances that differ by less than this part of a chord's length are equal
+      // Distances that differ by less than this fraction of a chord's length are equal.
       constexpr double same = 1e-12;
 
       Place result;
@@ -274,14 +275,14 @@ namespace NMM
         const double       distance = way.norm(), length = std::sqrt(square);
         if (near != nullptr && distance <= bound)
           near->push_back(chord);
-        // outside is to the right
+        // Outside is to the right of the chord.
         double      gap  = cross(way, along) / length;
         const auto &edge = surface->edges()[chord.edge];
-        // beyond the end of what is not closed nothing is inside
+        // There is no inside beyond the ends of an open boundary.
         if ((t == 0. && chord.first == 0. && edge.previous == invalid_index) ||
             (t == 1. && chord.last == 1. && edge.next == invalid_index))
           gap = distance;
-        // at a corner the face that sees more of the distance knows
+        // At a corner, the face with the larger normal distance determines the side.
         const bool is_tied =
           std::abs(distance - result.distance) <= same * length;
         if (is_tied ? std::abs(gap) > std::abs(result.gap)
@@ -364,7 +365,7 @@ namespace NMM
         Place  place  = from;
         double length =
           edges[from.edge].length * (forward ? 1. - from.t : from.t);
-        // once round
+        // Follow the boundary once round.
         do
         {
           if (normal(place) * to_normal < same_way)
@@ -402,9 +403,9 @@ namespace NMM
                               const IsInContact        &is_in_contact,
                               StepFault                &fault) const
     {
-      // arcs are that much longer than their chords, at most
+      // Upper bound of the ratio of an arc's length to its chord.
       constexpr double arc = 2.;
-      // of what the point does inside
+      // Fraction of the path inside the body after which the repeated step ends.
       constexpr double part = 0.25;
 
       const auto        &edges        = surface->edges();
@@ -492,7 +493,7 @@ namespace NMM
         }
         const unsigned int n = n_chords(edge);
         for (unsigned int i = 0; i < n; ++i)
-          // what a concave corner reaches its neighbours reach before
+          // A concave corner cannot reach anything before its neighbours do.
           if (i > 0 || edges[edge].at_start != Corner::concave)
             examine(edge, i / double(n), chords, is_in_contact, fault);
         if (edges[edge].next == invalid_index)

@@ -26,32 +26,32 @@ namespace NMM
          const dealii::AffineConstraints<double> &constraints,
          const ContactParameters                 &parameters);
 
-    /// What has been done, see Contact.
+    /// Stage that the calls of public functions have reached, see Contact.
     enum class Stage
     {
       created,
       detected,
       assembled,
       step_begun,
-      /// assemble_between() has been called: an assembly is one of the step, or of its end.
+      /// assemble_between() has been called. Assemblies are those of the step, or of its end.
       step_assembled,
       accepted,
-      /// The end of a step of assemble_between() has been accepted.
+      /// The end of a step with assemble_between() has been accepted.
       step_accepted
     };
 
     enum class Problem
     {
       statics,
-      /// See Contact::freeze_geometry().
+      /// Statics with linearized geometry, see Contact::freeze_geometry().
       statics_of_frozen_geometry,
       /// A time step has begun.
       motion,
-      /// A time step that conserves energy has been tried.
+      /// A time step with assemble_between() has been tried.
       conserving_motion
     };
 
-    /// @p next is reached from one of the stages @p from.
+    /// Assert that the stage is one of @p from, and go to the stage @p next.
     void
     enter(const Stage next, const std::initializer_list<Stage> from)
     {
@@ -64,7 +64,7 @@ namespace NMM
       stage = next;
     }
 
-    /// Whether points are those of a step of assemble_between(), or of its end.
+    /// Whether contact points are those of a step with assemble_between(), or of its end.
     bool
     is_between() const
     {
@@ -90,56 +90,57 @@ namespace NMM
       return problem == Problem::statics_of_frozen_geometry;
     }
 
-    /// Opening of a point by slip [m], and the derivatives of gap minus opening
-    /// by the gap and by the distance along the face from where it sticks [-].
+    /// Opening of a point by dilation [m], and the derivatives of gap minus opening by the gap and
+    /// by the tangential distance from the anchor [-].
     struct Dilation
     {
       double opening = 0., by_gap = 1., by_slip = 0.;
     };
 
-    /// What does not change from one assembly to the next.
+    /// Data of a contact point beside ContactPoint. Most of them do not change between two
+    /// assemblies.
     struct alignas(64) PointData
     {
-      /// Position in ContactSearch::slaves().
+      /// Position of the slave in ContactSearch::slaves().
       unsigned int slave;
-      /// See PointKind.
+      /// Kind of the point, see PointKind.
       unsigned int corner = internal::PointKind::along;
-      /// Place on the slave, which is that of the point unless it is a corner of the
+      /// Parameter on the slave. It differs from ContactPoint::s if the point is a corner of the
       /// master.
       double s = 0.;
-      /// Of the slave between two divisions [m].
+      /// Length of the piece of the slave, between two divisions, to which the point belongs [m].
       double                       piece_length = 0.;
       ContactSurface::WeightValues weights;
-      /// That of the last master.
+      /// Law between the slave and the last master; null if there has been none.
       const ContactLaw *law = nullptr;
-      /// See ContactSearch::end_slack().
+      /// Fraction of an edge by which masters are continued, see ContactSearch::end_slack().
       double slack = 0.;
-      /// The master whose end it is for which there is slack.
+      /// The master that is continued by the slack; invalid_index if none is.
       unsigned int home = invalid_index;
-      /// The weight knows the angle between both faces, that of the first time
-      /// there is a master since detect().
+      /// Whether ContactPoint::weight includes the angle between both faces. That is the angle when
+      /// the point first has a master after detect().
       bool has_angle = false;
-      /// Of a time step: gaps [m] at its ends, shear at its start [Pa], what the
-      /// shear has done and what the dashpot has taken [J/m].
+      /// For a time step: gaps at its beginning and end [m], shear at its beginning [Pa], work of
+      /// the shear, and energy that the dashpot has dissipated [J/m].
       double gap_begin = 0., gap_end = 0., shear_begin = 0., shear_work = 0.,
              normal_loss = 0.;
-      /// Gap at which the spring is at rest [m], see Contact::begin_step(), and
-      /// the same at the end of the step, where it is another one if the master has
-      /// changed to a face that is not the continuation of the first.
+      /// Gap at which the spring is at rest [m], see Contact::begin_step(), and the same at the end
+      /// of the step. Both differ if the master has changed to a face that is not the continuation
+      /// of the first.
       double offset = 0., offset_end = 0.;
-      /// Masters at both ends of the step; invalid_index: none.
+      /// Masters at the beginning and the end of the step; invalid_index if there is none.
       unsigned int master_begin = invalid_index, master_end = invalid_index;
-      /// Where on the master at the end, and its normal there.
+      /// Parameter on the master at the end of the step, and the normal there.
       double               t_end = 0.;
       dealii::Tensor<1, 2> normal_end;
-      /// Derivatives of the pressure in a step, times the weight, by the gap at the
-      /// end and by how far both faces open [N/m^2].
+      /// Derivatives of the mean pressure of a step, times the weight, by the gap at the end and by
+      /// the relative normal motion of both faces [N/m^2].
       double pressure_by_gap = 0., pressure_by_opening = 0.;
-      /// Slip that has dilated at the last accepted state and since then [m].
+      /// Slip that causes dilation or weakening: at the last accepted state, and since then [m].
       double slip = 0., new_slip = 0.;
-      /// At the end of a time step.
+      /// Dilation at the end of a time step.
       Dilation dilation;
-      /// Of faces_beside.
+      /// Range of this point in faces_beside.
       unsigned int beside_begin = 0, beside_end = 0;
     };
 
@@ -158,7 +159,7 @@ namespace NMM
     ContactSurface::WeightValues
     weights_at(const ContactPoint &point) const;
 
-    /// History of a point: where it stuck, its multiplier on @p slave.
+    /// Restore the history of a point: its anchor, bond and slip, and its multiplier on @p slave.
     void
     restore(ContactPoint &point, PointData &fixed, unsigned int slave) const;
 
@@ -167,71 +168,73 @@ namespace NMM
                     PointData    &fixed,
                     unsigned int  slave) const;
 
-    /// All faces move to where @p u (locally relevant) puts them.
+    /// Move all faces to the displacements @p u (locally relevant).
     void
     move_to(const Vector &u);
 
-    /// The state at the end of a step is that of @p end in the active bodies, and the
-    /// one in its middle is the mean of both ends.
+    /// Set the states of the step: the state at the end is @p end in the active bodies, and the one
+    /// in the middle is the mean of both ends.
     void
     set_step_states(const Vector &end);
 
-    /// Faces of active bodies that have moved since the last assembly are where the
-    /// displacements at the step's end and in its middle put them. The surface is at the end.
+    /// Move the faces of active bodies to the displacements at the end and in the middle of the
+    /// step. The surface is left at the end of the step.
     void
     update_faces();
 
-    /// Faces of active bodies are where Contact::expect() says.
+    /// Move the faces of active bodies to the displacements of Contact::expect().
     void
     move_as_expected();
 
-    /// What may touch in the step comes into the pattern, faces being where its first
-    /// assembly, or Contact::expect(), has them at its end: that depends on the state at the
-    /// step's begin alone, so that a continuation has the same pattern.
+    /// Put all points that may touch in the step into the sparsity pattern. The faces must be at
+    /// the end of the step as its first assembly, or Contact::expect(), has it. The pattern depends
+    /// only on the state at the beginning of the step, so that a computation that continues from a
+    /// checkpoint has the same one.
     void
     couple_expected();
 
-    /// See Contact::freeze_geometry(): the same in every assembly since detect(), but for the
-    /// gap, which is that of the displacements.
+    /// Projection for Contact::freeze_geometry(). It is the same in every assembly after detect(),
+    /// except for the gap, which is that of the displacements.
     internal::ContactProjection
     project_frozen(unsigned int q, const ContactSurface::Place &slave);
 
-    /// The nearest master of a point at the current positions; notes weight and
-    /// place of sticking when there is one for the first time.
+    /// The nearest master of a point at the current positions. When a point first has a master, its
+    /// weight and its anchor are set.
     internal::ContactProjection
     project(unsigned int q, const ContactSurface::Place &slave);
 
-    /// Where a face ends in a concave corner and a corner of a body is beyond that: the face
-    /// that begins there. If the body lies along the first one, its corner has no share
-    /// in that, and all of it in the second one, however steep its face is on that.
+    /// If a corner lies beyond the concave end of a face, the face that begins there, else
+    /// invalid_index. If the body lies along the first face, its corner has no share in the contact
+    /// with that face, and the full share in the contact with the second one, whatever the angle
+    /// is.
     unsigned int
     face_beyond_concave_end(
       const internal::ContactProjection &projection) const;
 
-    /// A corner that is in contact at one end of a step only is so by the face of that
-    /// end: at a corner of the master, which face is nearer in the middle jumps, and
-    /// with it the force.
+    /// Let a corner that is in contact only at one end of a step be in contact with the face of
+    /// that end. At a corner of the master the nearest face in the middle of the step jumps, and
+    /// the force would jump with it.
     void
     stay_with_face_of_end(unsigned int                 q,
                           const ContactSurface::Place &slave,
                           internal::ContactProjection &projection) const;
 
-    /// Does one of the edges go on in the other, within a few edges?
+    /// Whether one of the edges continues smoothly into the other within @p n_edges edges.
     bool
     goes_on(unsigned int edge,
             unsigned int other,
             unsigned int n_edges = 4) const;
 
-    /// New contact may be as deep as faces have moved since the begin of the step,
-    /// at first since the reference configuration, in which blocks do not overlap; in
-    /// steps that conserve energy as deep as it likes.
+    /// Set the depth that new contact may have: as far as faces have moved since the beginning of
+    /// the step, and in the first step since the reference configuration, in which blocks do not
+    /// overlap. In steps that conserve energy there is no limit.
     void
     set_admitted_depth();
 
     void
     note_touching();
 
-    /// Of two edges.
+    /// Record that two edges penetrate each other.
     void
     note_touching(unsigned int edge, unsigned int master);
 
@@ -239,34 +242,35 @@ namespace NMM
     find_admitted(unsigned int q) const;
 
     /**
-     * Statics: the gap of a projection, with X for places in the reference configuration
-     * and N for the normal there,
-     * @f[ g = (u_s - u_m)\cdot n + (X_s - X_m)\cdot(n - N) + (X_s - X_m)\cdot N, @f]
-     * which is that of the positions. But its digits are those of the displacements: stiff
-     * springs under small loads give way by less than what positions are rounded to. The
-     * last term is 0 where faces are drawn as touching, so that they do, whatever the load.
+     * Gap of a projection in statics, computed from displacements. With reference positions X and
+     * the normal N there,
+     * @f[ g = (u_s - u_m)\cdot n + (X_s - X_m)\cdot(n - N) + (X_s - X_m)\cdot N. @f]
+     * This equals the gap between positions, but has the precision of displacements: under small
+     * loads stiff springs are compressed by less than the rounding of positions. The last term is
+     * 0 where faces are drawn as touching, so that they touch under any load.
      */
     double
     gap_of_displacements(unsigned int                       q,
                          const internal::ContactProjection &projection) const;
 
-    /// From where a point sticks to where it is [m]; in statics in the same way.
+    /// Vector from the anchor of a point to the point [m]; in statics computed from displacements
+    /// as gap_of_displacements().
     dealii::Tensor<1, 2>
     way_from_stick(unsigned int q, const ContactSurface::Place &slave) const;
 
-    /// As ContactSearch finds it for a point along an edge, or a corner.
+    /// The master of a point by ContactSearch, for a point along an edge or a corner.
     internal::ContactProjection
     find_master(unsigned int q, const ContactSurface::Place &slave) const;
 
-    /// Candidates of a point.
+    /// Candidate masters of a point.
     dealii::ArrayView<const unsigned int>
     masters_of(unsigned int q) const;
 
-    /// At the begin of a step: how far points are from touching.
+    /// Compute the clearances of all points at the beginning of a step.
     void
     find_clearances();
 
-    /// A point touches neither at the end of the step nor at its begin.
+    /// Set a point that touches nothing at either end of the step.
     void
     note_clear(unsigned int q);
 
@@ -278,35 +282,36 @@ namespace NMM
                    const internal::ContactTraction   &traction,
                    bool                               with_tangent);
 
-    /// Slaves of contact points.
+    /// Positions of the slaves of some contact points.
     std::vector<unsigned int>
     slaves_of(const std::vector<unsigned int> &numbers) const;
 
-    /// Of all active points: which are near.
+    /// Find the active points that touch at the beginning or the end of the step: near_points.
     void
     find_ends();
 
-    /// Where a point is at the end of a step; false, and open, if it touches neither there
-    /// nor at the begin.
+    /// Project a point at the end of a step. Returns false, and sets the point open, if it touches
+    /// neither there nor at the beginning.
     bool
     find_end(unsigned int q);
 
     void
     add_point_between(unsigned int q, bool with_tangent);
 
-    /// Of the slave against the master in the step [m].
+    /// Motion of the slave relative to the master in the step [m].
     dealii::Tensor<1, 2>
     relative_motion(unsigned int                       q,
                     const internal::ContactProjection &projection) const;
 
-    /// Springs and dashpot of a point in a step, and the loss.
+    /// Mean pressure of the spring and dashpot of a point in a step, and the energy lost. @p
+    /// opening: relative normal motion of both faces [m].
     void
     find_pressure_between(unsigned int               q,
                           double                     opening,
                           internal::ContactTraction &traction);
 
-    /// Derivatives by the displacements of slave and master in the middle of the step:
-    /// of that pressure, times the weight, and of half of the slip.
+    /// Derivatives by the displacements of slave and master in the middle of the step: of the mean
+    /// pressure, times the weight, and of half of the slip.
     void
     differentiate_step(unsigned int                       q,
                        const internal::ContactProjection &projection,
@@ -314,27 +319,26 @@ namespace NMM
                        double                            *pressure_change,
                        double *half_slip_change) const;
 
-    /// Unit normal of the edge that meets the one of a corner there; zero if none
-    /// does.
+    /// Unit normal of the other edge that meets in a corner; zero if there is none.
     dealii::Tensor<1, 2>
     normal_of_other_edge(unsigned int q) const;
 
-    /// Share of the contact with a face of this normal that a point has, see
+    /// Fraction of its weight that a point has in the contact with a face of this normal, see
     /// ContactSearch.
     double
     share(unsigned int                q,
           const dealii::Tensor<1, 2> &slave_normal,
           const dealii::Tensor<1, 2> &master_normal) const;
 
-    /// Opening at the current positions: since the last accepted state a point
-    /// slides as far as its strength does not hold it, an open one without strength;
-    /// notes the slip.
+    /// Opening by dilation at the current positions. Since the last accepted state a closed point
+    /// slides as far as its strength does not hold it, and an open one without strength. Sets the
+    /// slip of the point.
     Dilation
     find_dilation(unsigned int                       q,
                   const ContactSurface::Place       &slave,
                   const internal::ContactProjection &projection);
 
-    /// Opening by what had slid at the last accepted state [m].
+    /// Opening by the slip at the last accepted state [m].
     double
     opening_before(const unsigned int q) const
     {
@@ -342,12 +346,12 @@ namespace NMM
       return law == nullptr ? 0. : law->opening(point_data[q].slip);
     }
 
-    /// Of any point of any rank at the last accepted state, or more [m].
+    /// Upper bound on the opening of all points of all ranks at the last accepted state [m].
     double
     largest_opening() const;
 
-    /// Shear: @p trial, not more than the pressure allows; decides between stick and slip.
-    /// @p stiffness: derivative of the trial [Pa/m].
+    /// Limit the @p trial shear [Pa] by the strength, and choose between stick and slip. @p
+    /// stiffness is the derivative of the trial shear [Pa/m].
     void
     find_shear(unsigned int               q,
                double                     trial,
@@ -371,7 +375,7 @@ namespace NMM
                   const ContactSurface::Place       &slave,
                   const internal::ContactProjection &projection);
 
-    /// Stress over strength of a bond; negative if there is none.
+    /// Ratio of stress to strength of a bond; negative if the point is not bonded.
     double
     bond_ratio(unsigned int q) const;
     /// @}
@@ -379,7 +383,7 @@ namespace NMM
     double
     accept_shear(unsigned int q);
 
-    /// Call action(q) for points that an active body has part in, ascending.
+    /// Call action(q) for points that belong to an active body, ascending.
     template <typename Action>
     void
     for_each_active_point(const Action &action)
@@ -387,20 +391,21 @@ namespace NMM
       active.for_each_point(points.size(), action);
     }
 
-    /// If there are inactive bodies: which points belong to which body.
+    /// List the points of each body if there are inactive bodies.
     void
     list_points_of_bodies();
 
-    /// Does the step that began at detect() take anything through something else to where
-    /// the surface is now? @p largest_motion: of any point of a face in the step [m].
+    /// Whether the step that began at detect() takes any body through another one, the surface
+    /// being at the end of the step. @p largest_motion is the largest motion of a point of a face
+    /// in the step [m].
     StepFault
     find_crossing(double largest_motion);
 
     void
     reduce_report();
 
-    /// What the normal spring of a point stores under a pressure, and what the shear spring
-    /// does under a shear [J/m].
+    /// Energy of the normal spring of a point under a pressure, and of its shear spring under a
+    /// shear [J/m].
     double
     normal_energy(const unsigned int q, const double pressure) const
     {
@@ -414,14 +419,15 @@ namespace NMM
       return points[q].weight * point_data[q].law->shear_energy(shear);
     }
 
-    /// Of a cell at the slave of a point, or of the face if that is shorter [m].
+    /// Size of the cell at the slave of a point, or length of the face if that is shorter [m].
     double
     size_at(const unsigned int q) const
     {
       return corner_size[2 * search.slaves()[point_data[q].slave]];
     }
 
-    /// Penetrations and shears are multiplied by @p factors of their pair, if there are any.
+    /// Energies of all pairs of bodies. If @p factors is not null, penetrations and shears are
+    /// multiplied by the factors of their pair.
     internal::PairEnergies
     pair_energies(const internal::PairEnergies *factors = nullptr) const;
 
@@ -434,31 +440,32 @@ namespace NMM
     void
     keep_energies();
 
-    /// What assemblies of a time step need, from begin_step() to accept().
+    /// Data of a time step, from begin_step() to accept().
     struct Step
     {
-      /// Displacements at the begin of the step, where detect() was called, and when [s].
+      /// Displacements at detect(), where the step begins, and its time [s].
       std::vector<double> nodal_begin;
       double              time_detected = 0.;
-      /// When begin_step() was called [s], and from there to the end [s].
+      /// Time of begin_step(), and time from there to the end of the step [s].
       double time_begin = 0., length = 0.;
-      /// Faces at the end of the step and in its middle, and the way of obstacles [m].
+      /// Faces at the end and in the middle of the step, and displacements of obstacles in the step
+      /// [m].
       ContactSurface::State             end, middle;
       std::vector<dealii::Tensor<1, 2>> obstacle_changes;
-      /// See Contact::expect(); empty: nothing is expected.
+      /// Displacements of Contact::expect(); empty if there are none.
       std::vector<double> nodal_expected;
-      /// Which points cannot touch anything in the step, and whether a point was clear in the
-      /// last assembly.
+      /// Clearances of the points in the step, and whether a point was clear in the last assembly.
       internal::StepClearances clearances;
       std::vector<bool>        was_clear;
-      /// Active points that touch at the begin or the end of the step.
+      /// Active points that touch at the beginning or the end of the step.
       std::vector<unsigned int> near_points;
-      /// Energy that is lost between the last accepted state and the begin of the step [J/m].
+      /// Energy lost between the last accepted state and the beginning of the step [J/m].
       double detection_loss = 0.;
     };
 
-    /// See Contact::freeze_geometry(). By point: its projection at the first assembly since
-    /// detect(), and by how much its gap is more than that of the displacements [m].
+    /// Linearized geometry, see Contact::freeze_geometry(). For each point: its projection at the
+    /// first assembly after detect(), and the difference between its gap and that of the
+    /// displacements [m].
     struct FrozenGeometry
     {
       std::vector<internal::ContactProjection> projections;
@@ -475,7 +482,7 @@ namespace NMM
     /// See corner_sizes().
     std::vector<double> corner_size;
     std::vector<double> rule_points, rule_weights;
-    /// Augmented Lagrangian only.
+    /// Space of the multipliers; null for the penalty method.
     std::unique_ptr<internal::MultiplierSpace> multiplier_space;
 
     internal::ContactMemory memory;
@@ -483,32 +490,31 @@ namespace NMM
     internal::ContactMatrix matrix;
     Step                    step;
     FrozenGeometry          frozen;
-    /// Null: not needed so far.
+    /// Search for crossings; null until it is needed.
     std::unique_ptr<internal::ContactCrossings> crossings;
 
     std::vector<double>       nodal;
     std::vector<ContactPoint> points;
     std::vector<PointData>    point_data;
-    /// See ContactSearch::append_faces_beside(): where points were made, and as long as
-    /// they are, so that no step has to find out while it goes.
+    /// Faces that each point is beside, see ContactSearch::append_faces_beside(). They are found
+    /// when points are made, so that they do not change within a step.
     std::vector<unsigned int> faces_beside;
-    /// How far faces were looked for last, and how deep new contact may be, see
-    /// AdmittedContact [m].
+    /// Reach of the last search, and largest depth of new contact, see AdmittedContact [m].
     double reach = 0., admitted_depth = 0.;
-    /// That is set [s].
+    /// Time of set_time() [s].
     double time    = 0.;
     bool   is_idle = true;
 
     Stage   stage   = Stage::created;
     Problem problem = Problem::statics;
-    /// What has slid at the last accepted state is all that opens faces.
+    /// Whether dilation is that of the last accepted state, in begin_step().
     bool slip_is_frozen = false;
 
-    /// Of the last assembly; the largest penetration of springs, without offsets [m].
+    /// Report of the last assembly, and the largest penetration of its springs without offsets [m].
     ContactReport                report;
     double                       deepest = 0.;
     internal::ContactLocalSystem local;
-    /// By bonds that broke since the last accepted state [J/m].
+    /// Energy of bonds that broke since the last accepted state [J/m].
     double broken_energy = 0.;
   };
 } // namespace NMM

@@ -1,4 +1,4 @@
-// Energies that the springs between pairs of bodies store, and how a search for contact keeps them.
+// Energies of the springs between pairs of bodies, and their conservation in begin_step().
 #include <nmm/contact/contact.h>
 
 #include <deal.II/base/mpi.h>
@@ -62,9 +62,9 @@ namespace NMM
   }
 
 
-  /// Factors k of penetrations and shears with which each pair of bodies stores no more than
-  /// before: sqrt(E_before / E_found) of linear springs. Energies of others grow faster than
-  /// with the square, so that the same again brings them there.
+  /// Factors k on penetrations and shears with which each pair of bodies stores no more than
+  /// before. For linear springs k = sqrt(E_before / E_found). The energy of other springs grows
+  /// faster than the square, so that this is iterated.
   PairEnergies
   Contact::Data::factors_that_keep_energies(const PairEnergies &found) const
   {

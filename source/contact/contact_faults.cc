@@ -1,4 +1,4 @@
-// Why a step must not be accepted.
+// Reasons why a step must not be accepted.
 #include <nmm/contact/contact.h>
 
 #include <deal.II/base/mpi.h>
@@ -17,7 +17,7 @@ namespace NMM
     using EdgePair = ContactCrossings::Pair;
 
 
-    /// Of all ranks.
+    /// Concatenate the pairs of all ranks.
     std::vector<EdgePair>
     all_pairs(const MPI_Comm communicator, std::vector<EdgePair> pairs)
     {
@@ -30,7 +30,7 @@ namespace NMM
     }
 
 
-    /// Edges that are near each other and can cross, both ways.
+    /// Edges that are near each other and whose bodies may cross, in both orders.
     std::vector<EdgePair>
     find_near(const ContactSearch    &search,
               const ContactCrossings &crossings,
@@ -72,7 +72,7 @@ namespace NMM
       near = find_near(search, *crossings, depth);
     else
     {
-      // the step went further than was expected
+      // The step went further than the reach of the search.
       ContactSearch further(*surface,
                             parameters.body_ranks,
                             parameters.integration ==
@@ -88,7 +88,7 @@ namespace NMM
     if (near.empty())
       return {};
 
-    // of edges and bodies that touch each other
+    // Pairs of an edge and a body that it is in contact with.
     std::vector<EdgePair> in_contact;
     bool                  is_known = false;
     return crossings->find(

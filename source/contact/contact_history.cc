@@ -1,4 +1,4 @@
-// What an accepted state leaves behind: memory.multipliers, bonds, places of sticking.
+// History of accepted states: multipliers, bonds and anchors.
 #include <nmm/base/exceptions.h>
 #include <nmm/contact/contact.h>
 
@@ -27,10 +27,10 @@ namespace NMM
     const MultiplierSpace &space  = *d.multiplier_space;
     const unsigned int     n      = space.size();
     const unsigned int     n_rule = d.rule_points.size();
-    // integrals of spring pressure times function, of functions, and of stiffness
-    // times function
+    // Integrals along the slaves of three products: spring pressure times function, function, and
+    // stiffness times function.
     std::vector<double> sums(3 * n, 0.);
-    // those of corners come last
+    // Points of corners follow those along edges.
     for (unsigned int begin = 0; begin < d.points.size() &&
                                  d.point_data[begin].corner >= PointKind::along;
          begin += n_rule)
@@ -42,7 +42,7 @@ namespace NMM
       for (unsigned int q = 0; q < n_rule; ++q)
       {
         const ContactPoint &point = d.points[begin + q];
-        // beside the master, where there is nothing to penetrate
+        // Beside the master there is no penetration.
         if (point.master == invalid_index || point.weight == 0.)
           continue;
         const auto  &f      = space[edge];
@@ -91,7 +91,7 @@ namespace NMM
     const ContactLaw   *law   = point_data[q].law;
     if (!point.is_bonded || law == nullptr)
       return -1.;
-    // without strength any stress beyond rounding is too much
+    // Without strength, any stress beyond rounding breaks the bond.
     const auto ratio = [&](const double stress, const double strength) {
       const double least = 1e-9 * reach * law->normal_stiffness;
       return std::max(0., stress) / std::max(strength, least);
@@ -128,7 +128,7 @@ namespace NMM
         std::copysign(std::min(limit, std::abs(point.shear)), point.shear);
       d.broken_energy +=
         d.shear_energy(q, point.shear) - d.shear_energy(q, shear);
-      // it slides from now on: the place where it sticks is dragged along
+      // The point slides from now on, and its anchor is dragged along.
       const double length =
         d.surface->place(point.stick_edge, point.stick_t).a.norm();
       point.stick_t += (point.shear - shear) / (law.shear_spring() * length);
@@ -140,7 +140,7 @@ namespace NMM
         point.state    = ContactState::open;
       }
       ++count;
-      // points are made anew from these places
+      // Store the anchor where make_points() looks for it.
       const StickPlace place{
         point.s, point.stick_edge, point.stick_t, false, d.point_data[q].slip};
       d.memory.stick_places.insert(
@@ -150,7 +150,7 @@ namespace NMM
   }
 
 
-  /// Where a point sticks from now on; returns what has been dissipated.
+  /// Set the anchor of a point at an accepted state, and return the energy dissipated [J/m].
   double
   Contact::Data::accept_shear(const unsigned int q)
   {
@@ -163,8 +163,9 @@ namespace NMM
       const double before = shear_energy(q, fixed.shear_begin);
       const double after  = shear_energy(q, point.shear);
       const double most   = std::max(0., before + fixed.shear_work);
-      // no more is stored than has been put in: where it touches for the
-      // first time the pressure, and with it the strength, has been lower
+      // The spring must not store more than the work done on it. Where a point touches for the
+      // first time, the pressure in the step, and with it the strength, has been lower than at the
+      // end.
       if (after > most)
       {
         const double change = point.shear * (1. - std::sqrt(most / after));
@@ -177,7 +178,7 @@ namespace NMM
     }
     if (point.master == invalid_index)
       return dissipated;
-    // steps know already what rising against the pressure has taken
+    // In steps, find_pressure_between() has subtracted the work of dilation.
     if (!is_between())
       dissipated -=
         point.weight * point.pressure * (point.opening - opening_before(q));
@@ -204,7 +205,7 @@ namespace NMM
     }
     const unsigned int key    = place_key(*surface, point.edge, fixed.corner);
     const auto        *places = memory.stick_places.find(key);
-    // both pieces that meet at a division have a point there
+    // Both pieces that meet at a division have a point there; only one of them is stored.
     if (places == nullptr || places->back().s < point.s)
       memory.stick_places.append(key, place);
     point.stick_edge = place.edge;
@@ -217,8 +218,8 @@ namespace NMM
   Contact::Data::note_touching(const unsigned int edge,
                                const unsigned int master)
   {
-    // corners turn round to the next edge of the slave, and points go on along
-    // smooth boundaries
+    // A corner can pass on to the next edge of the slave, and a point to the next edge of a smooth
+    // boundary.
     const ContactSurface::Edge &slave  = surface->edges()[edge];
     const ContactSurface::Edge &other  = surface->edges()[master];
     constexpr auto              smooth = ContactSurface::Corner::smooth;
@@ -288,7 +289,7 @@ namespace NMM
     d.note_touching();
     d.search.begin(ContactSearch::Begin::here);
     d.memory.has_accepted_state = true;
-    // the same on all ranks
+    // The loss at detection is the same on all ranks and is counted once.
     double dissipated     = Parallel::this_mpi_process(d.communicator) == 0
                               ? d.step.detection_loss
                               : 0.;

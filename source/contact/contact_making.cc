@@ -1,4 +1,4 @@
-// Contact points.
+// Creation of contact points.
 #include <nmm/base/exceptions.h>
 #include <nmm/contact/contact.h>
 
@@ -89,7 +89,8 @@ namespace NMM
     fixed.corner = search.corner(slave);
     point.edge   = search.slaves()[slave];
     point.s      = fixed.corner;
-    // that of the end of an edge of this length, with four Gauss-Lobatto points
+    // This is the weight of the end of an edge of this length in the rule with four Gauss-Lobatto
+    // points.
     point.weight  = parameters.integration == ContactIntegration::points
                       ? 1.
                       : corner_size[2 * point.edge + fixed.corner] / 12.;
@@ -132,7 +133,7 @@ namespace NMM
         fixed.piece_length = length * speed;
         point.weight       = rule_weights[q] * length * speed;
         const ContactSearch::Division &at = q == 0 ? begin : end;
-        // another body's corner does not end what this piece lies on
+        // A corner of another body does not end the face on which this piece lies.
         const unsigned int on = is_last ? last : first;
         if ((q == 0 || is_last) && fixed.slack > 0. &&
             at.master != invalid_index &&
@@ -146,8 +147,8 @@ namespace NMM
         else if (fixed.slack > 0.)
         {
           fixed.home = search.find_home(slave, point.s, on);
-          // what the piece lies on does not reach its end, and what begins there
-          // does not lie on the piece
+          // The face below the piece does not reach the end of the piece, and the face that begins
+          // there is not below the piece.
           if (fixed.home == invalid_index)
             fixed.slack = -fixed.slack;
         }
@@ -163,8 +164,8 @@ namespace NMM
   }
 
 
-  /// A corner that has come onto the slave sticks where the slave's point that it
-  /// has met sticks to it, seen from the other side.
+  /// Anchor of a corner that has come onto the slave: where the slave's point at this place is
+  /// stuck to the corner's body, seen from the other side.
   void
   Contact::Data::take_over_place(ContactPoint      &point,
                                  PointData         &fixed,

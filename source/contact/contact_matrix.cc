@@ -47,7 +47,7 @@ namespace NMM
         couple_all();
         return;
       }
-      // enough for forces
+      // An empty pattern is sufficient for forces.
       is_coupled.assign(search->slaves().size(), false);
       make_pattern();
     }
@@ -169,9 +169,9 @@ namespace NMM
     }
 
 
-    /// Covers that may be coupled at a position: those of the slave, of masters of one body,
-    /// and of places where it sticks to that body; body by body, each with their number
-    /// before.
+    /// Append the groups of covers that may be coupled at a position, one group for each master
+    /// body, with the number of its covers before it. A group has the covers of the slave, of its
+    /// masters of that body, and of the anchors on that body.
     void
     ContactMatrix::append_couplings(const unsigned int         i,
                                     std::vector<unsigned int> &couplings) const
@@ -219,8 +219,8 @@ namespace NMM
     }
 
 
-    /// Elements that are tied couple in the elasticity, whose pattern is to be within
-    /// that of the contact.
+    /// Couple elements that are tied. They are coupled in the elasticity, whose pattern must lie
+    /// within that of the contact.
     void
     ContactMatrix::couple_ties()
     {

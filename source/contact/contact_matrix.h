@@ -18,18 +18,19 @@ namespace NMM
   namespace internal
   {
     /**
-     * Forces and tangent of contact, and the sparsity pattern of the latter. The pattern holds
-     * the couplings of slaves (positions in ContactSearch::slaves()) with their masters and with
-     * the edges where their points stick, and all couplings of the elasticity, so that
-     * this can be added.
+     * Forces and tangent of contact, and the sparsity pattern of the tangent. The pattern has the
+     * couplings of slaves (positions in ContactSearch::slaves()) with their masters and with the
+     * edges of their anchors, and all couplings of the elasticity, so that its tangent can be
+     * added.
      *
-     * Making a pattern costs more than an assembly, and most candidates never touch. Hence a slave
-     * is in the pattern only if one of these has put it there: couple_all() in statics, couple_step()
-     * and couple() in time steps. On several ranks it is always all of them.
+     * Making a pattern costs more than an assembly, and most candidate pairs never touch. Hence a
+     * slave is in the pattern only if one of these functions has put it there: couple_all() in
+     * statics, couple_step() and couple() in time steps. On several ranks the pattern always has
+     * all slaves.
      *
-     * Order of calls: update_candidates() after each search; one of the functions that couple before
-     * an assembly with a tangent; then begin_assembly(), add() for each point, end_assembly().
-     * All references must outlive this object.
+     * Order of calls: update_candidates() after each search; one of the functions that couple
+     * before an assembly with a tangent; then begin_assembly(), add() for each point,
+     * end_assembly(). All references must outlive this object.
      */
     class ContactMatrix
     {
@@ -43,22 +44,22 @@ namespace NMM
                     const StickPlaces                       &stick_places,
                     const ActiveBodies                      &active);
 
-      /// The search has found new candidates, or points stick at other places.
+      /// Update after a search that found new candidate pairs, or after a change of anchors.
       void
       update_candidates();
 
-      /// The set of active bodies has changed.
+      /// Update after a change of the set of active bodies.
       void
       update_active_rows();
 
       void
       couple_all();
 
-      /// The pattern of a time step: slaves that are expected to come near.
+      /// Set the pattern of a time step: the slaves that are expected to touch.
       void
       couple_step(std::vector<bool> is_expected);
 
-      /// A time step begins: couple_step() is to be called before its first tangent.
+      /// Begin a time step: couple_step() is to be called before its first tangent.
       void
       begin_step()
       {
@@ -71,25 +72,25 @@ namespace NMM
         return has_step_pattern;
       }
 
-      /// From now on these slaves are in the pattern, too. On one rank.
+      /// Add slaves to the pattern. On one rank only.
       void
       couple(const std::vector<unsigned int> &slaves);
 
-      /// @p factor: the tangent is that many times the derivative. @p body_matrix: to which
-      /// the tangent is added instead of tangent(); null: it is not.
+      /// Begin an assembly. @p factor: factor on the tangent. @p body_matrix: matrix to which the
+      /// tangent is added instead of tangent(), or null.
       void
       begin_assembly(bool        with_tangent,
                      double      factor      = 1.,
                      BodyMatrix *body_matrix = nullptr);
 
-      /// Terms of one point, which are changed.
+      /// Add the terms of one point; @p local is changed.
       void
       add(ContactLocalSystem &local);
 
       void
       end_assembly();
 
-      /// There are no forces.
+      /// Set all forces to zero.
       void
       clear_forces()
       {
@@ -138,14 +139,13 @@ namespace NMM
       const StickPlaces                       *stick_places;
       const ActiveBodies                      *active;
       MPI_Comm                                 communicator;
-      /// Unknowns that are prescribed, for body matrices; empty: none is.
+      /// For each unknown, whether it is prescribed, for body matrices; empty if none is.
       std::vector<bool> is_prescribed;
 
-      /// See append_couplings(): couplings at the current positions, and those that the sparsity
-      /// pattern was begun with.
+      /// Couplings by append_couplings(): at the current positions, and when the pattern was begun.
       std::vector<unsigned int> candidates, coupled_candidates;
       bool                      are_candidates_known = false;
-      /// By slave: whether it has to be in the sparsity pattern, and whether it is.
+      /// For each slave, whether it has to be in the sparsity pattern, and whether it is.
       std::vector<bool>                     is_coupled, is_in_pattern;
       bool                                  has_pattern      = false;
       bool                                  has_step_pattern = false;
@@ -156,7 +156,7 @@ namespace NMM
       Vector      forces;
       MatrixAdder adder;
 
-      /// Of the present assembly.
+      /// Arguments of begin_assembly() for the present assembly.
       bool        with_tangent   = false;
       double      tangent_factor = 1.;
       BodyMatrix *body_matrix    = nullptr;

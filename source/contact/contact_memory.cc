@@ -11,7 +11,7 @@ namespace NMM
 
     namespace
     {
-      /// Those of all ranks, one after the other.
+      /// Concatenate the items of all ranks.
       template <typename Item>
       void
       gather(const MPI_Comm communicator, std::vector<Item> &items)
@@ -77,7 +77,7 @@ namespace NMM
       history.entrances.assign(entrances.begin(), entrances.end());
       gather(communicator, history.sticks);
       gather(communicator, history.entrances);
-      // these are the same on all ranks
+      // These are the same on all ranks.
       for (unsigned int edge = 0; edge < touching.size(); ++edge)
         for (const unsigned int other : touching[edge])
           history.touching.emplace_back(edge, other);
@@ -100,7 +100,8 @@ namespace NMM
         searched_time  = history.searched_time;
         searched_reach = history.searched_reach;
       }
-      // corners of masters are with the slave's rank, which is not known here
+      // Corners of masters belong to the rank of the slave, which is not known here, so that every
+      // rank takes them.
       const auto [first, last] = surface.locally_owned_edges();
       const bool has_obstacles =
         Parallel::this_mpi_process(surface.cover_system().communicator()) == 0;

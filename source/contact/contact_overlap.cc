@@ -1,4 +1,4 @@
-// How bodies overlap: what a search for the nearest faces does not tell.
+// Overlaps of bodies that a search for the nearest faces does not find.
 #include <algorithm>
 #include <cmath>
 #include <contact/contact_search.h>
@@ -56,7 +56,7 @@ namespace NMM
         const Place  end      = surface->place(master, std::clamp(t, 0., 1.));
         const double distance = x.distance(end.x);
         const double now      = (x - end.x) * end.normal();
-        // at the corner of two edges the one that sees more of the distance knows
+        // At the corner of two edges, the edge with the larger normal distance determines the side.
         const bool is_tied = std::abs(distance - nearest) <= same_gap * reach;
         if (is_tied ? std::abs(now) > std::abs(gap) : distance < nearest)
         {

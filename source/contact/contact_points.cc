@@ -25,7 +25,7 @@ namespace NMM
 
     namespace
     {
-      /// A length that tells the size of the edge's cell.
+      /// Size of the edge's cell: the square root of its Jacobian determinant [m].
       double
       cell_size(const ContactSurface::Edge &edge)
       {
@@ -43,7 +43,7 @@ namespace NMM
         return edges[e].previous == invalid_index ||
                edges[e].at_start != ContactSurface::Corner::smooth;
       };
-      // first from corners and ends, then what is left: closed smooth curves
+      // Begin with chains that start at corners and ends; closed smooth curves remain.
       for (const bool from_corners : {true, false})
         for (unsigned int first = 0; first < edges.size(); ++first)
           if (!is_done[first] && !surface.is_rigid(first) &&
@@ -79,7 +79,7 @@ namespace NMM
           length = 0.;
         }
       }
-      // what is left over belongs to the last stretch
+      // The rest belongs to the last stretch.
       if (ends.empty())
         ends.push_back(chain.size());
       ends.back() = chain.size();
@@ -214,7 +214,7 @@ namespace NMM
         result = *after;
         return true;
       }
-      // the nearer place first
+      // Begin with the nearer place.
       const auto last  = places.end() - 1;
       const auto right = after == places.end() ? last : after;
       const auto left  = right == places.begin() ? right : right - 1;
@@ -223,8 +223,8 @@ namespace NMM
       const auto nearer = is_left_nearer ? left : right;
       const auto other  = is_left_nearer ? right : left;
       result            = *nearer;
-      // on a master with two places linear, and on from there beyond its end:
-      // what is left out would be taken for elastic slip
+      // The anchor is linear in s on a master with two places, and extrapolated beyond them.
+      // Otherwise the change of the anchor along the face would appear as elastic slip.
       for (const auto &place : {nearer, other})
       {
         auto neighbor = place;

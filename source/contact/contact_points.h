@@ -12,9 +12,9 @@ namespace NMM
 {
   namespace internal
   {
-    /// What a contact point is: an end of its edge as a corner that touches in a point, a place
-    /// along a slave, or such a place where a corner of the master lies: that corner is then
-    /// the point, and the slave its master, since the corner slides along the slave.
+    /// Kind of a contact point. It is an end of its edge, as a corner that touches in a point; or a
+    /// place along a slave; or a corner of the master that lies on the slave. In the last case the
+    /// slave is the point's master, because the corner slides along the slave.
     struct PointKind
     {
       enum Value : unsigned int
@@ -27,7 +27,7 @@ namespace NMM
     };
 
 
-    /// Number of the places along an edge, or of a corner: what points remember is stored by it.
+    /// Number of the places along an edge, or of a corner; the history of points is stored by it.
     inline unsigned int
     place_key(const ContactSurface &surface,
               const unsigned int    edge,
@@ -47,18 +47,18 @@ namespace NMM
 
 
     /**
-     * Multipliers of the augmented Lagrangian: continuous and linear along
-     * the boundary, on stretches that are about as long as the cells, whatever the
-     * cuts: a multiplier per cut edge would be more than the displacements can
-     * follow, and pressures would oscillate. At corners they may jump.
+     * Space of the multipliers of the augmented Lagrangian: functions that are continuous and
+     * linear along the boundary, on stretches that are about as long as cells, however these are
+     * cut. With a multiplier for each cut edge there would be more multipliers than displacements
+     * can satisfy, and pressures would oscillate. Multipliers may jump at corners.
      */
     class MultiplierSpace
     {
     public:
       explicit MultiplierSpace(const ContactSurface &surface);
 
-      /// Two functions per edge: their numbers, and the second one's values
-      /// at the edge's ends (linear in between; the first one is the rest).
+      /// The two functions on an edge: their numbers, and the values of the second one at the ends
+      /// of the edge. It is linear in between, and both sum to 1.
       struct OnEdge
       {
         unsigned int first = invalid_index, second = invalid_index;
@@ -103,7 +103,7 @@ namespace NMM
     };
 
 
-    /// The law of each pair of edges.
+    /// The contact law of each pair of edges.
     class ContactLaws
     {
     public:
@@ -135,34 +135,33 @@ namespace NMM
 
 
     /**
-     * What a corner stands for as a contact point [m], two for each edge: the cell's
-     * size, or the distance to the next corner if that is shorter; of obstacles with
-     * the mean size of cells.
+     * Length for which a corner stands as a contact point [m], two for each edge: the size of the
+     * cell, or the distance to the next corner if that is shorter. For obstacles the mean size of
+     * all cells at faces replaces that of the cell.
      */
     std::vector<double>
     corner_sizes(const ContactSurface &surface);
 
 
-    /// Where the points of a slave edge stick, ascending in s.
+    /// Anchor, bond and slip of a contact point, by the parameter s on its edge.
     struct StickPlace
     {
       double       s;
       unsigned int edge;
       double       t;
       bool         is_bonded = false;
-      /// Way that has been slid, as far as it dilates [m].
+      /// Slip that causes dilation or weakening [m].
       double slip = 0.;
     };
 
     /**
-     * Those of all edges and corners, by a number each. They are noted anew in every
-     * step, and so what they need is kept: a table that allots each entry by itself takes
-     * more time for that than for all else.
+     * The anchors of all edges and corners, by place_key(). They are replaced in every step, so
+     * that the memory for them is kept: allocation would dominate the cost otherwise.
      */
     class StickPlaces
     {
     public:
-      /// Null: there are none.
+      /// Anchors of a key, or null if there are none.
       const std::vector<StickPlace> *
       find(const unsigned int key) const
       {
@@ -171,18 +170,18 @@ namespace NMM
                  : nullptr;
       }
 
-      /// To which @p place is added, after the others.
+      /// Append an anchor after the others of its key.
       void
       append(const unsigned int key, const StickPlace &place)
       {
         open(key).push_back(place);
       }
 
-      /// Before what lies behind it, or instead of what lies there.
+      /// Insert an anchor at its parameter s, and replace the one with the same s.
       void
       insert(unsigned int key, const StickPlace &place);
 
-      /// Call action(key, places), in the order in which they came.
+      /// Call action(key, places) for all keys, in the order in which these were first used.
       template <typename Action>
       void
       for_each(const Action &action) const
@@ -191,7 +190,7 @@ namespace NMM
           action(key, places_of[key]);
       }
 
-      /// Remove those for which is_dropped(key, place) is true.
+      /// Remove the anchors for which is_dropped(key, place) is true.
       template <typename Predicate>
       void
       remove_if(const Predicate &is_dropped)
@@ -217,7 +216,7 @@ namespace NMM
       void
       clear();
 
-      /// Those of each edge or corner ascend in s.
+      /// Sort the anchors of each key by s.
       void
       sort();
 
@@ -226,13 +225,13 @@ namespace NMM
       open(unsigned int key);
 
       std::vector<std::vector<StickPlace>> places_of;
-      /// Of which there are any.
+      /// Keys that have anchors.
       std::vector<unsigned int> keys;
     };
 
-    /// The place for @p s: linear in s on the master of the nearer place that has
-    /// two, beyond its last place as well; slip linear between two places; false if
-    /// there are none.
+    /// Compute the anchor for the parameter @p s. It is linear in s on the master of the nearer
+    /// anchor that has two, also beyond its last one; the slip is linear between two anchors.
+    /// Returns false if there are no anchors.
     bool
     find_stick_place(const std::vector<StickPlace> &places,
                      double                         s,

@@ -1,4 +1,4 @@
-// Which face of another body a contact point belongs to, and where on it.
+// Projection of contact points onto the faces of other bodies.
 #include <nmm/contact/contact.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ namespace NMM
   Contact::Data::gap_of_displacements(const unsigned int       q,
                                       const ContactProjection &projection) const
   {
-    // of the reach: what is drawn as touching has no gap
+    // Fraction of the reach below which faces are drawn as touching and have no gap.
     constexpr double touching = 1e-9;
 
     const ContactPoint         &point = points[q];
@@ -39,7 +39,7 @@ namespace NMM
     const ContactSurface::Edge &edge   = surface->edges()[face];
     const Tensor<1, 2>          normal = master.normal();
     const Tensor<1, 2>          d      = slave.x - master.x;
-    // of a straight face it is the same from wherever it is measured
+    // For a straight face the gap does not depend on where it is measured.
     double gap = (edge.radius == 0. ? slave.x - edge.start : d) * normal;
     if (std::abs(gap) <= touching * reach)
       gap = 0.;
@@ -69,8 +69,8 @@ namespace NMM
       return projection;
     point.gap = projection.gap =
       gap_of_displacements(q, projection) + frozen.gaps[q];
-    // forces are those at the frozen place; where the point has come to is where it sticks, or
-    // slides on from, if this state is accepted
+    // Forces are those at the frozen place. The anchor after this state is accepted is the place
+    // that the point has reached.
     const ContactSurface::Place place =
       surface->place(projection.master, projection.t);
     point.t =
@@ -135,7 +135,7 @@ namespace NMM
     {
       ContactProjection result =
         search.project(slave, masters, fixed.slack, fixed.home, admitted);
-      // what overlaps far more deeply than it is long came in by the other face
+      // An overlap that is much deeper than long came in through the other face of the corner.
       if (result.master != invalid_index &&
           result.gap < -CornerRules::deepest_of_piece * fixed.piece_length -
                          CornerRules::shortest_piece * size_at(q))
@@ -222,17 +222,17 @@ namespace NMM
                        const Tensor<1, 2> &slave_normal,
                        const Tensor<1, 2> &master_normal) const
   {
-    // faces that are not parallel touch over their projection only
+    // Faces that are not parallel touch along their projection only.
     const double       facing = -(slave_normal * master_normal);
     double             along  = ContactSearch::along_face(facing);
     const unsigned int corner = point_data[q].corner;
     if (corner >= PointKind::along)
       return facing * along;
     const double other_facing = -(normal_of_other_edge(q) * master_normal);
-    // both edges that end at a vertex have a point there: one spring in all
+    // Both edges that end at a vertex have a point there; together they are one spring.
     if (parameters.integration == ContactIntegration::points)
       return facing / (facing + std::max(0., other_facing));
-    // a corner touches in a point if neither of its faces touches along its length
+    // A corner touches as a point if neither of its edges touches along its length.
     along = std::max(along, ContactSearch::along_face(other_facing));
     return facing * (1. - along);
   }
@@ -267,7 +267,7 @@ namespace NMM
   {
     ContactPoint &point = points[q];
     PointData    &fixed = point_data[q];
-    // no share of the contact until points are made anew
+    // The point has no share of the contact until points are made again.
     if (fixed.has_angle && point.weight == 0.)
       return ContactProjection();
     ContactProjection projection = find_master(q, slave);
@@ -280,8 +280,8 @@ namespace NMM
     };
     if (is_between() && fixed.corner < PointKind::along)
       stay_with_face_of_end(q, slave, projection);
-    // a piece ends where two edges of the master meet; its end stays with one of
-    // them, since their normals differ a little and the iteration would not end
+    // A piece ends where two edges of the master meet. Its end point stays with one of them,
+    // because their normals differ slightly and the iteration would not converge.
     if (fixed.corner == PointKind::along && point.master != invalid_index &&
         projection.master != invalid_index &&
         point.master != projection.master &&
@@ -291,9 +291,9 @@ namespace NMM
       if (last.master != invalid_index)
         projection = last;
     }
-    // where points are made anew in a concave corner in the course of a motion, they
-    // stay on the face that they were on: each change loses or finds what its spring
-    // holds. Within a step the face is the one that the step ends at, find_end()
+    // Points that are made again in a concave corner during a motion stay on their face, because
+    // each change would lose or create the energy of the spring. Within a step, find_end()
+    // determines the face.
     if (is_moving() && !is_between() && fixed.corner >= PointKind::along &&
         point.master == invalid_index && point.stick_edge != invalid_index &&
         projection.master != invalid_index && projection.gap < 0. &&
@@ -303,7 +303,7 @@ namespace NMM
       if (last.master != invalid_index && last.gap < 0.)
         projection = last;
     }
-    // not where corners take it from another face
+    // This does not apply to gaps that corners measure from another face.
     if (!is_moving() && projection.master != invalid_index &&
         projection.gap == (slave.x - projection.place.x) * projection.normal)
       projection.gap = gap_of_displacements(q, projection);

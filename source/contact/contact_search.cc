@@ -27,7 +27,8 @@ namespace NMM
       using Box    = bg::model::box<Corner>;
       using Entry  = std::pair<Box, unsigned int>;
 
-      /// Part of an edge beyond a corner that is as good as the edge itself.
+      /// Fraction of an edge beyond a corner within which a nearest point is as good as one on the
+      /// edge.
       double
       inside_slack(const ContactSurface::Corner corner, const double slack)
       {
@@ -38,7 +39,8 @@ namespace NMM
       }
 
 
-      /// Of an edge, and how far it may bulge out between the points looked at.
+      /// Bounding box of an edge, enlarged by how far it may bulge between the sampled points and
+      /// by @p margin [m].
       Box
       box_of(const ContactSurface &surface,
              const unsigned int    edge,
@@ -73,7 +75,7 @@ namespace NMM
     {
       for (unsigned int body = ranks.size(); body < surface.n_bodies(); ++body)
         ranks.push_back(body);
-      // a direction that no face is likely to have
+      // A direction that is unlikely to be parallel to a face.
       const Tensor<1, 2> side({0.8390715290764524, 0.5440211108893698});
       for (unsigned int e = 0; e < surface.edges().size(); ++e)
         edge_to_side.push_back(surface.reference_place(e, 0.5).normal() * side);
@@ -93,8 +95,8 @@ namespace NMM
       const unsigned int other_body = surface->edges()[other].body;
       if (body == other_body)
       {
-        // beyond rounding: edges of a straight face are on one side, and so none
-        // of them meets what goes on beyond its counterpart's end
+        // Compare with a tolerance: all edges of a straight face must be on one side, so that none
+        // of them is paired with the edge next to its counterpart.
         constexpr double same = 1e-9;
         const double     more = edge_to_side[edge] - edge_to_side[other];
         return std::abs(more) > same ? more > 0. : edge < other;
@@ -141,13 +143,13 @@ namespace NMM
         return true;
       if (edge == other)
         return false;
-      // neighbours do not touch, but for both faces next to the tip of a crack
+      // Neighbours do not touch, except both faces next to the tip of a crack.
       if (edges[edge].next == other || edges[edge].previous == other)
         return edges[edge].start == edges[other].end &&
                edges[edge].end == edges[other].start &&
                edges[edge].center == edges[other].center;
-      // faces of a body that look the same way by far do not turn to face each
-      // other before candidates are looked for again
+      // Faces of one body that look the same way do not turn to face each other before the next
+      // search for candidates.
       bool may_face = false;
       for (const double s : {0., 0.5, 1.})
         for (const double t : {0., 0.5, 1.})
@@ -156,8 +158,8 @@ namespace NMM
                                    same_way_of_body;
       if (!may_face)
         return false;
-      // the far side of a thin body is no neighbour: what touches later lies
-      // outside of each other at rest
+      // The far side of a thin body is no candidate: faces of one body that can touch later are in
+      // front of each other in the reference configuration.
       const Place  here   = surface->reference_place(edge, 0.5);
       const Place  there  = surface->reference_place(other, 0.5);
       const double inside = 1e-9 * (edges[edge].length + edges[other].length);
@@ -195,7 +197,8 @@ namespace NMM
     bool
     ContactSearch::update(const double new_reach)
     {
-      // more candidates than these are not worth keeping
+      // If the kept reach is larger than this many times the new one, there are too many
+      // candidates.
       constexpr double far = 4.;
 
       begin_positions.resize(3 * surface->edges().size());
@@ -336,7 +339,7 @@ namespace NMM
       t = std::min(1. + beyond_concave_end, std::max(-beyond_concave_end, t));
 
       constexpr unsigned int max_iterations = 30;
-      // rounding of positions, and of nearly nothing
+      // Rounding of positions relative to the length, and of the parameter.
       const double tolerance =
         2e-16 * (2. + (std::abs(x[0]) + std::abs(x[1])) / chord.norm());
       for (unsigned int i = 0; i < max_iterations; ++i)
@@ -345,8 +348,8 @@ namespace NMM
         const Tensor<1, 2> d       = x - place.x;
         const double       square  = place.a.norm_square();
         const double       bending = d * place.b;
-        // beyond the centre of curvature the nearest point is no minimum:
-        // go on along the tangent
+        // Beyond the centre of curvature the nearest point is no minimum; continue along the
+        // tangent.
         const double change =
           (d * place.a) / (bending < 0.9 * square ? square - bending : square);
         if (!std::isfinite(change))
@@ -381,7 +384,7 @@ namespace NMM
             found.push_back(
               {t, is_corner(master, end) ? master : invalid_index, end});
         }
-      // of those at the same place corners first
+      // Of divisions at the same place, those with corners come first.
       std::sort(found.begin(),
                 found.end(),
                 [](const Division &a, const Division &b) {
@@ -399,7 +402,8 @@ namespace NMM
     }
 
 
-    /// Along a few edges, since one of them may be a sliver.
+    /// Whether at most a few edges lead from one edge to the other past a convex corner; some of
+    /// them may be slivers.
     bool
     ContactSearch::meet_in_convex_corner(const unsigned int edge,
                                          const unsigned int other) const
@@ -445,7 +449,7 @@ namespace NMM
       const unsigned int                          entrance,
       const AdmittedContact                      &admitted) const
     {
-      // faces at nearly a right angle, or that look the same way, do not touch
+      // Faces at nearly a right angle, and faces that look the same way, do not touch.
       const double least_facing = admitted.least_facing;
 
       const Tensor<1, 2> slave_normal = slave_place.normal();
@@ -483,8 +487,8 @@ namespace NMM
                                                             slave_normal,
                                                             other_normal)
                                         : now.gap);
-        // it came in through a face that only the other edge of the corner faces, or
-        // touches that one
+        // The corner came in through a face that only its other edge faces, or it touches that
+        // face.
         bool is_of_other_edge = false;
         for (unsigned int j = 0; j < n && now.gap < 0. && admitted.is_bound();
              ++j)
@@ -496,7 +500,7 @@ namespace NMM
              meet_in_convex_corner(now.master, near[j].master));
         if (is_of_other_edge)
           continue;
-        // outside of the corner's other face
+        // The point is outside if it is in front of the other face of the master's corner.
         for (unsigned int j = 0; j < n && now.gap < 0.; ++j)
           if (near[j].gap >= 0. &&
               can_separate(near[j].normal, slave_normal, other_normal) &&
@@ -513,10 +517,10 @@ namespace NMM
     }
 
 
-    /// Directions tell: the slave's points next to a corner above it have their feet
-    /// beyond the end of an edge that is not parallel, and where two bodies' corners
-    /// have passed each other the nearer one would be found for both. Far behind the
-    /// slave, which body is behind which is asked for, too.
+    /// The edge is found by its direction. The feet of points next to a master's corner are beyond
+    /// the end of an edge that is not parallel, and where corners of two bodies have passed each
+    /// other the nearer one would be found for both. Corners that are far behind the slave are
+    /// excluded.
     unsigned int
     ContactSearch::edge_beside(const unsigned int position,
                                const Division    &division,
@@ -638,7 +642,7 @@ namespace NMM
       ContactProjection  best;
       double             best_overshoot = 0.;
       double             best_facing    = 0.;
-      // far sides: faces of bodies that look the point's way
+      // Far sides: faces that look the same way as the point's normal, with their gaps.
       boost::container::small_vector<std::pair<unsigned int, double>, 16>
         outside;
       for (const unsigned int master : masters)
@@ -649,7 +653,7 @@ namespace NMM
         const double slack  = slack_of(master, given_slack, home);
         const double before = extension(edge.at_start, slack);
         const double after  = extension(edge.at_end, slack);
-        // neither in contact nor a far side
+        // The master is neither in contact nor a far side.
         if (surface->is_further(master,
                                 slave_place.x,
                                 largest_gap,
@@ -670,7 +674,7 @@ namespace NMM
             std::abs(now.gap) > largest_gap || !admitted.holds(now) ||
             now.t < -before || now.t > 1. + after)
           continue;
-        // how far beyond the edge's ends [m]
+        // Distance of the nearest point beyond the ends of the edge [m].
         const double overshoot =
           edge.length *
           std::max({0.,
@@ -701,11 +705,12 @@ namespace NMM
       const ContactSurface::Edge &edge    = surface->edges()[best.master];
       constexpr auto              concave = ContactSurface::Corner::concave;
       for (const auto &[far, gap] : outside)
-        if (surface->edges()[far].body == edge.body &&
-            std::abs(gap) < -best.gap && (gap > 0. || admitted.is_bound()) &&
-            // both faces of a notch: the body is on either side of them
-            !(far == edge.previous && edge.at_start == concave) &&
-            !(far == edge.next && edge.at_end == concave))
+        if (
+          surface->edges()[far].body == edge.body &&
+          std::abs(gap) < -best.gap && (gap > 0. || admitted.is_bound()) &&
+          // Exclude the two faces of a notch, which have the body on either side.
+          !(far == edge.previous && edge.at_start == concave) &&
+          !(far == edge.next && edge.at_end == concave))
           return ContactProjection();
       return best;
     }

@@ -13,12 +13,12 @@ namespace NMM
 {
   namespace internal
   {
-    /// Where a point of a slave edge meets a master edge.
+    /// Projection of a point of a slave edge onto a master edge.
     struct ContactProjection
     {
       unsigned int master = invalid_index;
       double       t      = 0.;
-      /// Positive outside [m].
+      /// Gap, positive outside of the master [m].
       double                gap = 0.;
       dealii::Tensor<1, 2>  normal;
       ContactSurface::Place place;
@@ -26,11 +26,12 @@ namespace NMM
 
 
     /**
-     * Is a convex corner, between edges with these unit normals, the furthest place of its
-     * body against the normal n of a face, that is, is -n between both? Only such pairs of a corner
-     * and a face bound the entrance block of two convex bodies, the Minkowski sum of one and the
-     * mirrored other one (Shi, Sci. China Technol. Sci. 58 (2015) 1450), and tell whether they
-     * overlap. @p other_normal: zero if it is not known; then it may.
+     * Whether a convex corner, between edges with the unit normals @p normal and @p other_normal,
+     * is the furthest place of its body against the normal n of a face, that is, whether -n is
+     * between both normals. Only such pairs of a corner and a face bound the entrance block of two
+     * convex bodies, the Minkowski sum of one and the mirrored other one (Shi, Sci. China Technol.
+     * Sci. 58 (2015) 1450), and show whether the bodies overlap. The result is true if
+     * @p other_normal is zero, that is, not known.
      */
     inline bool
     can_separate(const dealii::Tensor<1, 2> &face_normal,
@@ -51,21 +52,22 @@ namespace NMM
     }
 
 
-    /// What a point may be in contact with.
+    /// Restrictions on the contact of a point.
     struct AdmittedContact
     {
-      /// New contact begins at the surface: no face that a point lies further
-      /// behind than this [m] has been reached from outside.
+      /// Largest depth of new contact [m]. A face that is further from the point has not been
+      /// reached from outside.
       double depth = std::numeric_limits<double>::max();
-      /// Faces that the point was behind before, however deep.
+      /// Faces that the point has penetrated before; the depth is not limited for them.
       dealii::ArrayView<const unsigned int> touching;
-      /// Faces that the point is beside, see ContactSearch::append_faces_beside().
+      /// Faces that the point is beside, see ContactSearch::append_faces_beside(); they are
+      /// excluded.
       dealii::ArrayView<const unsigned int> beside;
-      /// Faces that are less parallel do not touch: minus the product of both unit
-      /// normals.
+      /// Least value of minus the product of both unit normals; faces that are less parallel do not
+      /// touch.
       double least_facing = CornerRules::least_facing;
 
-      /// What is found far inside of a body may have got there.
+      /// Whether the depth of new contact is limited.
       bool
       is_bound() const
       {
@@ -85,83 +87,82 @@ namespace NMM
 
 
     /**
-     * Finds what may touch. Broad phase: the boxes of all edges in an R-tree
-     * (Boost.Geometry, packed), queried by the boxes of slave edges inflated by a
+     * Finds candidate pairs and the nearest faces. Broad phase: the bounding boxes of all edges in
+     * an R-tree (Boost.Geometry, packed) are queried with the boxes of slave edges, enlarged by the
      * reach. Narrow phase: the closest point.
      *
-     * Of two edges the *slave* carries the contact points: obstacles are always
-     * masters, of blocks the one with the lower rank is the slave, within a
-     * block the one that looks more to one side: all of a face's edges are the same.
+     * Of two edges the *slave* carries the contact points. Obstacles are always masters; of two
+     * blocks the one with the lower rank is the slave; within a block the edge that looks more into
+     * a fixed direction is, so that all edges of a face are the same.
      *
-     * Faces that are nearly parallel touch along their length; a corner that points at a
-     * face touches in a point, whichever body it belongs to. So convex corners of
-     * both sides are points, too, one for each of the two edges that end there, with
-     * the share 1 - along_face() of a fixed weight, and points along slave edges have
-     * the share along_face().
+     * Faces that are nearly parallel touch along their length; a corner that points at a face
+     * touches in a point, whichever body it belongs to. So convex corners of both sides are contact
+     * points, too, one for each of the two edges that end there. They have the fraction 1 -
+     * along_face() of a fixed weight, and points along slave edges have the fraction along_face().
+     *
+     * Order of calls: update() at the beginning of a step, then slaves(), masters() and the
+     * functions that project.
      */
     class ContactSearch
     {
     public:
-      /// @p body_ranks: see ContactParameters; empty: the body's number.
-      /// @p only_vertices: there are no slaves but corners, and ends of arcs are some,
-      /// too.
+      /// @p body_ranks: rank of each body, see ContactParameters; if it is empty, the number of the
+      /// body. @p only_vertices: whether only corners are slaves, the ends of arcs among them.
       ContactSearch(const ContactSurface     &surface,
                     std::vector<unsigned int> body_ranks,
                     bool                      only_vertices = false);
       ~ContactSearch();
 
       /**
-       * Have the masters of this rank's edges within @p reach [m] at the
-       * surface's current positions. They are looked for within half as much again,
-       * and kept as long as no face has moved by more than what that leaves over.
-       * Returns whether they have been looked for.
+       * Update the masters of this rank's edges at the current positions of the surface. Masters
+       * are searched for within 1.5 times @p reach [m], and kept until a face has moved further
+       * than the difference allows. Returns whether they have been searched for.
        */
       bool
       update(double reach);
 
-      /// Bodies have come or gone: the next update() looks for masters anew.
+      /// Let the next update() search for masters, because bodies have appeared or disappeared.
       void
       forget()
       {
         broad_reach = 0.;
       }
 
-      /// Look for them now, within one and a half times @p reach.
+      /// Search for masters now, within 1.5 times @p reach [m].
       void
       search(double reach);
 
-      /// Edges that this rank looks after and that have masters: first slaves
-      /// with all of their length, then those of which one end is a corner;
-      /// ascending in both parts. Corners of obstacles are with the first rank.
+      /// Slave edges of this rank that have masters: first those that touch along their length,
+      /// then those with a corner at one end, ascending in both parts. Corners of obstacles belong
+      /// to the first rank.
       const std::vector<unsigned int> &
       slaves() const;
 
-      /// The end of a slave that is a corner: 0 or 1; all of its length: 2.
+      /// The end of a slave that is a corner, 0 or 1; 2 if the slave touches along its length.
       unsigned int
       corner(unsigned int position) const
       {
         return corners[position];
       }
 
-      /// Is this end of an edge a corner that can touch as such?
+      /// Whether an end of an edge is a corner that can touch as a point.
       bool
       is_corner(unsigned int edge, unsigned int end) const;
 
-      /// Is it the first of two edges that is the slave along their length?
+      /// Whether the first one of two edges is the slave.
       bool
       comes_first(unsigned int edge, unsigned int other) const;
 
-      /// Share of the contact of two faces that is along their length: 1 if they are
-      /// nearly parallel, 0 if they meet at an angle. @p facing: minus the product of
-      /// their normals.
+      /// Fraction of the contact of two faces that is along their length: 1 if they are nearly
+      /// parallel, 0 if they meet at an angle. @p facing is minus the product of their normals.
       static double
       along_face(double facing);
 
-      /// What the search has done on this rank since it was made; times of machines
-      /// say less.
+      /// Work of the search on this rank since it was made; unlike times, it does not depend on the
+      /// machine.
       struct Statistics
       {
-        /// Edges whose boxes meet that of a slave or corner, and those of them that may
+        /// Number of edges whose boxes meet that of a slave or corner, and number of those that may
         /// touch it.
         std::size_t n_boxes = 0, n_candidates = 0;
       };
@@ -172,27 +173,27 @@ namespace NMM
         return counts;
       }
 
-      /// Of the slave at a position of slaves(), ascending.
+      /// Masters of the slave at a position of slaves(), ascending.
       dealii::ArrayView<const unsigned int>
       masters(unsigned int position) const;
 
-      /// Largest way [m] that an end or the middle of an edge has moved since
-      /// update(), on this rank's knowledge, which is that of all ranks.
+      /// Largest distance [m] that an end or the middle of an edge has moved since update(). It is
+      /// the same on all ranks.
       double
       motion() const
       {
         return largest_distance(begin_positions);
       }
 
-      /// At update(): start, middle and end of all edges.
+      /// Start, middle and end of all edges at update().
       const std::vector<dealii::Point<2>> &
       step_begin() const
       {
         return begin_positions;
       }
 
-      /// Where a step begins: where faces are now, or in the reference configuration;
-      /// unchanged, or here if it is not known.
+      /// Choice of the beginning of a step: the current positions, the reference configuration, the
+      /// previous choice (current positions if there is none), or unknown.
       enum class Begin
       {
         here,
@@ -204,18 +205,18 @@ namespace NMM
       void
       begin(Begin where);
 
-      /// As motion(), since the begin of the step.
+      /// Largest distance as in motion(), since begin() [m].
       double
       motion_since_begin() const
       {
         return largest_distance(accepted_positions);
       }
 
-      /// As the home of project(): all of the masters.
+      /// Value of the home of project() that stands for all masters.
       static constexpr unsigned int any_edge = invalid_index - 1;
 
-      /// Where a slave is divided: parameter, and the master and its end that lie
-      /// there if that is a corner.
+      /// A division of a slave: its parameter, and the master and its end that lie there if that
+      /// end is a corner.
       struct Division
       {
         double       s      = 0.;
@@ -223,26 +224,28 @@ namespace NMM
       };
 
       /**
-       * Where the slave at a position is to be divided, ascending from 0 to 1:
-       * its ends, and where ends of its masters lie nearest. On
-       * the pieces between, both displacements are polynomials.
+       * Divisions of the slave at a position, ascending from 0 to 1: its ends, and the places
+       * nearest to the ends of its masters. On the pieces in between, the displacements of both
+       * sides are polynomials.
        */
       std::vector<Division>
       divisions(unsigned int position) const;
 
       /**
-       * The nearest of the masters that face the normal of @p slave_place (unit
-       * normals' product below -0.01), within the reach; master is invalid_index
-       * if there is none. An edge that has the nearest point within its ends comes
-       * before one that has it beyond them, by however little. Of two that meet in a convex corner: the one that faces
-       * it more, whichever is nearer (Shi's entrance edge: with a corner in the other
-       * body, both are penetrated); the same for two at equal distance, then the lower
-       * number. There is none, either, if a face of the master's body that looks the
-       * point's own way is nearer, the far side of a thin body: it is not by the master that
-       * the point is inside, if it is. Beyond a
-       * convex corner or an open end there is no master, beyond a smooth joint or a concave
-       * corner an edge goes on. @p slack: part of an edge by which the edge @p home goes on at convex corners
-       * and open ends, other bodies than its own being left out; negative: by which all end earlier, see end_slack().
+       * The nearest of the masters that face the normal of @p slave_place (product of unit normals
+       * below -0.01) within the reach; master is invalid_index if there is none. An edge with the
+       * nearest point between its ends comes before one with a nearest point beyond them. Of two
+       * edges that meet in a convex corner, the one that faces the normal more is taken, whichever
+       * is nearer (Shi's entrance edge: a corner in the other body penetrates both). The same holds
+       * for two edges at equal distance; then the lower number is taken.
+       *
+       * There is no master either if a face of the same body that looks the same way as the slave
+       * is nearer. The point is then beyond the far side of a thin body.
+       *
+       * Edges are continued beyond smooth joints and concave corners, but not beyond convex corners
+       * and open ends. @p slack is the fraction of an edge by which the edge @p home is continued
+       * there, too; other bodies than that of the home are then left out. If the slack is negative,
+       * all edges are shortened by it, see end_slack().
        */
       ContactProjection
       project(const ContactSurface::Place          &slave_place,
@@ -252,18 +255,20 @@ namespace NMM
               const AdmittedContact &admitted = AdmittedContact()) const;
 
       /**
-       * The master of a corner. The corner is in a body if it is behind a face, and of
-       * two faces that meet in a convex corner behind both. It is then pushed out
-       * through the face by which it came in, @p entrance, as long as it is behind
-       * that one; at first through the one that it is least behind (Shi's entrance
-       * edge), at equal depths through the one with the lower number. A face keeps the corner
-       * out only if nothing of the corner's own body reaches further against that face's normal, that
-       * is, if the reversed normal is between those of both edges that meet in the corner (the
-       * faces of the Minkowski sum of one convex body and the mirrored other one): the tip of a wedge
-       * that is beside a corner is in front of one of its faces, and yet the wedge is in it. Where that is a face
-       * that only the corner's other edge faces, whose unit normal is @p other_normal
-       * (zero: none is known), the point of that other edge is pushed out. A corner that is
-       * in no body has the nearest face for master.
+       * The master of a corner. The corner is inside a body if it is behind a face, and, if two
+       * faces meet in a convex corner, behind both. It is pushed out through the face by which it
+       * came in, @p entrance, as long as it is behind that face. At first this is the face that it
+       * is least behind (Shi's entrance edge), at equal depths the one with the lower number.
+       *
+       * A face keeps the corner out only if nothing of the corner's own body reaches further
+       * against the face's normal, that is, if the reversed normal is between those of both edges
+       * that meet in the corner (the faces of the Minkowski sum of one convex body and the mirrored
+       * other one). Otherwise the tip of a wedge beside a corner would be in front of one of its
+       * faces although the wedge is inside.
+       *
+       * If only the corner's other edge, with the unit normal @p other_normal (zero if it is not
+       * known), faces the master, the point of that edge is pushed out. The master of a corner that
+       * is in no body is the nearest face.
        */
       ContactProjection
       project_corner(const ContactSurface::Place          &slave_place,
@@ -273,10 +278,10 @@ namespace NMM
                      const AdmittedContact &admitted = AdmittedContact()) const;
 
       /**
-       * How far a point at @p x is, at least, from where it would be behind one of
-       * the masters as project() finds it with @p slack and @p home, project_corner() with
-       * CornerRules::beyond_rounding and any_edge: the distance from the strips behind all of
-       * them that are as deep as the reach [m]. 0 if one of them is an arc.
+       * Lower bound on the distance of @p x from places where it would be behind one of the masters
+       * [m], as project() finds it with @p slack and @p home, or project_corner() with
+       * CornerRules::beyond_rounding and any_edge. It is the distance from the strips behind all
+       * masters that are as deep as the reach; 0 if one of the masters is an arc.
        */
       double
       clearance(const dealii::Point<2>               &x,
@@ -285,13 +290,12 @@ namespace NMM
                 unsigned int                          home) const;
 
       /**
-       * For the division at which a piece of a slave begins or ends: it lies
-       * where a master's corner lies, and rounding and small motions must not
-       * decide whether it has a master. The piece does: if there is a master
-       * next to the end of the piece, which goes on to @p s_inside, the result is
-       * positive, else negative. @p master: that one. Faces so steep on the slave
-       * that they bear nothing along it, see along_face(), are none: where corners of two
-       * bodies are side by side, one may be nearer than the face that goes on above the piece.
+       * Slack for the division at which a piece of a slave begins or ends. A master's corner lies
+       * there, and neither rounding nor small motions may decide whether the point has a master.
+       * The result is positive if the piece, which goes on to @p s_inside, has a master next to its
+       * end, else negative. @p master is set to that master. Faces that are too steep to touch
+       * along the slave, see along_face(), are left out: where corners of two bodies are side by
+       * side, one may be nearer than the face above the piece.
        */
       double
       end_slack(unsigned int    position,
@@ -299,17 +303,17 @@ namespace NMM
                 double          s_inside,
                 unsigned int   &master) const;
 
-      /// The edge of the body of @p master that ends, within a hundredth of a
-      /// cell, where the slave at a position has the parameter @p s, or goes on there.
+      /// The edge of the body of @p master that ends within a hundredth of a cell of the parameter
+      /// @p s of the slave at a position, or continues there; invalid_index if there is none.
       unsigned int
       find_home(unsigned int position, double s, unsigned int master) const;
 
       /**
-       * Which of some masters a point of an edge is beside of: it lies deeper behind them
-       * than @p depth [m], but the overlap of the edge with their body ends at the next face
-       * round a convex corner, and is much less long than deep. Corners that pass each other
-       * by the side overlap so; the faces there touch, not the ones that the point is
-       * far behind. Depths are from the tangent in the middle of a master: arcs are taken for
+       * Append those masters that a point of an edge is beside of. The point is deeper behind such
+       * a face than @p depth [m], but the overlap of the edge with that body ends at the next face
+       * round a convex corner, and is much shorter than deep. This occurs where corners pass each
+       * other by the side: the faces at the side touch, not the ones that the point is far behind.
+       * Depths are measured from the tangent in the middle of a master; arcs are treated as
        * straight.
        */
       void
@@ -319,26 +323,26 @@ namespace NMM
                           double                                depth,
                           std::vector<unsigned int>            &faces) const;
 
-      /// How far @p x is inside of a body: from the nearest of the candidates at
-      /// @p position that belong to it [m]; 0 outside.
+      /// Distance of @p x from the nearest candidate at @p position that belongs to the body [m],
+      /// if @p x is inside of the body; else 0.
       double
       depth_inside(unsigned int            position,
                    unsigned int            body,
                    const dealii::Point<2> &x) const;
 
     private:
-      /// The edge of the corner at a division that goes on above the slave's piece
-      /// towards @p s_inside and faces it; invalid_index: none.
+      /// The edge of the corner at a division that goes on above the slave's piece towards @p
+      /// s_inside and faces it; invalid_index if there is none.
       unsigned int
       edge_beside(unsigned int    position,
                   const Division &division,
                   double          s_inside) const;
 
-      /// Part of an edge by which it may go on beyond an end.
+      /// Fraction of an edge by which it is continued beyond an end with this corner.
       static double
       extension(ContactSurface::Corner corner, double slack);
 
-      /// Of a master in project().
+      /// Slack of a master in project().
       static double
       slack_of(unsigned int master, double slack, unsigned int home);
 
@@ -362,9 +366,9 @@ namespace NMM
       double
       largest_distance(const std::vector<dealii::Point<2>> &positions) const;
 
-      /// How far a corner at @p x, behind a face, is outside of the body because of a face
-      /// that meets this one in a convex corner [m]; negative: it is not. Both normals are
-      /// those of the corner's edges, see can_separate().
+      /// Distance of a corner at @p x from the body [m], if it is behind a face but in front of
+      /// another face that meets this one in a convex corner; negative if there is no such face.
+      /// Both normals are those of the corner's edges, see can_separate().
       double
       gap_beyond_corner(unsigned int                edge,
                         const dealii::Point<2>     &x,
@@ -374,12 +378,13 @@ namespace NMM
       bool
       meet_in_convex_corner(unsigned int edge, unsigned int other) const;
 
-      /// How long the part of an edge is that lies behind a face and ends at a corner
-      /// of the edge [m]; infinite where the edge goes on behind it.
+      /// Length of the part of an edge that lies behind a face and ends at a corner of the edge
+      /// [m]; infinite if the edge continues behind the face beyond its end.
       double
       length_behind(unsigned int edge, const ContactSurface::Place &face) const;
 
-      /// See append_faces_beside(); @p depth: behind this master.
+      /// Whether the point is beside a master, see append_faces_beside(); @p depth is its depth
+      /// behind that master [m].
       bool
       is_beside(unsigned int            edge,
                 const dealii::Point<2> &x,
@@ -394,14 +399,14 @@ namespace NMM
 
       const ContactSurface     *surface;
       std::vector<unsigned int> ranks;
-      /// See comes_first().
+      /// Order of the edges of a block, see comes_first().
       std::vector<double>       edge_to_side;
       bool                      only_vertices;
       Statistics                counts;
       double                    reach = 0., broad_reach = 0.;
       std::vector<unsigned int> slave_edges, masters_begin, master_edges;
       std::vector<unsigned int> corners;
-      /// At search(), at update() and where begin() says.
+      /// Positions of start, middle and end of all edges at search(), at update() and at begin().
       std::vector<dealii::Point<2>> known_positions, begin_positions;
       std::vector<dealii::Point<2>> accepted_positions;
     };

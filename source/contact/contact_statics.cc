@@ -95,9 +95,9 @@ namespace NMM
   namespace internal
   {
     /**
-     * Newton's method for displacements and contact states together; then candidates and
-     * divisions are found anew at the solution and, with a penetration tolerance, multipliers
-     * are updated; and again.
+     * Search for the equilibrium of a load step. Newton's method finds displacements and contact
+     * states together. Then candidate pairs and contact points are updated at the solution and,
+     * with a penetration tolerance, multipliers, too. This is repeated until nothing changes.
      */
     class ContactEquilibrium : public EquilibriumSearch
     {
@@ -135,7 +135,7 @@ namespace NMM
                "allow smaller steps";
       }
 
-      /// What is known of the last step beside its LoadStep.
+      /// Data of the last step beside its LoadStep.
       ContactStep found;
 
     private:
@@ -152,8 +152,8 @@ namespace NMM
     };
 
 
-    /// Joints break where they are stressed most, and what is left finds a new
-    /// equilibrium before others do.
+    /// Break the bonds with the largest stress. The remaining ones get a new equilibrium before
+    /// more bonds break.
     bool
     ContactEquilibrium::break_bonds()
     {
@@ -170,10 +170,10 @@ namespace NMM
     {
       const double tolerance    = contact->parameters().penetration_tolerance;
       const bool   is_augmented = tolerance > 0.;
-      // candidates and divisions follow the solution, which moves little by them
+      // Candidate pairs and divisions follow the solution, which they hardly change.
       constexpr unsigned int n_plain = 3;
-      // of the reach: small displacements by which neither candidates nor divisions nor, to
-      // first order, forces change
+      // Fraction of the reach: displacements that are smaller change neither candidate pairs nor
+      // divisions nor, to first order, forces.
       constexpr double   small_motion = 0.01;
       const unsigned int n =
         is_augmented ? contact->parameters().max_augmentations + 1 : n_plain;
@@ -185,12 +185,12 @@ namespace NMM
       double penetration = 0.;
       for (unsigned int i = 0; i < n; ++i)
       {
-        // faces are found where the last step has ended, not where it is thought to go
+        // Search at the end of the last step, not at the predicted displacements.
         Vector detected(u);
         if (i == 0 && change != nullptr)
           detected -= *change;
         contact->detect(detected);
-        // geometry that is frozen is that of the first assembly
+        // Linearized geometry is that of the first assembly.
         if (i == 0 && change != nullptr && !contact->is_idle())
           contact->assemble(detected, /* with_tangent = */ false);
         step.newton =
@@ -203,7 +203,7 @@ namespace NMM
         if (!step.newton.converged)
           return step.newton.reason;
         found.contact = contact->report();
-        // where all has moved far, there may be candidates now
+        // If everything has moved far, there may be candidate pairs now.
         if (contact->is_idle() &&
             (i > 0 || contact->find_fault(u).reason.empty()))
           return "";
@@ -266,8 +266,8 @@ namespace NMM
   {
     NewtonParameters parameters;
     parameters.max_iterations = 25;
-    // later solutions of a step start next to their end, where the energy of the
-    // first correction says nothing
+    // Later solutions of a step start close to their end, where the energy of the first correction
+    // is no measure.
     parameters.energy_tolerance = 1.;
     parameters.always_search    = true;
     return parameters;
@@ -298,12 +298,12 @@ namespace NMM
     });
     if (d.statics.load_factor() == 0.)
     {
-      // rounding of arcs, in parts of the range that is looked at
+      // Rounding of arcs, as a fraction of the reach.
       constexpr double tolerance = 1e-6;
       d.contact->set_time(0.);
       d.contact->surface().check_initial_overlap(tolerance *
                                                  d.contact->parameters().reach);
-      // points stick where they are now, not where the first solution takes them
+      // Set the anchors at the initial positions, not where the first solution moves the points.
       d.contact->detect(solution());
       d.contact->assemble(solution(), false);
       d.contact->accept();

@@ -1,4 +1,4 @@
-// Contact in time steps: conserving forces, what a continuation needs.
+// Contact in time steps: forces that conserve energy.
 #include <nmm/contact/contact.h>
 
 #include <deal.II/base/mpi.h>
@@ -19,8 +19,8 @@ namespace NMM
 
   namespace
   {
-    /// Mean pressure of a spring whose gap goes from g_0 to g_1, minus the change of its energy
-    /// over that of the gap, and the derivative by g_1.
+    /// Mean pressure of a spring whose gap goes from g_0 to g_1, and its derivative by g_1: minus
+    /// the change of the energy over that of the gap.
     ContactLaw::Response
     mean_pressure(const ContactLaw &law,
                   const bool        bears_tension,
@@ -32,7 +32,7 @@ namespace NMM
         result = law.mean_pressure(-g_0, -g_1);
       else if (g_0 < 0. || g_1 < 0.)
       {
-        // it touches at one end only
+        // The spring is closed at one end only.
         const double change = g_0 - g_1;
         const double d_0 = std::max(0., -g_0), d_1 = std::max(0., -g_1);
         result.value = (law.energy(d_1) - law.energy(d_0)) / change;
@@ -60,7 +60,7 @@ namespace NMM
     d.step.nodal_expected.clear();
     d.step.time_begin = time;
     set_time(time);
-    // what lies between the last step and this one opens nothing
+    // Points that have moved between the last step and this one do not dilate.
     d.slip_is_frozen = true;
     assemble(u, false);
     d.slip_is_frozen = false;
@@ -73,8 +73,8 @@ namespace NMM
       d.point_data[q].gap_begin    = d.points[q].gap - d.opening_before(q);
       d.point_data[q].master_begin = d.points[q].master;
       d.point_data[q].shear_begin  = d.points[q].shear;
-      // what slides, or bears no shear, sticks where its shear says: places that
-      // are interpolated between those of other points may be far away
+      // The anchor of a point that slides or has no shear follows from its shear. Anchors that are
+      // interpolated between those of other points may be far away.
       ContactPoint &point = d.points[q];
       if (!d.has_friction || point.master == invalid_index ||
           point.state == ContactState::stick || point.is_bonded)
@@ -148,10 +148,10 @@ namespace NMM
     ContactPoint     &point = points[q];
     PointData        &fixed = point_data[q];
     const ContactLaw &law   = *fixed.law;
-    // A master that comes into sight, or follows round a corner, pushes back as
-    // far as the point moves from now on, and what is stored for one that is left
-    // behind is lost: there is no energy in what appears.
-    // Gaps are those that slip has not opened.
+    // A master that is found within the step, or that the point reaches round a corner, pushes back
+    // as far as the point moves from now on. The energy stored against a master that is left behind
+    // is lost. So new masters do not create energy. Gaps here do not include the opening of this
+    // step by dilation.
     const double least  = 1e-4 * reach;
     const double rise   = fixed.dilation.opening - opening_before(q);
     const double motion = opening - rise;
@@ -198,13 +198,13 @@ namespace NMM
     if (!point.is_bonded && point.pressure <= 0.)
       point.pressure = derivative = by_begin = 0.;
 
-    // the gap of curved or turning faces changes not quite by this; where
-    // nothing moves the ratio of both is rounding
+    // The gap of curved or turning faces does not change exactly by the normal motion; the factor
+    // corrects that. Where nothing moves the ratio of both would be rounding.
     const double square = opening * opening + least * least;
     const double more   = (g_1 - g_0 - motion) * opening / square;
     const double factor = 1. + std::min(1., std::max(-0.5, more));
 
-    // by the gap at the end, the opening, and by what both change g_0 and g_1
+    // Derivatives of g_0 and g_1 by the gap at the end and by the normal motion.
     const double gap_by_opening = is_followed && !begin_moves ? 1. : 0.;
     const double gap_by_gap =
       is_followed && !begin_moves ? 0. : fixed.dilation.by_gap;
@@ -214,7 +214,7 @@ namespace NMM
       factor * (derivative * gap_by_opening - (begin_moves ? by_begin : 0.));
     if (factor == 1. + more && !begin_moves)
     {
-      // what slip opens takes as much from the gap as from the motion
+      // Dilation changes the gap and the motion by the same amount.
       if (!is_followed)
         fixed.pressure_by_gap += point.pressure * opening / square;
       fixed.pressure_by_opening +=
@@ -225,12 +225,12 @@ namespace NMM
     }
     fixed.pressure_by_gap *= point.weight;
     fixed.pressure_by_opening *= point.weight;
-    // what rises against the pressure takes from the loss by friction
+    // The work of dilation against the pressure is a part of the work of friction.
     fixed.normal_loss +=
       point.weight *
       (factor * (spring - point.pressure) * opening - spring * rise);
-    // faces that turn and hardly part or close: what the factor leaves of the spring's energy
-    // is lost, or shows in the account if it is more than there was
+    // For faces that turn and hardly move along the normal, the factor is limited. Spring energy
+    // that the force does not return is then lost, or appears as an error in the energy balance.
     fixed.normal_loss +=
       point.weight *
       std::max(0., spring * (g_1 - g_0 + rise - factor * opening));
@@ -252,7 +252,8 @@ namespace NMM
     const PointData &fixed  = point_data[q];
     const auto       covers = surface->covers(projection.master);
 
-    // by the displacements at the end, where the faces have turned since the middle
+    // Derivative by the displacements at the end, where the faces have turned since the middle of
+    // the step.
     unsigned int master = projection.master;
     double       t      = projection.t;
     Tensor<1, 2> normal = f.normal;
@@ -274,8 +275,8 @@ namespace NMM
                            (k < 2 * f.n_slave ? fixed.weights.w[k / 2]
                                               : -weights.w[k / 2 - f.n_slave]);
 
-    // of motion . n and motion . tau in the middle, which turn, and whose foot moves,
-    // half as far as at the end
+    // Derivatives of motion . n and motion . tau in the middle of the step. There n, tau and the
+    // foot change half as much as at the end.
     const Tensor<1, 2> motion = relative_motion(q, projection);
     Tensor<1, 2>       stretch;
     surface->weights(projection.master, projection.t, weights);
@@ -300,10 +301,10 @@ namespace NMM
   }
 
 
-  /// The mean of the spring's shear before and after the slip @f$s@f$ of the step, and the
-  /// dashpot's: @f$q = q_0 + \epsilon_t s/2 + c_t s/h@f$, so that q s is the change of
-  /// q_0^2 / (2 eps_t) and what the dashpot takes, however faces turn in the step. The
-  /// place where the point sticks tells q_0 of the next one.
+  /// Shear of a point in the step: the mean of the spring's shear before and after the slip
+  /// @f$s@f$, and that of the dashpot, @f$q = q_0 + \epsilon_t s/2 + c_t s/h@f$. Its work q s is
+  /// the change of q_0^2 / (2 eps_t) plus the dissipation of the dashpot, however faces turn in
+  /// the step. The anchor determines q_0 of the next step.
   void
   Contact::Data::find_shear_between(const unsigned int       q,
                                     const ContactProjection &projection,
@@ -322,7 +323,7 @@ namespace NMM
       (fixed.gap_begin >= fixed.offset && !point.is_bonded);
     if (is_coming)
     {
-      // where it came from
+      // The anchor is where the point was at the beginning of the step.
       point.stick_edge = projection.master;
       point.stick_t    = projection.t - 0.5 * slip / length;
     }
@@ -367,7 +368,7 @@ namespace NMM
                         ? reach
                         : projection.gap - fixed.dilation.opening;
     }
-    // without contact in the middle of the step nothing is stored at its end
+    // These values hold if there is no contact in the middle of the step.
     fixed.shear_work = fixed.normal_loss = 0.;
     fixed.offset_end                     = std::min(0., fixed.gap_end);
     if (fixed.gap_begin < fixed.offset || fixed.gap_end < fixed.offset ||
@@ -380,7 +381,7 @@ namespace NMM
   }
 
 
-  /// A point in the mean position.
+  /// Add one point in the mean position of the step.
   void
   Contact::Data::add_point_between(const unsigned int q,
                                    const bool         with_tangent)
@@ -467,7 +468,7 @@ namespace NMM
   Contact::Data::find_clearances()
   {
     step.was_clear.assign(points.size(), false);
-    // what slides apart may open faces that are in contact
+    // Clearances cannot be used with dilation: sliding faces may open and touch others.
     if (!parameters.skip_clear_points || laws.has_dilation())
       return;
     const auto               &edges = surface->edges();
@@ -482,7 +483,7 @@ namespace NMM
       if (fixed.gap_begin < fixed.offset || point.is_bonded ||
           edges[point.edge].radius != 0.)
         continue;
-      // without weight it has no share until points are made anew
+      // A point without weight takes no part in contact until points are made again.
       distances[q] =
         fixed.has_angle && point.weight == 0.
           ? std::numeric_limits<double>::max()
@@ -542,7 +543,7 @@ namespace NMM
   void
   Contact::Data::couple_expected()
   {
-    // how many times as far as expected anything may move
+    // Factor on the expected motion by which clearances are checked.
     constexpr double margin = 2.;
 
     std::vector<bool> is_expected(search.slaves().size(), false);

@@ -12,7 +12,7 @@ namespace NMM
 
   namespace
   {
-    /// Joints whose faces are free, and boundaries.
+    /// Whether an edge is a boundary or the face of an open joint.
     bool
     is_free(const ManifoldMesh &mesh, const ElementEdge &edge)
     {
@@ -34,8 +34,8 @@ namespace NMM
     }
 
 
-    /// Cutting is exact, coordinates are not: an edge may have the length of their
-    /// rounding, and no direction. It is none to touch.
+    /// Whether an edge is longer than rounding. Cutting is exact but coordinates are not, and an
+    /// edge as short as their rounding has no direction; it cannot touch anything.
     bool
     has_length(const ManifoldMesh &mesh,
                const unsigned int  element,
@@ -48,7 +48,7 @@ namespace NMM
     }
 
 
-    /// Of the curves that lie on each other, the one that is the element's face.
+    /// Of the curves that coincide on an edge, the one that is a face of the element.
     unsigned int
     own_curve(const ManifoldMesh &mesh,
               const unsigned int  element,
@@ -66,7 +66,7 @@ namespace NMM
     }
 
 
-    /// Position of the edge that follows in the same loop.
+    /// Position of the next edge in the same loop.
     unsigned int
     next_in_loop(const dealii::ArrayView<const ElementEdge> &edges,
                  const unsigned int                          position)
@@ -98,8 +98,7 @@ namespace NMM
       double       range       = sign * (edge.last_angle - edge.first_angle);
       if (range < 0.)
         range += turn;
-      // slivers whose ends rounding has put into one place or in the wrong order
-      // are no full circles
+      // A sliver whose ends coincide or are swapped by rounding is not a full circle.
       constexpr double rounding = 1e-9, least = 1e-15;
       if (range > turn - rounding)
         range = 0.;
@@ -109,7 +108,7 @@ namespace NMM
     }
 
 
-    /// As an arc with the body on the left.
+    /// Convert a piece of an obstacle to an edge with the body on the left.
     ContactSurface::Edge
     edge_of_piece(const CurvePiece &piece)
     {
@@ -227,9 +226,9 @@ namespace NMM
   }
 
 
-  /// Turn about the end of an edge, from element to element, until the next free
-  /// edge: exact at pinched points and tips of cracks, where coordinates do not
-  /// tell which edge follows.
+  /// Find the edge that follows an edge on the boundary: turn about its end from element to element
+  /// until the next free edge. This is exact at pinched points and tips of cracks, where
+  /// coordinates do not determine the next edge.
   void
   ContactSurface::find_next(const unsigned int element,
                             const unsigned int position,
@@ -240,7 +239,7 @@ namespace NMM
 
     const MathematicalMesh &cells = mesh.mathematical_mesh();
     Point<2>                pivot = all_edges[edge].end;
-    // element and its edge that ends at the pivot
+    // Current element, and its edge that ends at the pivot.
     unsigned int e = element, k = position;
     for (unsigned int i = 0; i < n_turns; ++i)
     {
@@ -270,7 +269,7 @@ namespace NMM
       }
       else
       {
-        // a whole cell, which touches the boundary with a corner only
+        // The element is a whole cell that touches the boundary with one corner only.
         const auto  &corners = cells.cell_vertices(mesh.cell(e));
         unsigned int local   = 0;
         while (local < 3 && cells.vertices()[corners[local]] != pivot)
@@ -354,7 +353,7 @@ namespace NMM
       const Tensor<1, 2> there = reference_place(edge.next, 0.).a;
       const double       angle =
         std::atan2(here[0] * there[1] - here[1] * there[0], here * there);
-      // both faces of a crack up to its tip: rounding may give -pi or pi
+      // The two faces at the tip of a crack: rounding may give an angle of -pi or pi.
       const Edge &next   = all_edges[edge.next];
       const bool  is_tip = next.start == edge.end && next.end == edge.start &&
                           next.center == edge.center;
@@ -532,7 +531,7 @@ namespace NMM
     const Tensor<1, 2> dxi = edge.inverse * X.a;
     const Tensor<1, 2> ddxi =
       edge.radius == 0. ? Tensor<1, 2>() : Tensor<1, 2>(edge.inverse * X.b);
-    // barycentric coordinates along the edge
+    // Barycentric coordinates along the edge, and their derivatives by t.
     const double l[3]   = {1. - xi[0] - xi[1], xi[0], xi[1]};
     const double dl[3]  = {-dxi[0] - dxi[1], dxi[0], dxi[1]};
     const double ddl[3] = {-ddxi[0] - ddxi[1], ddxi[0], ddxi[1]};
@@ -631,7 +630,7 @@ namespace NMM
       way -= obstacle_displacements[edge.body - n_blocks];
     else
     {
-      // the place is on the chord but for d_2 t (t - 1), |t (t - 1)| <= 3/4
+      // The place differs from the chord by d_2 t (t - 1), with |t (t - 1)| <= 3/4.
       const auto &d = current[e].d;
       way -= d[0];
       chord += d[1] + d[2];

@@ -57,8 +57,7 @@ namespace NMM
 
     namespace
     {
-      /// Add @p factor times the derivative of the distance along tau from where it
-      /// sticks to @p row.
+      /// Add @p factor times the derivative of the tangential distance from the anchor to @p row.
       void
       add_distance(const ContactKinematics            &f,
                    const ContactTraction              &traction,
@@ -114,7 +113,7 @@ namespace NMM
       if (stick == nullptr)
         return;
 
-      // of the shear, and the share of the pressure that comes from slip
+      // Change of the shear, and of the part of the pressure that depends on the slip.
       double       change[ContactKinematics::max] = {};
       const double by_slip                        = traction.pressure_by_slip;
       const double by_distance =

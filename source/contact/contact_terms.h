@@ -9,15 +9,15 @@ namespace NMM
 {
   namespace internal
   {
-    /// Dense matrix and forces of one contact point: covers of the slave, the
-    /// master and, with friction, of the edge on which the point sticks.
+    /// Dense matrix and forces of one contact point, for the covers of the slave, the master and,
+    /// with friction, of the edge of the anchor.
     struct ContactLocalSystem
     {
       static constexpr unsigned int max_covers =
         3 * WeightFunctions::max_per_cell;
       unsigned int n_covers = 0;
       unsigned int covers[max_covers];
-      /// (2 n_covers x 2 n_covers), row-major.
+      /// Matrix (2 n_covers x 2 n_covers), row-major.
       double matrix[4 * max_covers * max_covers];
       double rhs[2 * max_covers];
 
@@ -38,8 +38,8 @@ namespace NMM
 
 
     /**
-     * A contact point: how the gap and the slip depend on the unknowns d of slave
-     * and master, to second order. With the slave's position x_s, the master's
+     * Kinematics of a contact point: first and second variations of the gap and the slip by the
+     * unknowns d of slave and master. With the slave's position x_s, the master's
      * nearest point x_m(t), a = dx_m/dt, b = d^2x_m/dt^2, its outward normal n,
      * tangent tau = a/|a| and
      * @f$ N_1 = (0, -w_m' n),\ T = (w_s\tau, -w_m\tau),\ h = a^2 - g\,b\cdot n @f$:
@@ -60,7 +60,7 @@ namespace NMM
                         double                              gap,
                         bool                                with_friction);
 
-      /// Normals, tangents and places stay what they are: no terms of second order.
+      /// Remove the terms of second order: normals, tangents and nearest points are fixed.
       void
       freeze();
 
@@ -69,36 +69,35 @@ namespace NMM
       double               gap, length, bending, h;
       double               N[max], N1[max], D[max], T[max], T1[max];
 
-      /// tau turns towards n by C . delta d / 1.
+      /// Rotation of the tangent tau towards the normal n: C . delta d [rad].
       double C[max];
     };
 
 
-    /// What a point exerts.
+    /// Forces of a contact point and their derivatives.
     struct ContactTraction
     {
-      /// Pressure >= 0 and its derivative by -gap, both times the weight [N/m]
-      /// and [N/m^2].
+      /// Pressure and its derivative by -gap, both times the weight [N/m] and [N/m^2].
       double pressure = 0., normal_stiffness = 0.;
-      /// Derivative of the pressure, times the weight, by the unknowns of slave and
-      /// master where it depends on more than the gap; else null.
+      /// Derivative of the pressure, times the weight, by the unknowns of slave and master if it
+      /// depends on more than the gap; else null.
       const double *pressure_change = nullptr;
-      /// Shear, positive along tau on the master, times the weight [N/m].
+      /// Shear, times the weight [N/m]; positive along tau on the master.
       double shear = 0.;
-      /// Derivative of the shear by the distance from where it sticks: the spring's stiffness
-      /// where it sticks, what a strength that depends on the slip loses where it slides [N/m^2].
+      /// Derivative of the shear by the distance from the anchor [N/m^2]: the stiffness of the
+      /// spring for points that stick, the weakening of the strength for points that slide.
       double shear_stiffness = 0.;
-      /// In a time step: what depends on half of the slip instead of on the distance from
-      /// where it sticks, and the derivative of that half by the unknowns of slave
+      /// For time steps: derivative of the shear by half of the slip, which replaces that by the
+      /// distance from the anchor, and the derivative of half of the slip by the unknowns of slave
       /// and master.
       double        shear_by_half_slip = 0.;
       const double *half_slip_change   = nullptr;
-      /// Sliding: d shear / d pressure.
+      /// Derivative of the shear by the pressure for points that slide [-].
       double shear_over_pressure = 0.;
-      /// Dilation: derivative of the pressure, times the weight, by the distance
-      /// along tau from where it sticks [N/m^2].
+      /// Derivative of the pressure, times the weight, by the tangential distance from the anchor
+      /// for laws with dilation [N/m^2].
       double pressure_by_slip = 0.;
-      /// n . (x_s - x_0), x_0 being where it sticks [m].
+      /// Normal distance n . (x_s - x_0) from the anchor x_0 [m].
       double normal_distance = 0.;
     };
 
@@ -109,11 +108,10 @@ namespace NMM
      *     K = -N\otimes\Delta p - p\,\Delta\delta g
      *         + T\otimes\Delta q + q\,(N\otimes C + T_1\otimes D)
      *         - N\otimes\partial_s p\,\Delta s, @f]
-     * s being the distance along tau from where it sticks, and
-     * @f$ \Delta p = -\epsilon N @f$ unless the traction has another change.
-     * @p stick: weights at the place where it sticks, covers after those of
-     * slave and master; null without friction, without weights and covers if nothing
-     * depends on that place.
+     * s being the distance along tau from the anchor, and
+     * @f$ \Delta p = -\epsilon N @f$ unless the traction has pressure_change.
+     * @p stick: weights at the anchor, whose covers follow those of slave and master in @p local.
+     * It is null without friction, and has no weights and covers if nothing depends on the anchor.
      */
     void
     add_contact_point(const ContactKinematics            &kinematics,

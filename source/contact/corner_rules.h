@@ -2,15 +2,16 @@
 #define nmm_source_contact_corner_rules_h
 
 /**
- * All numbers that decide about contact at corners. Along a face there is nothing to decide: the
- * nearest point of the other face is unique, and so is its normal. Where a face ends, something has
- * to say which face a point belongs to, and how much of the contact it stands for.
+ * All constants of contact at corners. Along a face none is needed: the nearest point of the other
+ * face is unique, and so is its normal. Where a face ends, rules have to determine the face that
+ * a point is in contact with, and the weight of the point.
  *
  * "Facing" of two faces is minus the product of their unit normals: 1 if they lie on each other,
- * 0 if they stand at a right angle, -1 if they look the same way. Lengths are parts of what is said.
- * Each number has its reason and, after "Test:", a test of nmm_test_contact or nmm_test_dynamics
- * that fails with the value or the omission given there. "Test: none" means that both pass without
- * the rule: it may go when the scenes and bars of tests/performance show that nothing needs it.
+ * 0 if they are at a right angle, -1 if they look the same way. Lengths are relative to the length
+ * that the comment names. After the reason for a number, "Test:" names a test of nmm_test_contact
+ * or nmm_test_dynamics that fails with the value or the omission in parentheses. "Test: none" means
+ * that both pass without the rule; it can be removed if the scenes of tests/performance do not need
+ * it either.
  */
 namespace NMM
 {
@@ -18,14 +19,15 @@ namespace NMM
   {
     namespace CornerRules
     {
-      /// @name How much a point stands for
+      /// @name Weight of a point
       /// @{
 
       /**
-       * Faces touch along their length up to 18 degrees, corners as points from 37 degrees on;
-       * between both the shares are blended smoothly, so that forces do not jump when a block turns.
-       * Test: none for where the blend begins and ends (0.94 and 0.81 pass); without the blend of both
-       * edges of a corner ContactPatch.InclinedJointsWithFriction.
+       * Faces touch along their length up to an angle of 18 degrees, and corners touch as points
+       * from 37 degrees on. In between both are blended smoothly, so that forces do not jump when a
+       * block turns.
+       * Test: none for where the blend begins and ends (0.94 and 0.81 pass); without the blend of
+       * both edges of a corner ContactPatch.InclinedJointsWithFriction.
        * @verbatim
        *    ___________            \        /
        *    ___________  along      \______/   at the corner
@@ -39,22 +41,22 @@ namespace NMM
       /// Test: VertexSprings.OneSpringAtAVertex (0.5).
       constexpr double least_facing = 0.01;
 
-      /// Pieces of a face that are shorter than this part of a cell bear nothing: what they
-      /// overlap by is no penetration. Test: see deepest_of_piece.
+      /// Pieces of a face that are shorter than this fraction of a cell transmit no force, and
+      /// their overlap does not count as penetration. Test: see deepest_of_piece.
       constexpr double shortest_piece = 1e-3;
       /// @}
 
       /// @name Where a face ends
       /// @{
 
-      /// Two edges of a boundary that turn by less than this angle [rad] go on smoothly, and do not
-      /// meet in a corner: more than rounding makes of a straight line or a circle that is cut.
+      /// Two edges of a boundary that meet at less than this angle [rad] form no corner. The angle
+      /// is larger than the rounding where a straight line or a circle is cut.
       constexpr double largest_smooth_angle = 1e-3;
 
       /**
-       * Parts of a face by which it goes on beyond its ends. Where the boundary is smooth, a gap
-       * between the feet on two edges must not be seen; into a concave corner the face goes on
-       * inside the body, and has points that are pressed into the corner.
+       * Fractions of a face by which it is continued beyond its ends. On a smooth boundary this
+       * closes the gap between the nearest points on two edges. At a concave corner the face is
+       * continued inside the body, for points that are pressed into the corner.
        * Test: ContactPatch.InclinedJointsUnderHydrostaticPressure (0 for smooth ends); none for
        * concave ones.
        * @verbatim
@@ -66,9 +68,9 @@ namespace NMM
       constexpr double beyond_smooth_end = 0.1, beyond_concave_end = 0.5;
 
       /**
-       * Part of a face by which it goes on at convex corners for a point at which a piece of
-       * a slave begins or ends: that point lies where the corner lies, and neither rounding nor a
-       * small motion may decide whether it has a master.
+       * Fraction of a face by which it is continued at convex corners for a point at which a piece
+       * of a slave begins or ends. The corner lies at that point, and neither rounding nor a small
+       * motion may decide whether the point has a master.
        * Test: ContactDetection.PieceThatEndsBesideAnotherFace (0).
        * @verbatim
        *    slave   ------o-------      o: division, above the master's corner
@@ -77,44 +79,46 @@ namespace NMM
        */
       constexpr double beyond_division = 0.1;
 
-      /// The same where only rounding is in the way.
+      /// The same fraction where only rounding has to be compensated.
       constexpr double beyond_rounding = 1e-9;
 
-      /// Divisions of a slave that are nearer to each other than this part of it are one: the
-      /// piece between weighs nothing.
+      /// Divisions of a slave that are nearer to each other than this fraction of it are merged.
       constexpr double same_division = 1e-6;
 
-      /// Faces meet in a corner if at most this number of edges lead from one to the other: cutting
-      /// may leave slivers of edges in a corner. Test: ContactDetection.RandomPolygonsAgainstBruteForce
-      /// (1).
+      /// Faces meet in a corner if at most this number of edges lead from one to the other, because
+      /// cutting may leave short edges in a corner.
+      /// Test: ContactDetection.RandomPolygonsAgainstBruteForce (1).
       constexpr unsigned int most_edges_of_corner = 4;
 
       /**
-       * A division is next to a face beside the corner unless that lies this part of the reach
-       * behind the slave, which is more than springs give way by: it is then another body's.
+       * A division belongs to the face beside the master's corner, unless that corner lies this
+       * fraction of the reach behind the slave. That is more than the compression of springs, and
+       * the face is then one of another body.
        * Test: ContactDetection.CornersThatPassEachOtherOnAFace (without the face beside); none for
        * the number.
        */
       constexpr double behind_division = 0.1;
 
-      /// Whether a piece of a slave has a master is looked for at this part of the piece from its
-      /// end, as far as this many times the reach. Test: ContactBars.VertexOnVertex (0.1 times).
+      /// The master of a piece of a slave is searched for at this fraction of the piece from its
+      /// end, within this many times the reach. Test: ContactBars.VertexOnVertex (0.1 times).
       constexpr double inside_of_piece = 1e-3, reach_of_piece = 2.;
 
-      /// The edge that ends at a division ends within this part of a cell of it. Test:
-      /// ContactPatch.HorizontalJointsUnderPressure (0).
+      /// An edge ends at a division if it ends within this fraction of a cell of it.
+      /// Test: ContactPatch.HorizontalJointsUnderPressure (0).
       constexpr double end_of_home = 0.01;
       /// @}
 
-      /// @name Which of several faces
+      /// @name Choice among several faces
       /// @{
 
-      /// Gaps that differ by less than this part of the reach are equal; then other rules decide.
+      /// Gaps that differ by less than this fraction of the reach are equal, so that the next rule
+      /// decides.
       constexpr double same_gap = 1e-9;
 
       /**
-       * A point is not inside of a body by a face if a face of the same body that looks the
-       * point's own way, within 60 degrees, is nearer: it is then beyond the far side of a thin body.
+       * A point behind a face is not inside of the body if another face of that body is nearer that
+       * looks the same way as the point's own face within 60 degrees. The point is then beyond the
+       * far side of a thin body.
        * Test: ContactDetection.ThinPlates (without).
        * @verbatim
        *    ___________________  face that the point faces
@@ -125,27 +129,29 @@ namespace NMM
        */
       constexpr double far_side_facing = -0.5;
 
-      /// Only pairs of a corner and a face whose reversed normal lies between those of the corner's
-      /// edges tell whether two convex bodies overlap (Shi 2015, entrance block); sine of half a
-      /// degree, so that faces that lie on each other are among them. Test: none for the number.
+      /// Two convex bodies are separated only by pairs of a corner and a face whose reversed normal
+      /// lies between those of the corner's edges (Shi 2015, entrance block). The tolerance is the
+      /// sine of half a degree and includes faces that lie on each other. Test: none for the
+      /// number.
       constexpr double entrance_border = 0.01;
 
       /// Faces of one body that look the same way within 60 degrees do not turn to face each other
       /// before candidates are searched for again. Test: none; it keeps candidates few.
       constexpr double same_way_of_body = 0.5;
 
-      /// A point on a piece of a slave that is deeper behind a face than this many lengths of
-      /// the piece came in by the other face of a corner. Test: ContactBars.OverTheEdge (without).
+      /// A point on a piece of a slave that is deeper behind a face than this many lengths of the
+      /// piece came in through the other face of a corner.
+      /// Test: ContactBars.OverTheEdge (without).
       constexpr double deepest_of_piece = 4.;
 
       /**
-       * Corners that pass each other by the side overlap by far less than they are deep: such a
-       * point is beside the face, and has come in by the next one round the corner. Faces
-       * are looked at if the point is deeper than a part of a cell; the next face begins within
-       * three depths round the corner, the overlap with it is shorter than half of the depth, and it
-       * goes on by a part beyond its ends.
-       * Test: FacesBeside.DoNotTouch (without), Crossings.ThinPlates (0 depths), ContactBars.VertexOnVertex
-       * (overlaps of any length); none for the part beyond its ends.
+       * Where corners pass each other by the side, the overlap is much narrower than deep. Such a
+       * point is beside the face, and has come in through the next face round the corner. The
+       * conditions are: the point is deeper behind the face than a fraction of a cell; the next
+       * face begins within three depths round the corner; the overlap with the next face, which is
+       * continued by a fraction beyond its ends, is shorter than half of the depth.
+       * Test: FacesBeside.DoNotTouch (without), Crossings.ThinPlates (0 depths),
+       * ContactBars.VertexOnVertex (overlaps of any length); none for the part beyond its ends.
        * @verbatim
        *            |  slave's body
        *    ________|_
@@ -164,9 +170,9 @@ namespace NMM
        *   ContactSearch::project_corner(): ContactScales.TenDecadesOfWeightAndStiffness.
        * - A corner that is in front of the other face of the master's corner is outside,
        *   the same function: ContactDetection.RandomPolygonsAgainstBruteForce.
-       * - Of two faces that meet in a convex corner the one that faces the point more counts,
+       * - Of two faces that meet in a convex corner the one that faces the point more is taken,
        *   ContactSearch::project_within(): ContactPatch.InclinedJointsUnderHydrostaticPressure.
-       * - A corner that touches at one end of a step only stays with the face of that end,
+       * - A corner that touches only at one end of a step stays with the face of that end,
        *   Contact::Data::stay_with_face_of_end(): ContactSteps.CornerBesideACorner.
        * - A corner beyond a concave end belongs to the face that begins there,
        *   face_beyond_concave_end(): ContactSteps.CornerPassesAFoot.

@@ -44,7 +44,7 @@ namespace NMM
     friction /= factor;
     cohesion /= factor;
     tensile_strength /= factor;
-    // dilation above the friction angle would create energy
+    // A dilation angle above the friction angle would create energy.
     dilation = std::min(dilation, friction);
   }
 

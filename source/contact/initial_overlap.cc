@@ -12,7 +12,7 @@ namespace NMM
 
   namespace
   {
-    /// Parameter in [0, 1] of the nearest point of a segment or an arc.
+    /// Parameter in [0, 1] of the point of a segment or an arc that is nearest to @p x.
     double
     nearest_parameter(const ContactSurface::Edge &edge, const Point<2> &x)
     {
@@ -60,7 +60,7 @@ namespace NMM
       }
       if (d.norm() <= result.distance + same)
       {
-        // at a corner the mean of both normals tells the side
+        // At a corner, the mean of both normals determines the side.
         normal += place.normal();
         result.gap         = d * normal > 0. ? d.norm() : -d.norm();
         result.is_open_end = (t == 0. && edge.previous == invalid_index) ||
@@ -102,7 +102,7 @@ namespace NMM
               where[block]   = x;
             }
           }
-      // an obstacle inside of a block
+      // Find obstacles inside of a block.
       for (const Edge &edge : all_edges)
         if (edge.body == n_blocks + i)
         {

@@ -1,4 +1,4 @@
-// How deep bodies are in each other, without anything that the contact knows.
+// Overlap of bodies, computed independently of contact.
 #include <nmm/contact/contact_surface.h>
 
 #include <algorithm>
@@ -86,7 +86,8 @@ namespace NMM
     for (const Ring &ring : rings)
       for (const PolygonVertex &x : ring.polygon.outer())
       {
-        // bodies around it: in an outer boundary and in no inner one of theirs
+        // Find the bodies around the point: it is in their outer boundary and in none of their
+        // inner ones.
         found.clear();
         tree.query(bg::index::intersects(x), std::back_inserter(found));
         around.clear();

@@ -10,7 +10,7 @@ namespace NMM
 
   namespace
   {
-    /// Sine of half a degree: directions that differ by less are one.
+    /// Sine of half a degree: directions that differ by less are equal.
     constexpr double same_direction = 0.01;
 
 
@@ -44,7 +44,7 @@ namespace NMM
     }
 
 
-    /// Does a side of a corner lie on the face that begins at the same point?
+    /// Whether a side of a corner lies on the face that begins at the same point.
     bool
     lies_on(const End &side, const End &face)
     {
@@ -58,7 +58,7 @@ namespace NMM
   find_locked_corners(const ContactSurface &surface,
                       const Tensor<1, 2>   &gravity)
   {
-    // parts of an edge: ends that are nearer are one point
+    // Fraction of an edge: ends that are nearer to each other are one point.
     constexpr double rounding = 1e-9;
     // cosine of 60 degrees
     constexpr double least_ahead = 0.5;
@@ -66,7 +66,7 @@ namespace NMM
     const auto            &edges = surface.edges();
     const std::vector<End> ends  = sorted_ends(surface);
     std::vector<End>       near;
-    // faces of other bodies at the corner
+    // Find the faces of other bodies at a corner.
     const auto find_near = [&](const End &corner) {
       near.clear();
       const double same = rounding * edges[corner.edge].length;

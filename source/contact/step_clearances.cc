@@ -14,9 +14,9 @@ namespace NMM
     namespace
     {
       constexpr double infinity = std::numeric_limits<double>::max();
-      /// The turn up to which the bound holds [rad], and its factor 5/4.
+      /// Largest rotation for which the bound holds [rad], and the factor 5/4 in it.
       constexpr double most_turn = 0.5, turn_factor = 1.25;
-      /// Points are clear by at least this part of the depth, whatever is rounded.
+      /// Least clearance as a fraction of the depth, to exclude rounding.
       constexpr double clear_by = 1e-6;
     } // namespace
 
@@ -151,7 +151,7 @@ namespace NMM
       for (const unsigned int other : faced_bodies[body])
       {
         const Motion &b = motion_of_body(other);
-        // a face may be the other one's master or slave
+        // Either face may be the master.
         const double turn = std::max(a.turn, b.turn);
         result =
           std::max(result,
@@ -188,13 +188,13 @@ namespace NMM
         const double       length = chord.norm();
         const double       along  = way * chord / length;
         const double across = (way[0] * chord[1] - way[1] * chord[0]) / length;
-        // the place is on the chord but for d_2 t (t - 1), |t (t - 1)| <= 3/4, and normals
-        // turn along it
+        // The place differs from the chord by d_2 t (t - 1), with |t (t - 1)| <= 3/4, and the
+        // normal turns along the edge.
         const double bend   = d[2].norm() * (0.75 + 3. * reach / length);
         const double beside = std::max(
           {0., -before * length - along, along - (1. + after) * length});
         const double outside = std::max({0., across, -across - reach});
-        // lengths of bodies: their squares do not overflow, and hypot() takes longer
+        // Squares of these lengths cannot overflow; std::hypot() would be slower.
         const double distance = std::sqrt(beside * beside + outside * outside);
         result                = std::min(result, distance - bend);
       }

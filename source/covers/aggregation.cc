@@ -32,7 +32,7 @@ namespace NMM
 
   namespace
   {
-    /// What the owners of ghost elements know of their covers.
+    /// Mark the covers of ghost elements as free that are free on the ranks of their elements.
     void
     share_free_covers(const CoverSystem &covers, std::vector<bool> &is_free)
     {
@@ -62,7 +62,7 @@ namespace NMM
     result.element_to_root =
       find_roots(manifold_mesh, threshold).element_to_root;
 
-    // covers
+    // Covers that roots use.
     std::vector<unsigned char> is_used(covers.n_covers(), 0);
     for (unsigned int e = 0; e < n_elements; ++e)
       if (result.element_to_root[e] == e)
@@ -72,7 +72,7 @@ namespace NMM
     if (manifold_mesh.exchange() != nullptr)
       share_free_covers(covers, result.is_free);
 
-    // on a distributed mesh, of the covers whose elements are all known here
+    // On a distributed mesh, consider only covers whose elements are all known on this rank.
     const RankCells  *rank_cells = mesh.rank_cells();
     std::vector<bool> is_wanted(covers.n_covers(), rank_cells == nullptr);
     for (unsigned int e = 0; e < n_elements && rank_cells != nullptr; ++e)
@@ -80,13 +80,13 @@ namespace NMM
         for (const unsigned int k : covers.covers(e))
           is_wanted[k] = true;
 
-    // the root of a cover's largest element, or of the one whose root is nearer
+    // The root of a cover's largest element; of equal elements, the one whose root is nearer.
     struct Candidate
     {
       unsigned int cover, root;
       double       area, distance;
     };
-    // what is equal to rounding is chosen by place
+    // Ties up to rounding are decided by position.
     const auto is_better = [&](const Candidate &a, const Candidate &b) {
       constexpr double more = 1. + 1e-10;
       if (a.area > more * b.area || b.area > more * a.area)
@@ -126,7 +126,7 @@ namespace NMM
       if (cover_to_best[k] != invalid_index)
         result.cover_to_root.emplace_back(k, best[cover_to_best[k]].root);
 
-    // values this rank needs
+    // Values of other ranks that this rank needs.
     std::vector<types::global_dof_index> relevant;
     for (const auto &[k, root] : result.cover_to_root)
       if (covers.locally_relevant_covers().is_element(covers.global_cover(k)))
@@ -141,7 +141,8 @@ namespace NMM
 
   namespace
   {
-    /// Weight functions at a point of reference coordinates, which may be outside.
+    /// Weight functions at a point given in reference coordinates, which may be outside of the
+    /// cell.
     void
     evaluate_weights(const unsigned int   degree,
                      const Point<2>      &xi,
@@ -182,7 +183,8 @@ namespace NMM
       for (unsigned int c = 0; c < n_components; ++c)
       {
         entries.clear();
-        // nodes of regular meshes often lie on each other's lattice
+        // Nodes of regular meshes often are nodes of the root's cell lattice, so that many weights
+        // vanish.
         for (unsigned int j = 0; j < root_covers.size(); ++j)
           if (std::abs(weights[j]) > 1e-14)
             entries.emplace_back(n_components *

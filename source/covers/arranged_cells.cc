@@ -66,25 +66,23 @@ namespace NMM
       void
       read_edge(const Halfedge &halfedge);
 
-      /// The pieces of a side between an arranged cell and a divided one, sorted from
-      /// left to right.
+      /// Pieces of a side between an arranged cell and a divided one, sorted from left to right.
       void
       match_side(unsigned int mesh_edge, const std::vector<Halfedge> &pieces);
 
-      /// Walk from the faces in @p stack across edges for which
-      /// @p is_crossed(halfedge) holds; @p visit(from, to) says whether to go
-      /// on from there.
+      /// Walk from the faces in @p stack across edges for which @p is_crossed(halfedge) holds; @p
+      /// visit(from, to) returns whether to continue from the new face.
       template <typename IsCrossed, typename Visit>
       void
       spread(std::vector<Face> stack,
              const IsCrossed  &is_crossed,
              const Visit      &visit);
 
-      /// Mesh edge a halfedge lies on, or invalid_index.
+      /// Mesh edge on which a halfedge lies, or invalid_index.
       static unsigned int
       mesh_edge(const Halfedge &halfedge);
 
-      /// Edge of the physical mesh a halfedge lies on, or invalid_index.
+      /// Edge of the physical mesh on which a halfedge lies, or invalid_index.
       static unsigned int
       physical_edge(const Halfedge &halfedge);
 
@@ -94,8 +92,7 @@ namespace NMM
         return cell != invalid_index && state[cell] == CellState::arranged;
       }
 
-      /// Does the vertex of a mathematical edge that has the lower number come first
-      /// from left to right?
+      /// Whether the vertex with the lower number is the left end of a mathematical edge.
       bool
       runs_right(unsigned int mesh_edge) const;
 
@@ -103,13 +100,12 @@ namespace NMM
       unsigned int
       left_cell(const Halfedge &halfedge, unsigned int mesh_edge) const;
 
-      /// Code of the element on the left, see Cutting.
+      /// Code of the element to the left of a halfedge, see Cutting.
       unsigned int
       left_element(const Halfedge &halfedge);
 
-      /// Number of a vertex. It is converted to doubles once: a second
-      /// conversion of a lazy number can differ in the last place, and loops
-      /// must close exactly.
+      /// Number of a vertex. Its coordinates are converted to doubles only once, because a second
+      /// conversion of a lazy number can differ in the last place, and loops must close exactly.
       unsigned int
       vertex(const Arrangement::Vertex_handle &vertex);
 
@@ -122,13 +118,13 @@ namespace NMM
       const DividedCells               &divided;
       Cutting                          &result;
       Arrangement                       arrangement;
-      /// Of a distributed mesh, beyond whose rim other ranks' cells may lie.
+      /// Whether the mesh is distributed, so that cells of other ranks may lie beyond its rim.
       bool is_part_of_mesh;
 
       std::unordered_map<const Arrangement::Vertex *, unsigned int>
         vertex_to_index;
-      /// Codes of the arranged cell's elements at the pieces of each mathematical edge
-      /// between an arranged and a divided cell, from the lower vertex on.
+      /// For each mathematical edge between an arranged and a divided cell, the codes of the
+      /// arranged cell's elements at its pieces, from the lower vertex on.
       std::unordered_map<unsigned int, std::vector<unsigned int>>
         side_to_elements;
       /// Code of the divided cell's element at a halfedge.
@@ -206,8 +202,8 @@ namespace NMM
     }
 
 
-    /// Regions on this part: those beside physical edges, and from there
-    /// across mathematical edges. Faces of other parts' regions keep none.
+    /// Set the regions of faces on this part: first beside physical edges, and from there across
+    /// mathematical edges. Faces in regions of other parts get none.
     void
     ArrangedCells::Implementation::label_regions()
     {
@@ -315,8 +311,7 @@ namespace NMM
     }
 
 
-    /// Faces without a mathematical edge lie in the cell of a neighbouring
-    /// face.
+    /// Faces without a mathematical edge lie in the same cell as a neighbouring face.
     void
     ArrangedCells::Implementation::spread_cells()
     {
@@ -521,14 +516,15 @@ namespace NMM
       elements.resize(n);
       for (unsigned int k = 0; k < n; ++k)
       {
-        // from the lower vertex on; the cell on the left goes the same way
+        // Pieces are numbered from the lower vertex on, which is the direction of the cell on the
+        // left.
         const Halfedge right = pieces[is_rightward ? k : n - 1 - k];
         const Halfedge along = is_rightward ? right : Halfedge(right->twin());
         const unsigned int piece  = i == 0 ? k : n - 1 - k;
         const Halfedge in_divided = i == 0 ? along : Halfedge(along->twin());
         beyond_halfedge[&*in_divided] = divided.element(c, side, piece);
         elements[k] = in_divided->twin()->face()->data().element;
-        // the same doubles on both sides
+        // Use the same coordinates on both sides.
         result.vertices[vertex(in_divided->source())] =
           divided.start(c, side, piece);
         if (piece + 1 == n)

@@ -14,18 +14,20 @@ namespace NMM
     class DividedCells;
 
     /**
-     * Arranges the edges of the cells of a part that are in CellState::arranged with all
-     * physical edges of the part, exactly, labels untouched cells beside them, and
-     * appends their elements to @p cutting. On sides that they share with divided cells, they
-     * take over the doubles of those.
-     * Cost: O(n log n) in the number of physical edges and arranged cells of the
-     * part, some 100 us for each cell.
+     * Cuts cells of a part by an exact arrangement. The edges of all cells in CellState::arranged
+     * are arranged with all physical edges of the part, untouched cells beside them get their
+     * regions, and the elements are appended to @p cutting. On sides in common with divided cells,
+     * the coordinates of the divided cells are used.
+     *
+     * Cost: O(n log n) in the number of physical edges and arranged cells of the part, about 100 us
+     * for each cell.
      */
     class ArrangedCells
     {
     public:
-      /// @p divided with numbered elements; all must outlive this.
-      /// @throws InputError where the part's regions stick out of it.
+      /// Arrange and append the elements. The elements of @p divided must have numbers; all
+      /// arguments must outlive this object. @throws InputError where regions of the part extend
+      /// beyond it.
       ArrangedCells(const MathematicalMesh           &mathematical_mesh,
                     const PhysicalMesh               &physical_mesh,
                     const PhysicalEdges              &physical_edges,
@@ -37,12 +39,12 @@ namespace NMM
 
       ~ArrangedCells();
 
-      /// Code of the element at a piece of a side that a divided cell shares; pieces
-      /// are numbered from the vertex with the lower number on. invalid_index: outside.
+      /// Code of the element at a piece of a side that a divided cell shares, or invalid_index
+      /// outside the solid. Pieces are numbered from the vertex with the lower number.
       unsigned int
       element(unsigned int mesh_edge, unsigned int piece) const;
 
-      /// Edges of the elements, and all their links.
+      /// Append the edges of the elements, and all their links.
       void
       append_edges();
 

@@ -13,7 +13,7 @@ namespace NMM
 
     namespace
     {
-      /// The product of two differences to twice the digits.
+      /// The product of two differences with twice the digits of a double.
       DoubleDouble
       product_of_differences(const double a,
                              const double b,
@@ -25,7 +25,7 @@ namespace NMM
       }
 
 
-      /// (b - a) x (x - a), from differences to twice the digits.
+      /// (b - a) x (x - a), from differences with twice the digits of a double.
       double
       accurate_twice_the_area(const Point<2> &a,
                               const Point<2> &b,
@@ -38,7 +38,7 @@ namespace NMM
       }
 
 
-      /// Sum of the sizes of the coordinates.
+      /// Sum of the absolute values of the coordinates.
       double
       size_of(const Tensor<1, 2> &d)
       {
@@ -141,8 +141,8 @@ namespace NMM
       if (least >= 0 || greatest <= 0)
         return true;
 
-      // the sides where the line enters and leaves; next to a corner that it goes
-      // through, that of the corner's number, and the node is known
+      // Sides through which the line enters and leaves the cell. If it goes through a corner, the
+      // side has the corner's number, and the node is known.
       unsigned int enters = 3, leaves = 3, corner = 3;
       for (unsigned int i = 0; i < 3; ++i)
       {
@@ -166,7 +166,7 @@ namespace NMM
                            physical_edges,
                            vertex);
       };
-      // inside of a side is left of it
+      // A point is inside of a side if it is to the left of it.
       const int from_leaving = side_of_vertex(from, leaves),
                 to_entering  = side_of_vertex(to, enters);
       if (from_leaving < 0 || to_entering < 0)
@@ -179,7 +179,7 @@ namespace NMM
           return false;
       if (from_leaving == 0 || to_entering == 0)
       {
-        // an end on the boundary of the cell, beyond which the edge is outside
+        // The edge ends on the boundary of the cell and continues outside.
         if (from_leaving == 0 && !leaves_at_corner)
           vertex_on_side(from, leaves);
         if (to_entering == 0 && !enters_at_corner)
@@ -234,7 +234,7 @@ namespace NMM
                      &v    = corners[is_forward[side] ? (side + 1) % 3 : side];
       const Point<2>    &x = physical_edges.vertices()[vertex];
       const Tensor<1, 2> d = v - u;
-      // coordinates are off by eight roundings
+      // The coordinates have an error of eight roundings.
       side_nodes[side].push_back(nodes.size());
       nodes.push_back({x,
                        vertex,
@@ -248,8 +248,8 @@ namespace NMM
     unsigned int
     CellCutter::crossing_on_side(const unsigned int e, const unsigned int side)
     {
-      // from the lower to the higher vertex, so that both cells of the side find the
-      // same doubles
+      // Compute from the lower to the higher vertex, so that both cells of the side get the same
+      // doubles.
       const Point<2> &u    = corners[is_forward[side] ? side : (side + 1) % 3],
                      &v    = corners[is_forward[side] ? (side + 1) % 3 : side];
       const auto &[p, q]   = physical_edges.edges()[e].line;
@@ -309,7 +309,7 @@ namespace NMM
           is_decided = is_decided && sign != undecided;
           return sign == 1;
         };
-        // by insertion: there are few, and comparisons may fail
+        // Sort by insertion: there are few nodes, and comparisons may fail.
         auto &list = side_nodes[i];
         for (unsigned int k = 1; k < list.size(); ++k)
           for (unsigned int l = k; l > 0 && is_nearer(list[l], list[l - 1]);
@@ -347,7 +347,7 @@ namespace NMM
       }
       for (const Chord &chord : along_sides)
       {
-        // it covers one piece of the side, in either direction
+        // The chord covers one piece of the side, in either direction.
         const unsigned int a = node_to_boundary[chord.ends[0]],
                            b = node_to_boundary[chord.ends[1]];
         Assert((a + 1) % boundary.size() == b || (b + 1) % boundary.size() == a,
@@ -376,7 +376,7 @@ namespace NMM
                              const unsigned int b,
                              const bool         is_inside) const
     {
-      // directions of half-edges: those of lines, or against them
+      // Whether a half-edge runs against the direction of its line.
       const auto is_backward = [&](const unsigned int h) {
         return (h - boundary.size()) % 2 == 1;
       };
@@ -386,8 +386,8 @@ namespace NMM
         physical_edges.edges()[half_edge_list[b].physical_edge].line;
       if (is_inside)
       {
-        // all around: first those that run to the right end of their line, which are
-        // half of the plane
+        // Sort by angle: first the half-edges that run to the right end of their line, which lie in
+        // one half-plane.
         if (is_backward(a) != is_backward(b))
           return is_backward(b);
       }

@@ -17,27 +17,27 @@ namespace NMM
     /**
      * Divides one triangle by straight edges of the physical mesh, with exact topology.
      *
-     * Physical edges meet at their ends only, and their ends are vertices of the
-     * physical mesh. So what divides a cell are chords: from where an edge enters the
-     * cell, or from its end inside, to where it leaves or to its other end. Signs
-     * of a few determinants say which; they are decided by doubles where those suffice and
-     * exactly where they do not. No point is constructed exactly but to order points on a
-     * side that doubles cannot tell apart.
+     * Physical edges meet at their ends only, and their ends are vertices of the physical mesh. A
+     * cell is therefore divided by chords. A chord begins where an edge enters the cell, or at the
+     * edge's end inside, and ends where the edge leaves the cell, or at its other end. The signs of
+     * a few determinants determine the chords. They are computed in doubles, and exactly if
+     * rounding could change them. Points are constructed exactly only to order points on a side
+     * that doubles cannot distinguish.
      *
-     * The pieces of the sides and both directions of each chord are *half-edges* with
-     * what they bound to their left: first those of the sides, counter-clockwise from
-     * corner 0, then two for each chord, from the left end of its physical edge to
-     * the right one and back. Faces are the loops of half-edges where each is followed
-     * by the next one clockwise about its end.
+     * The pieces of the sides and both directions of each chord are *half-edges*, with the face
+     * that they bound on their left. The half-edges of the sides come first, counter-clockwise from
+     * corner 0; then two for each chord, from the left end of its physical edge to the right one
+     * and back. Faces are the loops of half-edges in which each one is followed by the next one
+     * clockwise about its end.
      *
-     * Not for arcs, nor for chords that do not hang together with the cell's boundary
-     * (cracks and blocks inside a cell).
+     * Arcs and chords that are not connected to the cell's boundary (cracks and blocks inside a
+     * cell) are not supported.
      * Cost: O(n^2) in the number of edges near the cell, of which there are few.
      */
     class CellCutter
     {
     public:
-      /// Regions on other parts count as outside.
+      /// Prepare for the cells of one part. Regions on other parts count as outside of the solid.
       CellCutter(const MathematicalMesh          &mesh,
                  const PhysicalEdges             &physical_edges,
                  const std::vector<unsigned int> &region_to_part,
@@ -45,10 +45,10 @@ namespace NMM
 
       enum class Result
       {
-        /// No physical edge has more than points in common with the cell.
+        /// Physical edges have at most points in common with the cell.
         whole,
         divided,
-        /// Left to the arrangement.
+        /// The cell cannot be divided here, and is left to the arrangement.
         not_divided
       };
 
@@ -58,9 +58,9 @@ namespace NMM
 
       struct HalfEdge
       {
-        /// Where it begins; its end is where the next one of the loop begins.
+        /// Start of the half-edge; it ends where the next one of the loop starts.
         dealii::Point<2> start;
-        /// That it lies on, or invalid_index.
+        /// Physical edge on which the half-edge lies, or invalid_index.
         unsigned int physical_edge;
         unsigned int face;
       };
@@ -69,7 +69,7 @@ namespace NMM
       {
         /// Region of the physical mesh, or invalid_index.
         unsigned int region;
-        /// Its half-edges are loops()[begin], ... , loops()[end - 1].
+        /// Half-edges of the face: loops()[begin], ... , loops()[end - 1].
         unsigned int begin, end;
       };
 
@@ -78,7 +78,7 @@ namespace NMM
       const std::vector<HalfEdge> &
       half_edges() const;
 
-      /// Where the half-edges of side i begin; [3]: where those of chords do.
+      /// First half-edge of each side i; entry [3] is the first one of the chords.
       const std::array<unsigned int, 4> &
       first_of_side() const;
 
@@ -93,24 +93,26 @@ namespace NMM
       struct Node
       {
         dealii::Point<2> x;
-        /// Physical vertex, and physical edge that crosses a side; or invalid_index.
+        /// Physical vertex at the node, and physical edge that crosses a side there; or
+        /// invalid_index.
         unsigned int vertex, edge;
-        /// Along the mathematical edge, wrong by less than `error`.
+        /// Parameter along the mathematical edge [-], with an error of less than `error`.
         double parameter, error;
       };
 
       struct Chord
       {
         unsigned int physical_edge;
-        /// Nodes, the left one first.
+        /// Nodes at both ends, the left one first.
         std::array<unsigned int, 2> ends;
       };
 
-      /// Add what an edge has in common with the cell; false: not possible.
+      /// Add the parts that a physical edge has in common with the cell. Returns false if that is
+      /// not possible.
       bool
       add(unsigned int physical_edge);
 
-      /// The same of one on whose line side @p side lies.
+      /// The same for a physical edge that lies on the line of the side @p side.
       void
       add_along(unsigned int physical_edge, unsigned int side);
 
@@ -136,7 +138,7 @@ namespace NMM
       void
       order_chords();
 
-      /// Does a half-edge of a chord point to the left of another one?
+      /// Whether a half-edge of a chord points to the left of another one.
       bool
       comes_before(unsigned int a, unsigned int b, bool is_inside) const;
 
@@ -149,7 +151,7 @@ namespace NMM
       unsigned int
       next(unsigned int half_edge) const;
 
-      /// Of what is to the left of a half-edge on a physical edge.
+      /// Region to the left of a half-edge on a physical edge.
       unsigned int
       region_beside(unsigned int half_edge) const;
 
@@ -160,14 +162,14 @@ namespace NMM
 
       unsigned int                    cell = invalid_index;
       std::array<dealii::Point<2>, 3> corners;
-      /// Does the side run from the lower to the higher vertex?
+      /// For each side, whether it runs from the lower to the higher vertex number.
       std::array<bool, 3> is_forward;
 
       std::vector<Node>                        nodes;
       std::array<std::vector<unsigned int>, 3> side_nodes;
       std::vector<Chord>                       chords, along_sides;
 
-      /// Nodes on the boundary, counter-clockwise, and where they are in it.
+      /// Nodes on the boundary, counter-clockwise, and position of each node among them.
       std::vector<unsigned int>   boundary, node_to_boundary;
       std::array<unsigned int, 4> first_on_side;
 

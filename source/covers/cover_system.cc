@@ -13,9 +13,9 @@ namespace NMM
   namespace
   {
     /**
-     * Mathematical covers in whose support a physical curve runs. All others are
-     * one physical cover each, provided their elements are whole cells that are
-     * all joined; that holds where no cell of the support was near a curve.
+     * Mathematical covers that may be divided, because a physical curve runs near a cell of their
+     * support. Every other one is one physical cover, because its elements are whole cells that are
+     * all joined.
      */
     std::vector<unsigned char>
     find_divided_covers(const ManifoldMesh &manifold_mesh)
@@ -67,8 +67,8 @@ namespace NMM
     const unsigned int      n_elements        = mesh->n_elements();
     const std::vector<unsigned char> divided  = find_divided_covers(*mesh);
 
-    // one slot per undivided mathematical cover, then one per (element, weight
-    // function) of divided ones
+    // One slot for each undivided mathematical cover, then one for each (element, weight function)
+    // of the divided ones.
     const unsigned int n_mathematical =
       mathematical_mesh.n_mathematical_covers();
     element_to_covers.resize(n_elements * n_per_element);
@@ -91,7 +91,7 @@ namespace NMM
         divided_elements.push_back(e);
     }
 
-    // join slots of one mathematical cover across unblocked edges
+    // Join slots of one mathematical cover across edges without a physical curve.
     internal::DisjointSets divided_slots(slot_to_mathematical.size());
     const auto            &on_edge   = mathematical_mesh.edge_to_local_covers();
     const unsigned int     n_on_edge = mathematical_mesh.degree() + 1;
@@ -102,7 +102,7 @@ namespace NMM
         if (e < link.neighbor)
           for (unsigned int k = 0; k < n_on_edge; ++k)
           {
-            // neighbours run along their common edge in opposite directions
+            // Neighbours run along their common edge in opposite directions.
             const unsigned int i = on_edge[link.edge_here][k],
                                j = on_edge[link.edge_there][k < 2 ? 1 - k : k];
             const unsigned int
@@ -115,7 +115,7 @@ namespace NMM
           }
     }
 
-    // number by first appearance
+    // Number the covers by their first appearance.
     std::vector<unsigned int> slot_to_cover(n_mathematical +
                                               slot_to_mathematical.size(),
                                             invalid_index);
@@ -142,9 +142,10 @@ namespace NMM
 
 
   /**
-   * Two messages to neighbours: the owner of a cover, whose elements' cells are
-   * around those of its other ranks, gives it its number; then each element's owner
-   * knows those of all its covers, and tells whoever holds the element.
+   * Number covers with two exchanges between neighbours. First the owner of a cover, whose elements
+   * are around those of the other ranks, gives the cover its number. Then the owner of each element
+   * knows the numbers of all covers of that element, and sends them to the ranks that hold the
+   * element.
    */
   void
   CoverSystem::number_globally()
@@ -152,7 +153,8 @@ namespace NMM
     owned_elements                       = mesh->owned_elements();
     const internal::ElementExchange &all = *mesh->exchange();
 
-    // numbered by first appearance, first in the elements of lower ranks
+    // Covers are numbered by their first appearance, so that those in elements of lower ranks come
+    // first.
     const auto first_new_cover = [&](const unsigned int element) {
       unsigned int n = 0;
       for (unsigned int i = 0; i < element * n_per_element; ++i)
@@ -184,7 +186,7 @@ namespace NMM
           piece_to_global[element_to_covers[i]] = element_to_global[i];
     }
 
-    // what looks like several pieces at the rim may be one elsewhere
+    // Pieces that are separate in the outermost ghost cells may be connected on another rank.
     local_to_global = element_to_global;
     std::sort(local_to_global.begin(), local_to_global.end());
     local_to_global.erase(std::unique(local_to_global.begin(),
@@ -219,7 +221,7 @@ namespace NMM
                          Utilities::MPI::this_mpi_process(mpi_communicator);
     const unsigned int n_elements = mesh->n_elements();
 
-    // a stretch never ends inside a cell
+    // The range of a rank never ends inside a cell.
     const auto begin_of = [&](const unsigned int r) {
       unsigned int e = static_cast<unsigned int>(
         static_cast<std::uint64_t>(n_elements) * r / n_ranks);
@@ -229,8 +231,7 @@ namespace NMM
     };
     owned_elements = {begin_of(rank), begin_of(rank + 1)};
 
-    // numbered by first appearance: a rank owns the covers that first appear in
-    // its elements, a consecutive range
+    // A rank owns the covers that first appear in its elements; these have consecutive numbers.
     const auto first_new_cover = [&](const unsigned int element) {
       unsigned int n = 0;
       for (unsigned int i = 0; i < element * n_per_element; ++i)

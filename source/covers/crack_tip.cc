@@ -29,8 +29,8 @@ namespace NMM
     }
 
 
-    /// How far along an arc, as an angle in its own direction, in [0, 2 pi), the ray
-    /// from its centre along @p ray lies.
+    /// Angle along an arc, in its own direction and in [0, 2 pi), at which the ray from its centre
+    /// in the direction @p ray meets it.
     double
     angle_along(const ElementEdge &arc, const dealii::Tensor<1, 2> &ray)
     {
@@ -41,8 +41,8 @@ namespace NMM
     }
 
 
-    /// Distance from @p tip up to which an edge that follows others, which lead away from
-    /// it, passes each distance once, these included.
+    /// Distance from @p tip up to which the path passes each distance once, if it continues with
+    /// @p edge after edges that lead away from the tip.
     double
     distance_passed_once(const ElementEdge &edge, const dealii::Point<2> &tip)
     {
@@ -52,8 +52,8 @@ namespace NMM
         return (edge.start - tip) * (edge.end - edge.start) >= 0.
                  ? end
                  : distance(edge, tip);
-      // The farthest point of the circle is the one opposite of the tip. The distance grows
-      // along the half circle that ends there, and falls after it.
+      // The farthest point of the circle is opposite to the tip. The distance grows along the half
+      // circle that ends there, and falls after it.
       const double angle_to_turn = angle_along(edge, edge.center - tip);
       return begin > 0. && angle_to_turn > dealii::numbers::PI
                ? distance(edge, tip)
@@ -61,7 +61,7 @@ namespace NMM
     }
 
 
-    /// Does the distance from @p tip grow along the whole edge?
+    /// Whether the distance from @p tip grows along the whole edge.
     bool
     leads_away(const ElementEdge &edge, const dealii::Point<2> &tip)
     {
@@ -73,8 +73,8 @@ namespace NMM
     }
 
 
-    /// The point of an edge at the distance @p r from @p tip, if the distance grows from
-    /// below r to above it.
+    /// The point of an edge at the distance @p r from @p tip, if the distance grows along the edge
+    /// from below r to above r.
     dealii::Point<2>
     point_at_distance(const ElementEdge      &edge,
                       const dealii::Point<2> &tip,
@@ -82,7 +82,7 @@ namespace NMM
     {
       if (edge.radius == 0.)
       {
-        // |a + t d| = r
+        // Solve |a + t d| = r for t.
         const dealii::Tensor<1, 2> a = edge.start - tip,
                                    d = edge.end - edge.start;
         const double b = a * d, c = r * r - a.norm_square();
@@ -90,7 +90,7 @@ namespace NMM
           std::sqrt(std::max(0., b * b + d.norm_square() * c));
         return edge.start + (b + root > 0. ? c / (b + root) : 0.) * d;
       }
-      // law of cosines in the triangle of tip, centre and point
+      // Law of cosines in the triangle of tip, centre and point.
       const dealii::Tensor<1, 2> ray    = edge.center - tip;
       const double               length = ray.norm();
       const double               cosine =
@@ -107,7 +107,7 @@ namespace NMM
     }
 
 
-    /// The edges of an arrangement in doubles, and which of them are cracks.
+    /// Edges of an arrangement in doubles, and which of them are cracks.
     class Edges
     {
     public:
@@ -133,7 +133,7 @@ namespace NMM
         return edge;
       }
 
-      /// Is this the edge of open joints only, inside of one region?
+      /// Whether all curves on the edge are open joints and the same region is on both sides.
       bool
       is_crack(const Halfedge &halfedge) const
       {
@@ -157,7 +157,7 @@ namespace NMM
     };
 
 
-    /// The crack that ends in the target of @p last, from there on.
+    /// Edges of the crack that ends in the target of @p last, starting there.
     std::vector<Halfedge>
     trace_crack(const Halfedge &last, const Edges &edges)
     {
@@ -173,7 +173,7 @@ namespace NMM
     }
 
 
-    /// Distance from the tip up to which its path passes each distance once.
+    /// Distance from the tip up to which the path of the tip passes each distance once.
     double
     distance_passed_once(const CrackTip &tip)
     {
@@ -198,7 +198,7 @@ namespace NMM
   {
     const dealii::Tensor<1, 2> ray = x - point;
     const double               r   = ray.norm();
-    // Angle of the crack at the same distance, followed from the tip on.
+    // Polar angle of the crack at the same distance, followed along the crack from the tip.
     double               crack    = dealii::numbers::PI;
     dealii::Tensor<1, 2> backward = -direction;
     for (const ElementEdge &edge : path)
@@ -214,8 +214,8 @@ namespace NMM
       if (ends_here)
         break;
     }
-    // Angle of x from the crack. Who looks from the tip along the crack has points just above
-    // -2 pi on the left and points just below 0 on the right.
+    // Angle from the crack to x. Seen from the tip along the crack, it is just above -2 pi for
+    // points on the left and just below 0 for points on the right.
     double from_crack = r > 0. ? angle_between(backward, ray) : 0.;
     if (into_solid.norm_square() > 0. &&
         std::abs(from_crack) < 0.5 * dealii::numbers::PI)

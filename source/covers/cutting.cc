@@ -15,7 +15,7 @@ namespace NMM
 
     namespace
     {
-      /// Untouched cells that share an edge lie in the same region.
+      /// Set the region of untouched cells; those that share an edge lie in the same region.
       void
       flood_untouched_cells(const CellNeighbors &neighbors,
                             const std::pair<unsigned int, unsigned int> &cells,
@@ -100,7 +100,7 @@ namespace NMM
       if (arranged != nullptr)
         arranged->append_edges();
 
-      // A curve that runs out of the mesh has done so through an edge of an element.
+      // A curve that leaves the mesh has left it through an edge of an element.
       if (mathematical_mesh.rank_cells() == nullptr)
         for (const unsigned int e : part.edges)
           AssertThrow(cutting.is_met[e],

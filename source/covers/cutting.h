@@ -16,27 +16,27 @@ namespace NMM
     using Triangle = std::array<unsigned int, 3>;
 
     /**
-     * Triangles that a physical curve touches or comes within rounding of,
-     * flagged per triangle. May flag a few too many (they cost time), never one
-     * too few. @p triangles are corner numbers, @p vertices [m].
+     * Flags the triangles that a physical curve touches or approaches within rounding. Triangles
+     * that are flagged without need only cost time; none is missed. @p triangles are corner
+     * numbers, @p vertices in [m].
      */
     std::vector<unsigned char>
     find_triangles_near_curves(const std::vector<dealii::Point<2>> &vertices,
                                const std::vector<Triangle>         &triangles,
                                const PhysicalMesh &physical_mesh);
 
-    /// The same for some triangles and some edges: rounding is that of
-    /// coordinates of up to @p scale [m].
+    /// The same for some of the triangles and edges. Rounding is that of coordinates up to @p scale
+    /// [m].
     std::vector<unsigned char>
     find_triangles_near_edges(const std::vector<dealii::Point<2>> &vertices,
                               dealii::ArrayView<const Triangle>    triangles,
                               const std::vector<ElementEdge>      &edges,
                               double                               scale);
 
-    /// For each triangle the edges that touch it or come within rounding of it.
+    /// For each triangle, the physical edges that touch it or approach it within rounding.
     struct NearEdges
     {
-      /// Those of triangle i: edges[first[i]], ..., edges[first[i + 1] - 1].
+      /// The edges of triangle i are edges[first[i]], ..., edges[first[i + 1] - 1].
       std::vector<unsigned int> first, edges;
 
       dealii::ArrayView<const unsigned int>
@@ -57,26 +57,26 @@ namespace NMM
     namespace CellState
     {
       constexpr unsigned char untouched = 0;
-      /// By itself, see DividedCells.
+      /// The cell is divided separately, see DividedCells.
       constexpr unsigned char divided = 1;
-      /// See ArrangedCells.
+      /// The cell is cut by an arrangement, see ArrangedCells.
       constexpr unsigned char arranged = 2;
     } // namespace CellState
 
     /**
-     * What the exact cutter finds. Elements are referred to by *codes*: below
-     * whole_cell_flag an index into elements, else the untouched cell
-     * code - whole_cell_flag, or invalid_index for none.
+     * Result of the exact cutting. Elements are referred to by *codes*: a code below
+     * whole_cell_flag is an index into elements, other codes are the untouched cell code -
+     * whole_cell_flag, or invalid_index for none.
      */
     constexpr unsigned int whole_cell_flag = 1u << 31;
 
-    /// Straight edges of elements with one loop: each ends where the next one of its
-    /// element starts.
+    /// Straight edges of elements with one loop: each edge ends where the next one of its element
+    /// starts.
     struct PackedEdges
     {
       struct Beyond
       {
-        /// See ElementEdge.
+        /// Members of ElementEdge.
         unsigned int curve_set, neighbor, mesh_edge;
       };
 
@@ -90,22 +90,22 @@ namespace NMM
       struct Element
       {
         unsigned int cell, region;
-        /// No physical curve inside the cell.
+        /// Whether there is no physical curve inside of the cell.
         bool         is_whole;
         unsigned int first_edge, end_edge;
       };
 
-      /// Where an edge comes from.
+      /// Origin of an edge.
       struct EdgeOrigin
       {
         /// Ends, as indices into vertices.
         unsigned int start, end;
-        /// Index for PhysicalEdges::edges(), or invalid_index.
+        /// Physical edge, an index for PhysicalEdges::edges(), or invalid_index.
         unsigned int physical_edge;
       };
 
-      /// A piece of a mathematical edge that no physical curve blocks, between
-      /// two elements (codes).
+      /// Connection of two elements (codes) across a piece of a mathematical edge without a
+      /// physical curve.
       struct Link
       {
         unsigned int                mesh_edge;
@@ -113,44 +113,44 @@ namespace NMM
       };
 
       std::vector<Element> elements;
-      /// The first ones are of divided cells: they have packed_edges, others edges.
+      /// Number of elements of divided cells, which come first. They have packed_edges, the others
+      /// edges.
       unsigned int             n_packed = 0;
       PackedEdges              packed_edges;
       std::vector<ElementEdge> edges;
-      /// Of the edges, if the mesh has several parts.
+      /// Origins of the edges if the mesh has several parts, else empty.
       std::vector<EdgeOrigin>       origins;
       std::vector<dealii::Point<2>> vertices;
       std::vector<Link>             links;
       /// Region of each untouched cell; invalid_index outside the solid.
       std::vector<unsigned int> cell_region;
-      /// By physical edge: is it an edge of some element?
+      /// For each physical edge, whether it is an edge of some element.
       std::vector<unsigned char> is_met;
     };
 
-    /// The cells beyond the sides of each cell; invalid_index beyond the mesh.
+    /// Cells beyond the three sides of each cell; invalid_index where there is none.
     using CellNeighbors = std::vector<std::array<unsigned int, 3>>;
 
     CellNeighbors
     find_neighbors(const MathematicalMesh &mesh);
 
-    /// What one part of the mathematical mesh is cut with.
+    /// A part of the mathematical mesh, and the physical edges that cut it.
     struct PartToCut
     {
       unsigned int part;
-      /// Its cells, first and past-the-end.
+      /// Cells of the part, first and past-the-end.
       std::pair<unsigned int, unsigned int> cells;
-      /// Physical edges that bound or lie in the part's regions, each once.
+      /// Physical edges that bound the part's regions or lie in them, each once.
       std::vector<unsigned int> edges;
     };
 
     /**
-     * Cuts the cells of a part that edges are near to, and appends elements, their edges
-     * and how they are joined to @p cutting, whose cell_region and is_met have the
-     * sizes of the mesh and of the physical edges. Cells are divided by themselves where
-     * that is possible, see CellCutter, and if the mesh has no other parts (what lies on
-     * both sides of a curve between parts is matched by the vertices of arrangements);
-     * else arranged. @p state is set by cell.
-     * @throws InputError where the part's regions stick out of it.
+     * Cuts the cells of a part that physical edges are near to, and appends elements, their edges
+     * and their links to @p cutting. Its members cell_region and is_met must have the sizes of the
+     * mesh and of the physical edges. Cells are divided separately where CellCutter can do so and
+     * if the mesh has only one part, because match_parts() needs the vertices of arrangements;
+     * other cells are arranged. @p state is set for each cell. @throws InputError where the part's
+     * regions extend beyond it.
      */
     void
     cut(const MathematicalMesh          &mathematical_mesh,
@@ -164,10 +164,10 @@ namespace NMM
         Cutting                         &cutting);
 
     /**
-     * Along physical edges between regions on different parts, divide the edges
-     * of the elements on each side where those of the other side end, so that
-     * both sides have the same edges, with the same doubles as ends, and tell
-     * them their neighbours. Ends that are a few ulp apart become one.
+     * Along physical edges between regions on different parts, divides the edges of elements where
+     * edges of the other side end. Both sides then have the same edges with the same coordinates,
+     * and each edge knows its neighbour on the other side. Ends that differ by rounding only are
+     * merged.
      */
     void
     match_parts(const PhysicalEdges             &physical_edges,

@@ -19,7 +19,7 @@ namespace NMM
 
   namespace
   {
-    /// The part of a box that is to be shared out among consecutive ranks.
+    /// The part of a box that is to be divided among consecutive ranks.
     struct Share
     {
       LatticeBox   box;
@@ -27,7 +27,7 @@ namespace NMM
     };
 
 
-    /// Along which direction a box is cut.
+    /// Direction along which a box is divided.
     unsigned int
     longer_direction(const LatticeBox &box)
     {
@@ -35,8 +35,8 @@ namespace NMM
     }
 
 
-    /// Cut in two, so that the first part has as large a share of the parallelograms
-    /// as of the ranks. @p counts: along the longer direction.
+    /// Divide in two, so that the first part has the same fraction of the parallelograms as of the
+    /// ranks. @p counts are the numbers of parallelograms along the longer direction.
     std::pair<Share, Share>
     bisect(const Share &share, const std::uint64_t *counts)
     {
@@ -61,7 +61,7 @@ namespace NMM
     }
 
 
-    /// The box of each rank, the same on all.
+    /// Box of each rank, the same result on all ranks.
     std::vector<LatticeBox>
     share_out(const PhysicalMesh          &physical_mesh,
               const Lattice               &lattice,
@@ -75,7 +75,7 @@ namespace NMM
       if (n_ranks == 1)
         return {shares[0].box};
 
-      // for counting, each rank looks at some rows
+      // Each rank counts some of the rows.
       const auto row = [&](const unsigned int r) {
         return lattice.n[1] * static_cast<std::int64_t>(r) / n_ranks;
       };
@@ -158,10 +158,10 @@ namespace NMM
     }
 
 
-    /// The cells that one rank holds.
+    /// The cells that this rank holds.
     struct LocalLattice
     {
-      /// Per parallelogram two cells, in ascending order of the global numbers.
+      /// Parallelograms with two cells each, in ascending order of the global numbers.
       std::vector<LatticeNode>                 parallelograms;
       std::vector<Point<2>>                    vertices;
       std::vector<std::array<unsigned int, 3>> cells;

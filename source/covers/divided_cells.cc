@@ -21,7 +21,7 @@ namespace NMM
       , part_cells(part.cells)
       , cell_to_divided(part.cells.second - part.cells.first, invalid_index)
     {
-      // most cells have one edge near them, five pieces of sides and one chord
+      // Most cells have one edge near them, five pieces of sides and one chord.
       const std::size_t n_expected = near.edges.size();
       cells.reserve(n_expected + 1);
       half_edges.reserve(7 * n_expected);
@@ -165,7 +165,7 @@ namespace NMM
       cutting.n_packed = cutting.elements.size();
       cutting.packed_edges.starts.reserve(n_edges);
       cutting.packed_edges.beyond.reserve(n_edges);
-      // every other side is shared by two of them
+      // Every other side is shared by two cells.
       cutting.links.reserve(n_edges / 2);
     }
 
@@ -186,7 +186,7 @@ namespace NMM
         cell.first_of_side[side + 1] - cell.first_of_side[side];
       if (other == invalid_index)
       {
-        // a boundary of the solid may lie on that of the mesh
+        // A boundary of the solid may lie on that of the mesh.
         const unsigned int h =
           cell.first_half_edge + cell.first_of_side[side] + piece;
         AssertThrow(half_edges[h].physical_edge != invalid_index ||
@@ -210,7 +210,8 @@ namespace NMM
           return element(other, there, n - 1 - piece);
         }
         default:
-          // from the lower vertex on: the way of the cell on the left
+          // Pieces are numbered from the lower vertex on, which is the direction of the cell on the
+          // left.
           return arranged->element(e, is_left ? piece : n - 1 - piece);
       }
     }
@@ -268,7 +269,7 @@ namespace NMM
                                              cutting);
               const auto        &both  = mesh.edges()[edge.mesh_edge].cells;
               const unsigned int other = both[both[0] == cell.cell ? 1 : 0];
-              // the first of two divided cells joins both
+              // The first one of two divided cells appends the link for both.
               if (edge.neighbor != invalid_index &&
                   half_edge.physical_edge == invalid_index &&
                   (state[other] == CellState::untouched ||

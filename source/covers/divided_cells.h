@@ -15,17 +15,17 @@ namespace NMM
     class ArrangedCells;
 
     /**
-     * Cells near straight physical edges, each divided by itself (CellCutter). Both cells
-     * of a mathematical edge find the same points on it, with the same doubles, in
-     * the same order; so the pieces of a side are matched by their number.
+     * Cells near straight physical edges, each divided separately by CellCutter. Both cells of a
+     * mathematical edge find the same points on it, with the same coordinates and in the same
+     * order, so that the pieces of a side are matched by their number.
      */
     class DividedCells
     {
     public:
       /**
-       * Divides the cells of a part with edges near them. @p state is made
-       * CellState::untouched where none has more than points in common with the cell,
-       * `divided` or `arranged`. Nothing happens if @p near is empty.
+       * Divides the cells of a part that have edges near them. @p state is set to
+       * CellState::untouched if edges have only points in common with the cell, else to `divided`
+       * or `arranged`. Nothing is done if @p near is empty.
        */
       DividedCells(const MathematicalMesh          &mesh,
                    const PhysicalEdges             &physical_edges,
@@ -37,16 +37,16 @@ namespace NMM
       bool
       empty() const;
 
-      /// Regions of untouched cells beside divided ones.
+      /// Set the regions of untouched cells beside divided ones.
       void
       label_beside(const std::vector<unsigned char> &state,
                    std::vector<unsigned int>        &cell_region) const;
 
-      /// Append the faces in the solid to the elements of @p cutting.
+      /// Append the faces inside of the solid to the elements of @p cutting.
       void
       number_elements(Cutting &cutting);
 
-      /// Pieces of a side of a cell, counter-clockwise.
+      /// Number of pieces of a side of a cell; pieces are numbered counter-clockwise.
       unsigned int
       n_pieces(unsigned int cell, unsigned int side) const;
 
@@ -54,12 +54,12 @@ namespace NMM
       unsigned int
       element(unsigned int cell, unsigned int side, unsigned int piece) const;
 
-      /// Where a piece begins.
+      /// Start of a piece.
       const dealii::Point<2> &
       start(unsigned int cell, unsigned int side, unsigned int piece) const;
 
-      /// Edges of the elements, and links but to arranged cells, which know them.
-      /// @throws InputError where the solid sticks out of the mesh.
+      /// Append the edges of the elements and their links, except links to arranged cells, which
+      /// ArrangedCells appends. @throws InputError where the solid extends beyond the mesh.
       void
       append_edges(const std::vector<unsigned char> &state,
                    const ArrangedCells              *arranged,
@@ -69,7 +69,7 @@ namespace NMM
       struct Cell
       {
         unsigned int cell, first_half_edge, first_face;
-        /// The half-edges of side i begin at first_half_edge + first_of_side[i].
+        /// First half-edge of each side i: first_half_edge + first_of_side[i].
         std::array<unsigned int, 4> first_of_side;
       };
 
@@ -82,7 +82,7 @@ namespace NMM
       struct Face
       {
         unsigned int region;
-        /// Its half-edges are loops[begin], ..., up to the next face's.
+        /// First half-edge in loops; the last one is before that of the next face.
         unsigned int begin;
         /// Code of the element.
         unsigned int element;
@@ -107,11 +107,11 @@ namespace NMM
       const PhysicalEdges                  &physical_edges;
       std::pair<unsigned int, unsigned int> part_cells;
       std::vector<unsigned int>             cell_to_divided;
-      /// With one past the end.
+      /// The cells, and one past the end.
       std::vector<Cell>         cells;
       std::vector<HalfEdge>     half_edges;
       std::vector<unsigned int> loops;
-      /// With one past the end.
+      /// The faces, and one past the end.
       std::vector<Face> faces;
     };
   } // namespace internal

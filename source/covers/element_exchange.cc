@@ -14,7 +14,7 @@ namespace NMM
     {
       constexpr unsigned int n_numbers = 4;
 
-      /// Region, a point that is characteristic of the element, and area.
+      /// Numbers that identify an element: region, a characteristic point, and area.
       std::array<double, n_numbers>
       signature(const ManifoldMesh &mesh, const unsigned int element)
       {

@@ -17,27 +17,27 @@ namespace NMM
   namespace internal
   {
     /**
-     * Which elements of a distributed mesh are the same on different ranks, and how
-     * their values get from their owner to the others. Ranks may have cut a cell that
-     * they have in common in different ways (simply or by an arrangement), so that
-     * its pieces are known from each other by region, place and area, to a
-     * millionth of the cell.
+     * Exchanges data of elements between the ranks of a distributed mesh, from the owner of an
+     * element to the ranks that hold it as a ghost. Ranks may have cut a common cell in different
+     * ways (divided or arranged), so that its elements are identified by region, position and area,
+     * to a millionth of the cell.
      */
     class ElementExchange
     {
     public:
-      /// Collective. @throws NumericalFailure if the ranks' pieces of a cell differ.
+      /// Match the elements. Collective. @throws NumericalFailure if the elements of a cell differ
+      /// between ranks.
       ElementExchange(const ManifoldMesh &mesh, const RankCells &rank_cells);
 
       /**
-       * @p values: @p n_per_element for each element; those of ghost elements are
-       * overwritten by their owners'. Collective.
+       * Overwrite the values of ghost elements by those of their owners. @p values has @p
+       * n_per_element entries for each element. Collective.
        */
       template <typename T>
       void
       update_ghosts(std::vector<T> &values, unsigned int n_per_element) const;
 
-      /// An element's name on all ranks: its owner and its number there.
+      /// Global identification of an element: its owner and its number there.
       struct GlobalElement
       {
         unsigned int rank, element;
@@ -53,18 +53,18 @@ namespace NMM
       GlobalElement
       global(unsigned int element) const;
 
-      /// invalid_index if this rank does not hold it.
+      /// Number of a global element on this rank; invalid_index if this rank does not hold it.
       unsigned int
       local(const GlobalElement &element) const;
 
-      /// Is the element a ghost, or do other ranks hold it as one?
+      /// Whether the element is a ghost, or a ghost of another rank.
       bool
       is_shared(unsigned int element) const;
 
       MPI_Comm
       communicator() const;
 
-      /// Of ranks with common elements.
+      /// Number of ranks with common elements.
       unsigned int
       n_neighbors() const;
 
@@ -72,7 +72,7 @@ namespace NMM
       struct Neighbor
       {
         unsigned int rank;
-        /// Elements in an order both ranks agree on.
+        /// Elements to be sent and received, in an order on which both ranks agree.
         std::vector<unsigned int> sent, received;
       };
 

@@ -3,7 +3,7 @@
 #include <numeric>
 #include <tuple>
 
-// Edges of elements, and which elements are joined.
+// Edges of elements and links between them.
 namespace NMM
 {
   using namespace dealii;
@@ -67,13 +67,13 @@ namespace NMM
       const auto &exact = cutting.elements[i];
       const auto  first = cutting.edges.begin() + exact.first_edge,
                  last   = cutting.edges.begin() + exact.end_edge;
-      // a whole element nothing touches needs no edges
+      // A whole element that no curve touches needs no edges.
       if (!exact.is_whole ||
           std::any_of(first, last, [](const ElementEdge &edge) {
             return edge.curve_set != invalid_index;
           }))
       {
-        // they are in the order of the elements
+        // The edges are in the order of the elements.
         Assert(end <= exact.first_edge, ExcInternalError());
         for (auto edge = first; edge != last; ++edge, ++end)
         {
@@ -120,7 +120,7 @@ namespace NMM
       }
     const unsigned int n = special_is_whole.size();
 
-    // whole elements beside cut ones, and what lies across their other sides
+    // Whole elements beside cut ones, and the elements across their other sides.
     const auto for_each_whole_link = [&](const auto &action) {
       std::vector<unsigned int> special_to_element(n - n_cut);
       for (const auto &link : cutting.links)
@@ -164,7 +164,7 @@ namespace NMM
     for_each_whole_link(
       [&](const unsigned int i, const Link &link) { links[next[i]++] = link; });
 
-    // an edge that curves cross several times can join a pair several times
+    // An edge that curves cross several times can join the same pair several times.
     const auto key = [](const Link &link) {
       return std::make_tuple(link.neighbor, link.edge_here, link.edge_there);
     };

@@ -3,7 +3,7 @@
 #include "manifold_mesh_data.h"
 #include <algorithm>
 
-// The order of elements.
+// Numbering of elements.
 namespace NMM
 {
   using namespace dealii;
@@ -11,10 +11,10 @@ namespace NMM
   namespace
   {
     /**
-     * Cells that hold elements, in the order of a breadth-first walk over the
-     * cells that starts at a cell far from the middle: neighbours get near
-     * numbers (Cuthill & McKee 1969; all cells have at most three neighbours,
-     * so sorting them by degree, as the full algorithm does, changes nothing).
+     * Cells with elements, in the order of a breadth-first search that starts at a cell far from
+     * the middle, so that neighbours get near numbers (Cuthill & McKee 1969). The full algorithm
+     * also sorts by degree, which changes nothing here, because all cells have at most three
+     * neighbours.
      */
     std::vector<unsigned int>
     order_cells(const internal::CellNeighbors    &neighbors,
@@ -43,7 +43,7 @@ namespace NMM
       for (unsigned int c = 0; c < neighbors.size(); ++c)
         if (is_to_number[c])
         {
-          // the last cell of a first walk is (nearly) peripheral
+          // The last cell of a first search is nearly peripheral.
           probe.clear();
           walk(c, is_to_probe, probe);
           walk(probe.back(), is_to_number, order);
@@ -52,8 +52,8 @@ namespace NMM
     }
 
 
-    /// The same of a distributed mesh: ghost cells of lower ranks, own ones, ghost
-    /// cells of higher ranks.
+    /// The same for a distributed mesh: ghost cells of lower ranks, own ones, ghost cells of higher
+    /// ranks.
     std::vector<unsigned int>
     order_cells_of_rank(const internal::CellNeighbors    &neighbors,
                         const RankCells                  &rank_cells,

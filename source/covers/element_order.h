@@ -25,10 +25,10 @@ namespace NMM
 
 
     /**
-     * What elements are put in order by, in the length of the cell: how far the cell and
-     * the element are from the middle of the solid, so that a symmetric solid on a
-     * symmetric mesh has a symmetric order but for elements on the axis; where the
-     * cell is, where in the cell the element is, how large it is.
+     * Key by which elements are ordered, with lengths relative to the size of the cell: the
+     * distances of the cell and the element from the middle of the solid, the position of the cell,
+     * the position of the element in the cell, and its size. A symmetric solid on a symmetric mesh
+     * thus has a symmetric order, except for elements on the axis.
      */
     struct ElementPlace
     {
@@ -54,7 +54,7 @@ namespace NMM
                    mesh.area(element) / (cell_size * cell_size)}};
       }
 
-      /// By the first value that differs by more than a millionth of the cell.
+      /// Compare by the first value that differs by more than a millionth of the cell.
       bool
       operator<(const ElementPlace &other) const
       {
@@ -76,7 +76,7 @@ namespace NMM
     {
       if (a == b)
         return false;
-      // the first value decides most
+      // The first value decides in most cases.
       const MathematicalMesh &cells = mesh.mathematical_mesh();
       const auto             &box =
         mesh.physical_mesh().bounding_box().get_boundary_points();
@@ -84,7 +84,7 @@ namespace NMM
       const double           size = cells.cell_diameter(mesh.cell(a));
       const double here  = cell_centroid(mesh, a).distance(middle) / size,
                    there = cell_centroid(mesh, b).distance(middle) / size;
-      // by more than what rounding makes of the same numbers in ElementPlace
+      // The difference must be larger than the rounding of the numbers in ElementPlace.
       if (std::abs(here - there) > 1e-6 + 1e-12 * here)
         return here < there;
       return ElementPlace(mesh, a) < ElementPlace(mesh, b);

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <functional>
 
-// Which polynomial elements with little support follow.
+// Roots of elements with little support.
 namespace NMM
 {
   using namespace dealii;
@@ -15,25 +15,24 @@ namespace NMM
 
   namespace
   {
-    /// Polynomials are continued over so many layers of elements at most: their
-    /// values grow with the square of the distance, and energies with its
-    /// fourth power.
+    /// Largest number of layers of elements over which polynomials are extended: their values grow
+    /// with the square of the distance, and energies with its fourth power.
     constexpr unsigned int max_layers = 3;
 
     /**
-     * An element with this share a of its cell, or less, is continued to over more
-     * layers d: the energy of values that have grown is a d^4 of a cell's, at most 1. By
-     * itself a sliver of the relative width a knows its unknowns to epsilon / a^2 only,
-     * as the energy of a field that is quadratic across it is a^2 of one along it.
+     * Elements whose fraction a of their cell's area is at most this are extended over more layers
+     * d. The energy of the extended values is a d^4 times that of a cell, and at most 1. Without a
+     * root, a sliver of the relative width a determines its unknowns only to epsilon / a^2, because
+     * the energy of a field that is quadratic across it is a^2 times that of one along it.
      */
     constexpr double       sliver_share      = 1e-4;
     constexpr unsigned int max_sliver_layers = 10;
 
-    /// While roots are looked for: one that another rank holds.
+    /// Value for a root that another rank holds, during the search.
     constexpr unsigned int remote = invalid_index - 1;
 
 
-    /// The elements of a mesh and their neighbours, as the search sees them.
+    /// Elements of a mesh and their neighbours as a graph.
     class MeshGraph
     {
     public:
@@ -67,7 +66,7 @@ namespace NMM
     };
 
 
-    /// Gives an element the nearest of the roots of @p parents, which are ascending.
+    /// Set the root of an element: the nearest root of its @p parents, which are ascending.
     template <typename Graph>
     void
     choose_root(const Graph                         &graph,
@@ -101,9 +100,9 @@ namespace NMM
     }
 
 
-    /// Gives elements that are joined to a rooted one a root, layer by layer;
-    /// among the roots of the previous layer the nearest. Only those that
-    /// @p may_follow, if that is given. Returns the last layer.
+    /// Set the roots of elements that are joined to elements with a root, layer by layer: the
+    /// nearest root in the previous layer. If @p may_follow is given, only elements for which it is
+    /// true are considered. Returns the last layer.
     template <typename Graph>
     std::vector<unsigned int>
     spread_roots(const Graph                             &graph,
@@ -112,7 +111,7 @@ namespace NMM
                  ElementRoots                            &roots,
                  const std::function<bool(unsigned int)> &may_follow = {})
     {
-      // (element, parent)
+      // Pairs (element, parent).
       std::vector<std::pair<unsigned int, unsigned int>> found;
       std::vector<unsigned int>                          parents;
       for (unsigned int l = 0; l < n_layers && !layer.empty(); ++l)
@@ -145,8 +144,8 @@ namespace NMM
     }
 
 
-    /// What is left is far from any good element: the best of it becomes a root,
-    /// and so on. @p left: (support, element).
+    /// Make roots of the remaining elements, which are far from any good one: the element with the
+    /// largest support becomes a root, and so on. @p left: pairs (support, element).
     template <typename Graph>
     void
     root_the_rest(const Graph                                 &graph,
@@ -171,7 +170,7 @@ namespace NMM
     }
 
 
-    /// Elements without a root in connected sets that several ranks have parts of,
+    /// Graph of the elements without a root in connected sets that are spread over several ranks,
     /// the same on all ranks.
     class SharedGraph
     {
@@ -272,7 +271,7 @@ namespace NMM
     };
 
 
-    /// Take the roots and parents of ghost elements from their owners.
+    /// Get the roots and parents of ghost elements from their owners.
     void
     update_ghost_roots(const ManifoldMesh &mesh, ElementRoots &roots)
     {
@@ -309,8 +308,8 @@ namespace NMM
     }
 
 
-    /// Is an element without a root connected, by others without, with one that two
-    /// ranks hold?
+    /// For each element, whether it has no root and is connected, by others without a root, with an
+    /// element that two ranks hold.
     std::vector<unsigned char>
     find_shared_sets(const ManifoldMesh              &mesh,
                      const std::vector<unsigned int> &element_to_root)
@@ -341,8 +340,8 @@ namespace NMM
 
 
     /**
-     * The rest of a distributed mesh: connected sets of a single rank as on one rank;
-     * all ranks do the others, of which there are few.
+     * Find the remaining roots of a distributed mesh. Connected sets on a single rank are treated
+     * as on one rank; all ranks treat the others, of which there are few.
      */
     void
     root_the_rest_on_ranks(const ManifoldMesh              &mesh,
@@ -396,7 +395,7 @@ namespace NMM
     result.element_to_root.assign(n_elements, invalid_index);
     std::vector<unsigned int> &element_to_root = result.element_to_root;
 
-    // only bad elements and their good neighbours take part in the search
+    // Only elements with little support and their good neighbours take part in the search.
     std::vector<unsigned int> bad;
     for (unsigned int e = 0; e < n_elements; ++e)
       if (manifold_mesh.is_whole(e) || has_support(manifold_mesh, e, threshold))
@@ -405,7 +404,7 @@ namespace NMM
         bad.push_back(e);
     result.element_to_parent = element_to_root;
 
-    // the first layer: whoever has good neighbours
+    // The first layer are the elements with good neighbours.
     const MeshGraph           graph(manifold_mesh);
     std::vector<unsigned int> layer, parents;
     for (const unsigned int e : bad)

@@ -18,7 +18,7 @@ namespace NMM
       void
       add(const Tensor<1, 2> &a, const Tensor<1, 2> &b)
       {
-        // triangle (0, a, b): area, and its exact moments
+        // Area of the triangle (0, a, b), and its exact moments.
         const double area = 0.5 * (a[0] * b[1] - a[1] * b[0]);
         m += area;
         first += area / 3. * (a + b);
@@ -29,7 +29,7 @@ namespace NMM
               (2. * a[i] * a[j] + 2. * b[i] * b[j] + a[i] * b[j] + a[j] * b[i]);
       }
 
-      /// In the orthonormal basis 1, sqrt(18) x, sqrt(24) (y + x / 2) of the
+      /// Matrix of moments in the orthonormal basis 1, sqrt(18) x, sqrt(24) (y + x / 2) of the
       /// reference triangle, divided by its area.
       Eigen::Matrix3d
       normalized() const
@@ -106,8 +106,8 @@ namespace NMM
     }
 
 
-    /// Are all eigenvalues above @p bound? By Sylvester's criterion: 1: yes, -1: no,
-    /// 0: rounding may decide.
+    /// Whether all eigenvalues are above @p bound, by Sylvester's criterion: 1 if they are, -1 if
+    /// not, 0 if rounding may decide.
     int
     compare_eigenvalues(const Eigen::Matrix3d &matrix, const double bound)
     {

@@ -11,9 +11,9 @@ namespace NMM
   namespace internal
   {
     /**
-     * Label that an edge of PhysicalEdges carries beside those of the pieces it
-     * lies on: physical_edge_flag + its number. Pieces have labels below it,
-     * mesh edges have labels from mesh_edge_flag on.
+     * First label of physical edges. An edge of PhysicalEdges carries the label physical_edge_flag
+     * + its number beside those of the pieces on which it lies. Pieces have smaller labels, mesh
+     * edges have labels from mesh_edge_flag on.
      */
     constexpr Label physical_edge_flag = 1u << 30;
 
@@ -31,16 +31,16 @@ namespace NMM
 
     struct ExactCurves
     {
-      /// Curve of each physical edge, with all its labels.
+      /// Exact curve of each physical edge, with all of its labels.
       std::vector<Traits::X_monotone_curve_2> curves;
-      /// By PhysicalEdges::vertices().
+      /// Exact points, in the order of PhysicalEdges::vertices().
       std::vector<Traits::Point_2> points;
     };
 
     /**
-     * Centre and signed radius of the circle that @p curve lies on, run along
-     * from left to right or the other way (ElementEdge::radius); nothing happens
-     * if it is straight.
+     * Get the centre and the signed radius (ElementEdge::radius) of the circle on which @p curve
+     * lies, for the direction from left to right or the reverse one. Nothing is done if the curve
+     * is straight.
      */
     void
     set_circle(const Traits::X_monotone_curve_2 &curve,

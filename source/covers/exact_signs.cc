@@ -15,8 +15,7 @@ namespace NMM
     {
       using FT = Kernel::FT;
 
-      /// The coordinates of a vertex in doubles are off by that at most, see
-      /// to_double(), relative to themselves.
+      /// Relative error of the coordinates of a vertex in doubles, see to_double().
       constexpr double rounding_of_coordinates =
         8. * std::numeric_limits<double>::epsilon();
 
@@ -28,7 +27,7 @@ namespace NMM
       }
 
 
-      /// Empty if a coordinate is irrational.
+      /// Exact position of a vertex; empty if a coordinate is irrational.
       std::optional<Kernel::Point_2>
       rational(const PhysicalEdges &physical_edges, const unsigned int vertex)
       {

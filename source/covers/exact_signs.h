@@ -13,8 +13,7 @@ namespace NMM
 {
   namespace internal
   {
-    /// @name Exact arithmetic for what the filters below leave undecided
-    /// @{
+    /// @name Exact arithmetic for signs that the floating-point filters below do not decide @{
     int
     exact_orientation(const dealii::Point<2> &a,
                       const dealii::Point<2> &b,
@@ -28,9 +27,9 @@ namespace NMM
     /// @}
 
 
-    /// Of a sum of two products of differences of doubles, rounded: relative to the sum of
-    /// the products' sizes; Shewchuk, Discrete Comput. Geom. 18 (1997), has 3 + 16 eps for
-    /// one of two roundings less.
+    /// Bound on the rounding error of a sum of two products of differences of doubles, relative to
+    /// the sum of the absolute values of the products. Shewchuk, Discrete Comput. Geom. 18 (1997),
+    /// has (3 + 16 eps) eps, his eps being half of ours, for an expression with one rounding less.
     constexpr double rounding_of_determinant =
       4. * std::numeric_limits<double>::epsilon();
 
@@ -71,7 +70,8 @@ namespace NMM
     }
 
 
-    /// A sign that rational numbers do not tell: of the end of an arc.
+    /// Value for a sign that rational numbers cannot decide, because the end of an arc is
+    /// irrational.
     constexpr int undecided = 2;
 
     /**
@@ -91,16 +91,17 @@ namespace NMM
             const dealii::Point<2> &a);
 
 
-    /// A point inside a side u v of a cell: where the straight line through p and q
-    /// crosses it, or a vertex of the physical mesh.
+    /// A point inside a side u v of a cell: the crossing with the straight line through p and q, or
+    /// a vertex of the physical mesh.
     struct PointOnSide
     {
       dealii::Point<2> p, q;
-      /// invalid_index: a crossing.
+      /// Vertex of the physical mesh; invalid_index for a crossing.
       unsigned int vertex = invalid_index;
     };
 
-    /// Is @p a nearer to u than @p b? 1: yes, -1: no, 0: equal; or `undecided`.
+    /// Whether @p a is nearer to u than @p b: 1 if it is, -1 if it is not, 0 if both are equal; or
+    /// `undecided`.
     int
     compare_along(const dealii::Point<2> &u,
                   const dealii::Point<2> &v,

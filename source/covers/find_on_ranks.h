@@ -12,13 +12,13 @@ namespace NMM
 {
   namespace internal
   {
-    /// The element is another rank's.
+    /// Value for an element of another rank.
     constexpr unsigned int elsewhere = invalid_index - 1;
 
     /**
-     * ManifoldMesh::find_element() of a mesh that may be distributed: then the lowest
-     * rank that owns an element with the point gets it, and the others `elsewhere`;
-     * invalid_index on all if there is none. Collective.
+     * ManifoldMesh::find_element() for a mesh that may be distributed. On a distributed mesh the
+     * lowest rank that owns an element with the point returns that element, and the others return
+     * `elsewhere`. If there is no such element, all return invalid_index. Collective.
      */
     inline unsigned int
     find_on_ranks(const ManifoldMesh &mesh, const dealii::Point<2> &x)

@@ -15,19 +15,19 @@ namespace NMM
 
     namespace
     {
-      /// An arc (at most a half circle) is replaced by so many chords or tangents.
+      /// Number of chords or tangents that replace an arc (of at most a half circle).
       constexpr unsigned int n_arc_steps = 16;
 
-      /// What a cell reaches beyond the region's frame at both ends [cells].
+      /// Margins of the region's frame at both ends [cells].
       constexpr double low_margin = 0.05, high_margin = 0.035;
 
-      /// A single triangle is made larger by this factor about its centroid.
+      /// Factor by which a single triangle is enlarged about its centroid.
       constexpr double enlargement = 1.08;
 
-      /// Directions that a single triangle's sides may have, a multiple of 4.
+      /// Number of directions that the sides of a single triangle may have, a multiple of 4.
       constexpr unsigned int n_directions = 24;
 
-      /// Below this ratio of its sides a frame counts as thin.
+      /// A frame is thin if the ratio of its sides is below this.
       constexpr double thin_ratio = 0.05;
 
 
@@ -45,8 +45,8 @@ namespace NMM
       }
 
 
-      /// Corners of polygons along the edges: of chords of arcs, or of tangents,
-      /// whose convex hull contains the arcs.
+      /// Corners of polygons along the edges: of chords of arcs, or of tangents, whose convex hull
+      /// contains the arcs.
       std::vector<Point<2>>
       corners(const std::vector<ElementEdge> &edges, const bool around_arcs)
       {
@@ -73,7 +73,7 @@ namespace NMM
       }
 
 
-      /// Andrew's monotone chain; one or two points if all are collinear.
+      /// Convex hull by Andrew's monotone chain; one or two points if all points are collinear.
       std::vector<Point<2>>
       convex_hull(std::vector<Point<2>> points)
       {
@@ -93,7 +93,7 @@ namespace NMM
               hull.pop_back();
             hull.push_back(*p);
           }
-          // the other chain begins with it
+          // The other chain begins with this point.
           hull.pop_back();
         };
         if (points.size() < 3)
@@ -123,13 +123,13 @@ namespace NMM
         scale = std::max({scale, std::abs(x[0]), std::abs(x[1])});
       rounding = 64. * std::numeric_limits<double>::epsilon() * scale;
       for (const unsigned int e : edges.region_edges(region))
-        // points on an arc are computed from centre and radius
+        // Points on an arc are computed from centre and radius.
         rounding = std::max({rounding,
                              edges.edges()[e].sagitta,
                              8. * std::numeric_limits<double>::epsilon() *
                                std::abs(edges.edges()[e].shape.radius)});
 
-      // a minimum-area rectangle has a side along one of the hull's
+      // A minimum-area rectangle has a side along one of the hull's edges.
       double smallest = std::numeric_limits<double>::max();
       for (std::size_t i = 0; i < hull.size(); ++i)
       {
@@ -145,7 +145,7 @@ namespace NMM
             high[d] = std::max(high[d], s[d]);
           }
         }
-        // no thinner than what rounding cannot harm
+        // The rectangle must not be so thin that rounding matters.
         double length[2];
         for (unsigned int d = 0; d < 2; ++d)
         {
@@ -177,7 +177,7 @@ namespace NMM
     MeshPart
     make_single_triangle(const RegionShape &shape)
     {
-      // in coordinates of the frame, in which the region spans the unit square
+      // Use coordinates of the frame, in which the region spans the unit square.
       std::array<Tensor<1, 2>, n_directions> normals;
       std::array<double, n_directions>       support;
       for (unsigned int k = 0; k < n_directions; ++k)
@@ -192,7 +192,7 @@ namespace NMM
                                 d * shape.axes[1] / shape.sides[1]});
           support[k] = std::max(support[k], normals[k] * s);
         }
-        // the curves may be so far beyond their shapes in doubles
+        // Exact curves may deviate from their shapes in doubles by this rounding.
         for (unsigned int d = 0; d < 2; ++d)
           support[k] +=
             shape.rounding * std::abs(normals[k][d]) / shape.sides[d];
@@ -212,10 +212,11 @@ namespace NMM
         for (unsigned int a = 1; a < n_directions / 2; ++a)
           for (unsigned int b = 1; b < n_directions / 2; ++b)
           {
-            // counter-clockwise by less than a half turn each
+            // The three sides turn counter-clockwise by less than a half turn each.
             if (a + b <= n_directions / 2)
               continue;
-            // sides k and l meet in the first corner: along the frame there
+            // Sides k and l meet in the first corner; for thin regions they must be along the
+            // frame.
             if (thin && (k % quarter != 0 || a != quarter))
               continue;
             const unsigned int l                   = (k + a) % n_directions,
@@ -224,7 +225,7 @@ namespace NMM
               {corner(k, l), corner(l, m), corner(m, k)}};
             const double area =
               0.5 * cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
-            // the first of equal ones, whatever the rounding
+            // Take the first one of equal triangles, in spite of rounding.
             if (area < smallest * (1. - 1e-10))
             {
               smallest = area;
@@ -248,8 +249,7 @@ namespace NMM
 
     namespace
     {
-      /// Drops the cells that lie outside the region; cells of a row follow each
-      /// other.
+      /// Remove the cells outside the region; the cells of a row are consecutive.
       void
       keep_needed_cells(const RegionShape &shape,
                         const unsigned int n_cells_per_row,
@@ -264,7 +264,7 @@ namespace NMM
         const ArrayView<const ElementEdge> outline(shape.outline.data(),
                                                    shape.outline.size());
         std::vector<Triangle>              needed;
-        // cells that no curve separates are all inside or all outside
+        // Cells without a curve between them are all inside or all outside.
         bool is_known = false, inside = false;
         for (std::size_t c = 0; c < mesh.cells.size(); ++c)
         {

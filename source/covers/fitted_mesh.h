@@ -13,42 +13,41 @@ namespace NMM
 {
   namespace internal
   {
-    /// Size and shape of a region, as far as a mesh for it needs them.
+    /// Size and shape of a region, for making a mesh of it.
     struct RegionShape
     {
-      /// Curves around it, without those that end inside.
+      /// Curves around the region, without those that end inside.
       std::vector<ElementEdge> outline;
-      /// Corners of a convex polygon around it, counter-clockwise [m]: the
-      /// convex hull, of tangents instead of arcs.
+      /// Corners of a convex polygon around the region, counter-clockwise [m]: the convex hull with
+      /// tangents in place of arcs.
       std::vector<dealii::Point<2>> hull;
-      /// Area of the convex hull, of chords instead of arcs [m^2].
+      /// Area of the convex hull with chords in place of arcs [m^2].
       double inner_hull_area;
-      /// Corner and directions of its minimum-area bounding rectangle
-      /// (orthonormal, right-handed), and sides, the longer one first [m].
+      /// Minimum-area bounding rectangle: corner [m], directions (orthonormal, right-handed), and
+      /// lengths of the sides, the longer one first [m].
       dealii::Point<2>                    origin;
       std::array<dealii::Tensor<1, 2>, 2> axes;
       std::array<double, 2>               sides;
       /// Largest coordinate of the region [m].
       double scale;
-      /// What rounding may move a point by, generously [m].
+      /// Upper bound of the rounding of a point [m].
       double rounding;
 
       RegionShape(const PhysicalEdges &edges, unsigned int region);
     };
 
     /**
-     * The smallest of the triangles around the region with sides in 24
-     * directions of its frame, made larger by 8 %. Of a thin region only
-     * right-angled ones, first corner there: only such have a determinant
-     * without cancellation.
+     * The smallest triangle around the region with sides in 24 directions of its frame, made larger
+     * by 8 %. For a thin region only right-angled triangles are used, with the right angle at the
+     * first corner, because only their determinants have no cancellation.
      */
     MeshPart
     make_single_triangle(const RegionShape &shape);
 
     /**
-     * Frame of the region made larger by some 8 %, divided into n[0] x n[1]
-     * rectangles, each halved into two triangles that begin with their right
-     * angle. Rectangles away from the region are left out.
+     * The frame of the region, made larger by about 8 % and divided into n[0] x n[1] rectangles.
+     * Each one is halved into two triangles whose first corner is the right angle. Rectangles that
+     * are away from the region are left out.
      */
     MeshPart
     make_rectangles(const RegionShape                 &shape,

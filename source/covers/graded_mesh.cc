@@ -21,9 +21,8 @@ namespace NMM
     using internal::LatticeNode;
 
     /**
-     * Red-green refinement of lattice triangles. Nodes have integer coordinates
-     * on the lattice refined 2^n_levels times, so that midpoints are exact and
-     * found by number.
+     * Red-green refinement of lattice triangles. Nodes have integer coordinates on the lattice that
+     * is refined 2^n_levels times, so that midpoints are exact and are found by number.
      */
     class RedGreenRefinement
     {
@@ -32,21 +31,21 @@ namespace NMM
                          const std::vector<LatticeNode> &parallelograms,
                          unsigned int                    n_levels);
 
-      /// @throws InputError if memory has no room for so many triangles.
+      /// @throws InputError if there is not enough memory for so many triangles.
       void
       check_memory(std::size_t n_triangles) const;
 
-      /// Halve the edges of triangles until no edge is longer than the size
-      /// field at the triangle's centre.
+      /// Halve the edges of triangles until no edge is longer than the size field at the triangle's
+      /// centre.
       void
       refine(const SizeField &size, double cell_size);
 
-      /// Refine until neighbours differ by one level and at most one edge of a
+      /// Refine until the levels of neighbours differ by at most one, and at most one edge of a
       /// triangle has a node in its middle.
       void
       balance();
 
-      /// Triangles, those with a node in the middle of an edge halved.
+      /// All triangles; those with a node in the middle of an edge are halved.
       std::vector<std::array<unsigned int, 3>>
       close() const;
 
@@ -59,15 +58,15 @@ namespace NMM
         unsigned int                level;
       };
 
-      /// Vertex at a node, made if it is new.
+      /// Vertex at a node; it is made if it does not exist.
       unsigned int
       vertex(const LatticeNode &node);
 
-      /// Node in the middle of two vertices.
+      /// Node in the middle between two vertices.
       LatticeNode
       middle(unsigned int v, unsigned int w) const;
 
-      /// Vertex in the middle of two others, if there is one.
+      /// Vertex in the middle between two others, if there is one.
       unsigned int
       find_middle(unsigned int v, unsigned int w) const;
 
@@ -127,7 +126,7 @@ namespace NMM
       if (is_new)
       {
         vertex_to_node.push_back(node);
-        // a coarse node has the same coordinates as without refinement
+        // A coarse node has the same coordinates as without refinement.
         vertices.push_back(lattice->origin +
                            (static_cast<double>(node[0]) / scale) * lattice->a +
                            (static_cast<double>(node[1]) / scale) * lattice->b);
@@ -228,7 +227,8 @@ namespace NMM
                                vertices[t.corners[2]]) /
                               3.);
         const auto divisor = static_cast<double>(std::int64_t(1) << t.level);
-        // a rounded half of a half must not count as too long
+        // An edge that is halved exactly to the wanted length must not count as too long by
+        // rounding.
         return (std::int64_t(1) << t.level) < scale &&
                cell_size / divisor > (1. + 1e-10) * size(center);
       });

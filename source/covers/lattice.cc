@@ -24,7 +24,8 @@ namespace NMM
                                " m is not positive",
                              "Mathematical mesh/Cell size",
                              "give the edge length of a triangle"));
-      // the mesh repeats itself after a cell, and nodes would be rounded
+      // Longer offsets are refused, because nodes would be rounded and the mesh repeats itself with
+      // the cell size anyway.
       constexpr double most_cells = 1e6;
       AssertThrow(parameters.offset.norm() <= most_cells * h,
                   InputError("the offset (" +
@@ -38,7 +39,7 @@ namespace NMM
       const double angle     = parameters.rotation * numbers::PI / 180.;
       const bool equilateral = (parameters.pattern == MeshPattern::equilateral);
 
-      // 0 and 90 degrees are meant exactly
+      // Rotations of 0 and 90 degrees are exact.
       const bool   turned = (parameters.rotation != 0.);
       const double c      = turned ? std::cos(angle) : 1.,
                    s      = turned ? std::sin(angle) : 0.;
@@ -56,8 +57,8 @@ namespace NMM
       }
       lattice.to_lattice = invert(basis);
 
-      // the range of lattice coordinates of the box, with a margin so that
-      // rounding cannot leave a point of the solid uncovered
+      // Range of lattice coordinates of the box, with a margin so that rounding cannot leave a
+      // point of the solid uncovered.
       const Point<2> node   = box.center() + parameters.offset;
       const double   margin = 1e-3;
       Tensor<1, 2>   low({1e300, 1e300}), high({-1e300, -1e300});
@@ -129,10 +130,9 @@ namespace NMM
 
 
       /**
-       * Mark the parallelograms within one lattice step of a curve. Samples are
-       * at most a quarter of a step apart (in lattice coordinates), so that every
-       * point of the curve lies in the 3 x 3 neighbourhood of some sample's
-       * parallelogram.
+       * Mark the parallelograms within one lattice step of a curve. Samples are at most a quarter
+       * of a step apart (in lattice coordinates), so that every point of the curve lies in the 3 x
+       * 3 neighbourhood of some sample's parallelogram.
        */
       void
       mark_near_curves(const PhysicalMesh  &physical_mesh,
@@ -153,8 +153,8 @@ namespace NMM
       }
 
 
-      /// The unmarked parallelograms form connected sets no curve crosses: one
-      /// point decides for each.
+      /// Determine the unmarked parallelograms. They form connected sets that no curve crosses, so
+      /// that one point decides for each set.
       void
       classify_rest(const PhysicalMesh  &physical_mesh,
                     const Lattice       &lattice,

@@ -17,16 +17,16 @@ namespace NMM
 {
   namespace internal
   {
-    /// What meshing, cutting and the cheapest analysis of linear covers use per
-    /// triangle, measured on squares of 1e5 triangles [bytes].
+    /// Memory that meshing, cutting and the cheapest analysis with linear covers use for each
+    /// triangle, measured on squares with 1e5 triangles [bytes].
     constexpr double least_memory_per_cell = 2000.;
 
     /// Lattice coordinates of a node.
     using LatticeNode = std::array<std::int64_t, 2>;
 
     /**
-     * Node (i, j) lies at origin + i a + j b, 0 <= i <= n[0], 0 <= j <= n[1];
-     * parallelograms are halved along the diagonal from (i+1, j) to (i, j+1).
+     * A lattice of parallelograms. Node (i, j) lies at origin + i a + j b, 0 <= i <= n[0],
+     * 0 <= j <= n[1]; parallelograms are halved along the diagonal from (i+1, j) to (i, j+1).
      */
     struct Lattice
     {
@@ -65,7 +65,7 @@ namespace NMM
     make_lattice(const dealii::BoundingBox<2> &box,
                  const RegularMeshParameters  &parameters);
 
-    /// Parallelograms (i, j) with lower <= (i, j) < upper.
+    /// The parallelograms (i, j) with lower <= (i, j) < upper.
     struct LatticeBox
     {
       LatticeNode lower, upper;
@@ -79,9 +79,9 @@ namespace NMM
     };
 
     /**
-     * Parallelograms (i, j) of @p box that can touch the solid, row by row; all of
-     * them if the parameters ask for the whole box. Which ones these are does not
-     * depend on the box they are looked for in.
+     * Parallelograms (i, j) of @p box that can touch the solid, row by row; all of them if the
+     * parameters ask for the whole box. Whether a parallelogram is included does not depend on @p
+     * box.
      */
     std::vector<LatticeNode>
     find_needed_parallelograms(const PhysicalMesh          &physical_mesh,

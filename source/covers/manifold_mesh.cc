@@ -168,8 +168,8 @@ namespace NMM
   double
   internal::enclosed_area(const ArrayView<const ElementEdge> edges)
   {
-    // Green's theorem about the first corner: triangles, plus the circular
-    // segments between arcs and their chords
+    // Green's theorem about the first corner: sum of triangles, plus the circular segments between
+    // arcs and their chords.
     const Point<2> origin = edges[0].start;
     double         sum    = 0.;
     for (const ElementEdge &edge : edges)
@@ -360,7 +360,7 @@ namespace NMM
       data->cell_tree = std::make_unique<CellTree>(boxes);
     });
 
-    // on a boundary, rounding decides: accept the nearest element within it
+    // On a boundary, rounding decides: accept the nearest element within the tolerance.
     double tolerance = 1e-12;
     for (unsigned int d = 0; d < 2; ++d)
       tolerance = std::max(tolerance, 1e-12 * std::abs(x[d]));
@@ -374,7 +374,7 @@ namespace NMM
     {
       const unsigned int c  = it->second;
       const Point<2>     xi = mesh.real_to_reference(c, x);
-      // the tolerance over the cell's smallest height
+      // Tolerance relative to the cell's smallest height.
       const double slack =
         tolerance * mesh.cell_diameter(c) / mesh.cell_area(c);
       if (xi[0] < -slack || xi[1] < -slack || xi[0] + xi[1] > 1. + slack)

@@ -1,7 +1,7 @@
 #ifndef nmm_source_covers_manifold_mesh_data_h
 #define nmm_source_covers_manifold_mesh_data_h
 
-// Private: what a ManifoldMesh keeps, and how it is made from what the cutter found.
+// Private: data of a ManifoldMesh, and how it is made from the result of the cutting.
 
 #include <nmm/covers/manifold_mesh.h>
 
@@ -34,17 +34,18 @@ namespace NMM
 
     std::vector<unsigned int> element_to_cell;
     std::vector<unsigned int> element_to_region;
-    /// invalid_index: none.
+    /// First element of each cell; invalid_index if it has none.
     std::vector<unsigned int> cell_first_element;
 
     /**
-     * Elements that the mathematical mesh does not tell all about: what the cutter made,
-     * in its order, and whole ones beside them. By element: its number among them, or
-     * invalid_index.
+     * Number of each *special* element among all of these, or invalid_index. Special elements do
+     * not follow from the mathematical mesh alone: those that cutting made, in its order, and whole
+     * ones beside them.
      */
     std::vector<unsigned int> element_to_special;
-    /// Its edges and links: from there on, up to those of the next one. The first ones,
-    /// with straight edges in one loop, have theirs in packed_edges, the next in edges.
+    /// First edge and first link of each special element; they end where those of the next one
+    /// begin. The first special elements, with straight edges in one loop, have their edges in
+    /// packed_edges, the next ones in edges.
     std::vector<unsigned int>  first_packed_edge, first_edge, first_link;
     std::vector<unsigned char> special_is_whole;
 
@@ -60,14 +61,15 @@ namespace NMM
     mutable std::once_flag                      tree_made;
     mutable std::unique_ptr<internal::CellTree> cell_tree;
 
-    /// Numbers elements; @p exact_to_element: by element of the cutter.
+    /// Number the elements. @p exact_to_element is set to the number of each element of the
+    /// cutting.
     void
     number_elements(const internal::Cutting          &cutting,
                     const internal::CellNeighbors    &neighbors,
                     const std::vector<unsigned char> &state,
                     std::vector<unsigned int>        &exact_to_element);
 
-    /// Take over the edges.
+    /// Take over the edges from the cutting.
     void
     take_edges(internal::Cutting               &cutting,
                const std::vector<unsigned int> &exact_to_element);
@@ -77,16 +79,16 @@ namespace NMM
                const std::vector<unsigned char> &state,
                const std::vector<unsigned int>  &exact_to_element);
 
-    /// Make an element special.
+    /// Make an element special, and return its number among the special ones.
     unsigned int
     make_special(unsigned int element);
 
-    /// The whole element beyond a side of an untouched cell, of which nothing
-    /// separates it; neighbor is invalid_index if there is none.
+    /// The whole element beyond a side of an untouched cell, with no curve in between; neighbor is
+    /// invalid_index if there is none.
     Link
     link_across(unsigned int cell, unsigned int side) const;
 
-    /// Element of a code of the cutter, or invalid_index.
+    /// Element for a code of the cutting, or invalid_index.
     unsigned int
     decode(const unsigned int               code,
            const std::vector<unsigned int> &exact_to_element) const

@@ -16,7 +16,7 @@ namespace NMM
       struct Side
       {
         unsigned int physical_edge;
-        /// 0: its element is left of the physical edge, 1: right.
+        /// 0 if the element is to the left of the physical edge, 1 if it is to the right.
         unsigned int side;
         /// Its vertices at the left and right end.
         unsigned int left, right;
@@ -24,7 +24,7 @@ namespace NMM
       };
 
 
-      /// Part of an edge that is divided, by its vertices at the left and right.
+      /// Part of a divided edge, by its vertices at the left and right.
       struct NewEdge
       {
         unsigned int left, right, neighbor;
@@ -51,7 +51,7 @@ namespace NMM
         std::vector<Side>
         find_sides() const;
 
-        /// The common refinement of both sides of a physical edge.
+        /// Compute the common refinement of both sides of a physical edge.
         void
         match_edge(const std::array<std::vector<Side>, 2> &chains);
 
@@ -62,7 +62,7 @@ namespace NMM
         const std::vector<unsigned int> &region_to_part;
         Cutting                         &cutting;
         std::vector<NewEdge>             new_edges;
-        /// Range of new edges that replaces each edge; empty: it stays.
+        /// Range of new edges that replaces each edge; empty if the edge is kept.
         std::vector<std::pair<unsigned int, unsigned int>> edge_to_new;
         /// Side of each edge that is replaced.
         std::vector<unsigned char> edge_side;
@@ -86,7 +86,7 @@ namespace NMM
             if (regions[0] == invalid_index || regions[1] == invalid_index ||
                 region_to_part[regions[0]] == region_to_part[regions[1]])
               continue;
-            // an element is left of its own edges
+            // An element is to the left of its own edges.
             if (element.region == regions[0])
               sides.push_back(
                 {origin.physical_edge, 0, origin.start, origin.end, i, e});
@@ -103,8 +103,8 @@ namespace NMM
       }
 
 
-      /// The edges of one side, sorted by their left vertex, in the order in
-      /// which they follow each other: exact, where coordinates may tie.
+      /// Edges of one side in the order in which they follow each other, by exact comparison of
+      /// their left vertices; coordinates in doubles may tie.
       std::vector<Side>
       chain(const std::vector<Side>::const_iterator begin,
             const std::vector<Side>::const_iterator end)
@@ -141,15 +141,15 @@ namespace NMM
       {
         const ElementEdge &shape =
           physical_edges.edges()[chains[0].front().physical_edge].shape;
-        // both sides begin and end where the physical edge does
+        // Both sides begin and end where the physical edge does.
         for (const std::vector<Side> &chain : chains)
         {
           cutting.vertices[chain.front().left] = shape.start;
           cutting.vertices[chain.back().right] = shape.end;
         }
 
-        // This grows along segments and along arcs up to half circles, at a
-        // rate of at least 1, and is as exact as the coordinates.
+        // The parameter grows along segments and along arcs up to half circles, at a rate of at
+        // least 1, and is as exact as the coordinates.
         const auto parameter = [&](const unsigned int vertex) {
           const Point<2> &x = cutting.vertices[vertex];
           return x.distance(shape.start) - x.distance(shape.end);
@@ -158,12 +158,12 @@ namespace NMM
         for (unsigned int d = 0; d < 2; ++d)
           scale =
             std::max({scale, std::abs(shape.start[d]), std::abs(shape.end[d])});
-        // two vertices, each exact to 8 epsilon per coordinate
+        // Two vertices, each with an error of 8 epsilon in each coordinate.
         const double tolerance =
           64. * std::numeric_limits<double>::epsilon() * scale;
 
-        // Merge the inner vertices of both sides. An interval starts at a
-        // vertex and lies on one edge of each side.
+        // Merge the inner vertices of both sides. An interval starts at a vertex and lies on one
+        // edge of each side.
         struct Interval
         {
           unsigned int               left;
@@ -230,7 +230,7 @@ namespace NMM
             const std::size_t  n_before = edges.size();
             for (unsigned int k = 0; k < n_new; ++k)
             {
-              // elements on the right run along the physical edge backwards
+              // Elements on the right run along the physical edge in the reverse direction.
               const NewEdge &part =
                 new_edges[edge_side[i] == 0 ? first + k : end - 1 - k];
               edge.start    = cutting.vertices[part.left];
@@ -238,7 +238,7 @@ namespace NMM
               edge.neighbor = part.neighbor;
               if (edge_side[i] == 1)
                 std::swap(edge.start, edge.end);
-              // distinct vertices can be the same doubles
+              // Distinct vertices can have the same doubles.
               if (edge.start != edge.end)
                 edges.push_back(edge);
             }

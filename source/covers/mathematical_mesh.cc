@@ -51,8 +51,8 @@ namespace NMM
     void
     fill_edges();
 
-    /// Covers are numbered by vertices and edges if deal.II does not number those of
-    /// all cells held here.
+    /// Number the covers by vertices and edges, if deal.II has no numbers for all cells that this
+    /// rank holds.
     void
     number_covers_locally();
   };
@@ -129,7 +129,7 @@ namespace NMM
     cell_edges.resize(n_cells);
     edges.reserve(triangulation->n_active_lines());
 
-    // active lines need not be numbered consecutively once the user has refined
+    // Active lines need not have consecutive numbers after a refinement by the user.
     std::vector<unsigned int> line_to_edge(triangulation->n_raw_lines(),
                                            invalid_index);
     unsigned int              c = 0;
@@ -146,8 +146,7 @@ namespace NMM
           edges.push_back({{{std::min(v0, v1), std::max(v0, v1)}},
                            {{invalid_index, invalid_index}}});
         }
-        // corners are counter-clockwise, so a cell lies to the left of its
-        // own edges
+        // Corners are counter-clockwise, so that a cell lies to the left of its own edges.
         edges[edge].cells[v0 < v1 ? 0 : 1] = c;
         cell_edges[c][i]                   = edge;
       }
@@ -375,7 +374,7 @@ namespace NMM
   MathematicalMesh::cell_iterator(const unsigned int cell) const
   {
     AssertIndexRange(cell, n_cells());
-    // unrefined: the index on level 0 is the active index
+    // Without refinement, the index on level 0 is the active index.
     if (data->triangulation->n_levels() == 1)
       return Triangulation<2>::active_cell_iterator(data->triangulation.get(),
                                                     0,
@@ -460,7 +459,7 @@ namespace NMM
                                " of the mathematical mesh has no cells",
                              "",
                              "leave it out"));
-      // deal.II wants no vertices without a cell
+      // deal.II accepts no vertices without a cell.
       std::vector<unsigned int> to_combined(part.vertices.size(),
                                             invalid_index);
       for (const auto &corners : part.cells)

@@ -15,8 +15,7 @@ namespace NMM
 
     namespace
     {
-      /// A short stretch of a curve: all its points lie within `width` of the
-      /// chord a b [m].
+      /// A short stretch of a curve: all its points lie within `width` of the chord a b [m].
       struct Chunk
       {
         Point<2> a, b;
@@ -25,12 +24,12 @@ namespace NMM
         unsigned int owner;
       };
 
-      /// Edge length that most triangles have [m].
+      /// Typical edge length of the triangles [m].
       double
       typical_size(const std::vector<Point<2>>    &vertices,
                    const ArrayView<const Triangle> triangles)
       {
-        // a sample will do
+        // A sample is sufficient.
         const std::size_t step =
           std::max<std::size_t>(1, triangles.size() / 8192);
         std::size_t n    = 0;
@@ -43,7 +42,7 @@ namespace NMM
           area += 0.5 * (a[0] * b[1] - a[1] * b[0]);
           length += std::max(a.norm(), b.norm());
         }
-        // thin triangles are as long as the length says
+        // For thin triangles the length of the edges is the better measure.
         return std::max(std::sqrt(2. * area / n), length / n);
       }
 
@@ -64,8 +63,8 @@ namespace NMM
             std::max(1., std::ceil(length / spacing)));
           const double sagitta =
             std::abs(edge.radius) * (1. - std::cos(0.5 * sweep / n));
-          // points on an arc, from centre and radius; what is straight may be an
-          // arc that is so up to rounding, see is_nearly_straight()
+          // Rounding of points on an arc, which are computed from centre and radius. A straight
+          // edge may be an arc that is straight up to rounding, see is_nearly_straight().
           const double rounding =
             edge.is_arc() ? 16. * std::numeric_limits<double>::epsilon() *
                               std::abs(edge.radius)
@@ -92,14 +91,14 @@ namespace NMM
 
 
       /**
-       * Separating axes: a triangle and a segment are further apart than
-       * @p width if their projections on the normal of some edge of either are.
+       * Separating axis test: a triangle and a segment are further apart than @p width if their
+       * projections on the normal of some edge of either are.
        */
       bool
       are_apart(const std::array<Point<2>, 3> &triangle, const Chunk &chunk)
       {
         const auto separates = [&](const Tensor<1, 2> &direction) {
-          // distances times the length of the direction
+          // Distances are multiplied by the length of the direction.
           const Tensor<1, 2> axis({direction[1], -direction[0]});
           const double       s1 = axis * (triangle[1] - triangle[0]),
                        s2       = axis * (triangle[2] - triangle[0]),
@@ -121,7 +120,7 @@ namespace NMM
 
     namespace
     {
-      /// Rounding in coordinates of this size is far below it [m].
+      /// A length that is far above the rounding of coordinates of this size [m].
       double
       rounding_margin(const double scale)
       {
@@ -129,11 +128,12 @@ namespace NMM
       }
 
 
-      /// Squares over the boxes of the chunks, each with the chunks whose box meets it.
+      /// A grid of squares over the boxes of the chunks; each square knows the chunks whose box
+      /// meets it.
       class ChunkGrid
       {
       public:
-        /// At most some @p max_squares.
+        /// Make a grid of about @p max_squares squares at most.
         ChunkGrid(const std::vector<Chunk> &chunks,
                   const double              spacing,
                   const std::size_t         max_squares)
@@ -181,22 +181,22 @@ namespace NMM
           unsigned int i, j;
         };
 
-        /// The one that a point lies in, or the nearest one.
+        /// The square that contains a point, or the nearest one.
         Square
         square_of(const Point<2> &x) const
         {
           return {index(x[0], 0), index(x[1], 1)};
         }
 
-        /// Calls action(chunk) for all that meet the squares between two, some of them
-        /// several times.
+        /// Call action(chunk) for all chunks that meet the squares between two squares, for some of
+        /// them several times.
         template <typename Action>
         void
         for_each_near(const Square &low,
                       const Square &high,
                       const Action &action) const
         {
-          // squares of a row follow each other
+          // The squares of a row are consecutive.
           for (unsigned int j = low.j; j <= high.j; ++j)
           {
             const std::size_t  row = static_cast<std::size_t>(j) * n[0];
@@ -256,7 +256,7 @@ namespace NMM
         if (chunks.empty())
           return near;
         const ChunkGrid grid(chunks, spacing, 4 * triangles.size() + 1024);
-        // of all vertices, unless the triangles are a small part of the mesh
+        // Compute the squares of all vertices, unless the triangles are a small part of the mesh.
         std::vector<ChunkGrid::Square> squares;
         if (vertices.size() <= triangles.size())
         {
@@ -264,7 +264,7 @@ namespace NMM
           for (const Point<2> &vertex : vertices)
             squares.push_back(grid.square_of(vertex));
         }
-        // many a chunk is in several squares
+        // A chunk can be in several squares.
         std::vector<std::size_t> last_triangle(chunks.size(), triangles.size());
         const auto               square_of = [&](const unsigned int vertex) {
           return squares.empty() ? grid.square_of(vertices[vertex])
@@ -278,7 +278,7 @@ namespace NMM
           const auto a = square_of(v[0]), b = square_of(v[1]),
                      d     = square_of(v[2]);
           const auto first = near.first[c];
-          // squares beyond the grid count as those at its rim
+          // Points beyond the grid count as those in the squares at its rim.
           grid.for_each_near({std::min(std::min(a.i, b.i), d.i),
                               std::min(std::min(a.j, b.j), d.j)},
                              {std::max(std::max(a.i, b.i), d.i),

@@ -19,17 +19,17 @@ namespace NMM
 
   namespace
   {
-    /// How a region's elements fill a mesh's cells.
+    /// How well a region's elements fill the cells of a mesh.
     struct Filling
     {
-      /// Largest share of an element in its cell [-].
+      /// Largest ratio of an element's area to that of its cell [-].
       double best = 0.;
       /// Longest edge of that element's cell [m].
       double cell_size = 0.;
     };
 
 
-    /// Of a number of cells that a size was made from.
+    /// Relative rounding of a number of cells that a size was computed from.
     constexpr double rounding = 1e-9;
 
 
@@ -71,7 +71,7 @@ namespace NMM
     }
 
 
-    /// What kind of mesh a region has got.
+    /// Kind of mesh that a region has got.
     enum class Outcome
     {
       main_mesh,
@@ -90,7 +90,7 @@ namespace NMM
     };
 
 
-    /// Finds meshes for regions one after the other.
+    /// Finds meshes for regions, one after the other.
     class Fitter
     {
     public:
@@ -103,25 +103,25 @@ namespace NMM
       {
       }
 
-      /// Longer side of the rectangle around a region [m].
+      /// Longer side of the bounding rectangle of a region [m].
       double
       longer_side(unsigned int region) const
       {
         return internal::RegionShape(edges, region).sides[0];
       }
 
-      /// A mesh for @p region, whose elements fill the main mesh like this.
+      /// Find a mesh for @p region; @p on_main_mesh tells how well it fills cells of the main mesh.
       FittedMesh
       fit(unsigned int      region,
           const Filling    &on_main_mesh,
           const RegionMesh &choice);
 
-      /// How many cells of its own a region asks for; 0 if it does not say.
+      /// Number of cells that a region's own mesh is to have; 0 if the user does not give it.
       double
       n_cells_wanted(unsigned int region, const RegionMesh &choice) const;
 
     private:
-      /// How the region fills cells of @p mesh, by cutting it alone.
+      /// Find out how well the region fills cells of @p mesh, by cutting that mesh with it alone.
       Filling
       measure(unsigned int                 region,
               const internal::RegionShape &shape,
@@ -130,7 +130,7 @@ namespace NMM
       const PhysicalMesh           &physical_mesh;
       const OwnMeshParameters      &parameters;
       const internal::PhysicalEdges edges;
-      /// Nothing but the region at hand is on part 0.
+      /// Only the current region is on part 0.
       std::vector<unsigned int> region_to_part;
     };
 
@@ -142,8 +142,8 @@ namespace NMM
     {
       const double area = physical_mesh.regions()[region].area;
       const double mean = area / internal::mesh_area(mesh);
-      // What is convex is connected in each cell, and some cell is filled at
-      // least as well as all together.
+      // A convex region is connected in each cell, and some cell is filled at least as well as the
+      // average.
       const bool is_convex = area >= 0.999 * shape.inner_hull_area;
       Filling    filling;
       if (mesh.cells.size() == 1 ||
@@ -239,7 +239,7 @@ namespace NMM
       unsigned int first_level = 0;
       if (n[1] > 1 && if_better)
       {
-        // cells of the main mesh's size have been tried
+        // Cells of the main mesh's size have been tried before.
         first_level = 1;
         for (unsigned int &count : n)
           count *= 2;
@@ -277,7 +277,7 @@ namespace NMM
     }
 
 
-    /// @throws InputError if there is no memory for what regions ask for.
+    /// @throws InputError if there is not enough memory for the cells that regions are to have.
     void
     check_memory(const Fitter                    &fitter,
                  const std::vector<unsigned int> &needy,
@@ -305,7 +305,7 @@ namespace NMM
     }
 
 
-    /// Regions with the same kind of mesh, for one notice.
+    /// Regions with the same kind of mesh, which one notice reports.
     struct Group
     {
       unsigned int n_regions = 0, n_cells = 0;
@@ -314,7 +314,8 @@ namespace NMM
     };
 
 
-    /// "The region around (x, y) (area ...) has ..." or "12 regions have ...".
+    /// Beginning of a notice: "The region around (x, y) (area ...) has ..." or "12 regions have
+    /// ...".
     std::string
     describe(const Outcome               outcome,
              const Group                &group,
@@ -401,7 +402,7 @@ namespace NMM
     const std::vector<Filling>    fillings = measure(*result.manifold_mesh);
     const std::vector<RegionMesh> choices =
       region_meshes(parameters, fillings.size());
-    // most meshes need none
+    // Most meshes need no fitter.
     std::unique_ptr<Fitter> fitter;
     const auto              make_fitter = [&]() -> Fitter              &{
       if (fitter == nullptr)
@@ -486,7 +487,7 @@ namespace NMM
       std::vector<ElementEdge> around;
       for (const unsigned int e : edges.region_edges(r))
       {
-        // not those that end inside
+        // Curves that end inside the region do not count.
         const auto &sides = edges.edges()[e].regions;
         if (sides[0] != sides[1])
           around.push_back(edges.edges()[e].shape);

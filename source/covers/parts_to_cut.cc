@@ -29,7 +29,7 @@ namespace NMM
       for (unsigned int r = 0; r < n_regions; ++r)
         for (const unsigned int e : physical_edges.region_edges(r))
         {
-          // an edge between two regions of a part is taken once
+          // An edge between two regions of a part is taken once.
           const unsigned int left = physical_edges.edges()[e].regions[0];
           if (left == r || left == invalid_index || part_of(left) != part_of(r))
             parts[part_of(r)].edges.push_back(e);
@@ -58,7 +58,7 @@ namespace NMM
 
     namespace
     {
-      /// Lowest and highest coordinates.
+      /// Lowest and highest coordinates of an edge.
       std::pair<Point<2>, Point<2>>
       extent(const MathematicalMesh &mesh)
       {
@@ -74,12 +74,12 @@ namespace NMM
       }
 
 
-      /// May the edge have points in the box? With a margin of its size.
+      /// Whether the edge may have points in the box, with a margin of a millionth of its size.
       bool
       comes_near(const ElementEdge                   &edge,
                  const std::pair<Point<2>, Point<2>> &box)
       {
-        // an arc lies within a radius of its ends, as it is at most a half circle
+        // An arc lies within a radius of its ends, because it is at most a half circle.
         const double reach = std::abs(edge.radius);
         for (unsigned int d = 0; d < 2; ++d)
         {

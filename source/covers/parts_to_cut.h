@@ -1,8 +1,8 @@
 #ifndef nmm_source_covers_parts_to_cut_h
 #define nmm_source_covers_parts_to_cut_h
 
-// Private: which cells of the mathematical mesh are cut with which curves, and where those lie
-// that are not.
+// Private: the parts of the mathematical mesh with their curves, and the regions of cells that are
+// not cut.
 
 #include "cutting.h"
 #include "physical_edges.h"
@@ -19,7 +19,7 @@ namespace NMM
                const std::vector<unsigned int> &region_to_part,
                unsigned int                     n_regions);
 
-    /// Coordinates are up to that large [m].
+    /// Upper bound of the coordinates of a box [m].
     double
     largest_coordinate(const dealii::BoundingBox<2> &box);
 
@@ -31,9 +31,9 @@ namespace NMM
                     double                  scale);
 
     /**
-     * Untouched cells of a distributed mesh have a region if a touched cell is
-     * among those they are connected with, or is known to be there: elsewhere no
-     * curve runs through any cell of the connected set, and one point decides.
+     * Set the regions of untouched cells of a distributed mesh that touched cells do not determine.
+     * No curve runs through any cell of such a connected set, so that one point decides for all of
+     * them.
      */
     void
     label_far_cells(const MathematicalMesh           &mesh,

@@ -64,8 +64,8 @@ namespace NMM
       all_edges.reserve(n_edges);
       curves->curves.reserve(n_edges);
 
-      // an end shared by several edges is converted once, so that it is the
-      // same double everywhere
+      // An end that several edges share is converted once, so that it is the same double
+      // everywhere.
       std::unordered_map<const void *, unsigned int> vertex_to_index;
       const auto number = [&](const Arrangement::Vertex_const_handle &vertex) {
         const auto [position, is_new] =

@@ -16,17 +16,18 @@ namespace NMM
     /// The exact curves; see source/covers/exact_curves.h.
     struct ExactCurves;
 
-    /// Edges of the physical mesh with the solid on one side at least, each once and
-    /// without neighbour, mesh edge and curve set: what is left of the curves when what
-    /// reaches outside of the solid is cut off.
+    /// Edges of the physical mesh with the solid on at least one side, each once, without
+    /// neighbour, mesh edge and curve set. They are the curves without the parts outside of the
+    /// solid.
     std::vector<ElementEdge>
     solid_edges(const PhysicalMesh &physical_mesh);
 
     /**
-     * The edges of the physical mesh that bound a region or lie in one, numbered
-     * through, and found by region. All cutting starts from them: what is made
-     * of a region costs in proportion to that region.
-     * Cost: one walk over the arrangement.
+     * The edges of the physical mesh that bound a region or lie in one, numbered consecutively, and
+     * sorted by region. All cutting starts from them, so that the cost for a region is proportional
+     * to the size of that region.
+     *
+     * Cost: one traversal of the arrangement.
      */
     class PhysicalEdges
     {
@@ -36,23 +37,21 @@ namespace NMM
         /// Regions to the left and right of the edge run from its left to its
         /// right end (upwards if vertical), invalid_index outside the solid.
         std::array<unsigned int, 2> regions;
-        /// A piece of the physical mesh that the edge lies on.
+        /// One of the pieces of the physical mesh on which the edge lies.
         unsigned int piece = invalid_index;
-        /// Whether it lies on a line exactly.
+        /// Whether the edge lies exactly on a straight line.
         bool is_linear = true;
-        /// Of an arc with a straight shape: how far it is from that, at most 1.1e-8 of its
-        /// length [m].
+        /// Sagitta of an arc whose shape is straight [m], at most 1.1e-8 of its length.
         double sagitta = 0.;
-        /// If so: that piece's ends, the left one first. They are what
-        /// is given, so that the edge lies exactly on the line through them.
+        /// Ends of that piece, the left one first, if is_linear. They are input coordinates, so
+        /// that the edge lies exactly on the line through them.
         std::array<dealii::Point<2>, 2> line;
-        /// Its left and its right end, indices into vertices().
+        /// Left and right end of the edge, indices into vertices().
         std::array<unsigned int, 2> vertices;
-        /// All pieces that it lies on, an index into curve_sets().
+        /// All pieces on which the edge lies, an index into curve_sets().
         unsigned int curve_set = invalid_index;
-        /// The edge in doubles, from its left to its right end; without
-        /// neighbour, mesh edge and curve set. Straight if it is so up to rounding,
-        /// see is_nearly_straight().
+        /// The edge in doubles, from its left to its right end, without neighbour, mesh edge and
+        /// curve set. It is straight if it is so up to rounding, see is_nearly_straight().
         ElementEdge shape;
       };
 
@@ -62,7 +61,7 @@ namespace NMM
       const std::vector<Edge> &
       edges() const;
 
-      /// Ends of edges in doubles: nowhere does an edge end otherwise [m].
+      /// Ends of all edges in doubles [m].
       const std::vector<dealii::Point<2>> &
       vertices() const;
 

@@ -17,8 +17,8 @@ namespace NMM
 
 
     /**
-     * Does the ray from @p x in direction +x cross the segment a b? Half-open in
-     * y, so that a ray through a shared end point counts once.
+     * Whether the ray from @p x in the direction +x crosses the segment a b. The test is half-open
+     * in y, so that a ray through a common end point counts once.
      */
     bool
     ray_crosses(const Point<2> &a, const Point<2> &b, const Point<2> &x)
@@ -31,8 +31,8 @@ namespace NMM
 
 
     /**
-     * An arc is its chord plus the circular segment between both: the parity of
-     * the arc is that of the chord, toggled for points of the circular segment.
+     * Whether the ray crosses an arc, by parity. An arc is its chord plus the circular segment
+     * between both: the parity is that of the chord, toggled for points of the circular segment.
      */
     bool
     in_circular_segment(const Point<2> &start,
@@ -45,8 +45,8 @@ namespace NMM
       if (x.distance_square(center) >= radius * radius)
         return false;
       double side = cross(end - start, x - start);
-      // on the chord: as a bit to the right and, less so, above, which is what
-      // ray_crosses() decides for
+      // Points on the chord count as slightly to its right and, by even less, above it, as in
+      // ray_crosses().
       if (side == 0.)
         side = end[1] != start[1] ? start[1] - end[1] : end[0] - start[0];
       return counter_clockwise ? side < 0. : side > 0.;
@@ -82,11 +82,11 @@ namespace NMM
     const double       length = chord.norm();
     if (length == 0.)
       return 0.;
-    // middle of the chord minus the centre, differences first
+    // Middle of the chord minus the centre; differences are taken first to avoid cancellation.
     const Tensor<1, 2> middle =
       0.5 * ((edge.start - edge.center) + (edge.end - edge.center));
-    // of a chord of a few ulp, rounding decides the direction: its distance from the
-    // centre is that of its middle
+    // For a chord of a few ulp, rounding determines its direction. Its distance from the centre is
+    // therefore that of its middle.
     const double half = std::atan2(0.5 * length, middle.norm());
     return std::copysign(2. * half, edge.radius);
   }
@@ -95,7 +95,7 @@ namespace NMM
   bool
   is_in_solid(const PhysicalMesh &physical_mesh, const Point<2> &x)
   {
-    // excavations may overlap all else: each of them counts for itself
+    // Excavations may overlap everything else, so that each of them is tested separately.
     bool                         is_in_domain = false;
     std::map<unsigned int, bool> is_in_excavation;
     for (unsigned int i = 0; i < physical_mesh.pieces().size(); ++i)

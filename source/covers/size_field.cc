@@ -22,8 +22,8 @@ namespace NMM
     }
 
 
-    /// An arc as two edges of less than half a circle each, or a segment as
-    /// one, so that one distance() serves all.
+    /// Distance from a piece. An arc is treated as two edges of less than half a circle each, and a
+    /// segment as one edge, so that the distance from an edge can be used.
     double
     distance(const CurvePiece &piece, const Point<2> &x)
     {
@@ -102,7 +102,8 @@ namespace NMM
             d = std::min(d, distance(piece, x));
           break;
       }
-      // No power is needed where even the straight line up to `length` is above the size.
+      // The power need not be computed if even the linear growth up to `length`, which is a lower
+      // bound, exceeds the size.
       if (local.size + local.growth * std::min(d, local.length) >= size)
         continue;
       const bool is_linear = local.exponent == 1. || d >= local.length;

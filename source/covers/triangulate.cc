@@ -18,7 +18,7 @@ namespace NMM
     using FaceBase   = CGAL::Constrained_triangulation_face_base_2<Kernel>;
     using Structure =
       CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
-    // chords of arcs may cross other edges of a sliver
+    // Chords of arcs may cross other edges of a sliver.
     using Delaunay =
       CGAL::Constrained_Delaunay_triangulation_2<Kernel,
                                                  Structure,
@@ -29,7 +29,7 @@ namespace NMM
     constexpr double largest_arc = numbers::PI / 8.;
 
 
-    /// Mid-point of the arc that a chord stands for, found by the chord's ends.
+    /// Mid-point of the arc that a chord replaces, by the ends of the chord.
     using ArcMiddles =
       std::map<std::pair<std::pair<double, double>, std::pair<double, double>>,
                Point<2>>;
@@ -41,7 +41,7 @@ namespace NMM
     }
 
 
-    /// The edge itself, or an arc's chords, whose arc mid-points are noted.
+    /// Append the edge itself, or the chords of an arc, whose mid-points on the arc are stored.
     void
     append_chords(const ElementEdge        &edge,
                   std::vector<ElementEdge> &chords,
@@ -75,8 +75,8 @@ namespace NMM
     }
 
 
-    /// Area of a triangle with parabolic sides: its corners' plus, per side, 2/3
-    /// of chord times bulge [m^2].
+    /// Area of a triangle with parabolic sides: that of its corners plus, for each side, 2/3 of
+    /// chord times bulge [m^2].
     double
     curved_area(const QuadraticTriangle &t)
     {
@@ -90,8 +90,8 @@ namespace NMM
     }
 
 
-    /// A sliver between an arc and a curve that nearly touches it can be thinner
-    /// than the arc's bulge: then its sides stay straight.
+    /// Make a quadratic triangle. A sliver between an arc and a curve that nearly touches it can be
+    /// thinner than the arc's bulge; its sides are then straight.
     QuadraticTriangle
     make_triangle(const std::array<Point<2>, 3> &corners,
                   const ArcMiddles              &arc_middles)
@@ -121,15 +121,14 @@ namespace NMM
     {
       const MathematicalMesh &cells = mesh.mathematical_mesh();
       const auto             &v     = cells.cell_vertices(mesh.cell(element));
-      // a whole element can still have an arc in touch with its edge, which
-      // changes nothing: its edges are those of the cell
+      // The edges of a whole element are those of the cell, even if an arc touches them.
       return {make_triangle({{cells.vertices()[v[0]],
                               cells.vertices()[v[1]],
                               cells.vertices()[v[2]]}},
                             arc_middles)};
     }
 
-    // chords instead of arcs bound the triangles
+    // Chords bound the triangles in place of arcs.
     std::vector<ElementEdge> chords;
     for (const ElementEdge &edge : mesh.edges(element))
       append_chords(edge, chords, arc_middles);

@@ -9,8 +9,9 @@ namespace NMM
 {
   namespace internal
   {
-    /// Masses of blocks, and what forces on them, or momenta, sum up to. One rank, and
-    /// a model that tells its blocks apart. All is per unit thickness.
+    /// Masses and moments of inertia of blocks, and resultants of forces or momenta on each block.
+    /// Requires one rank and a model that distinguishes blocks. All quantities are per unit
+    /// thickness.
     class BlockInertia
     {
     public:
@@ -24,39 +25,41 @@ namespace NMM
         return masses.size();
       }
 
-      /// [kg/m]
+      /// Mass of a block [kg/m].
       double
       mass(const unsigned int block) const
       {
         return masses[block];
       }
 
-      /// Moment about the centre of mass in the reference configuration [kg m].
+      /// Moment of inertia about the centre of mass in the reference configuration [kg m].
       double
       inertia(const unsigned int block) const
       {
         return inertias[block];
       }
 
+      /// Resultant of the nodal forces (or momenta) r_k of a block.
       struct Sum
       {
-        /// Centre of mass [m].
+        /// Centre of mass at the current positions x_k [m].
         dealii::Point<2> center;
-        /// sum_k r_k.
+        /// Sum of r_k.
         dealii::Tensor<1, 2> resultant;
-        /// sum_k (x_k - center) x r_k.
+        /// Moment about the centre, the sum of (x_k - center) x r_k.
         double moment = 0.;
       };
 
-      /// Of r_k at x_k = X_k + u_k; by block.
+      /// Resultants of r_k at x_k = X_k + u_k for each block.
       const std::vector<Sum> &
       sum(const Vector &r, const Vector &u);
 
       /**
-       * Moves the blocks for which @p is_meant from @p u as stiff ones fly in a step of
-       * @p h: the centre by h p / m, with a turn by 2 atan(h omega / 2), omega = L / I, the one
-       * of the conserving scheme for a body that cannot deform; into @p moved.
-       * @p momentum: M v.
+       * Move the blocks for which @p is_meant is true from the displacements @p u like rigid
+       * bodies without forces in a step of @p h [s], and write the result into @p moved. The centre
+       * moves by h p / m and the block rotates by 2 atan(h omega / 2) with omega = L / I, which is
+       * the rotation of a rigid body in the conserving scheme. Linear momentum p and angular
+       * momentum L are those of @p momentum = M v.
        */
       void
       fly(const Vector            &momentum,
@@ -69,7 +72,7 @@ namespace NMM
       const MechanicalModel           *model;
       const std::vector<unsigned int> *block_of;
       std::vector<double>              masses, inertias;
-      /// Mass that an unknown moves in a translation.
+      /// Mass that belongs to each unknown in a translation, i.e. the row sums of M [kg/m].
       Vector           nodal_mass;
       std::vector<Sum> sums;
     };

@@ -66,7 +66,7 @@ namespace NMM
     }
 
 
-    /// The scalars of a state, in the order of the file.
+    /// Call action(value) for each scalar of a state, in the order of the file.
     template <typename State, typename Action>
     void
     for_each_scalar(State &state, const Action &action)
@@ -83,7 +83,7 @@ namespace NMM
     }
 
 
-    /// Pieces of all ranks in the order of unknowns, on rank 0.
+    /// On rank 0, append the values of all ranks in the order of global unknowns.
     void
     append_global(const Vector &vector, Bytes &bytes)
     {
@@ -106,7 +106,7 @@ namespace NMM
     }
 
 
-    /// Empty if all went well, else the reason.
+    /// Replace the contents of a file. Returns the reason of a failure, otherwise an empty string.
     std::string
     replace_file(const std::string &filename, const Bytes &bytes)
     {
@@ -131,7 +131,7 @@ namespace NMM
         }
         written += n;
       }
-      // the contents must be on the disk before the name is
+      // the contents must be on the disk before the file gets its name
       bool is_whole = ::fsync(file) == 0;
       is_whole      = ::close(file) == 0 && is_whole;
       if (!is_whole || std::rename(temporary.c_str(), filename.c_str()) != 0)
@@ -151,7 +151,7 @@ namespace NMM
     }
 
 
-    /// Reason why the file is none of ours, or empty.
+    /// Reason why the file is no complete checkpoint of this version; empty if it is.
     std::string
     find_fault(const Bytes &bytes)
     {
@@ -212,7 +212,8 @@ namespace NMM
     put(bytes, static_cast<std::uint64_t>(internal.size()));
     bytes.insert(bytes.end(), internal.begin(), internal.end());
     const std::uint64_t length =
-      bytes.size() - length_position; // with the sum instead of itself
+      bytes.size() -
+      length_position; // counts the check sum instead of the length itself
     std::memcpy(bytes.data() + length_position, &length, sizeof(length));
     put(bytes, sum(bytes.data(), bytes.size()));
 

@@ -27,13 +27,13 @@ namespace NMM
     double                       scale = 0., step_end = 0.;
     double                       dissipated_by_contact = 0.;
     bool                         is_detected           = false;
-    /// See tangent_to_add_to(): factor, and whether the caller adds to it.
+    /// Factor of the tangent, and whether the caller may add to it; see tangent_to_add_to().
     double tangent_factor  = 1.;
     bool   may_be_added_to = false;
-    /// Null until it is needed; and whether it holds the last tangent.
+    /// The tangent as a body matrix (null until it is needed), and whether it is the last tangent.
     std::unique_ptr<BodyMatrix> body_matrix;
     bool                        has_body_matrix = false;
-    /// See set_active_blocks().
+    /// For each block, whether it is active; empty: all are.
     std::vector<bool> active;
     /// Whether the model's tangent couples no two blocks, so that only contact does. This is
     /// known from the first tangent on.
@@ -79,7 +79,8 @@ namespace NMM
         contact->add_to_tangent(model->tangent(), factor);
     }
 
-    /// For the tangent of contact in a step; null: a sparse one.
+    /// Start the rows of the body matrix for the tangent of a step. Returns null if the tangent
+    /// must be a sparse matrix.
     BodyMatrix *
     begin_body_matrix()
     {
@@ -127,8 +128,7 @@ namespace NMM
   std::uint64_t
   ContactModel::fingerprint() const
   {
-    // a number of its own for each combination: that of a model without contact
-    // must not fit
+    // the fingerprint differs from that of the model without contact
     return data->saved->fingerprint() ^
            (0x9e3779b97f4a7c15u *
             (data->contact->surface().edges().size() + 1));
@@ -164,7 +164,8 @@ namespace NMM
     result.is_linear        = result.is_linear && is_idle;
     result.is_symmetric =
       result.is_symmetric && (is_idle || data->contact->tangent_is_symmetric());
-    // forces are along normals in the middle, gaps along those at the end
+    // unsymmetric, because forces act along the normals in the middle of the step, but gaps are
+    // measured along those at its end
     result.is_symmetric_between = result.is_symmetric_between && is_idle;
     return result;
   }
@@ -331,7 +332,7 @@ namespace NMM
     Data &d = *data;
     d.steps->begin_step(begin, predicted, t, h);
 
-    // nearer faces may meet in the step; obstacles move, too
+    // both faces of a candidate pair may move by `largest`, and obstacles move as well
     const double largest   = d.contact->largest_motion(begin, predicted);
     double       obstacles = 0.;
     for (const RigidObstacle &obstacle : d.contact->surface().obstacles())
@@ -359,7 +360,7 @@ namespace NMM
     const StepFault fault = data->steps->find_fault(end);
     if (!fault.reason.empty())
       return fault;
-    // the last assembly may have been at a time between
+    // the last assembly may have been at an intermediate time
     data->contact->set_time(data->step_end);
     return data->contact->find_fault(end);
   }
@@ -435,7 +436,7 @@ namespace NMM
     if (blocks_of_unknowns().empty() || data->contact->is_idle())
       return {};
     std::vector<bool> result = data->contact->pressed_bodies();
-    // obstacles come last
+    // remove the entries of obstacles, which come last
     result.resize(n_blocks());
     return result;
   }

@@ -12,7 +12,7 @@ namespace NMM
 {
   namespace
   {
-    /// Which law, and its parameters.
+    /// Add the kind of a material law and its parameters to a hash.
     void
     hash_law(const Material &material, internal::Hash &hash)
     {

@@ -117,7 +117,7 @@ namespace NMM
   }
 
 
-  /// Steps that do not conserve have no assembly between.
+  /// Without assemble_between(), in schemes that do not conserve, the result is 0.
   double
   FiniteModel::accept_step(const Vector &, const double)
   {
@@ -128,10 +128,11 @@ namespace NMM
   void
   FiniteModel::external_forces(const Vector &u, const double t, Vector &forces)
   {
-    // dead loads do not depend on u, and often not on t
+    // dead loads do not depend on u and often not on t: then they are known already
     if (has_follower || !has_known || known_at != version() || loads_change())
     {
-      // at rest unless they follow u: the same bits whenever they are asked for
+      // Loads that do not follow u are evaluated in the undeformed state, so that they are bitwise
+      // the same in each call.
       const Vector &at = has_follower ? u : zero;
       known_forces.reinit(locally_owned(), communicator());
       set_amplitudes(amplitudes_at(t, /* with_loads = */ false));
@@ -161,8 +162,8 @@ namespace NMM
   }
 
 
-  /// The energy of conditions is quadratic in what is prescribed: the difference
-  /// about the middle is its derivative times the change.
+  /// The energy of conditions is quadratic in the prescribed displacements. So its central
+  /// difference is exactly the derivative times their change.
   double
   FiniteModel::work_of_supports(const Vector &u,
                                 const double  t,

@@ -9,7 +9,7 @@ namespace NMM
 {
   namespace internal
   {
-    /// FNV-1a with 64 bits, over the bytes of what is added.
+    /// The 64-bit FNV-1a hash of the bytes of all values that are added.
     class Hash
     {
     public:

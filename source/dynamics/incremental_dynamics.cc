@@ -31,7 +31,7 @@ namespace NMM
       constraints->set_zero(momentum);
     }
 
-    /// Kinetic and of strain, less the work of loads.
+    /// Kinetic energy + strain energy - work of loads [J/m].
     double
     energy() const
     {
@@ -110,7 +110,7 @@ namespace NMM
         d.rhs = residual;
         d.rhs.add(-2. / h, d.momentum);
         d.solver.solve(d.rhs, correction);
-        // v = 2 du / h - v, du = -correction
+        // the new velocity is 2 du / h - v, with du = -correction
         next.sadd(-1., -2. / h, correction);
       });
     if (result.is_taken)
@@ -163,7 +163,7 @@ namespace NMM
       {
         if (is_last)
           d.time = end;
-        // a last step that was short says nothing of those that follow
+        // a last step that was short only to meet the end does not limit the next one
         d.next_step =
           std::max(is_last ? h : 0.,
                    std::max(control.min_step, tried * std::min(2., ratio)));

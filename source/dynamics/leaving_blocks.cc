@@ -31,7 +31,7 @@ namespace NMM
     }
 
 
-    /// Crossing parity.
+    /// Whether a polygon encloses a point, by counting the edges that a ray crosses.
     bool
     encloses(const std::vector<Point<2>> &polygon, const Point<2> &x)
     {
@@ -67,7 +67,7 @@ namespace NMM
       block_to_group[b] = b;
     const auto all =
       dealii::Utilities::MPI::all_gather(covers.communicator(), ties);
-    // as often as a number has to be handed on along a chain of ties
+    // repeat until the lowest number has been passed on along all chains of ties
     for (bool is_changed = true; is_changed;)
     {
       is_changed = false;
@@ -138,7 +138,7 @@ namespace NMM
   {
     constexpr double   nowhere  = -std::numeric_limits<double>::max();
     const unsigned int n_blocks = block_to_group.size();
-    // largest of all samples: 1 if within, x, -x, y, -y
+    // for each block the maxima over all its samples of: 1 if within the limits, x, -x, y, -y
     constexpr unsigned int n_entries = 5;
     std::vector<double>    extremes(n_entries * n_blocks, nowhere);
     for (const Sample &sample : samples)
@@ -148,7 +148,7 @@ namespace NMM
       double *entry = extremes.data() + n_entries * sample.block;
       double *group =
         extremes.data() + n_entries * block_to_group[sample.block];
-      // within is all that is not surely outside
+      // positions that are not finite count as within the limits
       if (group[0] < 1. && (!std::isfinite(x[0] + x[1]) || is_within(x)))
         group[0] = 1.;
       for (unsigned int d = 0; d < 2; ++d)

@@ -14,44 +14,44 @@ namespace NMM
 {
   namespace internal
   {
-    /// Which blocks are at rest, and for how long; see SleepParameters. One rank.
+    /// Decides which blocks fall asleep and wake; see SleepParameters. One rank only.
     class SleepingBlocks
     {
     public:
       using Vector = MechanicalModel::Vector;
 
-      /// Instead of how long a block has been at rest.
+      /// Value in DynamicState::rest that marks a sleeping block, instead of its time at rest.
       static constexpr double asleep = std::numeric_limits<double>::infinity();
 
       SleepingBlocks(const MechanicalModel &model,
                      const SleepParameters &parameters);
 
-      /// By block; empty: none sleeps.
+      /// For each block, whether it sleeps; empty: none does.
       const std::vector<bool> &
       mask() const
       {
         return is_asleep;
       }
 
-      /// DynamicState::rest.
+      /// See DynamicState::rest.
       using Rest = std::vector<std::array<double, 4>>;
 
       void
       set_rest(const Rest &rest);
 
       /**
-       * Those asleep that @p forces (r of @p u) would move wake: true if there are any.
-       * Of a block with the mass m, its moment of inertia I about its centre c and
-       * nodes at x_k these are accelerations
+       * Wake the sleeping blocks that @p forces (r at @p u) would accelerate by more than
+       * SleepParameters::acceleration. Returns whether there are any. For a block with the mass m,
+       * the moment of inertia I about its centre c and nodes at x_k the acceleration is
        * @f[ |\sum_k \Delta r_k| / m
        *     + |\Delta\sum_k (x_k - c)\times r_k| / \sqrt{I m}, @f]
-       * differences being those from the forces when it fell asleep.
+       * where differences are those from the forces when it fell asleep.
        */
       bool
       wake(const Vector &forces, const Vector &u, Rest &rest);
 
-      /// After a step of @p step: count how long blocks have been at rest. True if any
-      /// falls asleep.
+      /// Update the times of rest after a step of @p step [s], and let blocks fall asleep that have
+      /// been at rest long enough. Returns whether there are any.
       bool
       let_sleep(double        step,
                 const Vector &momentum,
@@ -60,7 +60,7 @@ namespace NMM
                 const Vector &u,
                 Rest         &rest);
 
-      /// Zero in all unknowns of those asleep.
+      /// Set the unknowns of sleeping blocks to zero.
       void
       set_zero(Vector &vector) const;
 
@@ -69,7 +69,7 @@ namespace NMM
       const std::vector<unsigned int> *block_of;
       std::vector<bool>                is_asleep;
       std::optional<BlockInertia>      inertia;
-      /// By block [J/m].
+      /// Kinetic energy of each block [J/m].
       std::vector<double> kinetic;
     };
   } // namespace internal

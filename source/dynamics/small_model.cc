@@ -29,7 +29,7 @@ namespace NMM
     const bool is_changed = set_amplitudes(amplitudes_at(t));
     if (!has_stiffness || stiffness_at != version())
     {
-      // without loads: the tangent of follower pressure is none of `small`'s
+      // without loads, because small displacements have no tangent of follower pressure
       (void)elasticity->assemble(zero, 0., Tangent::consistent);
       stiffness_at  = version();
       has_stiffness = true;
@@ -95,7 +95,7 @@ namespace NMM
   {
     if (!inelastic)
       return;
-    // an accepted state has a stress
+    // the result is admissible, because an accepted state always has a stress
     (void)inelastic->assemble(begin, /* with_tangent = */ false);
     forces_at_begin = inelastic->residual();
     energy_at_begin = inelastic->totals().energy;
@@ -106,7 +106,7 @@ namespace NMM
   double
   SmallModel::accept_step(const Vector &end, const double)
   {
-    // nothing has begun where a state is set
+    // no step has begun if a state has just been set
     if (!inelastic || begin_of_step.size() == 0)
       return 0.;
     inelastic->accept(end);
@@ -168,7 +168,7 @@ namespace NMM
   {
     update(t);
     elasticity->tangent().vmult(forces, owned);
-    // unknowns that are constrained or absent have a diagonal entry of their own
+    // the diagonal entries of constrained and absent unknowns are arbitrary
     constraints().set_zero(forces);
     for (const auto i : absent)
       forces(i) = 0.;
@@ -193,7 +193,8 @@ namespace NMM
     if (!inelastic)
       return Deformation::admissible;
     forces.add(0.5, forces_at_begin);
-    // half of the derivative by the end is the one by the mean displacement
+    // Mean of the forces at both ends. Its derivative with respect to the mean displacement is
+    // that of the force at the end with respect to the end.
     return add_inelastic(end, 0.5, tangent != Tangent::none);
   }
 

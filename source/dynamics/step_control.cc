@@ -8,12 +8,12 @@ namespace NMM
 {
   namespace
   {
-    /// Times closer than this share of a step are the same.
+    /// Times that differ by less than this fraction of a step count as equal.
     constexpr double time_tolerance = 1e-9;
 
 
-    /// By how much steps may change after one with so many iterations: many cost more
-    /// than shorter steps would.
+    /// Factor by which the length of steps may change after a step with @p n_iterations. It is
+    /// below 1 after many iterations, because shorter steps cost less then.
     double
     growth_after(const unsigned int n_iterations,
                  const unsigned int few_iterations,
@@ -24,11 +24,12 @@ namespace NMM
       return n_iterations > few_iterations ? 1. : largest;
     }
 
-    /// Share of a step that something passed through another body in, to be tried next.
+    /// Length of the next trial, divided by that of a step in which a body passed through another
+    /// one.
     double
     retry_share(const StepReport &report, const unsigned int n_cuts)
     {
-      // after so many cuts the path is not what was followed: halve it
+      // number of cuts up to which the model's own proposal is followed; then steps are halved
       constexpr unsigned int n_followed = 5;
       return std::min(report.retry, n_cuts < n_followed ? 0.9 : 0.5);
     }
@@ -87,7 +88,7 @@ namespace NMM
                        const double    end,
                        StepRecord     &record) const
   {
-    // share of a bound that the next step aims at
+    // fraction of a bound at which the next step aims
     constexpr double safety = 0.9;
 
     const DynamicState &state = integrator.state();
@@ -107,7 +108,7 @@ namespace NMM
       double factor = std::numeric_limits<double>::max();
       if (parameters.max_displacement > 0. && report.max_displacement > 0.)
         factor = parameters.max_displacement / report.max_displacement;
-      // local errors are of third order
+      // the local error is proportional to the third power of the step
       if (parameters.max_error > 0. && report.error > 0.)
         factor =
           std::min(factor, std::cbrt(parameters.max_error / report.error));
@@ -133,13 +134,12 @@ namespace NMM
                                               parameters.few_iterations,
                                               1.5),
                                  safety * factor);
-        // small changes are not worth a factorization
+        // small changes do not justify a new factorization
         if (growth >= 1. && growth < 1.2)
           growth = 1.;
         const double next =
           std::clamp(growth * h, parameters.min_step, parameters.max_step);
-        // a step that was short only to meet the target says nothing about
-        // longer ones
+        // a step that was short only to meet the target does not limit the next one
         integrator.set_next_step(h < step && growth >= 1. ? step : next);
         return true;
       }

@@ -98,7 +98,7 @@ namespace NMM
                  by_u     = 1. / (scheme.beta * h * h),
                  v_by_a_0 = h * (1. - scheme.gamma), v_by_a = h * scheme.gamma;
     active_rows.for_each(u_1.locally_owned_size(), [&](const unsigned int i) {
-      // differences first: u_1 and u_0 are near each other
+      // subtract u_0 first to keep rounding small, because u_1 is close to u_0
       double x = u[i] - u_0[i] - h * v_0[i];
       if (by_a_0 != 0.)
         x -= by_a_0 * a_0[i];
@@ -124,7 +124,7 @@ namespace NMM
       out.add(factor, other_scratch);
       return;
     }
-    // on one rank
+    // rows are selected on one rank only
     const internal::MatrixRows entries(A);
     const int *columns = A.trilinos_matrix().ColMap().MyGlobalElements();
     const auto x       = in.begin();
@@ -135,7 +135,7 @@ namespace NMM
       const int begin = entries.begins[row], end = entries.begins[row + 1];
       const int first = begin < end ? columns[entries.columns[begin]] : 0;
       const int last  = begin < end ? columns[entries.columns[end - 1]] : 0;
-      // as those of a small block are: columns need not be read
+      // the columns are consecutive, as in rows of a small block, and need not be read
       if (last - first == end - begin - 1)
         for (int i = begin; i < end; ++i)
           sum += entries.values[i] * x[first + i - begin];
@@ -236,7 +236,7 @@ namespace NMM
     if (tangent != Tangent::none)
       make_matrix();
 
-    /// x + alpha (x_0 - x)
+    /// Set scratch to (1 - alpha) x + alpha x_0.
     const auto mix =
       [&](const Vector &x, const double alpha, const Vector &x_0) {
         const auto from = x.begin(), other = x_0.begin();
@@ -258,8 +258,8 @@ namespace NMM
     });
     square = dealii::Utilities::MPI::sum(square, model->communicator());
     scale  = std::hypot(model->force_scale(), std::sqrt(square));
-    // accelerations are differences of displacements: their rounding must stay
-    // below tolerances, however small the step
+    // Accelerations are differences of displacements divided by the square of the step. The force
+    // scale contains their rounding, so that tolerances can be met however small the step is.
     constexpr double rounding = 1e-6;
     scale                     = std::hypot(scale,
                        rounding / (scheme.beta * h * h) * mass_of_displacement);
@@ -278,7 +278,7 @@ namespace NMM
     model->mass().vmult(forces, state.u);
     mass_of_displacement = forces.l2_norm();
     u_1                  = state.u;
-    // accelerations of the conserving scheme alternate in impacts
+    // not used in the conserving scheme, whose accelerations alternate in sign after impacts
     if (scheme.is_conserving)
       u_1.add(h, state.v);
     else
@@ -421,7 +421,7 @@ namespace NMM
   }
 
 
-  /// Of loads, supports and damping in the step, to the sums.
+  /// Add the work of loads, supports and damping in the step to the sums of the account.
   void
   TimeIntegrator::Data::add_work()
   {
@@ -480,14 +480,14 @@ namespace NMM
   }
 
 
-  /// Forces are those of the current state, and so is its account.
+  /// The forces of the model and the account must be those of the current state.
   void
   TimeIntegrator::Data::let_sleep()
   {
     model->mass().vmult(scratch, state.v);
     model->constraints().set_zero(scratch);
     forces = model->residual();
-    // what a step woke, another one may have lost by being cut
+    // check once more which blocks wake, with the forces of the accepted state
     const bool is_any_awake = sleeping->wake(forces, state.u, state.rest);
     if (!sleeping->let_sleep(
           h, scratch, state.v, forces, state.u, state.rest) &&

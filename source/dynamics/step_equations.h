@@ -9,7 +9,8 @@
 
 namespace NMM
 {
-  /// The equations of a step, unknown u_1.
+  /// The equations of a time step with the unknown u_1 (displacements at its end), their solution,
+  /// and the account of energy.
   struct TimeIntegrator::Data : public NonlinearSystem
   {
     Data(MechanicalModel        &model,
@@ -108,11 +109,11 @@ namespace NMM
       return Vector(model->locally_owned(), model->communicator());
     }
 
-    /// v_1 and a_1 of u_1, in active rows.
+    /// Compute v_1 and a_1 from u_1 in active rows.
     void
     set_rates();
 
-    /// out += factor A in, in active rows.
+    /// Add factor A in to out, in active rows.
     void
     add_product(double                                        factor,
                 const dealii::TrilinosWrappers::SparseMatrix &A,
@@ -125,25 +126,25 @@ namespace NMM
     void
     make_matrix();
 
-    /// Is there a stiffness in C?
+    /// Whether C contains a stiffness that is added here and not by the model.
     bool
     damps_by_stiffness() const
     {
       return damping.stiffness > 0. && !model_damps;
     }
 
-    /// out += factor C in
+    /// Add factor C in to out, in active rows.
     void
     add_damping(double factor, const Vector &in, Vector &out);
 
     void
     predict();
 
-    /// Of a step that conserves energy: start Newton's method where blocks touch from the
-    /// state at the begin, and with all others as stiff as they are, see
-    /// BlockInertia::fly(). Velocities of a stiff block are mostly vibrations, which a step
-    /// does not resolve: u + h v deforms it many times as much as it will be, and
-    /// contacts with it.
+    /// Set the initial guess of Newton's method for a conserving step: blocks with closed contact
+    /// points start from their positions at the beginning of the step, all others are moved as
+    /// rigid bodies, see BlockInertia::fly(). The velocities of a stiff block are mostly
+    /// vibrations, which the step does not resolve. So u + h v would deform the block and its
+    /// contacts many times as much as the solution does.
     void
     predict_blocks();
 
@@ -153,11 +154,12 @@ namespace NMM
     void
     measure(StepReport &report) const;
 
-    /// M a = -C v - r for the current state.
+    /// Solve M a = -C v - r for the accelerations of the current state.
     void
     set_accelerations();
 
-    /// Energies and momenta of the current state; r is that of u.
+    /// Compute energies and momenta of the current state. The residual r of the model must be that
+    /// at u.
     void
     take_account();
 
@@ -170,7 +172,7 @@ namespace NMM
     void
     add_work();
 
-    /// Newton's method, repeated whenever the result wakes a block.
+    /// Solve the step by Newton's method, and repeat it whenever the result wakes a block.
     void
     solve_nonlinear(StepReport &report);
 
@@ -196,34 +198,35 @@ namespace NMM
     internal::MatrixSum                    matrix;
     /// The model's matrix, to which mass and damping are added; null if they are added to `matrix`.
     dealii::TrilinosWrappers::SparseMatrix *in_place = nullptr;
-    /// The same if the model's is a body matrix.
+    /// The model's matrix if it is a body matrix, otherwise null.
     BodyMatrix                             *body_matrix = nullptr;
     internal::MatrixAdder                   mass_adder, damping_adder;
     internal::ActiveItems                   active_rows;
     std::unique_ptr<internal::DirectSolver> mass_solver, linear_solver;
-    /// Step size and time of events that linear_solver was factorized for [s].
+    /// Step and DynamicState::events_passed for which linear_solver was factorized [s].
     double factorized_step = 0., factorized_events = 0.;
 
     /// Null if sleeping is disabled.
     std::unique_ptr<internal::SleepingBlocks> sleeping;
 
-    /// Null until it is needed.
+    /// Inertia of blocks for predict_blocks(); null until it is needed.
     std::unique_ptr<internal::BlockInertia> inertia;
 
     DynamicState state;
     Account      account;
     double       total_mass = 0.;
-    /// |M u_0| [kg].
+    /// Norm of M u_0, by which the rounding of accelerations is estimated [kg].
     double mass_of_displacement = 0.;
 
-    /// The step being tried; relevant unknowns of its ends and between.
+    /// Length of the step being tried [s], whether it has converged, and displacements on locally
+    /// relevant unknowns at both ends and in between.
     double h             = 0.;
     bool   has_candidate = false;
     Vector u_begin, u_end, u_middle;
     Vector u_1, v_1, a_1;
     Vector forces, scratch, other_scratch;
     double scale = 0.;
-    /// Loads at the current state.
+    /// Loads at the current state [N/m].
     Vector external;
   };
 } // namespace NMM

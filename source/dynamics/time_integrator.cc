@@ -13,15 +13,14 @@ namespace NMM
   TimeIntegrator::default_newton_parameters()
   {
     NewtonParameters parameters;
-    // a step starts so near to its end that the energy of the first correction
-    // says nothing
+    // The initial guess is so close to the solution that the energy of the first correction
+    // is no useful reference.
     parameters.energy_tolerance = 1.;
-    // residuals are compared with forces of which those of inertia, whose
-    // moments must vanish, may be a small part
+    // The force scale may be much larger than inertia forces, whose moments have to be accurate.
     parameters.n_refinements       = 1;
     parameters.n_robust_iterations = 1;
-    // which of many points stick takes its iterations, with shorter steps as many: a
-    // step that is cut is lost, while those that go on are of few blocks
+    // Finding which of many contact points stick takes many iterations, however short the step is.
+    // The last of them concern few blocks and are cheap, while a step that is cut is lost.
     parameters.max_iterations = 40;
     return parameters;
   }

@@ -44,7 +44,7 @@ namespace NMM
   TimeScheme
   TimeScheme::energy_momentum()
   {
-    // with a_1 the mean acceleration, u and v move as in the scheme above
+    // a_1 is the mean acceleration, so that u_1 and v_1 follow as in constant_acceleration()
     TimeScheme scheme    = newmark(0.5, 1.);
     scheme.name          = "energy-momentum";
     scheme.alpha_f       = 0.5;

@@ -10,14 +10,14 @@ namespace NMM
   GrowthCriterion::Verdict
   EnergyReleaseCriterion::judge(const double K_I, const double K_II) const
   {
-    // Negative where the kink is closed.
+    // E' times the energy release rate; where the kink is closed, the negative K_I' instead.
     const auto release = [&](const double angle) {
       const KinkFactors F   = kink_factors(angle);
       const double      K_1 = F.F_11 * K_I + F.F_12 * K_II,
                    K_2      = F.F_21 * K_I + F.F_22 * K_II;
       return K_1 > 0. ? K_1 * K_1 + K_2 * K_2 : K_1;
     };
-    // The best of many angles, and the peak of the parabola through it and its neighbours.
+    // The maximum is the peak of the parabola through the best of many angles and its neighbours.
     constexpr int    n    = 180;
     constexpr double step = 0.5 * dealii::numbers::PI / n;
     int              best = 0;

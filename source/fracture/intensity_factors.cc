@@ -19,15 +19,16 @@ namespace NMM
 
     constexpr unsigned int rule_degree = 10;
 
-    /// The inner radius, where q begins to fall, over the outer one. Less leaves more room to
-    /// fall, more keeps away from the tip, where the solution is least accurate.
+    /// Inner radius, where q begins to decrease, over the outer radius [-]. A smaller value makes q
+    /// smoother; a larger one leaves out more of the region at the tip, where the solution is least
+    /// accurate.
     constexpr double plateau = 0.2;
 
-    /// Over a disk's radius: where the traction of contact is taken to be uniform.
+    /// Radius within which the contact traction is taken to be uniform, over that of a disk [-].
     constexpr double near_tip = 0.2;
 
 
-    /// q(r) and its derivative.
+    /// The function q(r) of a disk with the radius @p outer, and its derivative dq/dr [1/m].
     std::pair<double, double>
     cut_off(const double r, const double outer)
     {
@@ -38,11 +39,11 @@ namespace NMM
     }
 
 
-    /// A point of an element's edge, x(t) with t in [0, 1] from its start.
+    /// A point x(t) of an edge of an element, with t in [0, 1] from its start.
     struct EdgePoint
     {
       Point<2> x;
-      /// dx/dt [m]
+      /// Derivative dx/dt [m].
       Tensor<1, 2> velocity;
     };
 
@@ -67,7 +68,7 @@ namespace NMM
     }
 
 
-    /// Sums up the integrals of one tip.
+    /// Computes the interaction integrals of one tip.
     class InteractionIntegrals
     {
     public:
@@ -101,7 +102,7 @@ namespace NMM
                   {TipField::Kind::sliding, elasticity},
                   {TipField::Kind::point_force, elasticity}}}
         , force_at_tip(body_force(tip.point))
-        // Does the crack bend within the disks?
+        // Whether the crack bends within the largest disk.
         , is_bent(tip.path.front().radius != 0. ||
                   tip.point.distance(tip.path.front().end) < largest_radius)
         , whole_rule(make_triangle_rule(rule_degree))
@@ -145,7 +146,7 @@ namespace NMM
       }
 
     private:
-      /// Opening, sliding, point force.
+      /// The fields are those of opening, of sliding, and of the point force.
       static constexpr unsigned int n_fields = 3;
 
       const CoverSystem               &covers;
@@ -160,22 +161,22 @@ namespace NMM
       const std::vector<ContactForce> &contact_forces;
       const Material                  &material;
       const PlaneElasticity            elasticity;
-      /// Its columns are the axes of the tip's frame.
+      /// Matrix whose columns are the axes of the tip's frame.
       const Tensor<2, 2>                   frame;
       const SymmetricTensor<2, 2>          initial_stress;
       const std::array<TipField, n_fields> fields;
-      /// In the tip's frame, as all that follows from it.
+      /// Body force at the tip [N/m^3], in the tip's frame.
       const Tensor<1, 2>          force_at_tip;
       const bool                  is_bent;
       const dealii::Quadrature<2> whole_rule;
       ElementRuleBuilder          rules;
       const dealii::QGauss<1>     gauss;
       Tensor<1, 2>                displacement_of_tip;
-      /// Curves with pressures on their faces: the curve and the condition.
+      /// Curves with a pressure on their faces, each with the boundary condition.
       std::vector<std::pair<unsigned int, const BoundaryCondition *>> pressures;
-      /// I of each disk and, for each of them, field.
+      /// Integral I of field f and disk d, at [n_fields * d + f].
       std::vector<double> sums;
-      /// Stress across the crack at its tip that contact transmits, of each disk [Pa].
+      /// For each disk, the stress across the crack at its tip that contact transmits [Pa].
       std::vector<double> contact_stress;
 
 
@@ -191,7 +192,7 @@ namespace NMM
       }
 
 
-      /// On a face that lies on the curves @p on.
+      /// Traction on a face that lies on the curves @p on [Pa], in real coordinates.
       Tensor<1, 2>
       traction_at(const Point<2>                  &x,
                   const Tensor<1, 2>              &normal,
@@ -207,7 +208,7 @@ namespace NMM
       }
 
 
-      /// In the tip's frame.
+      /// Body force with gravity [N/m^3], in the tip's frame.
       Tensor<1, 2>
       body_force(const Point<2> &x) const
       {
@@ -219,7 +220,7 @@ namespace NMM
       }
 
 
-      /// Vectors and tensors in components of the tip's frame.
+      /// Transforms vectors and tensors to components in the tip's frame.
       Tensor<1, 2>
       in_frame(const Tensor<1, 2> &v) const
       {
@@ -234,7 +235,8 @@ namespace NMM
       }
 
 
-      /// The fields at @p x, on the side of the crack into which @p into_solid points.
+      /// The fields at @p x. If @p x is on the crack, they are those of the face from which
+      /// @p into_solid points into the solid.
       std::array<TipField::Values, n_fields>
       fields_at(const Point<2>     &x,
                 const Tensor<1, 2> &into_solid = Tensor<1, 2>()) const
@@ -252,7 +254,7 @@ namespace NMM
       {
         const auto        &cells = mesh.mathematical_mesh();
         const unsigned int cell  = mesh.cell(element);
-        // Near the tip q is constant: nothing to integrate without a body force that varies.
+        // Near the tip q is constant, so that only a body force that varies contributes.
         const bool is_on_plateau =
           std::all_of(cells.cell_vertices(cell).begin(),
                       cells.cell_vertices(cell).end(),
@@ -299,7 +301,7 @@ namespace NMM
         {
           const TipField::Values &a = fields_here[f];
           const Tensor<1, 2>      a_1({a.gradient[0][0], a.gradient[1][0]});
-          // -P_j, but for the term with delta_1j
+          // This is -P_j without the term with delta_1j.
           const Tensor<1, 2> flux    = stress * a_1 + a.stress * du_1;
           const double       density = stress * dealii::symmetrize(a.gradient);
           const double       force_work = force_at_tip * a.displacement;
@@ -315,8 +317,8 @@ namespace NMM
       }
 
 
-      /// An edge along the crack. Its points are those of a Gauss rule in the root of the
-      /// distance from the tip, which makes the fields smooth.
+      /// Adds the integral over an edge along the crack. The points are those of a Gauss rule in
+      /// the square root of the distance from the tip, in which the fields are smooth.
       void
       add_face(const unsigned int element, const ElementEdge &edge)
       {
@@ -331,7 +333,7 @@ namespace NMM
           curves.push_back(mesh.physical_mesh().piece_to_curve()[piece]);
         for (unsigned int p = 0; p < gauss.size(); ++p)
         {
-          // share of the way from the nearer to the farther end
+          // Fraction of the way from the nearer to the farther end, and its derivative.
           double share = gauss.point(p)[0], rate = 1.;
           if (far > near)
           {
@@ -378,7 +380,7 @@ namespace NMM
             traction * Tensor<1, 2>({a.gradient[0][0], a.gradient[1][0]}) +
             n[0] * (force_at_tip * a.displacement -
                     initial_stress * dealii::symmetrize(a.gradient));
-          // s^a e_2 and its derivative along the face
+          // The terms are s^a e_2 and its derivative along the face, times u.
           const SymmetricTensor<2, 2> stress_slope =
             s[0] * a.stress_derivatives[0] + s[1] * a.stress_derivatives[1];
           const double work = a.stress[0][1] * u[0] + a.stress[1][1] * u[1],
@@ -396,7 +398,8 @@ namespace NMM
       }
 
 
-      /// See the header for what is done near the tip.
+      /// Adds the forces of contact between the faces. The header describes the treatment of those
+      /// near the tip.
       void
       add_contact_forces()
       {
@@ -404,12 +407,13 @@ namespace NMM
           return;
         const Tensor<1, 2> upwards =
           Point<2>(-tip.direction[1], tip.direction[0]);
-        // of each disk; at most the straight piece of the crack that ends in the tip
+        // The radius rho of each disk is at most the length of the straight piece of the crack
+        // that ends at the tip.
         std::vector<double> rho;
         for (const double radius : radii)
           rho.push_back(std::min(near_tip * radius,
                                  tip.point.distance(tip.path.front().end)));
-        // on the lower face, whose normal points upwards
+        // This is the force on the lower face, whose normal points upwards.
         std::vector<Tensor<1, 2>> near_force(radii.size());
         for (const ContactForce &contact : contact_forces)
         {
@@ -443,8 +447,8 @@ namespace NMM
       }
 
 
-      /// Into the integrals over the disk @p d. @p force acts on the face where the fields are
-      /// @p here, its opposite on the one where they are @p other.
+      /// Adds a contact force to the integrals over disk @p d. @p force acts on the face with the
+      /// fields @p here, and the opposite force on the face with the fields @p other.
       void
       add_contact_force(const Tensor<1, 2>                           &force,
                         const std::array<TipField::Values, n_fields> &here,
@@ -491,7 +495,7 @@ namespace NMM
                      kappa       = kolosov_constant(elasticity),
                      nu          = (3. - kappa) / (1. + kappa);
         const Tensor<1, 2> below = -(frame * Point<2>(0., 1.));
-        // sigma_22 at the tip
+        // The stress sigma_22 at the tip follows from the traction on the lower face.
         const double normal_stress =
           -in_frame(traction_at(tip.point, below, {tip.curve}))[1];
         std::vector<IntensityFactors> result(radii.size());

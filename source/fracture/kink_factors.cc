@@ -27,7 +27,7 @@ namespace NMM
     constexpr double pi = dealii::numbers::PI;
     constexpr double p2 = pi * pi, p3 = p2 * pi, p4 = p2 * p2, p5 = p4 * pi,
                      p6 = p3 * p3;
-    // coefficients of m^0, m^2, ...
+    // These are the coefficients of m^0, m^2, ...
     constexpr double F_11[] = {1.,
                                -3. * p2 / 8.,
                                p2 - 5. * p4 / 128.,
@@ -51,7 +51,7 @@ namespace NMM
                                -7.591,
                                0.25,
                                12.5};
-    // coefficients of m, m^3, ...
+    // These are the coefficients of m, m^3, ...
     constexpr double F_12[] = {-3. * pi / 2.,
                                10. * pi / 3. + p3 / 16.,
                                -2. * pi - 133. * p3 / 180. + 59. * p5 / 1280.,

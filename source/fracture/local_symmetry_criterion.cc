@@ -10,8 +10,8 @@ namespace NMM
   GrowthCriterion::Verdict
   LocalSymmetryCriterion::judge(const double K_I, const double K_II) const
   {
-    // A kink away from the shear, where K_I' is not less than K_I; bisection, since K_II' is
-    // monotonic from the crack's direction up to where it vanishes.
+    // The kink is on the side on which K_I' is not less than K_I. Its angle is found by
+    // bisection, since K_II' is monotonic from the direction of the crack up to its zero.
     const double side  = K_II > 0. ? -1. : 1.;
     const double K_abs = std::abs(K_II);
     double       low = 0., high = 0.5 * dealii::numbers::PI;

@@ -46,7 +46,7 @@ namespace NMM
       phi_factor = -psi_factor;
       return;
     }
-    // phi' = (K_I - i K_II) / (2 (2 pi z)^(1/2))
+    // The functions follow from phi' = (K_I - i K_II) / (2 (2 pi z)^(1/2)).
     const unsigned int n = 1;
     power                = 0.5 * n - 1.;
     const Complex A =

@@ -9,7 +9,7 @@ namespace NMM
                 const double    growth,
                 const double    cell_size)
   {
-    // one halving less than there may be
+    // This is one halving less than is possible.
     constexpr double most_halvings = 1 << 19;
     LocalSize        size;
     size.kind     = LocalSize::Kind::point;

@@ -23,8 +23,7 @@ namespace NMM
         return Interval(CGAL::to_interval(number));
       }
 
-      // The interval after the lazy number was evaluated exactly: at most one
-      // ulp wide.
+      // Interval of a lazy number after its exact evaluation; it is at most one ulp wide.
       Interval
       to_tight_interval(const FT &number)
       {
@@ -32,8 +31,8 @@ namespace NMM
         return to_interval(number);
       }
 
-      // At most 16 epsilon wide: the middle is then off by at most 8. Asking for
-      // less would evaluate most numbers exactly, at three times the cost.
+      // Whether the interval is at most 16 epsilon wide, so that its middle is off by at most 8
+      // epsilon. A smaller bound would evaluate most numbers exactly, at three times the cost.
       bool
       is_tight(const Interval &interval)
       {
@@ -71,8 +70,8 @@ namespace NMM
         case CurvePiece::Kind::arc:
           return {exact(piece.start), exact(piece.through), exact(piece.end)};
         case CurvePiece::Kind::circle:
-          // With the radius rather than its square, the two points where
-          // CGAL divides the circle have rational coordinates.
+          // With the radius and not its square, the two points where CGAL divides the circle have
+          // rational coordinates.
           return {exact(piece.center),
                   FT(piece.radius),
                   CGAL::COUNTERCLOCKWISE};

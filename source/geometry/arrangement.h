@@ -24,10 +24,9 @@ namespace NMM
     using BaseTraits = CGAL::Arr_circle_segment_traits_2<Kernel>;
 
     /**
-     * What lies on an arrangement edge: the set of all labels of the curves that
-     * overlap there. A label below mesh_edge_flag is a piece of the physical mesh
-     * (PhysicalMesh::pieces()); otherwise label - mesh_edge_flag is an edge of
-     * the mathematical mesh.
+     * Label of a curve; an arrangement edge has the set of the labels of all curves that overlap
+     * there. A label below mesh_edge_flag is a piece of the physical mesh (PhysicalMesh::pieces());
+     * otherwise label - mesh_edge_flag is an edge of the mathematical mesh.
      */
     using Label                    = unsigned int;
     constexpr Label mesh_edge_flag = 1u << 31;
@@ -39,9 +38,9 @@ namespace NMM
     {
       /// Region of the physical mesh, or invalid_index outside the solid.
       unsigned int region = invalid_index;
-      /// Used while cutting: cell of the mathematical mesh.
+      /// Cell of the mathematical mesh; used during the cutting.
       unsigned int cell = invalid_index;
-      /// Used while cutting: manifold element.
+      /// Manifold element; used during the cutting.
       unsigned int element = invalid_index;
     };
 
@@ -51,18 +50,18 @@ namespace NMM
     struct PhysicalArrangement
     {
       Arrangement arrangement;
-      /// Edges with the solid on one side at least, in doubles.
+      /// Edges with the solid on at least one side, in doubles.
       std::vector<DirectedEdge> solid_edges;
     };
 
-    /// The exact curve of a piece (its doubles taken as exact rationals).
+    /// The exact curve of a piece; its doubles are exact rationals.
     BaseTraits::Curve_2
     exact_curve(const CurvePiece &piece);
 
     /**
-     * An exact coordinate (a + b sqrt(c)) as the nearest double or a neighbour of
-     * it (relative error at most 8 epsilon, however close two curves are: CGAL's
-     * default of 1e-5 for lazy numbers would move the corners of slivers).
+     * Convert an exact coordinate (a + b sqrt(c)) to the nearest double or a neighbour of it. The
+     * relative error is at most 8 epsilon, however close two curves are. CGAL's default error of
+     * 1e-5 for lazy numbers would move the corners of slivers.
      */
     double
     to_double(const BaseTraits::Point_2::CoordNT &coordinate);

@@ -10,7 +10,7 @@
 #endif
 
 /**
- * The one place that knows CGAL versions: 5.5 is the oldest supported one.
+ * Differences between versions of CGAL; 5.5 is the oldest supported one.
  */
 namespace NMM
 {

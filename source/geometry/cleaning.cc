@@ -15,8 +15,9 @@ namespace NMM
   namespace
   {
     /**
-     * Works on all pieces as doubly linked lists, one per curve, so that pieces
-     * can be split and removed while a search tree of their boxes stays valid.
+     * The algorithm of clean(). Pieces are stored in doubly linked lists, one per curve, so that
+     * pieces can be split and removed while a search tree of their boxes stays valid.
+     *
      * Cost: O((n + changes) log n).
      */
     class Cleaner
@@ -38,7 +39,7 @@ namespace NMM
         unsigned int prev = invalid_index, next = invalid_index;
       };
 
-      /// An end of an open curve.
+      /// One of the two ends of an open curve.
       struct End
       {
         unsigned int curve;
@@ -68,10 +69,10 @@ namespace NMM
       std::vector<End>
       open_ends() const;
 
-      /// Links whose box is within the tolerance of @p point, ascending.
+      /// Pieces whose box is within the tolerance of @p point, ascending.
       std::vector<unsigned int>
       links_near(const Point &point) const;
-      /// Whether the end is exactly on another curve or meets its own.
+      /// Whether the end is exactly on another curve or on the other end of its own.
       bool
       is_attached(const End &end) const;
       bool
@@ -119,7 +120,7 @@ namespace NMM
     {
       for (unsigned int c = 0; c < curves.size(); ++c)
         remove_short_pieces(c);
-      // Boundaries first: joints then snap to where they are.
+      // Boundaries come first, so that joints snap to their final positions.
       for (const End &end : open_ends())
         close_gap(end);
       for (const End &end : open_ends())
@@ -195,7 +196,7 @@ namespace NMM
     std::vector<unsigned int>
     Cleaner::links_near(const Point &point) const
     {
-      // Boxes of arcs are rounded; whatever is too far is sorted out later.
+      // Boxes of arcs are rounded; pieces that are too far away are rejected later.
       const double           reach = 1.01 * tolerance;
       std::vector<TreeValue> found;
       tree.query(boost::geometry::index::intersects(
@@ -290,7 +291,7 @@ namespace NMM
         const unsigned int next = links[link].next;
         const CurvePiece   gone = links[link].piece;
         const double       size = internal::length(gone);
-        // A boundary must not vanish, nor a loop become a sliver.
+        // Keep enough pieces that a boundary does not vanish and a loop does not become a sliver.
         const unsigned int n_min =
           !is_open(curve)                                            ? 3
           : role == CurveRole::joint || role == CurveRole::interface ? 0
@@ -300,7 +301,7 @@ namespace NMM
           link = next;
           continue;
         }
-        // The ends of the curve stay.
+        // The ends of the curve keep their positions.
         const unsigned int prev = links[link].prev;
         if (next == invalid_index && prev != invalid_index)
         {
@@ -385,8 +386,8 @@ namespace NMM
       for (const unsigned int link : links_near(point))
       {
         const CurvePiece &piece = links[link].piece;
-        // Of its own curve only the other end counts, and of a circle
-        // no point is a vertex.
+        // Only the other end of the same curve is a candidate, and no point of a circle is a
+        // vertex.
         const bool is_own = links[link].curve == end.curve;
         for (const bool at_start : {true, false})
         {
@@ -418,7 +419,7 @@ namespace NMM
       const Point       point = location(end);
       const CurvePiece &own   = links[link_at(end)].piece;
 
-      // The crossing nearest to the end, or else the nearest curve.
+      // Use the crossing nearest to the end, or else the nearest curve.
       unsigned int crossed = invalid_index, nearest = invalid_index;
       Point        crossing;
       double       to_crossing = tolerance, to_nearest = tolerance;
@@ -456,7 +457,7 @@ namespace NMM
           target = internal::nearest_point(other, point);
       }
 
-      // Splitting must leave two pieces; next to a vertex take the vertex.
+      // A split must leave two pieces; a target next to a vertex is replaced by the vertex.
       bool must_split = true;
       if (other.kind != CurvePiece::Kind::circle)
         for (const Point &vertex : {other.start, other.end})

@@ -17,9 +17,9 @@ namespace NMM
     };
 
 
-    /// Points that a ray and a piece share. An end of the piece that is within @p near [m] of
-    /// the ray, or of such a point, takes its place: no piece may become shorter, and
-    /// what lies along the ray crosses it nowhere.
+    /// Points that a ray and a piece have in common. A point within @p near [m] of an end of the
+    /// piece is moved to that end, so that no short pieces arise. Ends within @p near of the ray
+    /// are common points, too, also those of pieces along the ray.
     std::vector<dealii::Point<2>>
     shared_points(const CurvePiece &ray,
                   const CurvePiece &piece,
@@ -44,7 +44,7 @@ namespace NMM
     }
 
 
-    /// Where @p ray first meets a curve, at least @p least [m] from its start.
+    /// First point at which @p ray meets a curve, at least @p least [m] from its start.
     Meeting
     find_meeting(const std::vector<Curve> &curves,
                  const CurvePiece         &ray,

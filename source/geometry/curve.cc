@@ -103,7 +103,7 @@ namespace NMM
                      const dealii::Point<2> &end,
                      const double            radius)
   {
-    // the sagitta is h^2 / (R + sqrt(R^2 - h^2)) for half a chord of h
+    // The sagitta is h^2 / (R + sqrt(R^2 - h^2)) for half a chord of h.
     const double h     = 0.5 * start.distance(end);
     const double ratio = h / radius;
     const double sagitta =
@@ -139,7 +139,7 @@ namespace NMM
     piece.start   = start;
     piece.through = through;
     piece.end     = end;
-    // Curve::check() reports what has no circle; here it must only not crash.
+    // Curve::check() reports points without a circle; here they must only not crash.
     if (!is_finite(start) || !is_finite(through) || !is_finite(end))
       return piece;
     const auto straightened = [&]() {
@@ -166,7 +166,7 @@ namespace NMM
                           internal::to_double(Coordinate(center.y()))};
       piece.radius     = std::sqrt(internal::to_double(
         Coordinate(CGAL::squared_distance(center, exact(start)))));
-      // seen from a point of it, the chord of a minor arc makes an obtuse angle
+      // Seen from a point of a minor arc, its chord subtends an obtuse angle.
       if (CGAL::angle(exact(start), exact(through), exact(end)) ==
             CGAL::OBTUSE &&
           is_nearly_straight(start, end, piece.radius))

@@ -22,7 +22,7 @@ namespace NMM
   {
     using dealii::Point;
 
-    /// cos and sin of an angle in degrees, exact at right angles.
+    /// Cosine and sine of an angle in degrees, exact at right angles.
     Point<2>
     direction(const double degrees)
     {
@@ -44,7 +44,8 @@ namespace NMM
     }
 
 
-    /// dxflib calls this for each entity when it has read the next one's first line.
+    /// Collects the curves of a drawing. dxflib calls its functions for each entity after it has
+    /// read the first line of the next one.
     class Drawing : public DL_CreationAdapter
     {
     public:
@@ -118,7 +119,7 @@ namespace NMM
         reject("RAY", "draw a line with two ends");
       }
 
-      /// The end of the file.
+      /// The curves, after the end of the file has been read.
       std::vector<Curve>
       finish();
 
@@ -147,7 +148,7 @@ namespace NMM
         return entity + " on layer '" + layer() + "'";
       }
 
-      /// Where the entity starts that is handed over.
+      /// Place in the file where the current entity starts.
       std::string
       place() const
       {
@@ -176,10 +177,10 @@ namespace NMM
       std::set<std::string> layers, layers_seen;
       std::vector<Curve>    curves;
       unsigned int          n_pairs = 0;
-      /// Of the entity being handed over and of the one being read.
+      /// Line of the entity that dxflib hands over, and of the one that it is reading.
       unsigned int entity_line = 0, next_entity_line = 0;
       bool         is_in_block = false, has_section = false, has_end = false;
-      /// A polyline whose vertices are coming.
+      /// Whether the vertices of a polyline are being read, and whether that polyline is closed.
       bool                is_open = false, is_closed = false;
       Curve               polyline_curve;
       std::vector<Vertex> vertices;
@@ -202,7 +203,7 @@ namespace NMM
       }
       else if (code >= 10 && code < 60)
       {
-        // what is no number would be read as 0
+        // dxflib would read text that is not a number as 0.
         char *end = nullptr;
         errno     = 0;
         (void)std::strtod(value.c_str(), &end);
@@ -254,7 +255,7 @@ namespace NMM
       const auto     at = [&](const double degrees) {
         return center + arc.radius * direction(degrees);
       };
-      // counter-clockwise from the first to the second
+      // The arc runs counter-clockwise from the first to the second angle.
       double span = std::fmod(arc.angle2 - arc.angle1, 360.);
       if (span <= 0.)
         span += 360.;
@@ -299,7 +300,7 @@ namespace NMM
       if (!is_open)
         return;
       const Point<2> point(vertex.x, vertex.y);
-      // programs write a point twice now and then
+      // Some programs write the same point twice.
       if (!vertices.empty() && vertices.back().point == point)
         vertices.back().bulge = vertex.bulge;
       else
@@ -332,8 +333,8 @@ namespace NMM
           polyline_curve.pieces.push_back(CurvePiece::segment(a, b));
           continue;
         }
-        // The tangent of a quarter of the angle; positive: counter-clockwise, with
-        // the arc on the right of the chord.
+        // The bulge is the tangent of a quarter of the angle. If it is positive, the arc runs
+        // counter-clockwise and lies to the right of the chord.
         const Point<2> through(0.5 * (a[0] + b[0]) +
                                  0.5 * bulge * (b[1] - a[1]),
                                0.5 * (a[1] + b[1]) -

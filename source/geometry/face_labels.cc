@@ -118,7 +118,7 @@ namespace NMM
         edge.curves.erase(std::unique(edge.curves.begin(), edge.curves.end()),
                           edge.curves.end());
 
-        // A curve that runs along itself, or two sides of one loop.
+        // Find a curve that runs along itself, or two sides of one loop.
         std::map<unsigned int, unsigned int> loop_to_curve;
         for (const unsigned int c : edge.curves)
         {

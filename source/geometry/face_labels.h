@@ -12,47 +12,45 @@ namespace NMM
   namespace internal
   {
     /**
-     * The arrangement of the physical curves with what they mean: which faces
-     * are solid, and what lies on each edge. Helps to build PhysicalMesh and is
-     * dropped afterwards.
+     * The arrangement of the physical curves with their meaning: which faces are solid, and which
+     * curves lie on each edge. It is used to build PhysicalMesh.
      *
-     * A loop's interior is the set of faces that an odd number of crossings of
-     * the loop separates from the unbounded face. A face is solid if it is in
-     * one boundary loop more than hole loops (an island in a hole is in two and
-     * one). Nothing here compares coordinates.
+     * The interior of a loop is the set of faces that an odd number of crossings of the loop
+     * separates from the unbounded face. A face is solid if it is in one boundary loop more than
+     * hole loops (an island in a hole is in two and one). No coordinates are compared.
      */
     class LabelledFaces
     {
     public:
-      /// What one undirected edge of the arrangement is part of.
+      /// An undirected edge of the arrangement.
       struct Edge
       {
         Arrangement::Halfedge_handle halfedge;
-        /// Different curves on it, ascending.
+        /// Different curves on the edge, ascending.
         std::vector<unsigned int> curves;
-        /// A curve that runs along here twice, or invalid_index.
+        /// A curve that runs along the edge twice, or invalid_index.
         unsigned int repeated_curve = invalid_index;
-        /// Faces to the left and right of halfedge.
+        /// Faces to the left and right of the halfedge.
         unsigned int left = invalid_index, right = invalid_index;
       };
 
       struct Face
       {
         Arrangement::Face_handle handle;
-        /// Loops it is in, ascending.
+        /// Loops in whose interior the face is, ascending.
         std::vector<unsigned int> loops;
         bool                      is_solid = false;
         std::vector<DirectedEdge> boundary;
         double                    area = 0.;
         dealii::Point<2>          inside;
-        /// Leftmost, of these the lowest point of the boundary.
+        /// The leftmost point of the boundary; of several ones the lowest.
         dealii::Point<2> corner;
       };
 
       /**
-       * @throws InputError for loops that cross or overlap themselves, a hole
-       * outside its domain, overlapping domains or holes.
-       * Uses FaceData::element and ::cell as scratch and resets them.
+       * Find all edges and faces. FaceData::element and ::cell are used during the construction and
+       * reset. @throws InputError for loops that cross or overlap themselves, a hole outside its
+       * domain, and overlapping domains or holes.
        */
       LabelledFaces(Arrangement                     &arrangement,
                     const std::vector<Curve>        &curves,
@@ -60,7 +58,7 @@ namespace NMM
                     const std::vector<unsigned int> &piece_to_curve,
                     const Loops                     &loops);
 
-      /// Bounded faces and, first, the unbounded one.
+      /// The unbounded face, then all bounded ones.
       const std::vector<Face> &
       faces() const;
 
@@ -92,7 +90,7 @@ namespace NMM
       DirectedEdge
       directed(Arrangement::Halfedge_const_handle halfedge) const;
 
-      /// Loops on an edge: those that crossing it enters or leaves.
+      /// Loops on an edge, which a crossing of the edge enters or leaves.
       std::vector<unsigned int>
       loops_on(const Edge &edge) const;
 
@@ -103,7 +101,7 @@ namespace NMM
 
       std::vector<Face> all_faces;
       std::vector<Edge> all_edges;
-      /// Vertices in doubles, by address.
+      /// Vertices in doubles, by their address in the arrangement.
       std::unordered_map<const void *, dealii::Point<2>> vertex_locations;
     };
   } // namespace internal

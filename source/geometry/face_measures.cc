@@ -12,9 +12,9 @@ namespace NMM
   {
     namespace
     {
-      // Angle of an arc of at most a half circle. Both legs are exact to
-      // round-off for short arcs and for half circles alike, unlike the arc
-      // sine of the chord or the arc cosine of a dot product.
+      // Angle of an arc of at most a half circle. Both arguments of atan2() are exact up to
+      // rounding for short arcs and for half circles alike, unlike the arc sine of the chord or the
+      // arc cosine of a dot product.
       double
       angle(const DirectedEdge &edge)
       {
@@ -99,7 +99,7 @@ namespace NMM
       abscissae.erase(std::unique(abscissae.begin(), abscissae.end()),
                       abscissae.end());
 
-      // (minus the width, middle) of each gap
+      // Pairs (negative width, middle) of the gaps.
       std::vector<std::pair<double, double>> gaps;
       for (unsigned int i = 1; i < abscissae.size(); ++i)
         gaps.emplace_back(abscissae[i - 1] - abscissae[i],
@@ -152,7 +152,7 @@ namespace NMM
       {
         include(edge.start);
         include(edge.end);
-        // An x-monotone arc reaches furthest in y above or below its centre.
+        // An x-monotone arc has its extreme y above or below its centre.
         if (edge.bulge != 0 &&
             (edge.start[0] < edge.center[0]) != (edge.end[0] < edge.center[0]))
           include(

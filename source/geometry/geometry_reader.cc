@@ -16,11 +16,10 @@ namespace NMM
     /**
      * Parser of geometry files by recursive descent.
      *
-     * CGAL's reader (CGAL/IO/WKT.h 5.5) takes over none of it: it knows no arcs,
-     * and it turns mistakes into points. "LINESTRING (0 0, 1)" is read as
-     * (0,0), (1,0), "LINESTRING (0 0 1, 2 3)" as (0,0), (1,0), (2,3), without an
-     * error; what it does reject it reports as "error." on the standard error
-     * stream, without a position.
+     * CGAL's reader (CGAL/IO/WKT.h 5.5) is not used: it does not support arcs, and it turns
+     * mistakes into points. "LINESTRING (0 0, 1)" is read as (0,0), (1,0), "LINESTRING (0 0 1, 2
+     * 3)" as (0,0), (1,0), (2,3), without an error. Mistakes that it rejects are reported as
+     * "error." on the standard error stream, without a position.
      */
     class GeometryParser
     {
@@ -49,7 +48,7 @@ namespace NMM
       parse_material_point(const Attributes &attributes);
       void
       parse_curve(CurveRole role, const Attributes &attributes);
-      /// Pieces of each chain the geometry consists of.
+      /// Parse a geometry: the pieces of each of its chains.
       std::vector<Pieces>
                           parse_chains(const std::string &shape);
       std::vector<Pieces> parse_list(Pieces (GeometryParser::*parse_one)());
@@ -70,7 +69,7 @@ namespace NMM
       parse_points(unsigned int n_min);
       Point
       parse_point();
-      /// An upper-case keyword, or "" if a parenthesis comes next.
+      /// Parse an upper-case keyword; "" if a parenthesis comes next.
       std::string
       parse_shape();
 
@@ -87,7 +86,7 @@ namespace NMM
 
       internal::GeometryScanner scanner;
       Geometry                  geometry;
-      /// Where the current record starts.
+      /// Place where the current record starts.
       std::string record;
     };
 
@@ -168,8 +167,8 @@ namespace NMM
       const std::vector<std::string> &keys = role_to_keys.at(role);
 
       std::map<std::string, std::string> values;
-      // A word followed by "=" is a key; the first other one is the shape,
-      // which only the parser of shapes consumes.
+      // A word followed by "=" is a key. The first other word is the shape, which only the parser
+      // of shapes reads.
       while (scanner.next_is_key())
       {
         const std::string where = scanner.place();
@@ -268,7 +267,7 @@ namespace NMM
           curve.material.clear();
         }
         geometry.add(std::move(curve));
-        // All curves of an unnamed record share the name given to the first.
+        // All curves of an unnamed record have the name that the first one gets.
         if (i == 0)
           name = geometry.curves().back().name;
       }

@@ -13,7 +13,7 @@ namespace NMM
       : text(text)
       , source_name(std::move(source_name))
     {
-      // A byte order mark, as some editors write it
+      // Skip the byte order mark that some editors write.
       if (text.compare(0, 3, "\xEF\xBB\xBF") == 0)
         position = 3;
       advance();
@@ -82,7 +82,7 @@ namespace NMM
              "a number",
              "separate the numbers of a point by blanks and points by commas");
 
-      // Correctly rounded and the same in every locale
+      // std::from_chars() rounds correctly and does not depend on the locale.
       double      value = 0.;
       const char *first = token.text.data();
       const char *last  = first + token.text.size();

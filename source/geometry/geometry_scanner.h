@@ -10,8 +10,8 @@ namespace NMM
   namespace internal
   {
     /**
-     * Cuts the text of a geometry file into tokens. Blanks separate them,
-     * comments vanish, line ends count only outside parentheses.
+     * Divides the text of a geometry file into tokens. Blanks separate them, comments are skipped,
+     * and line ends are tokens only outside of parentheses.
      */
     class GeometryScanner
     {
@@ -44,19 +44,19 @@ namespace NMM
       Token
       next();
 
-      /// Whether a word and then "=" come next, as in "name=left".
+      /// Whether the next tokens are a word and "=", as in "name=left".
       bool
       next_is_key() const;
 
-      /// "file:line" of the next token.
+      /// Place of the next token as "file:line".
       std::string
       place() const;
 
-      /// @throws InputError unless the next token, which it skips, is @p kind.
+      /// Skip the next token. @throws InputError unless it is of the kind @p kind.
       void
       expect(Kind kind, const std::string &spelled, const std::string &remedy);
 
-      /// The next token as a finite number. @throws InputError
+      /// Read the next token as a finite number. @throws InputError if it is not one.
       double
       number();
 
@@ -71,7 +71,7 @@ namespace NMM
       std::size_t        position = 0;
       unsigned int       line     = 1;
       unsigned int       depth    = 0;
-      /// Line of the outermost parenthesis now open.
+      /// Line of the outermost open parenthesis.
       unsigned int opening_line = 1;
       Token        current;
     };

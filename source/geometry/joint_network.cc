@@ -21,7 +21,7 @@ namespace NMM
   {
     constexpr double max_traces = 1e6;
 
-    /// What a random number is for.
+    /// Purpose of a random number.
     enum class Draw : std::uint32_t
     {
       line,
@@ -30,9 +30,8 @@ namespace NMM
 
 
     /**
-     * Random numbers that depend on nothing but the arguments. The distributions
-     * of the standard library differ from one library to the next, its engines and
-     * seed sequences do not.
+     * Random numbers that depend on nothing but the arguments. The standard specifies engines and
+     * seed sequences exactly, but not distributions, which are therefore not used.
      */
     class RandomNumbers
     {
@@ -55,14 +54,14 @@ namespace NMM
         engine.seed(sequence);
       }
 
-      /// From [0, 1), a multiple of 2^-53.
+      /// A number from [0, 1), a multiple of 2^-53.
       double
       unit()
       {
         return std::ldexp(static_cast<double>(engine() >> 11), -53);
       }
 
-      /// From [-1, 1).
+      /// A number from [-1, 1).
       double
       symmetric()
       {
@@ -103,7 +102,8 @@ namespace NMM
     };
 
 
-    /// What bounds the place the set is confined to. @throws InputError if nothing does.
+    /// Curves that bound the place to which the set is confined. @throws InputError if there are
+    /// none.
     std::vector<const Curve *>
     curves_around(const JointSet &set, const Geometry &geometry)
     {
@@ -123,7 +123,7 @@ namespace NMM
     }
 
 
-    /// Of the place the set is confined to, a little larger than that.
+    /// Bounding box of the place to which the set is confined, slightly enlarged.
     Box
     find_box(const JointSet &set, const Geometry &geometry)
     {
@@ -140,8 +140,8 @@ namespace NMM
     }
 
 
-    /// Of the place the set is confined to [m^2], to about a hundredth: the parts of
-    /// horizontal lines that are inside, by the even-odd rule.
+    /// Area of the place to which the set is confined [m^2], with an error of about a hundredth:
+    /// the lengths of horizontal lines inside of it, by the even-odd rule.
     double
     estimate_area(const JointSet &set, const Geometry &geometry)
     {
@@ -178,8 +178,8 @@ namespace NMM
       run();
 
     private:
-      /// Lines and traces are numbered from the origin. @throws InputError if that is so
-      /// far away that rounding loses their places.
+      /// Check the numbers of lines and traces, which are counted from the origin. @throws
+      /// InputError if the origin is so far away that rounding affects their positions.
       void
       check_numbers(double first, double last, const std::string &what) const;
       void
@@ -188,17 +188,18 @@ namespace NMM
       add_trace(double begin, double end);
       Point<2>
       rounded(const Point<2> &point) const;
-      /// Least and largest projection of the box.
+      /// Least and largest projection of the box onto a direction.
       std::array<double, 2>
       range(const Tensor<1, 2> &direction) const;
 
       const JointSet &set;
       const Box       box;
       Tensor<1, 2>    direction, normal;
-      /// Unit that coordinates are multiples of [m].
+      /// Coordinates are multiples of this unit [m].
       double             unit;
       std::vector<Curve> joints;
-      /// Of the current line.
+      /// Point of the current line that is nearest to the middle of the box, about which the line
+      /// is turned, and direction of the line.
       Point<2>     foot;
       Tensor<1, 2> along;
     };
@@ -242,7 +243,7 @@ namespace NMM
     Point<2>
     Generator::rounded(const Point<2> &point) const
     {
-      // The unit is a power of 2: exact. Adding 0 turns -0 into 0.
+      // The unit is a power of 2, so that this is exact. Adding 0 turns -0 into 0.
       return {std::round(point[0] / unit) * unit + 0.,
               std::round(point[1] / unit) * unit + 0.};
     }
@@ -251,8 +252,8 @@ namespace NMM
     std::vector<Curve>
     Generator::run()
     {
-      // A turned line may leave the box's range at one end and be inside at the
-      // other: look at more lines.
+      // A turned line may be outside of the box at one end and inside at the other, so that more
+      // lines are examined.
       const double widening =
         box.lower.distance(box.upper) *
         std::sin(std::min(90., set.dip_scatter) * dealii::numbers::PI / 180.);
@@ -283,7 +284,7 @@ namespace NMM
                              const double       last,
                              const std::string &what) const
     {
-      // 2^-12 of a spacing is what rounding then leaves of a place
+      // With this largest number, rounding moves positions by at most 2^-12 of a spacing.
       constexpr double   largest = 1.1e12;
       std::ostringstream number;
       number << std::max(std::abs(first), std::abs(last));
@@ -312,7 +313,7 @@ namespace NMM
       foot  = Point<2>(distance * normal + (middle * direction) * direction);
       along = turn == 0. ? direction : unit_vector(set.dip + turn);
 
-      // From the foot to where it leaves the box.
+      // Parameters, from the foot, between which the line is in the box.
       double begin = std::numeric_limits<double>::lowest(), end = -begin;
       for (unsigned int c = 0; c < 2; ++c)
       {
@@ -335,7 +336,7 @@ namespace NMM
         return;
       }
 
-      // Traces are numbered from the origin's place on the line.
+      // Traces are numbered from the projection of the origin onto the line.
       const double origin = middle * direction;
       const double period = set.trace_length / set.persistence;
       const double first  = std::floor((begin + origin) / period - phase - 1.);
@@ -433,7 +434,7 @@ namespace NMM
           trace_length,
           " m",
           "give the mean length of a trace, or let the persistence be 1");
-    // the longest trace still has a bridge behind it
+    // There must be a bridge behind the longest trace.
     std::ostringstream limit;
     limit << 1. / persistence - 1.;
     check(trace_length_scatter >= 0. &&

@@ -14,7 +14,7 @@ namespace NMM
   {
     namespace
     {
-      /// End points of open curves as nodes of a graph whose edges they are.
+      /// Graph whose edges are open curves and whose nodes are their end points.
       class EndGraph
       {
       public:
@@ -54,7 +54,7 @@ namespace NMM
           return node_to_curves[node];
         }
 
-        /// Cycles that visit no node twice, if no node is loose.
+        /// Cycles that visit no node twice. No node may have an odd number of curves.
         std::vector<std::vector<unsigned int>>
         cycles() const;
 
@@ -92,8 +92,8 @@ namespace NMM
         {
           if (used.count(first) > 0)
             continue;
-          // A walk: path_nodes[i] -- path_curves[i] -- path_nodes[i+1]. Each
-          // time it returns to one of its nodes, a cycle is split off.
+          // Walk along the graph: path_nodes[i] -- path_curves[i] -- path_nodes[i+1]. When the walk
+          // returns to one of its nodes, a cycle is split off.
           std::vector<unsigned int> path_nodes  = {ends.at(first)[0]};
           std::vector<unsigned int> path_curves = {first};
           unsigned int              last        = first;

@@ -16,7 +16,7 @@ namespace NMM
     {
       CurveRole                 role;
       std::vector<unsigned int> curves;
-      /// The one material its curves name, or empty.
+      /// The material that its curves name, or empty.
       std::string material;
     };
 
@@ -30,17 +30,16 @@ namespace NMM
     /**
      * Chain boundaries, holes and interfaces into loops.
      *
-     * A closed curve is a loop. Open boundaries and holes are joined at exactly
-     * coinciding ends, in either direction; where more than two meet, the next
-     * one in the order of @p curves follows, so that the sides of a domain that
-     * touches another one at a corner should be listed one after the other. A
-     * loop never runs through the same end point twice. Open interfaces chain
-     * only with others of the same name and only if all of those close.
+     * A closed curve is a loop. Open boundaries and holes are joined at exactly coinciding ends, in
+     * either direction. Where more than two curves meet, the next one in the order of @p curves
+     * follows, so that the sides of a domain that touches another one at a corner should be listed
+     * one after the other. A loop never passes the same end point twice. Open interfaces are
+     * chained only with others of the same name, and only if all of these close.
      *
-     * @throws InputError for an open boundary or hole, for sides of one loop
-     * that name different materials, and for an open interface with a material.
-     * Cost: O(n log n), but O(n^2) for the search of the nearest loose end in an
-     * error message.
+     * @throws InputError for an open boundary or hole, for sides of one loop that name different
+     * materials, and for an open interface with a material.
+     *
+     * Cost: O(n log n), but O(n^2) for the search of the nearest loose end in an error message.
      */
     Loops
     find_loops(const std::vector<Curve> &curves);

@@ -11,14 +11,14 @@ namespace NMM
 {
   namespace internal
   {
-    /// "joint 'j1'"
+    /// A curve in messages: "joint 'j1'".
     inline std::string
     describe(const Curve &curve)
     {
       return to_string(curve.role) + " '" + curve.name + "'";
     }
 
-    /// "(1, 2) (slope.wkt:3)": coordinates and, if known, file and line.
+    /// A place in messages: coordinates and, if known, file and line, as in "(1, 2) (slope.wkt:3)".
     inline std::string
     describe_place(const Curve &curve, const dealii::Point<2> &point)
     {
@@ -26,7 +26,7 @@ namespace NMM
              (curve.source.empty() ? "" : " (" + curve.source + ")");
     }
 
-    /// A length with its unit, for people.
+    /// A length with its unit, for messages.
     inline std::string
     describe_length(const double length)
     {

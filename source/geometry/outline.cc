@@ -14,7 +14,7 @@ namespace NMM
       using Polygon    = bg::model::polygon<PlanePoint>;
 
 
-      /// Points of the piece but for its end.
+      /// Append points of the piece, without its end.
       void
       append(const CurvePiece &piece, Polygon &polygon)
       {

@@ -7,8 +7,8 @@ namespace NMM
 {
   namespace internal
   {
-    /// Is @p point inside of the closed curve? In floating-point arithmetic, arcs
-    /// as 64 chords a piece: for questions that are not about its border.
+    /// Whether @p point is inside of the closed curve. Computed in floating point with 64 chords
+    /// for each arc, so that the result is not reliable near the curve.
     bool
     contains(const Curve &curve, const dealii::Point<2> &point);
   } // namespace internal

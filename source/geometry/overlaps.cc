@@ -15,7 +15,7 @@ namespace NMM
     namespace
     {
 
-      /// A segment of a curve, with what was put in as further vertices.
+      /// A segment of a curve; further vertices are inserted into it.
       struct Chain
       {
         unsigned int                  curve, piece;
@@ -24,7 +24,7 @@ namespace NMM
       };
 
 
-      /// Where a point is beside the segment from a to b.
+      /// Projection of a point onto the segment from a to b.
       struct Projection
       {
         Projection(const dealii::Point<2> &a,
@@ -58,15 +58,17 @@ namespace NMM
         unite();
 
       private:
-        /// No boundary and no hole.
+        /// Whether the segment belongs neither to a boundary nor to a hole.
         bool
         is_line(const Chain &chain) const;
         bool
         may_overlap(const Chain &a, const Chain &b) const;
-        /// Put ends into each other's chain until they coincide; was there any?
+        /// Insert ends of each chain into the other one until they coincide. Returns whether there
+        /// were any.
         bool
         unite(Chain &a, Chain &b);
-        /// The same for one segment of each, which begin at these vertices.
+        /// The same for one segment of each chain; i and j are the vertices where the segments
+        /// begin.
         bool
         unite(Chain &a, unsigned int i, Chain &b, unsigned int j);
         void
@@ -102,7 +104,7 @@ namespace NMM
       }
 
 
-      /// delta of the class comment for two boxes.
+      /// delta of the comment in overlaps.h, for two boxes.
       double
       rounding(const dealii::Point<2> &lower_a,
                const dealii::Point<2> &upper_a,
@@ -152,7 +154,7 @@ namespace NMM
         const double delta = rounding(a.lower, a.upper, b.lower, b.upper);
 
         std::vector<dealii::Point<2>> contacts;
-        // (segment that gets a vertex, vertex)
+        // Pairs (segment that gets a vertex, vertex).
         std::vector<std::pair<unsigned int, dealii::Point<2>>> missing;
         for (unsigned int side = 0; side < 2; ++side)
           for (const dealii::Point<2> &end : ends[1 - side])
@@ -161,7 +163,7 @@ namespace NMM
             if (!(place.distance <= delta))
               continue;
             contacts.push_back(end);
-            // a boundary would run along itself between two ends at one place
+            // A boundary would run along itself between two ends at one place.
             if (!is_line(*chains[side]) &&
                 std::min(end.distance(ends[side][0]),
                          end.distance(ends[side][1])) <= 2. * delta)
@@ -197,7 +199,7 @@ namespace NMM
                 return true;
           return false;
         };
-        // a chain gets an end once at most
+        // Each end is inserted into a chain at most once.
         while (unite_next())
           is_changed = true;
         return is_changed;
@@ -223,7 +225,7 @@ namespace NMM
           }
         if (pairs.empty())
           return "";
-        // what was bent may now run along others
+        // Segments that were bent may now run along others.
         for (bool is_changed = true; is_changed;)
         {
           is_changed = false;

@@ -12,27 +12,27 @@ namespace NMM
   {
     /**
      * Make segments that run along each other within rounding coincide exactly: the
-     * ends of each become vertices of the other one. Exact lines that are drawn
-     * twice, with rounded digits, cross or leave each other and enclose strips. A
-     * strip that is closed is found by its area (TinyFaces); one that opens into a
+     * ends of each become vertices of the other one. Lines that are drawn
+     * twice, with rounded digits, cross or leave each other and enclose strips. A closed
+     * strip is found by its area (TinyFaces). A strip that opens into a
      * block, because a line ends there, is part of a large face and is found here.
      *
      * An end is on a segment if its distance is at most
      * @f[ \delta = 32\,\varepsilon M, @f]
-     * M being the largest coordinate in the common part of both bounding boxes: a
-     * strip of the length l and that width encloses @f$ l\,\delta @f$, which is what
-     * area_rounding() says of its two long sides. Two segments run along each other if
+     * M being the largest coordinate in the common part of both bounding boxes. A
+     * strip of the length l and this width encloses @f$ l\,\delta @f$, which is
+     * area_rounding() of its two long sides. Two segments run along each other if
      * two of their four ends are on the other one and further apart than
-     * @f$ 16\,\delta @f$; the distance of segments is convex, so that all between
-     * them is within @f$ \delta @f$, too. (A joint that merely ends within rounding
-     * of another one is left as it is, as all topology is.) Vertices do not move;
-     * segments are bent by @f$ \delta @f$ at most each time one is put in.
+     * @f$ 16\,\delta @f$; the distance of segments is convex, so that they are within
+     * @f$ \delta @f$ in between, too. A joint that only ends within rounding
+     * of another one is not changed. Vertices do not move;
+     * segments are bent by at most @f$ \delta @f$ for each inserted vertex.
      *
-     * Arcs and circles are left alone, and so are two parts of one boundary or hole,
-     * which must not overlap; nor does a boundary or hole get a vertex within
+     * Arcs and circles are not changed, nor are two parts of one boundary or hole,
+     * which must not overlap. A boundary or hole gets no vertex within
      * @f$ 2\,\delta @f$ of one that it has.
      * Cost: O(n log n + pairs of segments whose boxes intersect).
-     * @return a sentence for people, empty if nothing was changed.
+     * @return a sentence for the user, empty if nothing was changed.
      */
     std::string
     unite_overlaps(std::vector<Curve> &curves);

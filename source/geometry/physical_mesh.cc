@@ -31,7 +31,8 @@ namespace NMM
     std::vector<std::string>      notices;
     DanglingEnds                  dangling_ends;
     internal::PhysicalArrangement arrangement;
-    /// See internal::Loops and LabelledFaces::Face::loops.
+    /// Loop of each curve, see internal::Loops, and loops around each region, see
+    /// LabelledFaces::Face::loops.
     std::vector<unsigned int>              curve_to_loop;
     std::vector<std::vector<unsigned int>> region_to_loops;
 
@@ -39,7 +40,7 @@ namespace NMM
     take_curves(Geometry &geometry);
     void
     insert_pieces();
-    /// Number the solid faces, those that are united as one; region_to_face.
+    /// Number the solid faces; united faces have one number. Returns the map region_to_face.
     std::vector<unsigned int>
     make_regions(const internal::LabelledFaces &faces,
                  const internal::TinyFaces     &tiny);
@@ -72,7 +73,7 @@ namespace NMM
       double outside        = 0.;
       double along_boundary = 0.;
       double twice          = 0.;
-      /// Inside, with different regions on both sides.
+      /// Length inside the solid with different regions on both sides.
       double separating = 0.;
     };
 
@@ -169,7 +170,7 @@ namespace NMM
                            "move the origin closer to it, or correct its "
                            "coordinates"));
 
-    // From left to right: independent of the order in which curves are given.
+    // Order from left to right, which does not depend on the order of the curves.
     const auto key = [&](const unsigned int f) {
       const auto &face = faces.faces()[f];
       return std::make_tuple(face.corner[0],
@@ -211,7 +212,7 @@ namespace NMM
   void
   PhysicalMesh::Data::make_blocks(const internal::LabelledFaces &faces)
   {
-    // Union-find; the representative is the lowest region.
+    // Union-find with the lowest region as representative.
     std::vector<unsigned int> parent(regions.size());
     std::iota(parent.begin(), parent.end(), 0u);
     const auto root = [&](unsigned int r) {
@@ -256,7 +257,7 @@ namespace NMM
     const internal::Loops           &loops,
     const std::vector<unsigned int> &region_to_face)
   {
-    // Number materials in the order in which curves name them.
+    // Number the materials in the order in which curves name them.
     for (const Curve &curve : curves)
       if (!curve.material.empty())
       {
@@ -285,7 +286,7 @@ namespace NMM
 
     for (unsigned int r = 0; r < regions.size(); ++r)
     {
-      // Of nested loops the innermost, of others the later one.
+      // Of nested loops the innermost one determines the material, of others the later one.
       unsigned int boundary  = invalid_index;
       unsigned int inclusion = invalid_index;
       for (const unsigned int loop : faces.faces()[region_to_face[r]].loops)
@@ -351,8 +352,8 @@ namespace NMM
       return std::make_pair(a[0], a[1]) < std::make_pair(b[0], b[1]);
     };
 
-    // The sweep returns points in its own order: find them again by their
-    // coordinates, which are exactly representable.
+    // The sweep returns points in its own order. They are found again by their coordinates, which
+    // are represented exactly.
     std::vector<Point> exact;
     for (const auto &[point, material] : points)
       exact.emplace_back(internal::Kernel::FT(point[0]),

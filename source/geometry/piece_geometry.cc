@@ -39,8 +39,8 @@ namespace NMM
         return piece.kind == CurvePiece::Kind::segment;
       }
 
-      /// Whether a point of the piece's circle is on the piece: on the side of
-      /// the chord on which the arc is.
+      /// Whether a point of the piece's circle is on the piece, that is, on the arc's side of the
+      /// chord.
       bool
       is_on_arc(const CurvePiece &piece, const Point &point)
       {
@@ -56,8 +56,8 @@ namespace NMM
         return turn(arc.start, arc.through, arc.end) > 0.;
       }
 
-      /// The point half-way on an arc of the given circle. Built from the chord
-      /// because the centre of a flat arc may be very far away.
+      /// The middle of an arc of the given circle. It is computed from the chord, because the
+      /// centre of a flat arc may be very far away.
       Point
       middle_of_arc(const Point &start,
                     const Point &end,
@@ -69,8 +69,8 @@ namespace NMM
         const double half  = 0.5 * chord.norm();
         const double height =
           std::sqrt(std::max(0., (radius - half) * (radius + half)));
-        // A counterclockwise arc lies to the right of its chord, and is longer
-        // than a half circle if the centre is on the right, too.
+        // A counter-clockwise arc lies to the right of its chord. It is longer than a half circle
+        // if the centre is on the right, too.
         const double side     = counterclockwise ? 1. : -1.;
         const bool   is_minor = side * turn(start, end, center) > 0.;
         const double sagitta =
@@ -116,7 +116,7 @@ namespace NMM
                 a.center + along * unit - across * normal};
       }
 
-      /// Points of @p other on the line a + t d, t in [t_min, t_max].
+      /// Points of @p other on the line a + t d with t in [t_min, t_max].
       std::vector<Point>
       line_meets(const Point      &a,
                  const Vector     &d,
@@ -201,7 +201,7 @@ namespace NMM
       const double distance = point.distance(piece.center);
       if (distance > 0.)
       {
-        // Along the radius by a difference, which is accurate nearby
+        // Move along the radius by a difference, which is accurate for near points.
         const Point foot = point + ((piece.radius - distance) / distance) *
                                      (point - piece.center);
         if (is_on_arc(piece, foot))
@@ -308,7 +308,7 @@ namespace NMM
       const Point &end   = at_start ? piece.end : point;
       if (is_segment(piece))
         return CurvePiece::segment(start, end);
-      // The point between may lie beyond a trimmed end: take one in the middle.
+      // The given point of the arc may lie beyond a trimmed end; use the middle of the arc instead.
       return CurvePiece::arc(start,
                              middle_of_arc(start,
                                            end,

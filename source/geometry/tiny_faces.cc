@@ -20,7 +20,7 @@ namespace NMM
     {
       constexpr unsigned int n_ranks = 3;
 
-      /// What is given up first: 0 for interfaces, then joints, then the rest.
+      /// Order in which curves are given up: 0 for interfaces, then joints, then others.
       unsigned int
       rank(const LabelledFaces::Edge &edge, const std::vector<Curve> &curves)
       {
@@ -77,7 +77,7 @@ namespace NMM
             group_edges[f].push_back(e);
       }
 
-      // the smallest first; equal ones in the order of their numbers
+      // The smallest face comes first; equal ones are in the order of their numbers.
       std::set<std::pair<double, unsigned int>> queue;
       for (const unsigned int f : tiny)
         queue.emplace(areas[f], f);
@@ -110,7 +110,7 @@ namespace NMM
     unsigned int
     TinyFaces::neighbor(const unsigned int group) const
     {
-      // lengths of the common boundary, by rank
+      // Lengths of the common boundary with each neighbour, by the rank of the curves.
       std::map<unsigned int, std::array<double, n_ranks>> lengths;
       for (const unsigned int e : group_edges[group])
       {
@@ -217,7 +217,7 @@ namespace NMM
     {
       if (tiny.empty())
         return;
-      // a crack is in one face before
+      // Edges of a crack, which had the same face on both sides before, are kept.
       for (const auto &edge : faces.edges())
         if (edge.left != edge.right && faces.is_solid(edge.left) &&
             faces.is_solid(edge.right) && find(edge.left) == find(edge.right))
@@ -267,7 +267,7 @@ namespace NMM
                                    width_of_strip(faces.faces()[g]);
                           });
 
-      // curves along it, the longest first
+      // Curves along the thinnest face, the longest ones first.
       std::map<unsigned int, double> lengths;
       for (const auto &edge : faces.edges())
         if ((edge.left == thinnest) != (edge.right == thinnest))

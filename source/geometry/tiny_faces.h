@@ -10,40 +10,38 @@ namespace NMM
   namespace internal
   {
     /**
-     * Solid faces that are smaller than coordinates can tell apart: those that
-     * enclose no more than area_rounding(). The topology is exact, so that three
-     * lines drawn through one point, with rounded digits, make a triangle whose
-     * corners are one point in doubles, and a line drawn twice makes a strip.
+     * Solid faces that are smaller than the rounding of coordinates: those that enclose no more
+     * than area_rounding(). The topology is exact, so that three lines drawn through one point,
+     * with rounded digits, form a triangle whose corners are one point in doubles, and a line drawn
+     * twice forms a strip.
      *
-     * Such a face is united with the solid face that it shares the longest
-     * boundary with. Of boundaries at least half as long as that, interfaces are
-     * given up first, then joints, then boundaries of domains: what the curves on
-     * the other sides of it separate or bond stays separate or bonded, as if the
-     * lines met in one point, or were one. What is still tiny then is united further;
-     * what has no solid neighbour does not count as solid.
+     * Such a face is united with the solid face with which it has the longest common boundary. Of
+     * boundaries at least half as long as that, interfaces are given up first, then joints, then
+     * boundaries of domains. Curves on the other sides of the face thus keep separating or bonding
+     * the regions, as if the lines met in one point, or were one. Faces that are still tiny are
+     * united further; those without a solid neighbour do not count as solid.
      *
-     * Cost: O(n) for n edges if there is none, else O(n log n).
+     * Cost: O(n) for n edges if there is no such face, else O(n log n).
      */
     class TinyFaces
     {
     public:
       TinyFaces(const LabelledFaces &faces, const std::vector<Curve> &curves);
 
-      /// The face, larger than all others united with it, in which a face counts:
-      /// mostly itself; invalid_index if it does not count as solid.
+      /// The face to which a face belongs: the largest of all faces united with it, mostly itself;
+      /// invalid_index if it does not count as solid.
       unsigned int
       owner(unsigned int face) const;
 
-      /// Of all faces united with it [m^2].
+      /// Area of all faces united with a face [m^2].
       double
       area(unsigned int owner) const;
 
-      /// Sentences for people, if there are any.
+      /// Sentences for the user about united faces; empty if there are none.
       std::vector<std::string>
       notices() const;
 
-      /// Remove the edges between faces that are united. Handles of @p faces are
-      /// out of date after this.
+      /// Remove the edges between united faces. Handles of @p faces are invalid after this.
       void
       remove_edges(Arrangement &arrangement) const;
 
@@ -51,7 +49,7 @@ namespace NMM
       void
       unite();
 
-      /// The group to unite a tiny one with, or invalid_index.
+      /// The group of faces with which a tiny one is united, or invalid_index.
       unsigned int
       neighbor(unsigned int group) const;
 
@@ -61,7 +59,8 @@ namespace NMM
       const LabelledFaces              &faces;
       const std::vector<Curve>         &curves;
       mutable std::vector<unsigned int> parent;
-      /// By representative: face of the largest area, edges around, area, rounding.
+      /// By representative of a group: its largest face, edges around it, area, and rounding of the
+      /// area.
       std::vector<unsigned int>              largest;
       std::vector<std::vector<unsigned int>> group_edges;
       std::vector<double>                    areas, roundings;
@@ -70,16 +69,16 @@ namespace NMM
     };
 
 
-    /// Width of the face if it is a strip: of length l and width w it has an area of
-    /// l w and a perimeter of 2 l [m].
+    /// Width of the face if it is a strip [m]: a strip of length l and width w has the area l w and
+    /// the perimeter 2 l.
     double
     width_of_strip(const LabelledFaces::Face &face);
 
-    /// Is the face less than a millionth of its length wide?
+    /// Whether the width of the face is less than a millionth of its length.
     bool
     is_sliver(const LabelledFaces::Face &face);
 
-    /// A notice of slivers among faces that are regions, which must not be empty.
+    /// A notice about slivers among the faces that are regions; @p slivers must not be empty.
     std::string
     describe_slivers(const LabelledFaces             &faces,
                      const std::vector<unsigned int> &slivers,

@@ -13,7 +13,7 @@ namespace NMM
   {
     namespace
     {
-      /// Loops that a joint may be confined to, by name.
+      /// Loops to which a joint may be confined, by name.
       std::set<unsigned int>
       loops_called(const std::string        &name,
                    const std::vector<Curve> &curves,
@@ -97,7 +97,7 @@ namespace NMM
           }))
         return;
 
-      // For the time being regions are interfaces: these may lie anywhere.
+      // The borders of regions are interfaces temporarily, because these may lie anywhere.
       std::vector<Curve>           all_curves         = curves;
       std::vector<CurvePiece>      all_pieces         = pieces;
       std::vector<unsigned int>    all_piece_to_curve = piece_to_curve;

@@ -11,16 +11,16 @@ namespace NMM
 {
   namespace internal
   {
-    /// Vertices left where nothing else meets now: both edges become one, so that what
-    /// was taken out leaves no corners behind.
+    /// Merge the two edges at vertices where nothing else meets any more, so that removed edges
+    /// leave no vertices behind.
     void
     merge_edges(Arrangement &arrangement);
 
     /**
-     * Take what Curve::within says does not count out of the arrangement of
-     * @p curves, exactly: the borders of @p regions are inserted, edges outside of
-     * them lose their joint, and borders are taken out again.
-     * @throws InputError for a joint confined to neither a domain nor a region.
+     * Remove the parts of curves that Curve::within excludes from the arrangement of @p curves,
+     * exactly. The borders of @p regions are inserted, edges outside of them lose their joint, and
+     * the borders are removed again. @throws InputError for a joint confined to neither a domain
+     * nor a region.
      */
     void
     confine_joints(const std::vector<Curve>        &curves,
@@ -30,9 +30,9 @@ namespace NMM
                    Arrangement                     &arrangement);
 
     /**
-     * Count what bounds no block, and take it out where Curve::drops_ends says so.
-     * The number of faces stays, because the same face is on both sides. @p faces are
-     * those of the arrangement before; they are out of date if something was dropped.
+     * Measure the parts of joints that bound no block, and remove them where Curve::drops_ends is
+     * set. The number of faces does not change, because the same face is on both sides. @p faces
+     * are those of the arrangement before; they are invalid if anything was removed.
      */
     PhysicalMesh::DanglingEnds
     drop_ends(const std::vector<Curve> &curves,

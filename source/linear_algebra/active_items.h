@@ -9,15 +9,15 @@ namespace NMM
   namespace internal
   {
     /**
-     * Items of blocks (rows, elements, contact points), and those of them that belong to the
-     * active blocks, ascending. All blocks are active at first.
+     * The items (rows, elements or contact points) that belong to the active blocks, in ascending
+     * order. All blocks are active at first.
      * Cost of select(): O(active items), and a bit for each item and block.
      */
     class ActiveItems
     {
     public:
-      /// Set the items 0 to @p n - 1. @p for_each has to call its argument with each pair of
-      /// an item and a block it belongs to; an item may belong to several blocks or none.
+      /// Set the items 0 to @p n - 1. @p for_each is a function that calls its argument with each
+      /// pair of an item and a block it belongs to; an item may belong to several blocks or none.
       template <typename ForEach>
       void
       reinit(const unsigned int n, const ForEach &for_each)
@@ -57,7 +57,7 @@ namespace NMM
         is_all   = true;
       }
 
-      /// Whether items are not known.
+      /// Whether no items have been set since the last clear().
       bool
       empty() const
       {
@@ -88,14 +88,14 @@ namespace NMM
         return is_all;
       }
 
-      /// Active items; undefined if all are.
+      /// Active items in ascending order; undefined if all() is true.
       const std::vector<unsigned int> &
       chosen() const
       {
         return active;
       }
 
-      /// Call action(item) for active items, which are 0 to @p n - 1 if all are.
+      /// Call action(item) for all active items; if all() is true, these are 0 to @p n - 1.
       template <typename Action>
       void
       for_each(const unsigned int n, const Action &action) const
@@ -110,7 +110,8 @@ namespace NMM
 
     private:
       bool is_all = true, is_known = false;
-      /// Items of one block after the other.
+      /// Items sorted by block (of_blocks), the index of the first item of each block (begins),
+      /// and the active items.
       std::vector<unsigned int>  begins, of_blocks, active;
       std::vector<std::uint64_t> bits;
     };

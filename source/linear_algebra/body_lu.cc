@@ -17,16 +17,18 @@ namespace NMM
   {
     struct BodyLu::Data
     {
-      /// The values of a body j of n unknowns that is coupled with bodies of m unknowns in
-      /// all that are eliminated later: A_jj (n x n), then A_ij of all later bodies i in
-      /// one panel (m x n), then A_jj^-1 A_ji (n x m); each by columns.
+      /// The factors of a body j of n unknowns, where m is the number of unknowns of all bodies i
+      /// that are coupled with j and eliminated later. Its entries in `values` are A_jj (n x n),
+      /// then A_ij of all later bodies in one panel (m x n), then A_jj^-1 A_ji (n x m); each is
+      /// stored column by column.
       struct Column
       {
         unsigned int body = 0, n = 0, m = 0;
-        /// Where its part of later and of values begins, and that of its unknowns in x.
+        /// Range of its entries in `later`, and index of its first entry in `values` and of its
+        /// first unknown in `x`.
         std::size_t  later_begin = 0, later_end = 0, diagonal = 0;
         unsigned int unknowns = 0;
-        /// Its first unknown in the vectors of the caller.
+        /// Index of its first unknown in the vectors of the caller.
         unsigned int first_unknown = 0;
 
         std::size_t
@@ -42,8 +44,8 @@ namespace NMM
         }
       };
 
-      /// A body that is coupled with an earlier one, and where its rows begin in the
-      /// panel of that one.
+      /// A body that is coupled with an earlier one: its index in `columns`, and the index of its
+      /// first row in the panel of the earlier body.
       struct Later
       {
         unsigned int column = 0, offset = 0;
@@ -55,11 +57,11 @@ namespace NMM
       choose_bodies(const BodyMatrix                &matrix,
                     const std::vector<unsigned int> &rows);
 
-      /// Pairs of coupled chosen bodies, in both directions, by position in chosen.
+      /// Pairs of coupled bodies in both directions, given by their positions in `chosen`.
       Pairs
       find_pairs(const BodyMatrix &matrix) const;
 
-      /// Positions in chosen, in the order of elimination.
+      /// Order of elimination, given by positions in `chosen`.
       std::vector<unsigned int>
       order(const Pairs &pairs) const;
 
@@ -71,28 +73,29 @@ namespace NMM
       void
       read_values(const BodyMatrix &matrix);
 
-      /// First entry of A_ik, and the distance between its columns; i and k are in the
-      /// order of elimination.
+      /// Pointer to the first entry of A_ik, and the stride between its columns; i and k are
+      /// indices into `columns`.
       std::pair<double *, unsigned int>
       place(unsigned int i, unsigned int k);
 
-      /// Returns false if A_jj has no sufficient pivots.
+      /// Eliminate a body. Returns false if a pivot of A_jj is too small.
       bool
       eliminate(const Column &column);
 
       void
       subtract_products(const Column &column);
 
-      /// Bodies that are solved for, and the position of each body among them.
+      /// Bodies that are factorized, and the position of each body among them.
       std::vector<unsigned int> chosen, body_to_position;
       std::vector<Column>       columns;
       std::vector<unsigned int> position_to_column;
       std::vector<Later>        later;
       std::vector<double>       values;
       std::vector<int>          pivots;
-      /// Scratch: products, the unknowns in the order of elimination, and some of them.
+      /// Scratch: products of panels, the unknowns in the order of elimination, and the unknowns
+      /// of the later bodies of one column.
       std::vector<double> products, x, gathered;
-      /// Columns of the bodies that a solve() is for.
+      /// Columns of the bodies for which solve() was called.
       std::vector<const Column *> wanted;
       /// Scratch of make_columns(): first_child[j], next_child[first_child[j]], ... are the
       /// columns whose first later column is j.
@@ -185,8 +188,8 @@ namespace NMM
         ++begins[p + 1];
       std::partial_sum(begins.begin(), begins.end(), begins.begin());
 
-      // Bodies that are coupled with an eliminated one are coupled with each other from
-      // then on: the first of them takes over the others.
+      // Eliminating a body couples all bodies that it is coupled with. This fill-in is recorded by
+      // passing them on to the first of them in the order of elimination.
       first_child.assign(n, invalid_index);
       next_child.assign(n, invalid_index);
       met.assign(n, invalid_index);
@@ -292,7 +295,7 @@ namespace NMM
     bool
     BodyLu::Data::eliminate(const Column &column)
     {
-      // in terms of the largest entry of A_jj [-]
+      // relative to the largest entry of A_jj [-]
       constexpr double least_pivot = 1e-14;
 
       const int n = column.n, m = column.m;

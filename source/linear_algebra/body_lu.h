@@ -20,13 +20,13 @@ namespace NMM
      * Reference: Duff, Erisman & Reid, Direct Methods for Sparse Matrices, 2nd ed.,
      * section 2.7 (block elimination) and chapter 11.
      *
-     * Pivots are searched within one body only. That is enough where the mass and stiffness
-     * of the body itself are not small against the contact stiffness at its faces.
-     * Where they are, factorize() returns false.
+     * Pivots are searched within one body only. This is sufficient unless the mass and stiffness
+     * of the body itself are small compared with the contact stiffness at its faces.
+     * If they are, factorize() returns false.
      *
      * Cost: O(n^3 + n^2 m + n m^2) for a body of n unknowns that is coupled with bodies of
-     * m unknowns which are eliminated later; ordering is O(number of bodies). A comparison
-     * with KLU is in doc/dependencies.md. One rank.
+     * m unknowns in all that are eliminated later; ordering is O(number of bodies). A comparison
+     * with KLU is in doc/dependencies.md. The class works on one rank only.
      */
     class BodyLu : public DirectFactorization<BodyMatrix>
     {
@@ -34,9 +34,9 @@ namespace NMM
       BodyLu();
       ~BodyLu() override;
 
-      /// Factorize @p rows and columns, ascending, all or none of a body (empty: all).
-      /// Returns false if the largest pivot left in a column is below 1e-14 of the
-      /// largest entry of its body.
+      /// Factorize the rows and columns @p rows (ascending; empty: all), which must contain all or
+      /// none of the unknowns of each body. Returns false if a pivot is smaller than 1e-14 times
+      /// the largest entry of the body's own matrix.
       bool
       factorize(const BodyMatrix                &matrix,
                 const std::vector<unsigned int> &rows) override;
@@ -44,8 +44,8 @@ namespace NMM
       double
       n_factor_entries() const override;
 
-      /// Rows that were not chosen, and those of bodies that are not wanted, keep what they
-      /// have in @p solution.
+      /// Rows that were not factorized, and rows of bodies that are not in @p bodies, are left
+      /// unchanged in @p solution.
       void
       solve(const Vector            &rhs,
             Vector                  &solution,

@@ -21,7 +21,7 @@ namespace NMM
     };
 
 
-    /// Largest eigenvalue of the symmetric operator @p apply and its vector.
+    /// Compute the largest eigenvalue of the symmetric operator @p apply and its eigenvector.
     Ritz
     lanczos(const std::function<void(const Vector &, Vector &)> &apply,
             const Vector                                        &start,
@@ -39,7 +39,7 @@ namespace NMM
       {
         apply(basis.back(), w);
         alpha.push_back(w * basis.back());
-        // twice is enough (Kahan), and rounding needs twice
+        // because of rounding one orthogonalization is not enough, but two are (Kahan)
         for (unsigned int repeat = 0; repeat < 2; ++repeat)
           for (const Vector &v : basis)
             w.add(-(w * v), v);
@@ -74,7 +74,7 @@ namespace NMM
     }
 
 
-    /// Random entries in free rows, the same for any number of ranks.
+    /// Make a start vector of random entries in free rows, the same for any number of ranks.
     Vector
     make_start(const CoverSystem                       &covers,
                const dealii::AffineConstraints<double> &constraints)
@@ -189,13 +189,13 @@ namespace NMM
       start,
       tolerance);
     result.n_solves = smallest.n_steps;
-    // beyond rounding, the factorization of a singular matrix can say anything
+    // the factorization of a matrix that is singular to rounding gives arbitrary results
     if (std::isfinite(smallest.value) && smallest.value > 0.)
     {
       result.smallest = 1. / smallest.value;
       result.weakest_cover =
         largest_entry(smallest.vector, covers.communicator());
-      // only its owner is sure to know where it is
+      // only the owner of a cover is certain to know its node
       if (covers.locally_owned_covers().is_element(result.weakest_cover))
         result.weakest_node =
           covers.node(covers.local_cover(result.weakest_cover));

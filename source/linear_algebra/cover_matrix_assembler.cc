@@ -40,7 +40,7 @@ namespace NMM
     CoverMatrixAssembler::read_constraints(
       const dealii::AffineConstraints<double> &constraints)
     {
-      // unknowns of one cover are constrained by neighbouring lines
+      // lines are sorted, so that those of the two unknowns of a cover follow each other
       unsigned int last_cover = invalid_index;
       const auto   open       = [&](const unsigned int cover) {
         if (cover_to_expansion[cover] != invalid_index)
@@ -160,7 +160,7 @@ namespace NMM
       if (has_constrained(covers))
       {
         expand(covers, stencil_covers);
-        // a constrained cover's own row
+        // the row of a constrained cover has a diagonal entry only
         for (const unsigned int k : covers)
           if (cover_to_expansion[k] != invalid_index)
           {
@@ -225,11 +225,11 @@ namespace NMM
     }
 
 
-    /// Columns in global numbers.
+    /// Make the rows of this rank's stencils, with columns as global numbers.
     void
     CoverMatrixAssembler::fill_rows()
     {
-      // the stencils that each row takes part in
+      // the stencils that contain each row
       std::vector<unsigned int> first_stencil(n_rows + 2, 0);
       for (const unsigned int k : stencil_covers)
         ++first_stencil[cover_to_local[k] + 2];
@@ -242,7 +242,7 @@ namespace NMM
           row_to_stencils[first_stencil[cover_to_local[stencil_covers[i]] +
                                         1]++] = s;
 
-      // last_row[k]: the last row that column k was entered in
+      // last_row[k]: the last row in which column k was inserted
       std::vector<unsigned int> last_row(covers->n_covers(), invalid_index);
       row_begin.resize(n_rows + 1);
       row_begin[0] = 0;
@@ -278,7 +278,7 @@ namespace NMM
       using namespace dealii::Utilities::MPI;
       const std::vector<unsigned int> rank_to_end =
         all_gather(covers->communicator(), first_owned + n_owned);
-      // a rank without covers says 0; the ends must ascend for the search
+      // a rank without covers has the end 0, but the binary search needs ascending ends
       std::vector<unsigned int> ends = rank_to_end;
       for (unsigned int r = 1; r < ends.size(); ++r)
         ends[r] = std::max(ends[r], ends[r - 1]);
@@ -301,7 +301,7 @@ namespace NMM
       sent.assign(rank_to_rows.begin(), rank_to_rows.end());
       received.assign(from_others.begin(), from_others.end());
 
-      // merge
+      // merge received rows with those of this rank
       std::vector<std::vector<unsigned int>> extra(n_owned);
       for (const auto &[rank, rows] : received)
         for (std::size_t i = 0; i < rows.size(); i += 2 + rows[i + 1])
@@ -340,7 +340,7 @@ namespace NMM
       if (n_owned == covers->n_global_covers())
         return;
 
-      // columns that came from other ranks have no row here yet
+      // columns received from other ranks have no local number yet
       const std::vector<unsigned int> row_ghosts = ghost_covers;
       for (const unsigned int k : columns)
         if (k < first_owned || k >= first_owned + n_owned)
@@ -407,7 +407,7 @@ namespace NMM
                                       const double       *matrix,
                                       const double       *rhs)
     {
-      // insertion sort by local number, so that a row is walked through once
+      // insertion sort by local number, so that each row is traversed only once
       constexpr unsigned int n_max = 128;
       AssertThrow(n <= n_max, dealii::ExcInternalError());
       unsigned int order[n_max], number[n_max];
@@ -518,7 +518,8 @@ namespace NMM
     }
 
 
-    /// Add T^T A T and T^T (f - A g), where u = T z + g.
+    /// Add T^T A T and T^T (f - A g) for a local matrix A and right-hand side f, where
+    /// u = T z + g are the constraints of the local unknowns u.
     void
     CoverMatrixAssembler::add_constrained(
       const dealii::ArrayView<const unsigned int> covers,
@@ -529,7 +530,7 @@ namespace NMM
       expand(covers, local_covers);
       const unsigned int n = covers.size(), m = local_covers.size();
 
-      // rows of T
+      // the 2 x 2 entries of the rows of T
       static const std::array<double, 4> identity = {{1., 0., 0., 1.}};
       parts.clear();
       parts_begin.assign(1, 0);
@@ -607,7 +608,7 @@ namespace NMM
     {
       using namespace dealii::Utilities::MPI;
 
-      // per row: two entries of the right-hand side, then its values
+      // each row is sent as two entries of the right-hand side, followed by its matrix entries
       std::map<unsigned int, std::vector<double>> rank_to_values;
       for (const auto &[rank, rows] : sent)
         for (std::size_t i = 0; i < rows.size(); i += 2 + rows[i + 1])

@@ -20,9 +20,9 @@ namespace NMM
     struct MatrixRows;
 
     /**
-     * The linear system that covers assemble into: a row-compressed matrix of 2 x 2
-     * entries, one row for each physical cover that this rank's elements touch, and a
-     * right-hand side. Constraints are resolved on the way in: a cover k with constrained
+     * The linear system into which local matrices of covers are summed: a row-compressed matrix
+     * of 2 x 2 entries, one row for each physical cover of this rank's elements, and a
+     * right-hand side. Constraints are eliminated during assembly: a cover k with constrained
      * unknowns is replaced by
      * @f[ u_k = \sum_r W_{kr} u_r + g_k, @f]
      * and its own row has a diagonal entry only.
@@ -32,37 +32,38 @@ namespace NMM
      * build(), then each time reset(), add(), transfer().
      *
      * Compared with deal.II's DynamicSparsityPattern, AffineConstraints and
-     * TrilinosWrappers::SparseMatrix::add(), all work is per cover instead of per unknown
-     * (a quarter of the entries), and no entry is searched by its global number.
+     * TrilinosWrappers::SparseMatrix::add(), all work is done per cover instead of per unknown
+     * (with a quarter of the entries), and no entry is searched by its global number.
      *
      * Rows of covers that other ranks own are collected here and sent to their
-     * owners, the pattern in build(), the values in finish() or transfer().
+     * owners: the pattern by build(), the values by finish() or transfer().
      */
     class CoverMatrixAssembler
     {
     public:
-      /// Owned elements are coupled already. @p covers has to outlive this.
+      /// The covers of each owned element are coupled from the beginning. @p covers must outlive
+      /// this object.
       CoverMatrixAssembler(
         const CoverSystem                       &covers,
         const dealii::AffineConstraints<double> &constraints);
 
-      /// From now on g_k = 0: for unknowns that are increments of a solution which
+      /// Set g_k = 0 from now on, for unknowns that are increments of a solution which already
       /// satisfies the inhomogeneous constraints.
       void
       ignore_inhomogeneities();
 
-      /// Leave rows empty to which nothing is added, for matrices that are added to
-      /// others. Otherwise they get a diagonal entry.
+      /// Leave rows empty to which nothing is added, for a matrix that will be added to
+      /// another one. Otherwise such rows get a diagonal entry.
       void
       leave_empty_rows();
 
-      /// On one rank, write from the second assembly on into the matrix that transfer()
-      /// has made. That matrix has to outlive this; its values are then those of the
-      /// last reset() and of what was added since.
+      /// On one rank, add from the second assembly on directly to the matrix that transfer()
+      /// has made, without a copy. That matrix must outlive this object. reset() and add() then
+      /// change its values at once.
       void
       assemble_in_place();
 
-      /// Couple all pairs of @p covers.
+      /// Add the couplings of all pairs of @p covers to the sparsity pattern.
       void
       couple(dealii::ArrayView<const unsigned int> covers);
 
@@ -71,27 +72,28 @@ namespace NMM
       build();
 
       /**
-       * Add a local matrix, row by row, (2n x 2n), and right-hand side, (2n), to
-       * the n @p covers; unknown c of cover i is row 2i + c. A cover may be
-       * named twice.
+       * Add a local matrix (2n x 2n, stored row by row) and right-hand side (2n) of n
+       * @p covers. Component c of the i-th cover is row 2i + c. A cover may be
+       * named more than once.
        */
       void
       add(dealii::ArrayView<const unsigned int> covers,
           const double                         *matrix,
           const double                         *rhs);
 
-      /// Add a right-hand side only; for constraints without inhomogeneities.
+      /// Add a right-hand side only. Requires constraints without inhomogeneities, whose
+      /// elimination would need the matrix.
       void
       add_rhs(dealii::ArrayView<const unsigned int> covers, const double *rhs);
 
-      /// The same as transfer() to a new matrix, and release the memory. Collective.
+      /// Do the same as transfer() to a new matrix, and release the memory. Collective.
       void
       finish(dealii::TrilinosWrappers::SparseMatrix &matrix,
              dealii::TrilinosWrappers::MPI::Vector  &rhs);
 
-      /// From now on reset, add to and transfer rows of covers in these blocks
-      /// (ManifoldMesh::block()) only; empty: all. Other rows of a matrix that is
-      /// assembled in place keep their values. One rank.
+      /// Restrict reset(), add() and transfer() to rows of covers of these blocks
+      /// (ManifoldMesh::block()) from now on; empty: all. Other rows of a matrix that is
+      /// assembled in place keep their values. One rank only.
       void
       set_active_rows(const std::vector<bool> &blocks);
 
@@ -100,27 +102,28 @@ namespace NMM
       reset(bool with_matrix = true);
 
       /**
-       * Send values to the ranks that own them and copy the result to Trilinos. A
-       * @p matrix that is empty gets its pattern here; otherwise it must be one that an
-       * earlier call made, and only its values are written. Collective.
+       * Send values to the ranks that own them and copy the result to Trilinos objects. An
+       * empty @p matrix gets its pattern here; otherwise it must be the result of an
+       * earlier call, and only its values are written. Collective.
        */
       void
       transfer(dealii::TrilinosWrappers::SparseMatrix &matrix,
                dealii::TrilinosWrappers::MPI::Vector  &rhs);
 
-      /// The same for the right-hand side only.
+      /// Do the same for the right-hand side only.
       void
       transfer_rhs(dealii::TrilinosWrappers::MPI::Vector &rhs);
 
     private:
-      /// A term W_kr u_r, where r is the cover and W_kr the entry, by rows.
+      /// A term W_kr u_r of a constraint: the cover r, and the 2 x 2 entry W_kr row by row.
       struct Term
       {
         unsigned int          cover;
         std::array<double, 4> entry;
       };
 
-      /// Terms W_kr u_r and g_k of the constrained covers, one cover after the other.
+      /// Terms W_kr u_r and inhomogeneities g_k of all constrained covers, sorted by cover; and
+      /// which of the two components are constrained.
       struct Expansion
       {
         std::vector<unsigned int>          begin;
@@ -132,7 +135,8 @@ namespace NMM
       void
       read_constraints(const dealii::AffineConstraints<double> &constraints);
 
-      /// Append to @p expanded the covers r of the terms of @p covers, each once.
+      /// Append to @p expanded the covers r on which @p covers depend (themselves if they are
+      /// free), each once.
       void
       expand(dealii::ArrayView<const unsigned int> covers,
              std::vector<unsigned int>            &expanded) const;
@@ -178,11 +182,12 @@ namespace NMM
       bool
       has_constrained(dealii::ArrayView<const unsigned int> covers) const;
 
-      /// Entry in a row and column, whose component (c, d) is at [c * stride + d].
+      /// Pointer to the 2 x 2 entry in a row and column, whose component (c, d) is at
+      /// [c * stride + d].
       double *
       find_entry(unsigned int row, unsigned int column, unsigned int &stride);
 
-      /// Row of a cover, owned or in ghost_covers, that has this global number.
+      /// Row of the cover with this global number, which must be owned or in ghost_covers.
       unsigned int
       row_of(unsigned int global_cover) const;
 
@@ -195,32 +200,32 @@ namespace NMM
       /// Sets of coupled covers, released by build().
       std::vector<unsigned int> stencil_begin, stencil_covers;
 
-      /// Local numbers: owned covers first, then others, ascending.
+      /// Local number of each cover: owned covers first, then those of other ranks, ascending.
       std::vector<unsigned int> cover_to_local;
       std::vector<unsigned int> ghost_covers; // global numbers
       unsigned int              n_rows            = 0;
       bool                      leaves_empty_rows = false;
 
-      /// For each row of entries its columns, local numbers, ascending. Values are in the
-      /// order of the scalar matrix: both scalar rows of a row one after the other.
+      /// For each row of 2 x 2 entries its columns, as ascending local numbers. Values are in the
+      /// order of the scalar matrix: the two scalar rows of a row follow each other.
       std::vector<std::size_t>  row_begin;
       std::vector<unsigned int> columns;
       std::vector<double>       values;
       std::vector<double>       right_hand_side;
-      /// Where the values are: in the vector above, or in the matrix of transfer().
+      /// Pointer to the values: in the vector above, or in the matrix made by transfer().
       double     *entries          = nullptr;
       bool        is_made_in_place = false;
       ActiveItems active_rows;
-      /// For each row, whether it is active; empty: all are.
+      /// For each row, whether it is active; empty: all rows are.
       std::vector<std::uint8_t> is_active_row;
 
-      /// For each rank the rows that are sent and received, each as its cover, the number
-      /// n of columns, and n columns (global numbers).
+      /// For each rank that exchanges rows with this one, the rows that are sent and received.
+      /// A row is encoded as its cover, the number n of columns, and n columns (global numbers).
       std::vector<std::pair<unsigned int, std::vector<unsigned int>>> sent,
         received;
 
-      /// A term of a constrained cover, or the identity of a free one. The cover r is at
-      /// a position in local_covers.
+      /// A term of a constrained cover, or the identity of a free one, with the position of the
+      /// cover r in local_covers.
       struct Part
       {
         unsigned int  position;

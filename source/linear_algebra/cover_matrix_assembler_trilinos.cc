@@ -67,8 +67,8 @@ namespace NMM
 
 
     /**
-     * Straight into an Epetra matrix with known row lengths and local column
-     * numbers: TrilinosWrappers::SparsityPattern would look up every column.
+     * Make an Epetra matrix directly, with known row lengths and local column
+     * numbers, because TrilinosWrappers::SparsityPattern would search for every column.
      */
     void
     CoverMatrixAssembler::make_matrix(
@@ -120,7 +120,7 @@ namespace NMM
     void
     CoverMatrixAssembler::copy_values(const MatrixRows &to) const
     {
-      // both have the same order
+      // both matrices store values in the same order
       active_rows.for_each(n_owned, [&](const unsigned int r) {
         AssertDimension(static_cast<std::size_t>(to.begins[2 * r]),
                         4 * row_begin[r]);

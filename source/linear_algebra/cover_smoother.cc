@@ -11,8 +11,8 @@ namespace NMM
   {
     namespace
     {
-      /// Sum of products of entries with pairs of a vector, all four products of an entry at
-      /// once.
+      /// Sum of products of 2 x 2 entries with pairs of a vector's values. The four products of an
+      /// entry are computed at once, by vector instructions.
       class Sum
       {
       public:
@@ -171,10 +171,10 @@ namespace NMM
     void
     CoverSmoother::add_patch(const std::vector<unsigned int> &rows)
     {
-      // What is nearly singular is moved this far away from it, in comparison with the
-      // diagonal, so that single precision is enough.
+      // Added to the scaled diagonal, which is 1, so that single precision suffices for the
+      // inverse of a nearly singular patch.
       constexpr double shift = 1e-5;
-      // A patch whose scaled inverse is smaller is done well by Gauss-Seidel.
+      // Gauss-Seidel is sufficient for patches whose scaled inverse has a smaller norm.
       constexpr double least_norm = 4.;
       if (rows.size() < 2)
         return;
@@ -201,7 +201,7 @@ namespace NMM
       local = scaling.asDiagonal() * local * scaling.asDiagonal();
       local.diagonal().array() += shift;
       const Eigen::LLT<Eigen::MatrixXd> factorization(local);
-      // a matrix that is no positive definite one is not for this method at all
+      // the smoother requires a positive definite matrix
       if (factorization.info() != Eigen::Success)
         return;
       local = factorization.solve(Eigen::MatrixXd::Identity(n, n));
@@ -234,7 +234,7 @@ namespace NMM
       const unsigned int n       = 2 * (patch.end - patch.begin);
       const float       *inverse = patch_inverses.data() + patch.inverse;
       std::fill(product, product + n, 0.F);
-      // symmetric: by columns, which vectorizes
+      // the inverse is symmetric: summing over its columns can be vectorized
       for (unsigned int j = 0; j < n; ++j, inverse += n)
         for (unsigned int i = 0; i < n; ++i)
           product[i] += inverse[i] * r[j];
@@ -295,7 +295,7 @@ namespace NMM
                       y1        = patch_solution[2 * k + 1];
           x[2 * r] += y0;
           x[2 * r + 1] += y1;
-          // the matrix is symmetric: its column is its row
+          // the matrix is symmetric: the column is read from the row
           for (unsigned int i = row_begin[r]; i < owned_end[r]; ++i)
           {
             const float *a = values.data() + 4 * i;
@@ -313,7 +313,7 @@ namespace NMM
       if (addition.empty())
         return;
 
-      // so far of this rank's rows and columns with what was added to the diagonal
+      // So far the residual contains this rank's columns only, and the changed diagonal.
       update_ghosts(x);
       for (unsigned int r = 0; r < n_rows; ++r)
         if (owned_end[r] < row_begin[r + 1])
@@ -351,7 +351,7 @@ namespace NMM
                                std::vector<float>       &x)
     {
       update_ghosts(x);
-      // what was added to the diagonal acts on what is done here only
+      // the addition to the diagonal multiplies the change of x by this smoother only
       if (!addition.empty())
         start.assign(x.begin(), x.begin() + 2 * n_rows);
       for (auto patch = patches.rbegin(); patch != patches.rend(); ++patch)

@@ -15,30 +15,30 @@ namespace NMM
   namespace internal
   {
     /**
-     * Smoother of a multigrid method for a symmetric positive definite matrix of 2 x 2
-     * entries, a row of them for each cover. It consists of one Gauss-Seidel sweep over
+     * Multigrid smoother for a symmetric positive definite matrix of 2 x 2
+     * entries, with one row of entries for each cover. It consists of one Gauss-Seidel sweep over
      * the rows, and of exact solutions on the covers of each cut element, one element after
-     * the other. The latter are needed because a small element has hardly any energy
-     * while its covers reach far out of the solid: Gauss-Seidel alone takes off 5 % of
-     * such an error in a sweep, and conjugate gradients need three times the iterations.
+     * the other. The latter are needed because displacements of a small element have hardly any
+     * energy while its covers reach far out of the solid. Without them a Gauss-Seidel sweep
+     * reduces such an error by 5 % only, and conjugate gradients need three times the iterations.
      *
      * post_smooth() is the transpose of pre_smooth(), so that with any symmetric positive
-     * definite coarse correction between them the whole is symmetric and positive
-     * definite. On several ranks each sweeps over its own rows; for the same to hold,
-     * half the sum of the absolute values in other ranks' columns is added to the
-     * diagonal of a row (Baker, Falgout, Kolev & Yang, SIAM J. Sci. Comput. 33 (2011)
+     * definite coarse correction between them the preconditioner is symmetric and positive
+     * definite. On several ranks each rank sweeps over its own rows. To keep the preconditioner
+     * positive definite, half the sum of the absolute values in other ranks' columns is then added
+     * to the diagonal of a row (Baker, Falgout, Kolev & Yang, SIAM J. Sci. Comput. 33 (2011)
      * 2864).
      *
-     * Time is spent on reading memory. Values are therefore kept in single precision: 20
+     * Memory bandwidth limits the speed. Values are therefore stored in single precision: 20
      * bytes for an entry with its column instead of 48 in an Epetra_CrsMatrix. The first
-     * sweep and its residual read half of the entries each, the last sweep all.
+     * sweep and its residual read half of the entries each, the last sweep all of them.
      *
      * Lifetime: the matrix must outlive this object.
      */
     class CoverSmoother
     {
     public:
-      /// @p matrix: made by CoverMatrixAssembler.
+      /// @p matrix must have been made by CoverMatrixAssembler.
       CoverSmoother(const Epetra_CrsMatrix                  &matrix,
                     const CoverSystem                       &covers,
                     const dealii::AffineConstraints<double> &constraints);
@@ -51,21 +51,22 @@ namespace NMM
       unsigned int
       n_columns() const;
 
-      /// Set x = B b and the residual b - A x, where B is this smoother. @p rhs and
-      /// @p residual have two values for each row, @p x two for each column.
+      /// Compute x = B b and the residual b - A x, where B is this smoother and b is @p rhs.
+      /// @p rhs and @p residual have two values for each row, @p x two for each column.
       void
       pre_smooth(const std::vector<float> &rhs,
                  std::vector<float>       &x,
                  std::vector<float>       &residual);
 
-      /// Set x = x + B^T (b - A x); given are the values of owned covers.
+      /// Replace x by x + B^T (b - A x). Initially @p x needs the values of owned covers only.
       void
       post_smooth(const std::vector<float> &rhs, std::vector<float> &x);
 
     private:
+      /// The covers of a cut element, on which the matrix is inverted.
       struct Patch
       {
-        /// Its part of patch_rows, and where its inverse begins in patch_inverses.
+        /// Range of its rows in patch_rows, and index of its inverse in patch_inverses.
         unsigned int begin, end;
         std::size_t  inverse;
       };
@@ -87,11 +88,11 @@ namespace NMM
       void
       solve_patch(const Patch &patch, const float *r, float *product) const;
 
-      /// Get the values of covers of other ranks from those.
+      /// Receive the values of covers that other ranks own.
       void
       update_ghosts(std::vector<float> &x);
 
-      /// The two components of b - A x in a row.
+      /// Compute the two components of b - A x in a row.
       void
       residual_of_row(unsigned int              row,
                       const std::vector<float> &rhs,
@@ -105,7 +106,7 @@ namespace NMM
       /// column of another rank.
       std::vector<unsigned int> diagonal, owned_end;
       std::vector<float>        values, inverse_diagonal;
-      /// What is added to the diagonal, empty on one rank; and x before smoothing.
+      /// Values added to the diagonal (empty on one rank), and x before smoothing.
       std::vector<float> addition, start;
 
       std::vector<Patch>        patches;

@@ -9,8 +9,8 @@ namespace NMM
 {
   namespace internal
   {
-    /// Triangular factors of chosen rows and columns of a matrix, with which any
-    /// number of right-hand sides can be solved.
+    /// The interface of triangular factors of selected rows and columns of a matrix, with which
+    /// systems with any number of right-hand sides can be solved.
     class Factors
     {
     public:
@@ -18,16 +18,15 @@ namespace NMM
 
       virtual ~Factors() = default;
 
-      /// Entries that are stored, of both factors and all ranks.
+      /// Number of stored entries of both factors, summed over ranks.
       virtual double
       n_factor_entries() const = 0;
 
       /**
-       * Solve A x = b for the chosen rows and columns. Other rows of @p solution are
+       * Solve A x = b for the selected rows and columns. Other rows of @p solution are
        * unchanged or undefined. @p solution has the layout of @p rhs and may be the
-       * same vector.
-       * @p bodies: only rows of these bodies are wanted, which must not be coupled with
-       * any other body; more may be solved for. Empty: all rows.
+       * same vector. Only the rows of @p bodies (empty: all) need be solved; these bodies must not
+       * be coupled with any other body.
        */
       virtual void
       solve(const Vector            &rhs,
@@ -37,16 +36,16 @@ namespace NMM
 
 
     /**
-     * A direct solver for one type of matrix. DirectSolver chooses between them.
-     * Who adds a solver implements this in a file of its own and adds it there.
+     * The interface of a direct solver for one type of matrix. DirectSolver selects one of them.
+     * To add a solver, implement this interface in a file of its own and extend DirectSolver.
      */
     template <typename MatrixType>
     class DirectFactorization : public Factors
     {
     public:
       /**
-       * Factorize the rows and columns @p rows of @p matrix, ascending; empty: all.
-       * Returns false if this solver is not suitable for the matrix, so that another
+       * Factorize the rows and columns @p rows of @p matrix (ascending; empty: all).
+       * Returns false if this solver is not suitable for the matrix and another
        * one has to factorize it.
        * @throws NumericalFailure for a singular matrix or lack of memory.
        */

@@ -63,7 +63,7 @@ namespace NMM
                                    const std::vector<unsigned int> &rows)
     {
       factors = nullptr;
-      // MUMPS would need an analysis, which is worth a larger share of KLU's work.
+      // If MUMPS needs a new analysis, KLU is faster even for larger groups of unknowns.
       klu.set_analysis_is_needed(has_bodies && !mumps.is_analyzed());
       for (DirectFactorization<Matrix> *candidate :
            std::initializer_list<DirectFactorization<Matrix> *>{&klu, &mumps})

@@ -12,7 +12,7 @@ namespace NMM
   namespace internal
   {
     /**
-     * Solves A x = b by a factorization, and chooses which:
+     * Solves A x = b by a factorization, and selects the factorization:
      *
      * | matrix | solver |
      * |---|---|
@@ -20,9 +20,9 @@ namespace NMM
      * | sparse, uncoupled groups of at most KluFactorization::max_group unknowns | KluFactorization |
      * | any other, any number of ranks | MumpsFactorization |
      *
-     * The first two are for one rank. Order of calls: factorize(), then any number of
-     * solve(). A factorization of the same pattern reuses what MUMPS found out about
-     * the last one; call forget_analysis() before a matrix of another pattern.
+     * The first two work on one rank only. Order of calls: factorize(), then solve() any number
+     * of times. Factorizations of matrices of the same pattern share MUMPS' analysis;
+     * call forget_analysis() before a matrix of another pattern.
      */
     class DirectSolver
     {
@@ -36,8 +36,8 @@ namespace NMM
         unsymmetric
       };
 
-      /// @p unknown_to_body: body of each unknown, for matrices whose couplings
-      /// between bodies change from one factorization to the next; else empty.
+      /// @p unknown_to_body is the body of each unknown, for matrices whose couplings
+      /// between bodies change from one factorization to the next; otherwise it is empty.
       explicit DirectSolver(
         Symmetry                         symmetry        = Symmetry::symmetric,
         const std::vector<unsigned int> &unknown_to_body = {});
@@ -46,14 +46,14 @@ namespace NMM
       DirectSolver &
       operator=(const DirectSolver &) = delete;
 
-      /// The next matrix has another pattern.
+      /// Discard MUMPS' analysis, because the next matrix has another sparsity pattern.
       void
       forget_analysis();
 
       /**
-       * Factorize @p rows and columns, ascending (empty: all; a choice is for one rank).
-       * @p couplings: the bodies that each body is coupled with by values other than
-       * zero, if bodies are known; with them bodies that are small go to BodyLu.
+       * Factorize the rows and columns @p rows (ascending; empty: all, which is required on
+       * several ranks). @p couplings are the bodies with which each body is coupled by nonzero
+       * values; if they are given and bodies are small, BodyLu is used.
        * @throws NumericalFailure for a singular matrix or lack of memory.
        */
       void
@@ -61,8 +61,8 @@ namespace NMM
                 const std::vector<unsigned int> &rows      = {},
                 const BodyMatrix::Couplings     &couplings = {});
 
-      /// The same for a body matrix. If the matrix of a single body is singular, the
-      /// whole is factorized as a sparse matrix.
+      /// Factorize a body matrix. If BodyLu finds no sufficient pivots, the matrix is converted to
+      /// a sparse one.
       void
       factorize(const BodyMatrix                &matrix,
                 const std::vector<unsigned int> &rows);
@@ -77,7 +77,7 @@ namespace NMM
       double
       analysis_time() const;
 
-      /// Entries of the factors of the last factorization, of all ranks.
+      /// Number of entries of the last factors, summed over ranks.
       double
       n_factor_entries() const;
 
@@ -89,13 +89,13 @@ namespace NMM
       MumpsFactorization mumps;
       KluFactorization   klu;
       BodyLu             body_lu;
-      /// The last factorization.
+      /// The last factors, those of one of the solvers above.
       Factors *factors = nullptr;
 
       bool has_bodies;
-      /// Copy of a sparse matrix for BodyLu; null if bodies are too large for it.
+      /// Copy of a sparse matrix for BodyLu; null if bodies are too large for BodyLu.
       std::unique_ptr<BodyMatrix> body_matrix;
-      /// Copy of a body matrix that BodyLu found singular.
+      /// Sparse copy of a body matrix that BodyLu could not factorize.
       std::unique_ptr<Matrix> sparse_matrix;
     };
   } // namespace internal

@@ -19,8 +19,8 @@ namespace NMM
       Data()
       {
         klu_defaults(&common);
-        // All rows are forces over displacements, so that none needs scaling; and the
-        // input needs no check.
+        // All rows have the same unit (force over displacement), so that none needs scaling. The
+        // negative value also skips the check of the input.
         common.scale = -1;
       }
 
@@ -40,8 +40,8 @@ namespace NMM
         klu_free_symbolic(&symbolic, &common);
       }
 
-      /// Call action(row, column, value) for each value in chosen rows and columns that is
-      /// not zero, until it returns false. Rows and columns are counted among the chosen
+      /// Call action(row, column, value) for each nonzero value in chosen rows and columns, until
+      /// a call returns false. Rows and columns are numbered among the chosen
       /// ones. Returns whether all calls returned true.
       template <typename Action>
       bool
@@ -77,13 +77,13 @@ namespace NMM
           numbers[rows[k]] = k;
       }
 
-      /// Whether no group of unknowns that are coupled by values has more than
-      /// max_group. Stops at the first that has.
+      /// Whether no group of unknowns that are coupled by nonzero values has more than
+      /// max_group unknowns.
       bool
       has_small_groups(const Matrix &matrix);
 
-      /// Read the matrix and order it. Returns the operations of the factorization per
-      /// unknown.
+      /// Read the matrix and compute the order of elimination. Returns the number of operations
+      /// of the factorization per unknown.
       double
       analyze(const Matrix &matrix);
 
@@ -93,10 +93,11 @@ namespace NMM
       klu_common    common;
       klu_symbolic *symbolic = nullptr;
       klu_numeric  *numeric  = nullptr;
-      /// The chosen part by rows, which KLU takes for the columns of its transpose.
+      /// The chosen part of the matrix stored by rows; KLU, which expects columns, factorizes its
+      /// transpose.
       std::vector<int>    begins, columns;
       std::vector<double> values;
-      /// Sets of coupled unknowns, and the size of each set at its least member.
+      /// Sets of coupled unknowns, and the size of each set, stored at its representative.
       DisjointSets              groups;
       std::vector<unsigned int> sizes;
       /// Chosen rows, and the position of each row among them.

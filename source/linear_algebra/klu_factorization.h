@@ -13,17 +13,17 @@ namespace NMM
   {
     /**
      * LU factorization by SuiteSparse's KLU, for a sparse matrix that consists of many
-     * small systems which are not coupled, such as blocks of rock of which few touch.
+     * small uncoupled systems, such as blocks of rock of which few touch.
      * KLU permutes the matrix to block triangular form and factorizes the diagonal
      * blocks one by one (Davis & Palamadai Natarajan, ACM Trans. Math. Softw. 37 (2010) 36).
      *
-     * Entries that are exactly zero are left out, since the pattern has places for
-     * contact that is not closed at present: with those all blocks would be one system.
-     * The order of elimination is therefore found anew for each matrix. Numbers are in
+     * Entries that are exactly zero are left out. The sparsity pattern contains couplings by
+     * contacts that are open at present, and with these all blocks would be one system.
+     * The order of elimination is therefore computed for each matrix. Measurements are in
      * doc/dependencies.md.
      *
-     * KLU has no dense kernels, so that it declines matrices with large groups. One rank;
-     * it declines matrices on several.
+     * KLU has no dense kernels and is slow for large groups of coupled unknowns. factorize()
+     * therefore returns false for matrices with large groups, and for matrices on several ranks.
      */
     class KluFactorization
       : public DirectFactorization<dealii::TrilinosWrappers::SparseMatrix>
@@ -31,17 +31,17 @@ namespace NMM
     public:
       using Matrix = dealii::TrilinosWrappers::SparseMatrix;
 
-      /// Unknowns of the largest system for which KLU is always chosen.
+      /// Largest number of unknowns of a group of coupled unknowns up to which KLU is always used.
       static constexpr unsigned int max_group = 360;
 
-      /// Operations per unknown up to which KLU is chosen for larger systems if the
-      /// alternative needs an analysis for this matrix alone.
+      /// Largest number of operations per unknown up to which KLU is used for larger groups, if
+      /// the alternative solver needs a new analysis for this matrix.
       static constexpr double max_operations = 5000.;
 
       KluFactorization();
       ~KluFactorization() override;
 
-      /// Whether the alternative needs an analysis, see max_operations.
+      /// Set whether the alternative solver needs a new analysis, see max_operations.
       void
       set_analysis_is_needed(bool is_needed);
 
@@ -52,7 +52,7 @@ namespace NMM
       double
       n_factor_entries() const override;
 
-      /// @p bodies is not looked at: all chosen rows are solved for.
+      /// Solves for all factorized rows; @p bodies is ignored.
       void
       solve(const Vector            &rhs,
             Vector                  &solution,

@@ -15,12 +15,14 @@ namespace NMM
   {
     namespace
     {
-      /// Corners that each of the six covers of an element lies between.
+      /// For each of the six covers of an element, the corners at the ends of its side; a corner
+      /// cover has its own corner twice.
       constexpr unsigned int element_ends[6][2] =
         {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
 
 
-      /// Global numbers of both ends of each owned cover. An owned element has them.
+      /// For each owned cover, the global numbers of the covers at both ends of its side, which
+      /// are found in an owned element.
       std::vector<std::array<unsigned int, 2>>
       find_ends(const CoverSystem &covers,
                 const unsigned int first_owned,
@@ -68,7 +70,7 @@ namespace NMM
                                   0,
                                   matrix.Comm());
 
-      // unknown of first order of each unknown of second order, -1: none
+      // for each unknown of second order, its unknown of first order, or -1 if it has none
       Epetra_IntVector owned(matrix.RowMap()), all(matrix.ColMap());
       owned.PutValue(-1);
       for (unsigned int i = 0; i < unknown_to_cover.size(); ++i)
@@ -84,7 +86,7 @@ namespace NMM
         for (unsigned int c = 0; c < 2 && is_free(first_owned + k); ++c)
           for (unsigned int j = 0; j < 2; ++j)
           {
-            // both halves are added up at a corner
+            // at a corner, both ends are the same unknown, and the halves add up to 1
             const int    row  = 2 * (first_owned + k) + c;
             const double half = 0.5;
             if (ends[k][j] == invalid_index)

@@ -14,27 +14,28 @@ namespace NMM
   namespace internal
   {
     /**
-     * Displacements of first order among those of second order on the same cover system:
-     * values at corner nodes, and their mean at a mid-side node,
+     * The interpolation from displacements of first order to those of second order on the same
+     * cover system: v are the values at corner nodes, and a mid-side node gets the mean of both
+     * ends of its side,
      * @f[ u_k = \tfrac12 (v_{a(k)} + v_{b(k)}), \qquad u = P v. @f]
-     * The cover of a mid-side node is a piece of the supports of both ends of the side, so
-     * that a(k) and b(k) are physical covers, and nothing is coupled across a joint. For a
-     * corner a(k) = b(k) = k. Covers that are constrained (supports, aggregation) take no
-     * part: their rows of P are empty.
+     * The physical cover of a mid-side node is contained in one physical cover of each end of the
+     * side. So a(k) and b(k) are unique, and nothing is coupled across a joint. For a
+     * corner a(k) = b(k) = k. The rows of P of constrained covers (supports, aggregation) are
+     * empty.
      */
     class LinearCovers
     {
     public:
-      /// Collective. @p matrix: of second order, made by CoverMatrixAssembler.
+      /// @p matrix is that of second order, made by CoverMatrixAssembler. Collective.
       LinearCovers(const Epetra_CrsMatrix                  &matrix,
                    const CoverSystem                       &covers,
                    const dealii::AffineConstraints<double> &constraints);
 
-      /// P, (unknowns of second order x unknowns of first order).
+      /// The matrix P (unknowns of second order x unknowns of first order).
       const Epetra_CrsMatrix &
       interpolation() const;
 
-      /// P^T A P for the matrix of the constructor. Collective.
+      /// The matrix P^T A P, where A is the matrix given to the constructor. Collective.
       std::unique_ptr<Epetra_CrsMatrix>
       multiply(const Epetra_CrsMatrix &matrix) const;
 

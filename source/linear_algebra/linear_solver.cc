@@ -55,7 +55,7 @@ namespace NMM
       }
 
 
-      /// Smoothed aggregation (ML) of the matrix itself, for first order.
+      /// Preconditioner for first order: smoothed aggregation multigrid (ML) of the matrix itself.
       class OneLevelPreconditioner
       {
       public:
@@ -67,7 +67,7 @@ namespace NMM
           std::vector<unsigned int> owned;
           for (const unsigned int k : covers.locally_owned_covers())
             owned.push_back(k);
-          // Cut elements stretch the spectrum: a wide interval for the smoother
+          // Cut elements widen the spectrum. A wide interval for the Chebyshev smoother
           // saves a quarter of the iterations.
           ml = make_aggregation_multigrid(matrix.trilinos_matrix(),
                                           rigid_body_modes(covers,
@@ -88,7 +88,8 @@ namespace NMM
       };
 
 
-      /// Conjugate gradients. Returns an empty string, or why they did not converge.
+      /// Solve by conjugate gradients. Returns the reason if they did not converge, otherwise an
+      /// empty string.
       template <typename Preconditioner>
       std::string
       solve_iterative(const Matrix                            &matrix,
@@ -141,7 +142,7 @@ namespace NMM
       LinearSolverReport report;
       solution.reinit(rhs, true);
       solution = 0.;
-      // Without loads the solution is zero, and no residual is relative to it.
+      // Without loads the solution is zero, and the relative residual is undefined.
       if (rhs.l2_norm() == 0.)
         return report;
 

@@ -10,9 +10,10 @@ namespace NMM
 {
   namespace internal
   {
-    /// Arrays of a matrix whose pattern is fixed: the entries of owned row r are
-    /// begins[r] to begins[r + 1] - 1 of the other two; columns are local numbers.
-    /// Calling Epetra_CrsMatrix for each row takes longer than copying a short row.
+    /// Direct access to the arrays of a matrix whose pattern is fixed: the entries of owned row r
+    /// have the indices begins[r] to begins[r + 1] - 1 in the other two arrays; columns are local
+    /// numbers. It avoids a call of Epetra_CrsMatrix for each row, which would take longer than
+    /// reading a short row.
     struct MatrixRows
     {
       explicit MatrixRows(const Epetra_CrsMatrix &matrix)

@@ -25,7 +25,7 @@ namespace NMM
         for (int i = to_rows.begins[r]; i < to_rows.begins[r + 1]; ++i)
           row.emplace_back(to_columns[to_rows.columns[i]],
                            i - to_rows.begins[r]);
-        // They are sorted on one rank.
+        // on one rank they are sorted already
         if (!std::is_sorted(row.begin(), row.end()))
           std::sort(row.begin(), row.end());
         for (int i = from_rows.begins[r]; i < from_rows.begins[r + 1]; ++i)
@@ -38,7 +38,8 @@ namespace NMM
                         "The pattern is not within that of the stiffness."));
           places.push_back(place->second);
         }
-        // Rows of a block that has a mesh of its own are consecutive in both matrices.
+        // If each block has a mesh of its own, the entries of a row are consecutive in both
+        // matrices.
         bool are_consecutive = true;
         for (std::size_t i = begin + 1; i < places.size(); ++i)
           are_consecutive = are_consecutive && places[i] == places[i - 1] + 1;

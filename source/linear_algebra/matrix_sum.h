@@ -11,17 +11,18 @@ namespace NMM
   namespace internal
   {
     /**
-     * Adds a sparse matrix to another one, whose pattern contains its own. Where each entry
-     * goes is found in the first call and kept, so that further calls with other values
-     * cost one addition per entry. (Epetra searches each entry in its row each time.)
+     * Adds a sparse matrix to another one, whose pattern contains that of the first. The position
+     * of each entry in the other matrix is determined in the first call and stored, so that further
+     * calls with other values cost one addition per entry. (Epetra would search for each entry in
+     * each call.)
      */
     class MatrixAdder
     {
     public:
       using Matrix = dealii::TrilinosWrappers::SparseMatrix;
 
-      /// Add @p factor times @p from to @p to in the active @p rows. @p version has to
-      /// change when one of both patterns does.
+      /// Add @p factor times @p from to @p to in the active @p rows. @p version must
+      /// change when the pattern of either matrix changes.
       void
       add(double             factor,
           const Matrix      &from,
@@ -33,8 +34,8 @@ namespace NMM
       void
       find_places(const Matrix &from, const Matrix &to);
 
-      /// Positions of the entries of a row in the row of the other matrix: consecutive
-      /// ones from first on, or, if that is negative, those in places from begin on.
+      /// Positions of the entries of a row in the row of the other matrix. They are consecutive
+      /// from `first` on; if `first` is negative, they are stored in `places` from `begin` on.
       struct PlacesOfRow
       {
         std::size_t begin;
@@ -48,14 +49,14 @@ namespace NMM
     };
 
 
-    /// The sum k K + m M + c C, with the pattern of K, which has to contain the others.
+    /// The sum k K + m M + c C, with the pattern of K, which must contain those of M and C.
     class MatrixSum
     {
     public:
       using Matrix = dealii::TrilinosWrappers::SparseMatrix;
 
-      /// Assemble the active @p rows. @p damping may be null. @p version has to change when
-      /// the pattern of K does.
+      /// Compute the active @p rows of the sum. @p damping may be null. @p version must change when
+      /// the pattern of K changes.
       void
       assemble(const Matrix      &stiffness,
                double             k,

@@ -39,7 +39,8 @@ namespace NMM
       }
 
 
-      /// Number of values of each rank, and where they begin among those of all.
+      /// Number of values of each rank, and the index of the first of them among those of all
+      /// ranks.
       struct Layout
       {
         Layout(const int n_local, const MPI_Comm communicator)
@@ -55,7 +56,7 @@ namespace NMM
       };
 
 
-      /// Values of all ranks, in the order of ranks, on the first rank.
+      /// Collect the values of all ranks, in the order of ranks, on the first rank.
       template <typename Number>
       void
       gather(const std::vector<Number> &local,
@@ -90,8 +91,8 @@ namespace NMM
       {
         data.comm_fortran = MPI_Comm_c2f(communicator);
         data.par          = 1; // the host computes too
-        // Symmetric, not "positive definite": a matrix that is indefinite by
-        // rounding is then reported by its residual instead of an error.
+        // Symmetric (2), not positive definite (1): a matrix that is indefinite because of
+        // rounding is then factorized, and noticed by its residual instead of an error.
         data.sym = is_symmetric ? 2 : 0;
         check(run(-1), "initialization");
         for (int i = 1; i <= 4; ++i)
@@ -115,7 +116,7 @@ namespace NMM
         return data.icntl[i - 1];
       }
 
-      /// Run a stage. Returns the error code and what it is about.
+      /// Run a stage. Returns the error code and its parameter.
       std::array<int, 2>
       run(const int job)
       {
@@ -128,14 +129,14 @@ namespace NMM
     };
 
 
-    /// Row and column numbers, from 1 on, and values; of a symmetric matrix the upper
-    /// triangle.
+    /// A matrix as row numbers, column numbers (both counted from 1) and values. Of a symmetric
+    /// matrix only the upper triangle is stored.
     struct Triplets
     {
       std::vector<MUMPS_INT> rows, columns;
       std::vector<double>    values;
 
-      /// Call action(row, column, value) for each entry that is kept.
+      /// Call action(row, column, value) for each entry that is stored as a triplet.
       template <typename Action>
       static void
       for_each_entry(const Epetra_CrsMatrix &matrix,
@@ -207,8 +208,8 @@ namespace NMM
       static constexpr int normal_reserve = 30;
 
       bool is_symmetric;
-      /// Null before the analysis; and on all ranks but the first one if that factorizes
-      /// alone.
+      /// Null before the analysis, and on all ranks except the first one if the first one
+      /// factorizes alone.
       std::unique_ptr<Mumps> mumps;
       bool                   is_analyzed   = false;
       double                 analysis_time = 0.;
@@ -217,10 +218,10 @@ namespace NMM
       unsigned int           n_ranks = 1;
       /// Whether the first of several ranks factorizes alone.
       bool is_serial = false;
-      /// Of this rank; and of all ranks, on the first one if that factorizes alone.
+      /// Entries of this rank; and, on the first rank if it factorizes alone, those of all ranks.
       Triplets triplets, all_triplets;
 
-      /// INFOG(1) and (2) of a job.
+      /// Run a job and return MUMPS' INFOG(1) and INFOG(2).
       std::array<int, 2>
       try_to_run(const int job)
       {
@@ -238,8 +239,8 @@ namespace NMM
         check(try_to_run(job), stage);
       }
 
-      /// Pivots that had to wait may need more memory than the analysis has predicted: then
-      /// once more with twice the reserve.
+      /// Factorize. Delayed pivots may need more memory than the analysis has predicted; then
+      /// the factorization is repeated with twice the reserve, as often as necessary.
       void
       run_factorization()
       {
@@ -303,19 +304,19 @@ namespace NMM
     void
     MumpsFactorization::Data::set_controls()
     {
-      // The order of elimination: MUMPS' approximate minimum degree (0), or its nested
-      // dissection by PORD (4), which takes five times as long and pays by smaller
-      // factors in large systems without joints only. Analysis, factorization and
-      // solution take 1.29 and 1.27 s for 178,000 unknowns of a ring, 4.0 and 3.2 s
-      // for 393,000; 2.8 and 4.0 s for 297,000 unknowns of 290 blocks that are tied to
-      // each other. METIS_NodeND takes 3.7 and 3.0 s for the last two.
+      // The order of elimination is MUMPS' approximate minimum degree (0) or its nested
+      // dissection by PORD (4). The latter takes five times as long to compute. Its smaller
+      // factors compensate for this in large systems without joints only. Analysis,
+      // factorization and solution together take, with (0) and (4): 1.29 and 1.27 s for 178,000
+      // unknowns of a ring; 4.0 and 3.2 s for 393,000; 2.8 and 4.0 s for 297,000 unknowns of 290
+      // blocks that are tied to each other. METIS_NodeND takes 3.7 and 3.0 s for the last two.
       constexpr unsigned int n_nested_dissection = 350000;
-      // Matrices that are not symmetric come from contact with friction, where approximate
-      // minimum fill (2) makes smaller factors: 10.8 instead of 11.8 s for the load steps of
-      // jointed-tunnel.prm.
+      // Unsymmetric matrices come from contact with friction, where approximate
+      // minimum fill (2) makes smaller factors: the load steps of jointed-tunnel.prm take 10.8
+      // instead of 11.8 s.
       mumps->control(7) = n >= n_nested_dissection ? 4 : is_symmetric ? 0 : 2;
-      // The last front is factorized as the others are: ScaLAPACK has no symmetric
-      // indefinite factorization, and does twice the work.
+      // The root front of a symmetric matrix is factorized like the others, and not by ScaLAPACK,
+      // which has no symmetric indefinite factorization and would do twice the work.
       mumps->control(13) = is_symmetric ? 1 : 0;
       // The diagonal is that of a stiffness matrix: neither a permutation for larger
       // pivots nor a compression for 2 x 2 pivots is needed.
@@ -406,7 +407,7 @@ namespace NMM
       double n = 0.;
       if (data->mumps)
       {
-        // INFOG(29), in millions if it is negative
+        // INFOG(29) is the number of entries, or minus that number in millions
         n = data->mumps->data.infog[28];
         n = n < 0. ? -1e6 * n : n;
       }

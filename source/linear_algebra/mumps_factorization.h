@@ -12,24 +12,24 @@ namespace NMM
   namespace internal
   {
     /**
-     * Factorization by MUMPS on the matrix's communicator: L D L^T of a symmetric
-     * matrix (definite or not), L U of any other.
+     * Factorization by MUMPS on the communicator of the matrix: L D L^T for a symmetric
+     * matrix (definite or not), L U for any other.
      *
-     * It has three stages. The analysis looks at the pattern only, and is kept for further
-     * matrices of the same pattern; the factorization takes the values; then any number of
-     * right-hand sides can be solved.
+     * It has three stages. The analysis depends on the pattern only and is kept for further
+     * matrices of the same pattern. The factorization uses the values. Then systems with any
+     * number of right-hand sides can be solved.
      *
      * MUMPS is called directly because Amesos_Mumps offers its unsymmetric
      * factorization only (and converts the matrix twice): 1.2 s instead of 0.4 s and
      * twice the memory for 91,000 unknowns of second order. The library is a part
      * of Trilinos' Amesos, so that nothing more is needed.
      *
-     * On several ranks MUMPS adds up contributions in the order in which they arrive, so
+     * On several ranks MUMPS sums contributions in the order in which they arrive, so
      * that repeated runs differ in the last digits. Systems of fewer than n_distributed
-     * unknowns are therefore factorized by the first rank alone, which always gives the
-     * same bits and takes no longer.
+     * unknowns are therefore factorized by the first rank alone, which gives bitwise
+     * reproducible results and takes no longer.
      *
-     * Rows are consecutive per rank.
+     * The rows of each rank must be consecutive.
      */
     class MumpsFactorization
       : public DirectFactorization<dealii::TrilinosWrappers::SparseMatrix>
@@ -37,12 +37,13 @@ namespace NMM
     public:
       using Matrix = dealii::TrilinosWrappers::SparseMatrix;
 
+      /// Number of unknowns from which on all ranks take part in the factorization.
       static constexpr unsigned int n_distributed = 30000;
 
       explicit MumpsFactorization(bool is_symmetric);
       ~MumpsFactorization() override;
 
-      /// The next matrix has another pattern.
+      /// Discard the analysis, because the next matrix has another pattern.
       void
       forget_analysis();
 
@@ -53,9 +54,9 @@ namespace NMM
       double
       analysis_time() const;
 
-      /// Always returns true. Rows and columns that are not chosen become equations
-      /// x = b. The pattern is the one of the last analysis, if there is one. Exceptions
-      /// have MUMPS' error code.
+      /// Always returns true. Rows and columns that are not in @p rows are replaced by the
+      /// equations x = b. If there is an analysis, the pattern must be the same as before.
+      /// Messages of exceptions contain MUMPS' error code.
       bool
       factorize(const Matrix                    &matrix,
                 const std::vector<unsigned int> &rows) override;
@@ -63,7 +64,7 @@ namespace NMM
       double
       n_factor_entries() const override;
 
-      /// @p bodies is not looked at: all rows are solved for.
+      /// Solves for all rows; @p bodies is ignored.
       void
       solve(const Vector            &rhs,
             Vector                  &solution,

@@ -18,19 +18,19 @@ namespace NMM
   namespace internal
   {
     /**
-     * Rigid-body modes, the near-null space that smoothed aggregation has to preserve:
-     * both translations and the rotation about the solid's centre at the nodes of
-     * @p covers (global numbers of owned ones), two unknowns each, zero where
-     * constrained. One mode after the other, (3 x 2n).
+     * The rigid-body modes, which are the near-null space that smoothed aggregation must
+     * preserve: the values of both translations and of the rotation about the centre of the solid
+     * at the nodes of the n @p covers (global numbers of owned ones). Each mode has two values per
+     * cover, which are zero where constrained; the modes are stored one after the other (3 x 2n).
      */
     std::vector<double>
     rigid_body_modes(const CoverSystem                       &cover_system,
                      const dealii::AffineConstraints<double> &constraints,
                      const std::vector<unsigned int>         &covers);
 
-    /// Smoothed aggregation (ML) for a matrix with these modes as near-null space.
-    /// Smoothers are Chebyshev polynomials of degree @p n_sweeps for eigenvalues from the
-    /// largest down to 1 / @p spectrum of it.
+    /// Make smoothed aggregation multigrid (ML) for a matrix with the near-null space @p modes.
+    /// Its smoothers are Chebyshev polynomials of degree @p n_sweeps for the eigenvalues between
+    /// the largest one divided by @p spectrum and the largest one.
     std::unique_ptr<ML_Epetra::MultiLevelPreconditioner>
     make_aggregation_multigrid(const Epetra_RowMatrix    &matrix,
                                const std::vector<double> &modes,
@@ -40,16 +40,16 @@ namespace NMM
 
     /**
      * Preconditioner of the stiffness matrix of second order on covers. One application
-     * is CoverSmoother::pre_smooth(), a correction by displacements of first order on the
-     * same covers (LinearCovers), for which one cycle of ML is the solver, and
+     * consists of CoverSmoother::pre_smooth(), a correction by displacements of first order on the
+     * same covers (LinearCovers), computed by one cycle of ML, and
      * CoverSmoother::post_smooth(). It is symmetric and positive definite.
      *
-     * Processor time of a solution by conjugate gradients, set-up included [s], and
-     * iterations, with this and with smoothed aggregation (ML, rigid-body modes) of the
-     * matrix of second order, by turns; the problems are those of
+     * Processor time of a solution by conjugate gradients (set-up included) and
+     * iterations, with this preconditioner and with smoothed aggregation (ML, rigid-body modes) of
+     * the matrix of second order; the problems are those of
      * LinearSolverParameters:
      *
-     * |         | unknowns | this |     | ML   |     |
+     * |         | unknowns | this [s] | iterations | ML [s] | iterations |
      * |---------|---------:|-----:|----:|-----:|----:|
      * | ring    |   91,020 | 0.36 |  21 | 1.20 |  45 |
      * | ring    |  177,772 | 0.98 |  29 | 3.61 |  51 |
@@ -57,16 +57,17 @@ namespace NMM
      * | beam    |  111,634 | 0.57 |  26 | 2.19 |  61 |
      * | jointed |  135,174 | 2.87 |  64 | 14.7 | 327 |
      *
-     * Aggregation of the matrix of second order reads it ten times in an iteration
-     * instead of three times: it has 22 non-zeros per row and needs four sweeps before and
-     * after. The matrix of first order has a seventh of its non-zeros.
+     * The matrix of second order has 22 nonzeros per row. Smoothed aggregation of this matrix
+     * reads it ten times per iteration, because it needs four sweeps before and
+     * after the coarse correction; this preconditioner reads it three times. The matrix of first
+     * order has a seventh of the nonzeros.
      *
      * Lifetime: the matrix must outlive this object.
      */
     class TwoLevelPreconditioner
     {
     public:
-      /// Collective. Second order only.
+      /// @p covers must be of second order. Collective.
       TwoLevelPreconditioner(
         const dealii::TrilinosWrappers::SparseMatrix &matrix,
         const CoverSystem                            &covers,
@@ -82,7 +83,8 @@ namespace NMM
     private:
       mutable CoverSmoother smoother;
       LinearCovers          linear_covers;
-      /// Null if no cover takes part.
+      /// Matrix P^T A P of first order and its multigrid solver; null if all covers are
+      /// constrained.
       std::unique_ptr<Epetra_CrsMatrix>                    coarse_matrix;
       std::unique_ptr<ML_Epetra::MultiLevelPreconditioner> coarse;
 

@@ -29,7 +29,7 @@ namespace NMM
         std::fill_n(row, 4, 0.);
       return Deformation::admissible;
     }
-    // truncation step^2 against rounding 1e-16 / step
+    // The step balances the truncation error step^2 against the rounding error 1e-16 / step.
     const double step = 1e-4 / norm;
     Response     plus, minus;
     if (evaluate(F + step * G, plus) != Deformation::admissible ||

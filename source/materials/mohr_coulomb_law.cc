@@ -19,7 +19,7 @@ namespace NMM
     using Vector3 = Tensor<1, 3>;
     using Matrix3 = Tensor<2, 3>;
 
-    /// (1 + sin a) / (1 - sin a) of an angle given by its tangent.
+    /// (1 + sin a) / (1 - sin a) of the angle a that is given by its tangent.
     double
     passive_coefficient(const double tangent)
     {
@@ -28,7 +28,7 @@ namespace NMM
     }
 
 
-    /// A condition a . sigma <= k on sorted principal stresses, with the flow along b.
+    /// A yield condition a . sigma <= k on sorted principal stresses, with plastic flow along b.
     struct YieldPlane
     {
       Vector3 normal, flow;
@@ -54,28 +54,28 @@ namespace NMM
     }
 
 
-    /// What a step to a trial stress comes to, in sorted principal axes.
+    /// The result of a step from its trial stress, in principal axes sorted by the trial stress.
     struct PrincipalReturn
     {
       bool is_elastic = true;
-      /// Whether one of the active sets is the right one.
+      /// Whether an admissible active set was found; if not, the rest is undefined.
       bool    has_stress = true;
       Vector3 stress;
-      /// Delta epsilon^p [-].
+      /// Increment of the plastic strain Delta epsilon^p [-].
       Vector3 flow;
-      /// d sigma / d epsilon [Pa]; not set if the step is elastic.
+      /// Derivative d sigma / d epsilon [Pa]; not set if the step is elastic.
       Matrix3 tangent;
     };
 
 
     /**
-     * The implicit return in principal stresses. With the planes A sigma <= k of an active set
-     * and their flows B, the multipliers are
+     * The implicit return to the yield surface in principal stresses. With the planes A sigma <= k
+     * of an active set and their flows B, the multipliers are
      * @f[ \lambda = (A C B)^{-1}(A\sigma^\mathrm{trial} - k), \quad
      *     \sigma = \sigma^\mathrm{trial} - C B\lambda, \quad
      *     \frac{d\sigma}{d\varepsilon} = C - C B (A C B)^{-1} A C; @f]
-     * the set is the right one if no multiplier is negative and all planes are satisfied. All
-     * matrices belong to the law and are made once.
+     * The set is admissible if no multiplier is negative and the conditions of all planes hold.
+     * All matrices depend on the law only and are computed once.
      */
     class PrincipalReturnMap
     {
@@ -90,7 +90,8 @@ namespace NMM
       struct ActiveSet
       {
         std::vector<unsigned int> planes;
-        /// Rows of (A C B)^-1 A: multipliers by the trial stress; and (A C B)^-1 k.
+        /// Rows of (A C B)^-1 A, and (A C B)^-1 k. Multiplier i is by_trial[i] . trial -
+        /// at_zero[i].
         std::vector<Vector3> by_trial;
         std::vector<double>  at_zero;
         Matrix3              tangent;
@@ -105,13 +106,13 @@ namespace NMM
       std::array<YieldPlane, 6> planes;
       /// C b of each plane [Pa].
       std::array<Vector3, 6> stress_of_flow;
-      /// Of one plane first, then of two and of three.
+      /// Active sets in the order in which they are tried: one plane, two, and three.
       std::vector<ActiveSet> sets;
       double                 mu;
     };
 
 
-    /// Of a . sigma - k, and of multipliers.
+    /// Relative rounding error that is allowed in a . sigma - k and in multipliers [-].
     constexpr double rounding = 1e-12;
 
 
@@ -139,7 +140,7 @@ namespace NMM
     }
 
 
-    /// Not if the planes have no common point, or many.
+    /// Adds the set of the @p chosen planes, unless these do not determine the multipliers.
     void
     PrincipalReturnMap::add_set(std::vector<unsigned int> chosen,
                                 const Matrix3            &C)
@@ -239,7 +240,7 @@ namespace NMM
                Response                    &response) const override;
 
     private:
-      /// Energy and stress of Hooke's law.
+      /// Sets the energy and the stress by Hooke's law.
       void
       set_elastic(const SymmetricTensor<2, 2> &elastic_strain,
                   double                       elastic_strain_zz,
@@ -280,7 +281,7 @@ namespace NMM
       response.state      = state;
       response.dissipated = 0.;
 
-      // principal directions of the trial stress: p and q in the plane
+      // The in-plane principal directions of the trial stress are p and q.
       const auto  &s      = response.stress;
       const double mean   = 0.5 * (s[0][0] + s[1][1]);
       const double half   = 0.5 * (s[0][0] - s[1][1]);
@@ -327,13 +328,15 @@ namespace NMM
       set_elastic(strain - response.state.plastic_strain,
                   -response.state.plastic_strain_zz,
                   response);
-      // what was returned to, without what the difference of strains has lost
+      // The stress is taken from the return map, since the difference of strains in set_elastic()
+      // has cancellation errors.
       response.stress     = stress[0] * pp + stress[1] * qq;
       response.stress_zz  = stress[2];
       response.dissipated = stress * flow;
 
-      // principal directions turn with the trial stress: by the ratio of differences, or its
-      // limit where the trial stress has no directions
+      // The principal directions rotate with the trial stress. The shear modulus is mu times the
+      // ratio of the principal stress differences of the stress and the trial stress, or its limit
+      // where the trial stress has no principal directions.
       const double shear_modulus =
         radius > 1e-8 * (std::abs(mean) + elasticity.mu * 1e-8)
           ? elasticity.mu * (stress[0] - stress[1]) / (2. * radius)

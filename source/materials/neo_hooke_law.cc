@@ -60,7 +60,7 @@ namespace NMM
                       2. * d.w_Ij * (f[a] * cofactor[b] + cofactor[a] * f[b]) +
                       d.w_jj * cofactor[a] * cofactor[b];
           A[a][a] += 2. * d.w_I;
-          // the second derivative of det F
+          // This is the term with the second derivative of det F.
           A[a][3 - a] += (a == 0 || a == 3) ? d.w_j : -d.w_j;
         }
         add_geometric_stiffness(initial_stress, A);
@@ -97,7 +97,8 @@ namespace NMM
       }
 
     private:
-      /// Derivatives of w(I, j), I = F : F, j = det F, after condensation of s.
+      /// The energy w(I, j), with I = F : F and j = det F, and its derivatives after condensation
+      /// of s.
       struct Derivatives
       {
         double w, w_I, w_j, w_II, w_Ij, w_jj;
@@ -105,9 +106,9 @@ namespace NMM
 
 
       /**
-       * s in plane stress: dw/ds = 0 with
+       * The stretch s in plane stress, from dw/ds = 0 by Newton's method, where
        * w(s) = mu/2 ((j s)^(-2/3) (I + s^2) - 3) + K/2 (j s - 1)^2.
-       * w'' > 0 for s > 0; a step that would leave the positive axis is cut.
+       * w'' > 0 for s > 0; a step that would make s negative is cut.
        */
       double
       find_stretch(const double I, const double j) const
@@ -123,7 +124,7 @@ namespace NMM
           const double next = std::max(s - w_s / w_ss, 0.3 * s);
           const bool   done = std::abs(next - s) < 1e-9 * s;
           s                 = next;
-          // quadratic: the error is now of the order of rounding
+          // Convergence is quadratic, so the error is now of the order of rounding.
           if (done)
             break;
         }

@@ -51,7 +51,7 @@ namespace NMM
       }
 
 
-      /// S_33 = 0: E_33 = -nu / (1 - nu) tr E.
+      /// S_33 = 0 gives E_33 = -nu / (1 - nu) tr E, and the stretch is (1 + 2 E_33)^(1/2).
       Deformation
       plane_stress_stretch(const Tensor<2, 2> &F,
                            double             &stretch) const override

@@ -47,7 +47,7 @@ namespace NMM
       dealii::Utilities::MPI::sum(values, covers.communicator(), values);
     };
 
-    // area, first moments, integral of the difference
+    // for each block: area, first moments, and integral of the difference d
     constexpr unsigned int n_first = 5;
     std::vector<double>    first_sums(n_first * n_blocks);
     for_each_point([&](const unsigned int  block,

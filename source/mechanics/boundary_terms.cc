@@ -177,7 +177,7 @@ namespace NMM
       const double        bound =
         region_to_elasticity[mesh.region(element)].largest_eigenvalue() *
         (*trace_constants)(element);
-      // no area, hence no energy: the neighbours' conditions hold it
+      // an element without area has no energy; the conditions of its neighbours suffice
       if (!std::isfinite(bound))
         return;
 
@@ -240,9 +240,9 @@ namespace NMM
       const double share[2] = {
         std::isfinite(bound[0]) ? 1. / (1. + bound[0] / bound[1]) : 0.,
         std::isfinite(bound[1]) ? 1. / (1. + bound[1] / bound[0]) : 0.};
-      // What a small block is tied to has a small bound, as the block's
-      // boundary is short beside its elements; so as not to hold the block by
-      // that alone, no less than stiffness over size of the smaller cell.
+      // An element that is tied to a small block has a small bound, because the boundary of the
+      // block is short compared with the element. The bound alone would tie the block too softly,
+      // so that the penalty is at least the stiffness divided by the size of the smaller cell.
       const double softer = std::min(
         region_to_elasticity[mesh.region(elements[0])].largest_eigenvalue(),
         region_to_elasticity[mesh.region(elements[1])].largest_eigenvalue());

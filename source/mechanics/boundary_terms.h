@@ -14,16 +14,16 @@ namespace NMM
   namespace internal
   {
     /**
-     * Terms on edges of elements: loads and displacement conditions on
+     * Terms on edges of elements in small displacements: loads and displacement conditions on
      * boundaries, ties across interfaces and closed joints.
      *
-     * With the bounds C_E Lambda_E of |sigma(u) n|^2 on an edge by the energy of
-     * the element (C: largest eigenvalue of the elasticity tensor, Lambda:
-     * TraceConstants), k = C Lambda, the penalty of a displacement condition is
-     * safety * k. A tie between elements 1 and 2 takes the averages
+     * The integral of |sigma(u) n|^2 on the edges of an element is bounded by k = C Lambda times
+     * the energy of the element, where C is the largest eigenvalue of the elasticity tensor and
+     * Lambda is that of TraceConstants. The penalty of a displacement condition is
+     * safety * k. A tie between elements 1 and 2 uses the averages
      * {sigma} = w_1 sigma_1 + w_2 sigma_2, w_1 = k_2 / (k_1 + k_2), and the
-     * penalty safety * k_1 k_2 / (k_1 + k_2): the softer or larger side carries
-     * the traction, so that neither stiffness contrast nor slivers spoil it
+     * penalty safety * k_1 k_2 / (k_1 + k_2). So the softer or larger side dominates
+     * the average, and neither stiffness contrast nor slivers impair the accuracy
      * (Annavarapu, Hautefeuille & Dolbow, Comput. Methods Appl. Mech. Engrg.
      * 225 (2012) 44).
      */
@@ -35,11 +35,11 @@ namespace NMM
                 const CurveConditions   &conditions,
                 TraceConstants          &trace_constants);
 
-      /// Conditions on the boundary edges of an element.
+      /// Add loads and displacement conditions on the boundary edges of an element.
       void
       add_conditions(unsigned int element, LocalSystem &system);
 
-      /// A tie, into a system of the covers of @p element and, after them, of
+      /// Add a tie to a system of the covers of @p element, followed by those of
       /// edge.neighbor.
       void
       add_tie(unsigned int       element,
@@ -47,8 +47,8 @@ namespace NMM
               LocalSystem       &system);
 
     private:
-      /// Coercivity needs more than 1; above that, room for several aggregated
-      /// elements that draw on the same root.
+      /// Factor of the penalties [-]. Coercivity requires more than 1; a larger value allows for
+      /// several aggregated elements whose bounds use the energy of the same root.
       static constexpr double safety = 4.;
 
       /// The displacement jump and the flux (sigma n) at a point, as linear
@@ -57,13 +57,13 @@ namespace NMM
       {
         unsigned int n_covers = 0;
         double       jump[LocalSystem::max_covers];
-        /// [cover][component of the traction][component of the displacement]
+        /// Derivative of the flux: [cover][component of the flux][component of the displacement].
         double flux[LocalSystem::max_covers][2][2];
         /// Flux of the initial stress.
         dealii::Tensor<1, 2> initial_flux;
       };
 
-      /// Append an element's share: its displacement times @p sign to the jump,
+      /// Append the functionals of an element: its displacement times @p sign to the jump,
       /// its traction times @p share to the flux.
       void
       append(unsigned int                element,
@@ -73,7 +73,7 @@ namespace NMM
              double                      share,
              PointFunctionals           &functionals) const;
 
-      /// Nitsche's terms at a point, see StaticElasticity.
+      /// Add Nitsche's terms at a point, see StaticElasticity.
       static void
       add_nitsche(const PointFunctionals              &functionals,
                   const dealii::SymmetricTensor<2, 2> &projection,

@@ -12,16 +12,17 @@ namespace NMM
 
     namespace
     {
-      /// Of E_1 - E_0, below which nothing is added to the means over the way.
+      /// Norm of E_1 - E_0 below which the means between both states are not corrected [-].
       constexpr double least_change = 1e-2;
-      /// The Gauss rule on [0, 1].
+      /// Points and weights of the Gauss rule with three points on [0, 1].
       constexpr double positions[3] = {0.11270166537925831,
                                        0.5,
                                        0.88729833462074169};
       constexpr double weights[3]   = {5. / 18., 8. / 18., 5. / 18.};
 
 
-      /// E = (H + H^T + H^T H) / 2 of H = F - I, which keeps the digits of small strains.
+      /// The strain E = (H + H^T + H^T H) / 2 with H = F - I, a form that is accurate for small
+      /// strains.
       SymmetricTensor<2, 2>
       accurate_green_strain(const Tensor<2, 2> &F)
       {
@@ -36,7 +37,8 @@ namespace NMM
       }
 
 
-      /// The symmetric positive root of C = I + 2 E (Cayley-Hamilton).
+      /// The right stretch tensor U, the positive definite root of C = I + 2 E, by the
+      /// Cayley-Hamilton theorem.
       Tensor<2, 2>
       right_stretch(const SymmetricTensor<2, 2> &E)
       {
@@ -62,8 +64,8 @@ namespace NMM
     }
 
 
-    /// S = U^-1 P and dS/dE = D at F = U, from A_iJkL = delta_ik S_JL
-    /// + U_iM U_kN D_MJNL.
+    /// S and D = dS/dE follow from P and A = dP/dF at F = U, by S = U^-1 P and
+    /// A_iJkL = delta_ik S_JL + U_iM U_kN D_MJNL.
     Deformation
     ConservingLaw::second_stress(const SymmetricTensor<2, 2> &E,
                                  const bool                   with_tangent,
@@ -143,7 +145,7 @@ namespace NMM
 
       const SymmetricTensor<2, 2> S_1 =
         dealii::symmetrize(dealii::invert(F_1) * response_1.stress);
-      // 2 d(factor)/dE_1
+      // slope is 2 d(factor)/dE_1
       Tensor<2, 2> slope = 2. * (S_1 - S_mean) - 4. * factor * change;
       for (unsigned int N = 0; N < 2; ++N)
         for (unsigned int L = 0; L < 2; ++L)
@@ -255,7 +257,7 @@ namespace NMM
         std::fill_n(row, 3, 0.);
       if (law->is_linear_in_green_strain())
         return Deformation::admissible;
-      // of central differences: 1e-10 of truncation and of rounding
+      // step of central differences [-], whose errors of truncation and rounding are about 1e-10
       constexpr double step = 1e-5;
       for (unsigned int c = 0; c < 3; ++c)
         for (const double sign : {1., -1.})
@@ -317,7 +319,8 @@ namespace NMM
       if (!with_tangent)
         return Deformation::admissible;
 
-      // 2 dS/dE_1 over the moduli: the mean of strains has 1
+      // 2 dS/dE_1 divided by the moduli of the undeformed state: 1 for a stress at the mean of both
+      // strains, and twice the damping
       const double moduli =
         (law->is_linear_in_green_strain() ? 1. : 0.) + 2. * damping;
       const double       lambda = moduli * elasticity.lambda;

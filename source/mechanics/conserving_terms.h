@@ -13,7 +13,8 @@ namespace NMM
 {
   namespace internal
   {
-    /// sum over (N, L) of C_MJNL X_NL, C at [2M + J][2N + L].
+    /// The product C : X, the sum over (N, L) of C_MJNL X_NL, where C_MJNL is stored at
+    /// [2M + J][2N + L].
     inline dealii::Tensor<2, 2>
     multiply(const double (&C)[4][4], const dealii::Tensor<2, 2> &X)
     {
@@ -30,24 +31,24 @@ namespace NMM
 
 
     /**
-     * The stress between two states that does exactly the work by which the energy
-     * W changes: with F_m = (F_0 + F_1) / 2 and E the Green-Lagrange strain
-     * @f[ P = F_m\,\bar S, \qquad \bar S : (E_1 - E_0) = W_1 - W_0, @f]
-     * \bar S symmetric, so that P exerts no moment in the middle state.
+     * The conserving stress between two states 0 and 1, whose work is exactly the change of the
+     * strain energy W. With F_m = (F_0 + F_1) / 2 and the Green-Lagrange strain E,
+     * @f[ P = F_m\,\bar S, \qquad \bar S : (E_1 - E_0) = W_1 - W_0. @f]
+     * \bar S is symmetric, so that P exerts no moment in the middle state.
      *
      * - St. Venant-Kirchhoff: \bar S = S((E_0 + E_1) / 2) (Simo & Tarnow, ZAMP 43
      *   (1992) 757, section 4).
      * - neo-Hookean: the mean of S(E_0 + s (E_1 - E_0)) over s in [0, 1] by
      *   three Gauss points (the average vector field of McLachlan, Quispel &
-     *   Robidoux, Phil. Trans. R. Soc. A 357 (1999) 1021), which does the work but for a
-     *   share |E_1 - E_0|^6. What is missing is
-     *   added along E_1 - E_0, a discrete gradient (Gonzalez, CMAME 190 (2000) 1763,
+     *   Robidoux, Phil. Trans. R. Soc. A 357 (1999) 1021). The relative error of its work is
+     *   of the order |E_1 - E_0|^6. If |E_1 - E_0| is above 0.01, the missing work is
+     *   added along E_1 - E_0 by a discrete gradient (Gonzalez, CMAME 190 (2000) 1763,
      *   eq. (24)),
-     *   @f[ \frac{W_1 - W_0 - \bar S:\Delta E}{\Delta E:\Delta E}\,\Delta E,
+     *   @f[ \frac{W_1 - W_0 - \bar S:\Delta E}{\Delta E:\Delta E}\,\Delta E.
      *   @f]
-     *   where |Delta E| is above 0.01; below, it is less than 1e-14 of the work, and
-     *   rounding of W would govern the fraction, which with Gonzalez'
-     *   stress at the mean of C kept Newton's method from converging in small steps.
+     *   For smaller changes the missing work is less than 1e-14 of the work, and
+     *   the fraction would be dominated by rounding of W. (With Gonzalez'
+     *   stress at the mean of C this rounding prevented convergence in small steps.)
      */
     class ConservingLaw
     {
@@ -56,14 +57,14 @@ namespace NMM
                     const dealii::SymmetricTensor<2, 2>   &initial_stress);
 
       /**
-       * P [Pa] and, if @p with_tangent, A = 2 dP/dF_1, the derivative by F_m at
-       * given F_0, at [2i + J][2k + L]. Not symmetric.
+       * Compute P [Pa] and, if @p with_tangent, A = 2 dP/dF_1, the derivative with respect to F_m
+       * at fixed F_0, where A_iJkL is stored at [2i + J][2k + L]. A is not symmetric.
        *
-       * To S is added what damps in proportion to the stiffness,
+       * Stiffness-proportional damping adds to S the stress
        * @f[ S_v = \frac{\beta}{h}\,C : (E_1 - E_0), @f]
-       * C being the moduli at rest and @p damping = beta / h [-]. It is a Kelvin-Voigt
-       * solid: what moves rigidly is not damped, however far it has turned, no
-       * momentum is lost, and @p dissipated is S_v : (E_1 - E_0) >= 0 [J/m^3].
+       * C being the moduli of the undeformed state and @p damping = beta / h [-]. This is a
+       * Kelvin-Voigt solid: rigid motions are not damped, however large the rotation is, and
+       * momenta are conserved. @p dissipated is S_v : (E_1 - E_0) >= 0 [J/m^3].
        */
       Deformation
       evaluate(const dealii::Tensor<2, 2> &F_0,
@@ -74,16 +75,17 @@ namespace NMM
                double (&A)[4][4],
                double &dissipated) const;
 
-      /// How S changes with E between two states, each at [2M + J][2N + L].
+      /// The change of the second Piola-Kirchhoff stress S with E between two states. Moduli
+      /// C_MJNL are stored at [2M + J][2N + L].
       struct Secant
       {
         dealii::SymmetricTensor<2, 2> E_0, E_1;
-        /// (S_0 + S_1) / 2
+        /// The mean stress (S_0 + S_1) / 2 [Pa].
         dealii::SymmetricTensor<2, 2> mean_stress;
-        /// C with C : (E_1 - E_0) = S_1 - S_0 exactly: the mean of dS/dE over the
-        /// way as above, and what is missing along E_1 - E_0.
+        /// Secant moduli C with C : (E_1 - E_0) = S_1 - S_0 exactly: the mean of dS/dE between
+        /// both states, corrected along E_1 - E_0 like the stress of this class [Pa].
         double moduli[4][4];
-        /// dS/dE at E_1
+        /// Tangent moduli dS/dE at E_1 [Pa].
         double end_moduli[4][4];
       };
 
@@ -92,8 +94,9 @@ namespace NMM
              const dealii::Tensor<2, 2> &F_1,
              Secant                     &result) const;
 
-      /// Derivative of `moduli` : @p X by E_1, at [2M + J] and the components 00,
-      /// 11 and 01 (with 10); by difference quotients, 0 for a linear S.
+      /// Derivative of (`moduli` : @p X) with respect to E_1, stored at [2M + J][c] for the strain
+      /// components c = 00, 11 and 01 (equal to 10). It is computed by central differences, and 0
+      /// if S is linear in E.
       Deformation
       secant_derivative(const Secant               &secant,
                         const dealii::Tensor<2, 2> &X,
@@ -105,14 +108,15 @@ namespace NMM
                     const dealii::SymmetricTensor<2, 2> &E_1,
                     double (&moduli)[4][4]) const;
 
-      /// S and D = dS/dE at [2M + J][2N + L].
+      /// Compute S [Pa] and, if @p with_tangent, D = dS/dE, with D_MJNL at [2M + J][2N + L].
       Deformation
       second_stress(const dealii::SymmetricTensor<2, 2> &E,
                     bool                                 with_tangent,
                     dealii::SymmetricTensor<2, 2>       &S,
                     double (&D)[4][4]) const;
 
-      /// S and 2 dS/dE_1 at [2M + J][2N + L].
+      /// Compute the conserving stress of a law that is not linear in E and, if @p with_tangent,
+      /// D = 2 dS/dE_1, with D_MJNL at [2M + J][2N + L].
       Deformation
       discrete_gradient(const dealii::Tensor<2, 2>    &F_0,
                         const dealii::Tensor<2, 2>    &F_1,
@@ -127,10 +131,10 @@ namespace NMM
 
 
     /**
-     * Internal forces of an element between the displacements @p begin and @p end
-     * and their derivative by the mean displacement at given @p begin, into
-     * @p local. What ConservingLaw::evaluate() dissipates by @p damping is added to
-     * @p dissipated [J/m].
+     * Add to @p local the internal forces of an element between the displacements @p begin and
+     * @p end and, if @p with_tangent, their derivative with respect to the mean displacement at
+     * fixed @p begin. The energy that ConservingLaw::evaluate() dissipates because of @p damping is
+     * added to @p dissipated [J/m].
      */
     Deformation
     add_conserving_terms(const ConservingLaw       &law,
@@ -145,23 +149,23 @@ namespace NMM
 
 
     /**
-     * Displacement condition or tie at a point between two states: forces that do
-     * exactly the work by which the energy of add_weak_point() changes,
+     * Add the terms of a displacement condition or tie at a point between two states. The work of
+     * these forces is exactly the change of the energy of add_weak_point(),
      * @f[ \Pi = \int -\sum_s \text{share}_s\,a_s\cdot S(E_s)N
      *      + \frac{\gamma}{2}|d|^2, \qquad a_s = F_s^T d, @f]
-     * but for the work of moving supports. E, a and |d|^2 are quadratic in F and d, so
-     * that their change is their derivative in the middle of the step times that of F
-     * and d; and they do not notice a rotation of a tied pair. With means (m) of both states,
-     * and C : (E_1 - E_0) = S_1 - S_0 (ConservingLaw::Secant), M = C : (a_m (x) N)
+     * except for the work of moving supports. E, a and |d|^2 are quadratic in F and d, so
+     * that their change is their derivative in the middle of the step times the change of F
+     * and d. They are invariant under a rotation of a tied pair. With means (m) of both states,
+     * C : (E_1 - E_0) = S_1 - S_0 (ConservingLaw::Secant) and M = C : (a_m (x) N), the residual
      * @f[ r(v) = \int \gamma\,d_m\cdot v - \sum_s \text{share}_s
      *      \left((d_m\otimes S_m N + F_m M):\nabla v
      *      + F_m S_m N\cdot Bv\right) @f]
-     * conserves the momenta where the condition's derivative does, as
+     * conserves momenta wherever the derivative of Pi does, like
      * Gonzalez' G-equivariant discrete gradient (J. Nonlinear Sci. 6 (1996)
-     * 449), but point by point. Derivative as for add_conserving_terms(). Arguments
-     * as for add_weak_point(), Tangent::robust leaves out all of the derivative that is
-     * zero with the jumps. What is prescribed, B g, is given for both
-     * states; by its change the supports do the @p work that is added to.
+     * 449), but at each point separately. The derivative is that of add_conserving_terms().
+     * Arguments are those of add_weak_point(), with these differences: Tangent::robust omits all
+     * terms of the derivative that vanish with the jumps; @p prescribed is B g at both
+     * states; the work that supports do by its change is added to @p work [J/m].
      */
     Deformation
     add_conserving_weak_point(

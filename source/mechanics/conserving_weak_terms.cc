@@ -10,20 +10,20 @@ namespace NMM
 
     namespace
     {
-      /// One side of a point: what its forces and their derivatives consist of.
+      /// Quantities of one side of a point, in the notation of add_conserving_weak_point().
       struct SideState
       {
         Tensor<2, 2>          F_1, F_m;
         ConservingLaw::Secant secant;
         Tensor<2, 2>          M;
-        /// S_m N
+        /// The traction S_m N [Pa].
         Tensor<1, 2> stress;
-        /// of M by E_1
+        /// Derivative of M with respect to E_1.
         double M_derivative[4][3];
       };
 
 
-      /// Q and T of r(v) = -(Q : grad v + T . Bv).
+      /// The coefficients Q and T of a residual r(v) = -(Q : grad v + T . Bv).
       struct Flux
       {
         Tensor<2, 2> Q;
@@ -59,8 +59,8 @@ namespace NMM
       }
 
 
-      /// Twice the derivative of the flux by the displacement at the end, in a
-      /// direction with gradient @p H and jump @p jump.
+      /// Twice the derivative of the flux with respect to the displacement at the end, in the
+      /// direction of a displacement with the gradient @p H and the jump @p jump.
       Flux
       derivative(const SideState    &state,
                  const Tensor<1, 2> &d_1,
@@ -89,7 +89,7 @@ namespace NMM
       }
 
 
-      /// Columns of the matrix for the unknowns of side @p of.
+      /// Add the columns of the matrix for the unknowns of side @p of.
       void
       add_columns(const EdgeTables::WeakPoint &point,
                   const unsigned int           n_per_cell,

@@ -13,15 +13,15 @@ namespace NMM
   namespace internal
   {
     /**
-     * What holds on an edge of a manifold element, worked out once per set of
-     * coinciding curve pieces: the conditions on a boundary; or that both sides
-     * are tied (interface, closed joint). Where curves coincide, a boundary
-     * counts before an open joint before a tie.
+     * The boundary conditions that hold on an edge of a manifold element, or whether both sides
+     * of the edge are tied (interface, closed joint). They are determined once for each set of
+     * coinciding curve pieces. Where curves coincide, a boundary takes precedence over an open
+     * joint, and an open joint over a tie.
      *
-     * A condition holds on the face of the domain whose boundary bears its name
-     * (PhysicalMesh::is_face_of()): where two domains share a side, on one of
-     * the two elements there. A pressure on an open joint holds on both of its faces.
-     * This class is the only place that decides it.
+     * A condition holds on the face of the domain whose boundary has its name
+     * (PhysicalMesh::is_face_of()). Where two domains share an edge, this is the face of only one
+     * of the two elements. A pressure on an open joint holds on both of its faces.
+     * All other classes use this one to decide which conditions hold.
      */
     class CurveConditions
     {
@@ -29,8 +29,8 @@ namespace NMM
       CurveConditions(const ManifoldMesh      &mesh,
                       const ElasticityProblem &problem);
 
-      /// Are the elements on both sides of the edge held together? An edge with
-      /// the same element on both sides (the end of a crack) needs nothing.
+      /// Whether the elements on both sides of the edge are tied. An edge with
+      /// the same element on both sides (at the end of a crack) is not tied.
       bool
       is_tied(const unsigned int element, const ElementEdge &edge) const
       {
@@ -47,7 +47,7 @@ namespace NMM
         return face(element, edge).conditions;
       }
 
-      /// Does a displacement condition hold on the element's side of the edge?
+      /// Whether a displacement condition holds on the element's side of the edge.
       bool
       has_displacement(const unsigned int element,
                        const ElementEdge &edge) const
@@ -55,7 +55,7 @@ namespace NMM
         return face(element, edge).has_displacement;
       }
 
-      /// Does Nitsche's method act on the edge?
+      /// Whether the edge has terms of Nitsche's method, by a displacement condition or a tie.
       bool
       is_weakly_held(const unsigned int element, const ElementEdge &edge) const
       {
@@ -63,7 +63,7 @@ namespace NMM
       }
 
     private:
-      /// What a region feels along a set of coinciding curve pieces.
+      /// The conditions on a region along a set of coinciding curve pieces.
       struct Face
       {
         std::vector<unsigned int> conditions;
@@ -73,13 +73,14 @@ namespace NMM
       const Face &
       face(unsigned int element, const ElementEdge &edge) const;
 
-      /// @p curve_to_conditions: indices of conditions by their curves.
+      /// Determine whether a curve set is tied or has conditions. @p curve_to_conditions are the
+      /// indices of the conditions on each curve.
       void
       add_curve_set(
         unsigned int                                  index,
         const std::vector<std::vector<unsigned int>> &curve_to_conditions);
 
-      /// Of the pieces in curve set @p index those that bound @p region.
+      /// Collect the conditions of those pieces in curve set @p index that bound @p region.
       Face
       make_face(unsigned int             index,
                 unsigned int             region,
@@ -89,7 +90,7 @@ namespace NMM
 
       const ManifoldMesh *mesh;
       std::vector<bool>   known, curve_set_to_tied, curve_set_has_conditions;
-      /// By curve set and region, of sets that have conditions.
+      /// For each curve set that has conditions, and each region at it.
       std::map<std::pair<unsigned int, unsigned int>, Face> faces;
       Face                                                  free;
     };

@@ -11,10 +11,10 @@ namespace NMM
     {
       using Type = BoundaryCondition::Type;
 
-      /// Coercivity needs more than 1; see EdgeTerms.
+      /// Factor of the penalties [-]. Coercivity requires more than 1; see EdgeTerms.
       constexpr double penalty_safety = 4.;
 
-      /// B of a condition, and B g at a point with outward normal @p n.
+      /// Compute B and B g of a displacement condition at a point with the outward normal @p n.
       void
       evaluate_condition(const BoundaryCondition       &condition,
                          const dealii::Point<2>        &x,
@@ -143,7 +143,7 @@ namespace NMM
       const double        bound =
         region_to_elasticity[mesh.region(element)].largest_eigenvalue() *
         (*trace_constants)(element);
-      // no area, hence no energy: the neighbours' conditions hold it
+      // an element without area has no energy; the conditions of its neighbours suffice
       if (!std::isfinite(bound))
         return;
       for (unsigned int q = 0; q < rule.points.size(); ++q)
@@ -252,7 +252,7 @@ namespace NMM
     }
 
 
-    /// Sums forces per cover.
+    /// Sums the forces of a load on each cover.
     class DeadLoads::Collector
     {
     public:
@@ -277,7 +277,7 @@ namespace NMM
         f[1] += weight * force[1];
       }
 
-      /// What has been collected; the next load starts.
+      /// Return the forces collected so far, and begin the next load.
       Load
       take()
       {
@@ -411,7 +411,7 @@ namespace NMM
       const MathematicalMesh &mathematical_mesh = mesh.mathematical_mesh();
       if (problem->point_forces.empty())
         return;
-      // the element of one force after the other, as PointTerms finds it
+      // PointTerms finds the element of each point force
       double w[WeightFunctions::max_per_cell];
       const auto [first, last] = covers->locally_owned_elements();
       Collector collector(covers->n_covers());

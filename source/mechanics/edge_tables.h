@@ -15,9 +15,9 @@ namespace NMM
   namespace internal
   {
     /**
-     * What the nonlinear analyses need at the quadrature points of edges, in the
-     * reference configuration, made once: points of displacement conditions and
-     * of ties (*weak points*) and of follower pressure.
+     * Tables for the nonlinear analyses at the quadrature points of edges in the
+     * reference configuration, computed once. Points of displacement conditions and
+     * of ties are called *weak points*; the others are those of follower pressure.
      *
      * Penalties and the shares of averages are those of EdgeTerms.
      */
@@ -29,12 +29,13 @@ namespace NMM
                  const CurveConditions   &conditions,
                  TraceConstants          &trace_constants);
 
-      /// One side of a weak point: the element's share of the mean stress.
+      /// One side of a weak point: the region of its element, the share of its stress in the mean
+      /// stress [-], and gradients of its weight functions.
       struct Side
       {
         unsigned int region;
         double       share;
-        /// dw_i/dX_J [1/m]
+        /// Gradients dw_i/dX_J [1/m].
         double gradients[WeightFunctions::max_per_cell][2];
       };
 
@@ -44,46 +45,47 @@ namespace NMM
         /// Index into boundary_conditions, or invalid_index for a tie.
         unsigned int condition;
         unsigned int n_sides;
-        /// [m]
+        /// Quadrature weight in the reference configuration [m].
         double weight;
-        /// Times the jump: [Pa / m]
+        /// Penalty gamma [Pa/m].
         double penalty;
-        /// Lambda of TraceConstants, of a tie the larger one [1/m].
+        /// Lambda of TraceConstants; for a tie the larger one of both sides [1/m].
         double               trace_constant;
         dealii::Tensor<1, 2> normal;
-        /// B: which components are held.
+        /// The projection B onto the components that are held.
         dealii::SymmetricTensor<2, 2> projection;
-        /// B g [m] at load factor 1.
+        /// Prescribed displacement B g at the load factor 1 [m].
         dealii::Tensor<1, 2> prescribed;
         Side                 sides[2];
-        /// Jump of the displacement: sum over the covers of all sides, one side
-        /// after the other.
+        /// Coefficients of the displacements in their jump, for the covers of the first side and
+        /// then of the second one [-].
         double jump[LocalSystem::max_covers];
       };
 
+      /// A point of follower pressure, of the boundary condition with the index `condition`.
       struct FollowerPoint
       {
         unsigned int condition;
-        /// Pressure times weight [Pa m] at load factor 1.
+        /// Pressure times quadrature weight at the load factor 1 [Pa m].
         double weighted_pressure;
-        /// Unit tangent of the reference edge, the element on its left: the
-        /// normal turned by 90 degrees.
+        /// Unit tangent of the reference edge: the outward normal rotated by 90 degrees, so that
+        /// the element is on its left.
         dealii::Tensor<1, 2> tangent;
-        /// w_i, and dw_i/ds along the tangent [1/m].
+        /// Weight functions w_i [-], and their derivatives dw_i/ds along the tangent [1/m].
         double values[WeightFunctions::max_per_cell];
         double tangential[WeightFunctions::max_per_cell];
       };
 
-      /// Points of an element, or of a pair of elements that are tied.
+      /// The range of points of an element, or of a pair of elements that are tied.
       struct Site
       {
         unsigned int element;
-        /// invalid_index: no tie.
+        /// The other element of a tie; otherwise invalid_index.
         unsigned int neighbor;
         unsigned int first_point, last_point;
       };
 
-      /// Displacement conditions, by ascending element; then ties, likewise.
+      /// Sites of displacement conditions, ties and follower pressure, each list sorted by element.
       std::vector<Site>          conditions, ties, followers;
       std::vector<WeakPoint>     weak_points;
       std::vector<FollowerPoint> follower_points;
@@ -106,7 +108,7 @@ namespace NMM
                        unsigned int    element,
                        const EdgeRule &rule);
 
-      /// Fill a side and its part of the jump.
+      /// Set one side of a weak point, and its coefficients in the jump.
       void
       set_side(WeakPoint              &point,
                unsigned int            side,
@@ -123,9 +125,9 @@ namespace NMM
 
 
     /**
-     * Loads that keep direction and size, as forces on covers, one list per
-     * load: boundary conditions in their order, then gravity, the body force and
-     * point forces. A load that a problem does not have has an empty list.
+     * Loads that keep direction and size, as forces on covers. There is one list of forces for
+     * each boundary condition, each point force, gravity and the body force. The list is empty if
+     * the problem does not have the load.
      */
     class DeadLoads
     {
@@ -135,10 +137,11 @@ namespace NMM
                 const ElasticityProblem    &problem,
                 const CurveConditions      &conditions);
 
+      /// The forces of one load on covers, each of which occurs once.
       struct Load
       {
         std::vector<unsigned int> covers;
-        /// Two per cover [N / m thickness].
+        /// Two components for each cover, per unit thickness [N/m].
         std::vector<double> forces;
       };
 

@@ -128,7 +128,7 @@ namespace NMM
         vector = 0.;
         return vector;
       }();
-      // without loads: the tangent of follower pressure is none of this theory
+      // without loads, because small displacements have no tangent of follower pressure
       if (!has_stiffness)
         (void)elastic->assemble(zero, 0., Tangent::consistent);
       (void)elastic->assemble(zero, factor, Tangent::none);
@@ -138,7 +138,7 @@ namespace NMM
     }
     owned = u;
     elastic->tangent().vmult(sum, owned);
-    // constrained unknowns have a diagonal entry of their own
+    // the diagonal entries of constrained unknowns are arbitrary
     elastic->affine_constraints().set_zero(sum);
     energy = 0.5 * (owned * sum);
     sum += load;
@@ -185,7 +185,7 @@ namespace NMM
   {
     if (!linearized)
       return elastic->force_scale();
-    // forces of initial stress are in balance as well as loads
+    // forces due to initial stress balance each other as loads do
     return inelastic ? std::hypot(scale, inelastic->totals().force_scale)
                      : scale;
   }

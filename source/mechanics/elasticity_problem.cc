@@ -50,7 +50,7 @@ namespace NMM
       const CurveRole role = mesh.curves()[curve].role;
       if (role == CurveRole::joint && condition.is_pressure())
       {
-        // only a joint that is open has faces
+        // only open joints have faces
         for (const unsigned int c : mesh.find_curves(condition.curve))
           AssertThrow(mesh.curves()[c].state == JointState::open,
                       InputError("Joint \"" + condition.curve +
@@ -87,8 +87,8 @@ namespace NMM
     }
 
 
-    /// A point must be finite and within the box; whether it lies in the solid
-    /// is seen when its element is looked for.
+    /// Check that a point is finite and within the bounding box. Whether it lies in the solid
+    /// is checked later, by the search for its element.
     void
     check_point(const dealii::Point<2> &point,
                 const std::string      &what,

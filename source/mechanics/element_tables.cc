@@ -17,7 +17,8 @@ namespace NMM
       const auto [first, last] = covers.locally_owned_elements();
       entries.reserve(last - first);
 
-      // Jacobians are equal if they agree to rounding of the coordinates
+      // A table that elements share. Jacobians count as equal if they agree to the rounding of the
+      // coordinates.
       struct Shared
       {
         dealii::Tensor<2, 2> jacobian;
@@ -36,14 +37,14 @@ namespace NMM
         if (mesh.is_whole(e))
         {
           const double limit = tolerance * tolerance * jacobian.norm_square();
-          // the last one met is the likeliest
+          // search backwards, because the last table is the most likely one
           for (auto s = shared.rbegin(); s != shared.rend() && !found; ++s)
             if ((s->jacobian - jacobian).norm_square() < limit)
             {
               begin = s->first;
               found = true;
             }
-          // a mesh from a file may have no two equal cells
+          // the limit avoids long searches in a mesh from a file without equal cells
           if (!found && shared.size() < n_max_shared)
             shared.push_back({jacobian, begin});
         }

@@ -12,11 +12,11 @@ namespace NMM
   namespace internal
   {
     /**
-     * Weights and physical gradients dw_i/dX_J of the weight functions at the
-     * quadrature points of all owned elements, in the reference configuration:
-     * made once, read in every iteration. Whole elements whose cells have the
-     * same Jacobian (all of one orientation and size) share one table; cut
-     * elements have their own, one after the other.
+     * Quadrature weights and physical gradients dw_i/dX_J of the weight functions at the
+     * quadrature points of all owned elements in the reference configuration. They are computed
+     * once and read in every iteration. Whole elements whose cells have the
+     * same Jacobian (the same orientation and size) share one table; each cut
+     * element has its own.
      *
      * Memory: 8 (1 + 2 n) bytes per point of a cut element, n = 3 or 6.
      */
@@ -26,12 +26,13 @@ namespace NMM
       ElementTables(const CoverSystem          &covers,
                     const QuadratureCollection &quadrature);
 
+      /// The table of an element.
       struct View
       {
         unsigned int n_points;
         /// Quadrature weights times det J [m^2].
         const double *weights;
-        /// [point][weight function][direction], [1/m]
+        /// Gradients [1/m] at [point * number of weight functions + weight function][direction].
         const double (*gradients)[2];
       };
 
@@ -45,8 +46,8 @@ namespace NMM
                   entry.first * n_per_cell};
       }
 
-      /// Number of the element's first quadrature point, if the points of all
-      /// owned elements are numbered one after the other.
+      /// Index of the element's first quadrature point in a consecutive numbering of the points
+      /// of all owned elements.
       unsigned int
       first_point(const unsigned int element) const
       {
@@ -59,7 +60,7 @@ namespace NMM
         return n_all_points;
       }
 
-      /// Tables that whole elements share.
+      /// Number of tables that whole elements share.
       unsigned int
       n_shared() const
       {
@@ -74,7 +75,7 @@ namespace NMM
         std::size_t  first;
       };
 
-      /// Append the table of a rule; returns its first point.
+      /// Append the table of a rule. Returns the index of its first point in the tables.
       std::size_t
       append(const dealii::Quadrature<2> &rule,
              const dealii::Tensor<2, 2>  &jacobian,
@@ -87,8 +88,8 @@ namespace NMM
     };
 
 
-    /// @p diagonal I + sum_i u_i (x) grad w_i for @p n weight functions: with 0 the displacement
-    /// gradient, with 1 the deformation gradient.
+    /// The tensor @p diagonal * I + sum_i u_i (x) grad w_i for @p n weight functions: with the
+    /// @p diagonal 0 the displacement gradient, with 1 the deformation gradient.
     inline dealii::Tensor<2, 2>
     displacement_gradient(const unsigned int n,
                           const double (*u)[2],
@@ -112,7 +113,7 @@ namespace NMM
     }
 
 
-    /// F = I + sum_i u_i (x) grad w_i for @p n weight functions.
+    /// The deformation gradient F = I + sum_i u_i (x) grad w_i for @p n weight functions.
     inline dealii::Tensor<2, 2>
     deformation_gradient(const unsigned int n,
                          const double (*u)[2],

@@ -26,7 +26,7 @@ namespace NMM
                                           degree,
                                           covers.locally_owned_elements());
 
-    // squares: u error, u, sigma error, sigma
+    // squared norms of the error of u, of u, of the error of sigma, and of sigma
     std::array<double, 4> sums = {{0., 0., 0., 0.}};
     const auto [first, last]   = covers.locally_owned_elements();
     for (unsigned int e = first; e < last; ++e)

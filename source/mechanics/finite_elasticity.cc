@@ -90,8 +90,8 @@ namespace NMM
         data->gather(site, data->nodal, local);
         for (unsigned int q = site.first_point; q < site.last_point; ++q)
         {
-          // nothing below 2, then faster than the moduli: those inside the
-          // element may have grown more than those on its edge
+          // Penalties do not change below a growth of 2. Above, they grow with the third power,
+          // because the moduli inside the element may have grown more than those on its edge.
           const double growth = growth_of_moduli(data->edges->weak_points[q],
                                                  data->region_to_law,
                                                  data->n_per_cell,

@@ -9,7 +9,7 @@
 #include <mechanics/nodal_values.h>
 #include <mechanics/trace_constant.h>
 
-// One assembly: volumes, conditions and ties, loads.
+// Assembly of elements, displacement conditions, ties and loads.
 namespace NMM
 {
   using namespace internal;
@@ -63,8 +63,8 @@ namespace NMM
   }
 
 
-  /// Forces at a strain of 1e-6: relative to them, what F = I + grad u loses to
-  /// rounding is below tolerances, however small the load.
+  /// The root of the sum of squares of internal forces at a strain of 1e-6. Relative to these
+  /// forces, the rounding errors in F = I + grad u are below tolerances, however small the load is.
   double
   FiniteElasticity::Data::forces_at_small_strain() const
   {
@@ -139,7 +139,7 @@ namespace NMM
   void
   FiniteElasticity::Data::read(const Vector &u, std::vector<double> &to) const
   {
-    // ties look at blocks beside active ones
+    // ties also need the displacements of blocks next to active ones
     if (active_covers.all() || !edges->ties.empty() ||
         to.size() != 2 * covers->n_covers())
     {
@@ -238,8 +238,8 @@ namespace NMM
           add(0.5 * (first + last), task.with_tangent, local);
         if (first != last)
         {
-          // the energy is quadratic in the factor: its derivative times the
-          // change
+          // the energy is quadratic in the factor, so that this difference is exactly its
+          // derivative at the mean factor times the change
           LocalSystem unused;
           unused.reset(n_per_cell);
           energies.work_of_conditions +=
@@ -308,7 +308,7 @@ namespace NMM
   Deformation
   FiniteElasticity::Data::add_elements(const Task &task)
   {
-    /// The volume's part of an element.
+    /// Terms of the volume of an element, which threads compute in parallel.
     struct Volume
     {
       LocalSystem       local;
@@ -322,7 +322,7 @@ namespace NMM
     auto        follower     = edges->followers.begin();
     Deformation state        = Deformation::admissible;
     const auto [first, last] = covers->locally_owned_elements();
-    // what other threads work at then is in vain
+    // lets threads skip the remaining elements once one is inverted
     std::atomic<bool> is_inverted(false);
     n_assembled           = 0;
     const bool is_all     = active_elements.all();
@@ -454,7 +454,7 @@ namespace NMM
       state = add_ties(task);
     add_dead_loads(task);
 
-    // inverted somewhere is inverted for all
+    // if an element is inverted on any rank, the result is inverted on all ranks
     double sums[7] = {state == Deformation::inverted ? 1. : 0.,
                       force_square,
                       energies.strain,

@@ -16,7 +16,7 @@
 
 namespace NMM
 {
-  /// Tables of elements and edges, the linear system, and one assembly of it
+  /// Tables of elements and edges, the linear system, and its assembly
   /// (finite_elasticity_assembly.cc).
   struct FiniteElasticity::Data
   {
@@ -36,19 +36,20 @@ namespace NMM
          const ElasticityProblem                 &problem,
          bool                                     may_float);
 
-    /// What one assembly needs to know.
+    /// Arguments of one assembly.
     struct Task
     {
       double  load_factor;
       Tangent tangent;
       bool    with_tangent, has_increment;
-      /// Between two states, see assemble_between().
+      /// Whether forces are those between two states, see assemble_between(), which also explains
+      /// the following members.
       bool                  is_between = false;
       const LoadAmplitudes *first = nullptr, *last = nullptr;
       double                damping = 0.;
     };
 
-    /// Amplitude of a condition times the load factor.
+    /// The factor of a load: amplitude of its boundary condition times the load factor [-].
     double
     condition_factor(const unsigned int condition, const Task &task) const
     {
@@ -57,8 +58,8 @@ namespace NMM
                                    : amplitudes.boundary_conditions[condition]);
     }
 
-    /// What displacements are multiplied by at the beginning and at the end of a
-    /// step; the same if there is none.
+    /// Factors of prescribed displacements at the beginning and at the end of a
+    /// step [-]; outside of assemble_between() both are the same.
     std::array<double, 2>
     factors(std::vector<double> LoadAmplitudes::*list,
             const unsigned int                   index,
@@ -88,7 +89,7 @@ namespace NMM
                LocalSystem             &local,
                Energies                &sums) const;
 
-    /// Everything at the displacements in `nodal`.
+    /// Assemble all terms at the displacements in `nodal`.
     Deformation
     assemble(const Task &task);
 
@@ -123,7 +124,7 @@ namespace NMM
              absent_blocks[covers->manifold_mesh().block(element)];
     }
 
-    /// See set_active_blocks().
+    /// Whether the element belongs to an active block.
     bool
     is_active(const unsigned int element) const
     {
@@ -134,11 +135,11 @@ namespace NMM
     void
     set_active_blocks(const std::vector<bool> &blocks);
 
-    /// Displacements where they are needed.
+    /// Read the displacements that are needed for active blocks from a vector.
     void
     read(const Vector &u, std::vector<double> &to) const;
 
-    /// Add the squares of what has come to the forces since the last call.
+    /// Add the squares of the changes of the local forces since the last call to the force scale.
     void
     gauge(const LocalSystem &local, double *known)
     {
@@ -150,7 +151,7 @@ namespace NMM
       }
     }
 
-    /// Displacements of the covers of a site's element, then of its neighbor.
+    /// Read the displacements of the covers of a site's element, then those of its neighbor.
     void
     gather(const EdgeTables::Site    &site,
            const std::vector<double> &from,
@@ -186,14 +187,15 @@ namespace NMM
     DeadLoads                                dead_loads;
     CoverMatrixAssembler                     assembler;
     LoadAmplitudes                           amplitudes;
-    /// Empty, or by block; and which covers belong to them.
+    /// For each block whether it is absent, for each cover whether it belongs to an absent block,
+    /// and for each block whether it is active. Empty: no block is absent, all are active.
     std::vector<bool> absent_blocks, absent_covers, active_blocks;
     unsigned int      n_assembled = 0;
-    /// Of the active blocks: elements, covers, and entries of each dead load.
+    /// Elements, covers, and entries of each dead load that belong to active blocks.
     internal::ActiveItems              active_elements, active_covers;
     std::vector<internal::ActiveItems> active_loads;
 
-    /// Per weak point, what its penalty is multiplied by.
+    /// For each weak point, the factor of its penalty [-]; see adapt_penalties().
     std::vector<double> penalty_growth;
     std::vector<double> nodal, nodal_increment, nodal_begin, nodal_end;
 

@@ -10,7 +10,7 @@ namespace NMM
     {
       using dealii::Tensor;
 
-      /// A + delta_ik dS_JL with dS = -C : H^T H / 2, see add_volume_terms().
+      /// Add delta_ik dS_JL with dS = -C : H^T H / 2 to A_iJkL, see add_volume_terms().
       void
       linearize_stress(const PlaneElasticity &c,
                        const Tensor<2, 2>    &H_plus_identity,
@@ -35,7 +35,7 @@ namespace NMM
       }
 
 
-      /// The upper triangle of blocks; @p n known to the compiler.
+      /// The implementation for a number @p n of covers that the compiler knows.
       template <unsigned int n>
       void
       add_stiffness(const double weight,
@@ -183,7 +183,7 @@ namespace NMM
         tangent == Tangent::consistent ||
         (with_tangent && relative_jump < close_jump);
 
-      // traction, and its derivative by unknown c of cover k
+      // mean traction, and its derivative with respect to unknown c of cover k
       Tensor<1, 2> traction;
       double       flux[LocalSystem::max_covers][2][2];
       for (unsigned int s = 0; s < point.n_sides; ++s)

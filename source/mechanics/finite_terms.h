@@ -17,14 +17,14 @@ namespace NMM
     using RegionLaws = std::vector<std::shared_ptr<const HyperelasticLaw>>;
 
 
-    /// Displacements of the covers of an element, or of two one after the other
+    /// Displacements of the covers of an element, or of two elements one after the other
     /// [m].
     struct LocalDisplacement
     {
       double values[LocalSystem::max_covers][2];
 
-      /// Read those of @p covers from @p nodal (two per cover), from position
-      /// @p first on.
+      /// Read the displacements of @p covers from @p nodal (two values per cover) and store them
+      /// from position @p first on.
       void
       gather(const dealii::ArrayView<const unsigned int> &covers,
              const std::vector<double>                   &nodal,
@@ -39,12 +39,12 @@ namespace NMM
     };
 
 
-    /// Largest |d| Lambda at which Tangent::robust is the whole derivative [-].
+    /// Largest |d| Lambda up to which Tangent::robust is the full derivative [-].
     constexpr double close_jump = 0.1;
 
 
-    /// Add sum over (J, L) of weight g_iJ A_cJdL g_jL to the blocks j >= i of a
-    /// matrix of @p n_per_cell covers.
+    /// Add the sum over (J, L) of weight g_iJ A_cJdL g_jL to the 2 x 2 entries (i, j) with j >= i
+    /// of a matrix of @p n_per_cell covers.
     void
     add_stiffness(unsigned int n_per_cell,
                   double       weight,
@@ -52,21 +52,22 @@ namespace NMM
                   const double (&A)[4][4],
                   LocalSystem &local);
 
-    /// Fill in the blocks j < i of a symmetric matrix.
+    /// Set the 2 x 2 entries (i, j) with j < i of a symmetric matrix from those with j > i.
     void
     symmetrize(LocalSystem &local);
 
 
     /**
-     * Internal forces of an element, into local.rhs, and their derivative:
+     * Add the internal forces of an element to local.rhs and their derivative to local.matrix:
      * @f[ r_{ic} = \int P_{cJ}\,\partial_J w_i, \qquad
      *     K_{ic,jd} = \int \partial_J w_i\,A_{cJdL}\,\partial_L w_j @f]
-     * Adds to an empty @p local. With @p increment, the displacement of the last
-     * iteration, the stress in the geometric part of K is not that of u but the
+     * @p local must be zero before. @p increment, if not null, is the displacement of the last
+     * iteration. The stress in the geometric part of K is then not that of u but the
      * one linearized in the last iteration, S(u) - C : H^T H / 2 with
-     * H = grad(increment): the mixed integration point Newton method (Magisano,
-     * Leonetti & Garcea, CMAME 313 (2017) 986), which spares a good part of the
-     * iterations where large rotations come with small strains.
+     * H = grad(increment). This is the mixed integration point Newton method (Magisano,
+     * Leonetti & Garcea, CMAME 313 (2017) 986), which saves many
+     * iterations for large rotations with small strains. The strain energy is added to
+     * @p energy [J/m].
      */
     Deformation
     add_volume_terms(const HyperelasticLaw     &law,
@@ -80,9 +81,9 @@ namespace NMM
 
 
     /**
-     * Displacement condition or tie at a point by the potential form of
-     * Nitsche's method: with the jump d = B (u - g), the mean stress
-     * {P} = sum_s share_s P_s and G = d (x) N
+     * Add the terms of a displacement condition or tie at a point by the potential form of
+     * Nitsche's method. With the jump d = B (u - g), the mean stress
+     * {P} = sum_s share_s P_s and G = d (x) N, the potential is
      * @f[ \Pi = \int -\{P\}:G + \frac{\gamma}{2}|d|^2. @f]
      * Residual and tangent are its derivatives (B symmetric, a projection):
      * @f[ r(v) = \int -\{A[\nabla v]\}:G - \{P\}:(Bv\otimes N)
@@ -90,9 +91,9 @@ namespace NMM
      * @f[ K(v,w) = \int -\{D_G A[\nabla v,\nabla w]\}
      *      - \{A[\nabla v]\}:(Bw\otimes N) - \{A[\nabla w]\}:(Bv\otimes N)
      *      + \gamma\,Bv\cdot w. @f]
-     * @p prescribed is B g at the current load factor, @p growth multiplies
-     * gamma. For Tangent::robust see FiniteElasticity::assemble(). The energy
-     * is added to, and @p largest_jump raised to |d| in units of 1 / Lambda.
+     * @p prescribed is B g at the current load factor, and @p growth multiplies
+     * gamma. For Tangent::robust see FiniteElasticity::assemble(). The potential is added to
+     * @p energy [J/m]. @p largest_jump becomes |d| Lambda [-] if that is larger.
      */
     Deformation
     add_weak_point(const EdgeTables::WeakPoint &point,
@@ -107,8 +108,9 @@ namespace NMM
                    double                      &largest_jump);
 
 
-    /// Moduli A at a weak point over those at rest, each by the largest sum of
-    /// absolute values in a row; the largest of all sides, 1 if not admissible.
+    /// Norm of the moduli A at a weak point divided by that of the undeformed state [-], the
+    /// largest ratio of all sides. The norm is the largest sum of absolute values in a row. 1 if
+    /// the deformation is not admissible.
     double
     growth_of_moduli(const EdgeTables::WeakPoint &point,
                      const RegionLaws            &region_to_law,
@@ -117,10 +119,10 @@ namespace NMM
 
 
     /**
-     * Minus the force of follower pressure, -p cof(F) N per reference length.
-     * With the tangent t = F T of the deformed edge, cof(F) N = (t_y, -t_x):
-     * only derivatives along the edge take part, and the tangent is not
-     * symmetric. @p factor times the point's pressure acts.
+     * Add minus the force of follower pressure, where the force is -p cof(F) N per reference
+     * length. With the tangent t = F T of the deformed edge, cof(F) N = (t_y, -t_x). So
+     * only derivatives along the edge are needed, and the tangent matrix is not
+     * symmetric. The pressure of the point is multiplied by @p factor.
      */
     void
     add_follower_point(const EdgeTables::FollowerPoint &point,
@@ -131,8 +133,8 @@ namespace NMM
                        LocalSystem                     &local);
 
 
-    /// The spring of a fixed point (12) in its element; @p factor times its
-    /// displacement is prescribed. Returns the spring's energy [J/m].
+    /// Add the spring of a fixed point (12), whose displacement is multiplied by @p factor, to the
+    /// system of its element. Returns the energy of the spring [J/m].
     double
     add_fixed_point(const CoverSystem       &covers,
                     unsigned int             element,

@@ -15,7 +15,8 @@ namespace NMM
   {
     namespace
     {
-      /// Number of the connected piece of each element; returns how many.
+      /// Number the connected pieces, and set the piece of each element. Returns the number of
+      /// pieces.
       unsigned int
       find_pieces(const ManifoldMesh        &mesh,
                   const CurveConditions     &conditions,
@@ -36,9 +37,9 @@ namespace NMM
 
 
       /**
-       * The same through all ranks of a distributed mesh: pieces of different ranks
-       * are one where they have a ghost element in common, and all ranks join all
-       * such pairs.
+       * Join the pieces of all ranks of a distributed mesh. Pieces of different ranks
+       * are the same piece if they have a ghost element in common; all ranks join all
+       * such pairs. Returns the number of pieces.
        */
       unsigned int
       join_pieces_of_ranks(const ElementExchange     &exchange,
@@ -77,12 +78,12 @@ namespace NMM
       }
 
 
-      /// A connected piece's extent and what is known of its rigid motion.
+      /// Area, extent and region of a connected piece.
       struct Piece
       {
         double           area = 0.;
         dealii::Point<2> lower{1e300, 1e300}, upper{-1e300, -1e300};
-        /// Largest element's area and region, for messages.
+        /// Area of the largest element [m^2], and its region, for messages.
         double       largest_area = -1.;
         unsigned int region       = invalid_index;
 
@@ -170,7 +171,7 @@ namespace NMM
       }
 
 
-      /// The 3x3 matrices of the header's formula, nine numbers per piece.
+      /// The matrices (3 x 3) of check_no_block_floats(), with nine numbers per piece.
       class HeldModes
       {
       public:
@@ -180,7 +181,7 @@ namespace NMM
         {
         }
 
-        /// The displacement along @p direction at @p x is held.
+        /// Add the condition that the displacement along @p direction is held at the point @p x.
         void
         add(const unsigned int          piece,
             const dealii::Point<2>     &x,
@@ -204,7 +205,7 @@ namespace NMM
                                       dealii::ArrayView<double>(matrices));
         }
 
-        /// Which motion of the piece is free; empty if none.
+        /// Description of a free motion of the piece; empty if there is none.
         std::string
         free_motion(const unsigned int piece) const
         {
@@ -299,7 +300,7 @@ namespace NMM
         problem.region_to_material(mesh.physical_mesh());
       for (unsigned int p = 0; p < n_pieces; ++p)
       {
-        // a piece without area has no unknowns of its own that matter
+        // pieces without area are ignored
         if (pieces[p].area == 0.)
           continue;
         const std::string motion = held.free_motion(p);

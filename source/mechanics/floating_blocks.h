@@ -12,16 +12,16 @@ namespace NMM
   namespace internal
   {
     /**
-     * Before solving: does every connected piece of the solid (elements joined
-     * or tied) have displacement conditions and fixed points that suppress its
-     * two translations and its rotation? Per piece, the conditions are
-     * evaluated on the three rigid-body modes, rotation scaled to the piece's
-     * size; a mode r floats if the matrix sum_q (B r)(B r)^T over the points
-     * where conditions hold is singular to 1e-13 of its largest eigenvalue. Held
-     * lengths down to some 1e-6 of the piece's size count. Cost: O(elements).
+     * Check before solving that in every connected piece of the solid (elements that are joined
+     * or tied) displacement conditions and fixed points suppress both
+     * translations and the rotation. For each piece, the conditions are
+     * evaluated for the three rigid-body modes r, with the rotation scaled by the size of the
+     * piece. A rigid motion is free if the matrix sum_q (B r)(B r)^T over the points q
+     * where conditions hold has an eigenvalue below 1e-13 of its largest one. Conditions are
+     * recognized on lengths down to some 1e-6 of the size of the piece. Cost: O(elements).
      *
-     * @throws NumericalFailure naming the block, a point inside, its material
-     * and the motion that is free; on all ranks alike.
+     * @throws NumericalFailure on all ranks, naming the block, a point inside, its material
+     * and the free motion.
      */
     void
     check_no_block_floats(const CoverSystem       &covers,

@@ -16,17 +16,17 @@ namespace NMM
   {
     /**
      * The terms of the ghost penalty, see GhostPenalty, for a pair of joined
-     * elements: covers of the first, then of the second (those they share stand
-     * twice).
+     * elements. Local systems have the covers of the first element, followed by those of the
+     * second one (shared covers occur twice).
      */
     class GhostTerms
     {
     public:
-      /// The factors gamma [-] on the energy of the difference. Measured on the
-      /// disk and on slivers: with 1, 0.1, 0.03, 0.01 in the stiffness the error
+      /// The factors gamma [-] of the energy of the difference. Measurements on the
+      /// disk and on slivers: with the factors 1, 0.1, 0.03, 0.01 in the stiffness the error
       /// is 2.1, 1.1, 1.0, 1.0 times that of aggregation and the condition
-      /// number 7, 1.3, 1, 1 times, but with 0.01 conditions held on slivers
-      /// lose coercivity. The mass matrix wants less.
+      /// number 7, 1.3, 1, 1 times, but with 0.01 displacement conditions on slivers
+      /// lose coercivity. The mass matrix needs a smaller factor.
       static constexpr double stiffness_factor = 0.03, mass_factor = 1e-3;
 
       GhostTerms(const CoverSystem &covers, const ElasticityProblem &problem);
@@ -35,14 +35,15 @@ namespace NMM
       add_stiffness(const std::pair<unsigned int, unsigned int> &pair,
                     LocalSystem                                 &system) const;
 
-      /// gamma rho int (u_E - u_F) . (v_E - v_F)
+      /// Add gamma rho int (u_E - u_F) . (v_E - v_F) for the elements E and F of the pair.
       void
       add_mass(const std::pair<unsigned int, unsigned int> &pair,
                LocalSystem                                 &system) const;
 
     private:
-      /// Call action(gradients or values of both elements' covers, the second's
-      /// with negative sign, weight [m^2]) for points of both cells.
+      /// Call an action with the gradients or values of the weight functions of both elements,
+      /// those of the second one with negative sign, and the quadrature weight [m^2], for each
+      /// quadrature point of both cells.
       template <typename Action>
       void
       for_each_point(const std::pair<unsigned int, unsigned int> &pair,
@@ -56,7 +57,7 @@ namespace NMM
     };
 
 
-    /// The covers of two elements, one's after the other's.
+    /// The covers of an element, followed by those of its neighbor.
     inline std::array<unsigned int, LocalSystem::max_covers>
     covers_of_pair(const CoverSystem &covers,
                    const unsigned int element,

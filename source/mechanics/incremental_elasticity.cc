@@ -24,7 +24,8 @@ namespace NMM
 
   namespace
   {
-    /// R (sigma + C : sym h) R^T, R the rotation of I + h.
+    /// The stress R (sigma + C : sym h) R^T after a step with the displacement gradient h, where R
+    /// is the rotation of I + h.
     SymmetricTensor<2, 2>
     updated_stress(const SymmetricTensor<2, 2> &stress,
                    const PlaneElasticity       &elasticity,
@@ -41,7 +42,7 @@ namespace NMM
     }
 
 
-    /// Gradients on the current geometry: those on the reference times F^-1.
+    /// Compute gradients on the current geometry: those on the reference geometry times F^-1.
     void
     push_forward(const unsigned int  n,
                  const Tensor<2, 2> &inverse,
@@ -55,7 +56,7 @@ namespace NMM
     }
 
 
-    /// grad of sum_i v_i w_i
+    /// Gradient of the displacement sum_i v_i w_i.
     Tensor<2, 2>
     gradient(const unsigned int n,
              const double (*values)[2],
@@ -79,7 +80,9 @@ namespace NMM
          const ElasticityProblem                 &problem,
          bool                                     may_float);
 
-    /// lambda delta_iJ delta_kL + mu (delta_ik delta_JL + delta_iL delta_kJ)
+    /// Hooke's moduli [Pa],
+    /// A_iJkL = lambda delta_iJ delta_kL + mu (delta_ik delta_JL + delta_iL delta_kJ),
+    /// stored at [2i + J][2k + L].
     struct Moduli
     {
       double A[4][4];
@@ -97,7 +100,8 @@ namespace NMM
       }
     };
 
-    /// Geometry at a weak point: gradients per side, normal times length ratio.
+    /// Current geometry at a weak point: gradients of each side [1/m], unit normal, and current
+    /// length divided by reference length [-].
     struct CurrentPoint
     {
       double       gradients[2][WeightFunctions::max_per_cell][2];
@@ -105,7 +109,7 @@ namespace NMM
       double       length_ratio;
     };
 
-    /// False if a side is turned inside out.
+    /// Compute the current geometry. Returns false if a side is turned inside out.
     bool
     locate(const EdgeTables::WeakPoint &point,
            const LocalDisplacement     &u,
@@ -136,7 +140,7 @@ namespace NMM
     void
     add_work(double load_factor);
 
-    /// The covers of a tie, and their values.
+    /// The covers of a site (of both elements of a tie), and their displacements.
     dealii::ArrayView<const unsigned int>
     gather(const EdgeTables::Site    &site,
            const std::vector<double> &nodal,
@@ -157,7 +161,8 @@ namespace NMM
     CoverMatrixAssembler                     assembler;
     DirectSolver                             direct_solver;
 
-    /// Cauchy stress per volume point, and per side of each weak point [Pa].
+    /// Cauchy stress at each quadrature point of elements, and on both sides of each weak point
+    /// [Pa].
     std::vector<SymmetricTensor<2, 2>> stress, weak_stress;
     std::vector<double>                nodal, nodal_increment;
 
@@ -316,7 +321,8 @@ namespace NMM
   }
 
 
-  /// The terms of StaticElasticity on the current geometry.
+  /// Add Nitsche's terms of StaticElasticity on the current geometry. Returns false if an element
+  /// is turned inside out.
   bool
   IncrementalElasticity::Data::add_weak_points(const EdgeTables::Site &site,
                                                const double load_factor,
@@ -383,7 +389,7 @@ namespace NMM
   }
 
 
-  /// False if an element is turned inside out.
+  /// Assemble the linear system of a step. Returns false if an element is turned inside out.
   bool
   IncrementalElasticity::Data::assemble(const double load_factor)
   {

@@ -37,7 +37,7 @@ namespace NMM
                           const std::function<void(const IncrementalStep &,
                                                    const Vector &)> &after_step)
   {
-    // part of the bound that the next step aims at
+    // fraction of the bound at which the next step aims
     constexpr double aim = 0.9;
 
     steps.check();
@@ -66,7 +66,7 @@ namespace NMM
         verdict.remedy = "allow larger displacements or smaller steps";
         return verdict;
       }
-      // without a bound steps are as long as is asked for
+      // without a bound, steps reach from one requested load factor to the next
       if (is_bounded)
         verdict.ratio = std::min(2., ratio);
       reached = step.load_factor;

@@ -23,7 +23,8 @@ namespace NMM
     using Law  = std::shared_ptr<const InelasticLaw>;
     using Site = EdgeTables::Site;
 
-    /// The law's response at a quadrature point or a side of a weak point, less Hooke's.
+    /// Response of the law at a quadrature point or on a side of a weak point, minus that of
+    /// Hooke's law.
     struct Excess
     {
       dealii::SymmetricTensor<2, 2> stress;
@@ -32,13 +33,15 @@ namespace NMM
       bool                          has_tangent;
     };
 
-    /// An element with what is evaluated in it, in the order of its states.
+    /// An element at which an inelastic law is evaluated: in the element itself, or on its sites of
+    /// displacement conditions and ties.
     struct Element
     {
       unsigned int              element;
       bool                      is_inelastic;
       std::vector<const Site *> sites;
-      /// Of the element's quadrature points, then of the sides of its weak points.
+      /// Index of its first material state. States are those of the element's quadrature points (if
+      /// it is inelastic), followed by those of the sides of its weak points.
       std::size_t first_state;
     };
 
@@ -56,8 +59,8 @@ namespace NMM
       return region_to_law[region] != nullptr;
     }
 
-    /// The law at a point whose displacement gradient is @p gradient and whose state is
-    /// @p state; notes if there is no stress.
+    /// Evaluate the law at a point with the displacement gradient @p gradient and the index
+    /// @p state of its material state. Clears is_admissible if the law has no stress.
     void
     evaluate(unsigned int                region,
              const dealii::Tensor<2, 2> &gradient,
@@ -69,7 +72,8 @@ namespace NMM
     void
     add_volume(const Element &item, bool with_tangent, LocalSystem &local);
 
-    /// False if nothing was added.
+    /// Add the terms of a displacement condition or tie, and advance @p state by its number of
+    /// states. Returns false if nothing was added because a block is absent.
     bool
     add_weak_points(const Element &item,
                     const Site    &site,
@@ -82,7 +86,7 @@ namespace NMM
     std::vector<PlaneElasticity>  region_to_elasticity;
     std::vector<Element>          elements;
     std::vector<MaterialState>    accepted, current;
-    /// Whether the law had a stress everywhere in this assembly.
+    /// Whether laws had a stress at all points of the last assembly.
     bool is_admissible = true;
 
     CoverMatrixAssembler assembler;
@@ -136,8 +140,8 @@ namespace NMM
   }
 
 
-  /// Elements ascending, so that the states of all ranks one after the other are the same for
-  /// any number of ranks.
+  /// States are numbered by ascending element, so that the sequence of the states of all ranks is
+  /// the same for any number of ranks.
   void
   InelasticTerms::Data::number_states()
   {
@@ -315,7 +319,7 @@ namespace NMM
             local.rhs[2 * k + c] += point.jump[k] * force[c];
         if (!excess.has_tangent)
           continue;
-        // the force by unknown e of cover j of this side
+        // derivative of the force with respect to unknown e of cover j of this side
         for (unsigned int j = 0; j < n; ++j)
           for (unsigned int e = 0; e < 2; ++e)
           {

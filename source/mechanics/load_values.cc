@@ -13,7 +13,8 @@ namespace NMM
 {
   namespace
   {
-    /// Empty if all components are finite, else what is not, and where.
+    /// Message with the first component of @p function that is not finite at @p x; empty if all
+    /// components are finite.
     std::string
     find_fault(const dealii::Function<2> &function,
                const dealii::Point<2>    &x,
@@ -37,7 +38,8 @@ namespace NMM
     }
 
 
-    /// On this rank's elements.
+    /// Message with the first value that is not finite on the elements of this rank; empty if there
+    /// is none.
     std::string
     find_local_fault(const CoverSystem          &covers,
                      const QuadratureCollection &quadrature,

@@ -10,8 +10,8 @@ namespace NMM
   namespace internal
   {
     /**
-     * Dense matrix and right-hand side of one element, or of two that are tied:
-     * unknown c of local cover i is row 2i + c. Per unit thickness.
+     * Dense matrix and right-hand side of one element, or of two that are tied, per unit
+     * thickness. Component c of local cover i is row 2i + c.
      */
     struct LocalSystem
     {
@@ -19,9 +19,9 @@ namespace NMM
         2 * WeightFunctions::max_per_cell;
 
       unsigned int n_covers = 0;
-      /// (2 n_covers x 2 n_covers), row-major.
+      /// The matrix (2 n_covers x 2 n_covers), stored row by row.
       double matrix[4 * max_covers * max_covers];
-      /// (2 n_covers)
+      /// The right-hand side (2 n_covers).
       double rhs[2 * max_covers];
 
       void
@@ -32,7 +32,7 @@ namespace NMM
         std::fill_n(rhs, 2 * n, 0.);
       }
 
-      /// Entries (2i .. 2i+1, 2j .. 2j+1): the first of each row.
+      /// Pointer to the first entry of the row of component c of cover i.
       double *
       row(const unsigned int i, const unsigned int c)
       {

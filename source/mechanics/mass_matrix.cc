@@ -8,7 +8,8 @@ namespace NMM
 {
   namespace
   {
-    /// int w_i w_j over the part of the reference cell that a rule is made for.
+    /// The integrals of w_i w_j over the domain of a rule, which is the reference cell or a part
+    /// of it.
     struct ReferenceMass
     {
       double products[WeightFunctions::max_per_cell]
@@ -50,7 +51,7 @@ namespace NMM
     const std::vector<unsigned int> region_to_material =
       problem.region_to_material(mesh.physical_mesh());
 
-    // ghost pairs belong to the rank that owns their first element
+    // each ghost pair is assembled by the rank that owns its first element
     std::vector<std::pair<unsigned int, unsigned int>> pairs;
     if (ghost_penalty != nullptr)
       for (const auto &pair : ghost_penalty->pairs)

@@ -11,8 +11,8 @@ namespace NMM
 {
   namespace internal
   {
-    /// Copy the relevant values of @p vector into a flat array, two per cover;
-    /// entries of covers that are not relevant are left alone.
+    /// Copy the locally relevant values of @p vector into an array with two values per cover.
+    /// Entries of covers that are not relevant remain unchanged.
     inline void
     read_nodal_values(const CoverSystem                           &covers,
                       const dealii::TrilinosWrappers::MPI::Vector &vector,

@@ -23,7 +23,7 @@ namespace NMM
     }
 
 
-    /// Newton's method for the elasticity alone.
+    /// Search by Newton's method for the elastic system alone, without contact.
     class PlainSearch : public EquilibriumSearch
     {
     public:
@@ -68,7 +68,8 @@ namespace NMM
       Vector solution;
     };
 
-    /// Where the step to @p load_factor starts.
+    /// Initial guess of the step to @p load_factor: the extrapolation of previous solutions by a
+    /// polynomial of at most the given degree.
     Vector
     predict(double load_factor, unsigned int degree) const;
 
@@ -163,7 +164,7 @@ namespace NMM
                                    LoadStep        &step,
                                    Vector          &u)
   {
-    // a step that was cut goes where the last ones do not point
+    // a step that was cut deviates from the extrapolation of the last ones
     const unsigned int degree =
       step.n_cuts == 0 ? steps.extrapolation_degree : 0;
     u = predict(step.load_factor, degree);
@@ -217,7 +218,8 @@ namespace NMM
       }
       d.dissipated = d.elasticity->accept_step(u);
       d.search->accept(u);
-      // with initial stress the undeformed state is no equilibrium to extrapolate from
+      // With initial stress the undeformed state is no equilibrium, and must not be used for
+      // extrapolation.
       if (d.has_initial_stress && d.states.size() == 1 &&
           d.states.front().load_factor == 0.)
         d.states.clear();

@@ -11,8 +11,8 @@ namespace NMM
   {
     namespace
     {
-      /// Element of a point of the solid. A point on a boundary that rounding
-      /// put outside is looked for again very near by.
+      /// Element of a point of the solid. If the point is not found, because rounding has moved it
+      /// from the boundary to the outside, points very close to it are tried.
       unsigned int
       find_element_near(const ManifoldMesh     &mesh,
                         const dealii::Point<2> &point,

@@ -12,8 +12,8 @@ namespace NMM
   namespace internal
   {
     /**
-     * Point forces (11) and fixed points (12), each in the element that its
-     * point lies in.
+     * The terms of point forces (11) and fixed points (12), each in the element that contains its
+     * point.
      * @throws InputError for a point outside the solid.
      */
     class PointTerms
@@ -21,11 +21,13 @@ namespace NMM
     public:
       PointTerms(const CoverSystem &covers, const ElasticityProblem &problem);
 
-      /// Element of each fixed point; no element's number if another rank's holds it.
+      /// Element of each fixed point. If an element of another rank contains the point, this is no
+      /// valid number of an element of this rank.
       const std::vector<unsigned int> &
       fixed_point_elements() const;
 
-      /// Spring stiffness of a fixed point [N/m per unit thickness].
+      /// Spring stiffness of a fixed point per unit thickness, the given one or the default
+      /// [N/m^2].
       double
       stiffness(unsigned int fixed_point) const;
 
@@ -33,7 +35,7 @@ namespace NMM
       const std::vector<unsigned int> &
       elements() const;
 
-      /// Terms of all points in an element.
+      /// Add the terms of all points in an element.
       void
       add(unsigned int element, LocalSystem &system) const;
 

@@ -37,7 +37,7 @@ namespace NMM
       const ManifoldMesh &mesh       = covers.manifold_mesh();
       const unsigned int  n_elements = mesh.n_elements();
 
-      // elements of corner covers
+      // list the elements of each corner cover
       for (unsigned int e = 0; e < n_elements; ++e)
         for (unsigned int i = 0; i < n_corners; ++i)
           ++cover_elements_begin[covers.covers(e)[i] + 1];

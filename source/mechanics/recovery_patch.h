@@ -11,14 +11,16 @@ namespace NMM
   namespace internal
   {
     /**
-     * The elements and covers around a corner cover that a recovered polynomial
-     * is fitted to: the cover's elements, then ring by ring those that share a
-     * corner cover with them. Rings do not go through covers that see both
-     * sides of a joint, so a patch stays on one side.
+     * The patch of elements and covers around a corner cover to which a recovered polynomial
+     * is fitted: the elements of the cover, then ring by ring those that share a
+     * corner cover with them. Rings are not extended through covers whose support contains both
+     * sides of a joint, so that a patch stays on one side.
      *
-     * Samples are the nodes of free covers that a whole element uses. Other
-     * nodes may lie outside the solid, where the displacement is only continued;
-     * elements that are cut are to be sampled inside instead.
+     * Samples are the nodes of free covers of whole elements. Other
+     * nodes may lie outside the solid, where the displacement is only extended; the caller has to
+     * take samples inside of cut elements instead.
+     *
+     * Order of calls for each patch: start(), then widen() as often as needed.
      */
     class RecoveryPatches
     {
@@ -26,15 +28,15 @@ namespace NMM
       RecoveryPatches(const CoverSystem &covers,
                       const Aggregation &aggregation);
 
-      /// Does the support of this corner cover hold both sides of a joint?
+      /// Whether the support of this corner cover contains both sides of a joint.
       bool
       sees_both_sides(unsigned int cover) const;
 
-      /// Start a patch: the elements of @p cover.
+      /// Start a patch with the elements of @p cover.
       void
       start(unsigned int cover);
 
-      /// Add a ring; false if there are no more elements.
+      /// Add a ring of elements. Returns false if there are no more elements.
       bool
       widen();
 
@@ -54,7 +56,7 @@ namespace NMM
       std::vector<bool>         both_sides, is_sample;
       std::vector<unsigned int> cover_elements_begin, cover_elements;
 
-      /// The patch being made: marks hold its number.
+      /// Number of the current patch; items whose mark has this number belong to it.
       unsigned int              patch_number = 0;
       std::vector<unsigned int> element_mark, sample_mark, corner_mark;
       std::vector<unsigned int> patch_elements, patch_cut_elements,

@@ -17,7 +17,7 @@ namespace NMM
 {
   namespace
   {
-    /// A section of the timer, if there is one.
+    /// Start a section of the timer; null if there is no timer.
     std::unique_ptr<dealii::TimerOutput::Scope>
     time_section(dealii::TimerOutput *timer, const std::string &name)
     {
@@ -27,8 +27,8 @@ namespace NMM
     }
 
 
-    /// Call action(element, edge) for each tie of owned elements; each pair's
-    /// edge once, from the element with the lower number.
+    /// Call action(element, edge) for each tied edge of owned elements. Each edge occurs once,
+    /// as an edge of the element with the lower number.
     template <typename Action>
     void
     for_each_tie(const CoverSystem               &covers,
@@ -74,7 +74,7 @@ namespace NMM
     , ghost_penalty(ghost_penalty)
   {
     problem.check(covers.manifold_mesh().physical_mesh());
-    // points outside the solid show here
+    // throws an exception for points outside the solid
     const internal::PointTerms points(covers, problem);
   }
 

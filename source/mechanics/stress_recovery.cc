@@ -14,7 +14,8 @@ namespace NMM
   {
     constexpr unsigned int n_max = 10;
 
-    /// Monomials of degree at most 3 (or the first six, of degree 2).
+    /// Evaluate the monomials of degree at most 3. The first six of them are those of degree at
+    /// most 2.
     inline void
     monomials(const double x, const double y, double *m)
     {
@@ -32,9 +33,9 @@ namespace NMM
 
 
     /**
-     * Weighted least-squares fit of two functions by normal equations. Monomials scaled
-     * to the patch keep their condition number near 1e5, so that they lose half
-     * of a double's digits at worst, far below the discretization's error.
+     * Weighted least-squares fit of two functions by normal equations. Because monomials are scaled
+     * by the size of the patch, the condition number is about 1e5. So at most half
+     * of the digits of a double are lost, and the error is far below that of the discretization.
      */
     class LeastSquares
     {
@@ -65,7 +66,8 @@ namespace NMM
         }
       }
 
-      /// Cholesky in place; false if singular to rounding.
+      /// Factorize the normal equations in place by Cholesky's method. Returns false if they are
+      /// singular to rounding.
       bool
       factorize()
       {
@@ -90,8 +92,8 @@ namespace NMM
         return true;
       }
 
-      /// How much the fit amplifies errors of the values in the gradient at the
-      /// centre: root of the variances' sum.
+      /// Amplification of errors of the samples in the gradient at the centre: the root of the sum
+      /// of the variances of its components.
       double
       amplification() const
       {
@@ -146,8 +148,8 @@ namespace NMM
 
   namespace
   {
-    /// Values of all covers on every rank: patches reach beyond what is relevant. On
-    /// a distributed mesh those the rank holds are enough.
+    /// Collect the values of all covers on every rank, because patches extend beyond the locally
+    /// relevant covers. On a distributed mesh the covers that the rank stores are sufficient.
     std::vector<dealii::Tensor<1, 2>>
     gather_values(const DisplacementField &field)
     {
@@ -163,7 +165,7 @@ namespace NMM
         for (const unsigned int k : covers.locally_owned_covers())
           for (unsigned int c = 0; c < 2; ++c)
             owned.push_back(field.nodal_value(k)[c]);
-        // ranks own consecutive covers
+        // each rank owns consecutive covers, so that the parts are in the order of the covers
         unsigned int i = 0;
         for (const std::vector<double> &part :
              dealii::Utilities::MPI::all_gather(covers.communicator(), owned))
@@ -190,7 +192,7 @@ namespace NMM
     }
 
 
-    /// What a patch's polynomial is fitted to.
+    /// Fits the polynomial of a patch to samples of the displacement.
     class PatchFit
     {
     public:
@@ -202,7 +204,7 @@ namespace NMM
       {
       }
 
-      /// The fit, not yet factorized.
+      /// Set up the normal equations of the fit, without factorizing them.
       LeastSquares
       operator()(const internal::RecoveryPatches &patch,
                  const dealii::Point<2>          &center,
@@ -219,9 +221,9 @@ namespace NMM
       }
 
     private:
-      /// Weight of a sample inside a cut element. Nodes of whole elements are
-      /// superconvergent, these are not. Found by trial on the thick ring at 14
-      /// positions of the mesh: 0.1 to 1 differ little.
+      /// Weight of a sample inside a cut element [-]. It is below 1, because only the nodes of
+      /// whole elements are superconvergent. Chosen by tests with the thick ring at 14
+      /// positions of the mesh, in which weights from 0.1 to 1 made little difference.
       static constexpr double cut_weight = 0.3;
 
       static void
@@ -269,8 +271,8 @@ namespace NMM
     const CoverSystem  &covers = field.cover_system();
     const ManifoldMesh &mesh   = covers.manifold_mesh();
 
-    // Rings are added until the fit is good: a complete interior patch has an
-    // amplification of 0.5, a one-sided one up to 3; beyond 10 it extrapolates.
+    // Rings are added until the amplification is small enough. It is 0.5 for a complete patch in
+    // the interior and up to 3 for a one-sided one; above 10 the fit would be an extrapolation.
     constexpr unsigned int max_rings         = 3;
     constexpr double       max_amplification = 10.;
 

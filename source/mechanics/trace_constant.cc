@@ -36,7 +36,7 @@ namespace NMM
       std::vector<double>           weights;
       if (mesh.is_whole(element))
       {
-        // exact for quadratic polynomials
+        // the rule with the midpoints of the edges is exact for quadratic polynomials
         const auto &v = mathematical_mesh.cell_vertices(cell);
         for (unsigned int i = 0; i < 3; ++i)
         {
@@ -120,9 +120,9 @@ namespace NMM
       if (degree == 1)
         return length / moments.area;
 
-      // principal axes make 1, x, y orthogonal on the element; the smaller
-      // second moment of a sliver drowns in rounding and is bounded from below
-      // by that of a strip of the same area and length
+      // In principal axes 1, x and y are orthogonal on the element. The smaller
+      // second moment of a sliver is lost in rounding. It is therefore bounded from below
+      // by half of that of a strip of the same area and length.
       Eigen::Matrix2d second;
       second << moments.second[0][0], moments.second[0][1],
         moments.second[0][1], moments.second[1][1];
@@ -161,7 +161,7 @@ namespace NMM
         const unsigned int root = ghost_penalty->element_to_root[element];
         return root == element ? invalid_index : root;
       }
-      // the covers that one constrained cover hangs on all belong to the root
+      // all covers on which a constrained cover depends belong to the root
       std::vector<unsigned int> needed;
       for (const unsigned int k : covers->covers(element))
         if (needed.empty() &&
@@ -172,7 +172,7 @@ namespace NMM
       if (needed.empty())
         return invalid_index;
 
-      // the nearest such element; roots lie a few elements away
+      // search for the nearest element that has all of them; roots are a few elements away
       constexpr unsigned int    max_visited = 200;
       std::vector<unsigned int> visited(1, element);
       for (unsigned int i = 0; i < visited.size() && i < max_visited; ++i)

@@ -16,23 +16,23 @@ namespace NMM
   namespace internal
   {
     /**
-     * The constants of the discrete trace inequality that Nitsche's penalty is
-     * made of: for stresses of degree p - 1 on an element E with weakly held
-     * boundary Gamma (all its displacement conditions and ties together)
+     * The constants of the discrete trace inequality that determine Nitsche's penalty. For
+     * stresses of degree p - 1 on an element E, and the part Gamma of its boundary on which
+     * displacement conditions and ties hold, the inequality is
      * @f[ \int_\Gamma q^2\,ds \le \Lambda_E \int_E q^2\,dA
      *     \quad\forall q\in P_{p-1}. @f]
      * For p = 1, Lambda = |Gamma| / |E|. For p = 2 it is the largest eigenvalue
-     * of the traces' moments in a basis that is orthonormal on E (3 x 3), which
-     * second moments of E give directly; this is sharp for any shape of E, where
-     * formulas in a cell size h are not.
+     * of the moment matrix (3 x 3) on Gamma of a basis that is orthonormal on E and follows
+     * directly from the second moments of E. This is sharp for any shape of E, in contrast to
+     * formulas with a cell size h.
      *
-     * A sliver has a large constant: 4 / thickness. Where aggregation ties its
-     * unknowns to a root element R, the polynomial's energy on R bounds its
-     * trace on Gamma as well, and Lambda_R (with R's area and E's boundary),
-     * which is mostly of order 1/h, is taken if E's polynomial is R's and it is the
-     * smaller one, so that a sliver that vanishes changes nothing. (It is the larger one
-     * by up to (distance / thickness)^2 if R is a thin strip that does not point at E.)
-     * Where E has free covers of its own, or the ghost penalty bounds only the
+     * A sliver has a large constant, 4 / thickness. Where aggregation ties its
+     * unknowns to a root element R, the energy of the polynomial on R bounds its
+     * trace on Gamma as well, with the constant Lambda_R (with the area of R and the boundary of
+     * E), which is mostly of order 1/h. If E has the same polynomial as R, the constant is the
+     * smaller of Lambda_E and Lambda_R, so that a vanishing sliver has no influence. (Lambda_R is
+     * larger by up to (distance / thickness)^2 if R is a thin strip that does not point at E.)
+     * If E has free covers of its own, or if the ghost penalty bounds only the
      * difference of the polynomials, it is the smaller of Lambda_E and 2 Lambda_R.
      */
     class TraceConstants
@@ -44,7 +44,7 @@ namespace NMM
                      const CurveConditions                   &conditions,
                      const GhostPenalty *ghost_penalty = nullptr);
 
-      /// Lambda [1/m], infinite for an element without area.
+      /// The constant Lambda of an element [1/m]; infinite for an element without area.
       double
       operator()(unsigned int element);
 
@@ -72,12 +72,12 @@ namespace NMM
       double
       constant(const Moments &moments, const BoundaryPoints &boundary) const;
 
-      /// The element to whose polynomial covers of @p element are constrained,
-      /// or that the ghost penalty ties it to, or invalid_index.
+      /// The root of @p element: the element to whose polynomial its covers are constrained,
+      /// or to which the ghost penalty ties it. invalid_index if there is none.
       unsigned int
       find_root(unsigned int element) const;
 
-      /// Is every cover of @p element one of @p root or constrained to those?
+      /// Whether each cover of @p element is one of @p root or constrained to those of @p root.
       bool
       has_polynomial_of(unsigned int element, unsigned int root) const;
 

@@ -12,29 +12,28 @@ namespace NMM
 {
   namespace internal
   {
-    /// Integrals of weight functions over the reference cell or the part of it that an
-    /// element is.
+    /// Integrals of weight functions over an element, which is the reference cell or a part of it.
     struct ReferenceIntegrals
     {
       static constexpr unsigned int n_max = WeightFunctions::max_per_cell;
 
       ReferenceIntegrals() = default;
 
-      /// By a rule; @p degree of the weight functions.
+      /// Compute the integrals by a rule; @p degree is that of the weight functions.
       ReferenceIntegrals(const dealii::Quadrature<2> &rule,
                          unsigned int                 degree);
 
-      /// of dw_i/dxi_a dw_j/dxi_b, j >= i
+      /// Integrals of dw_i/dxi_a dw_j/dxi_b for j >= i, at [i][j][a][b].
       double gradient_products[n_max][n_max][2][2] = {};
-      /// of dw_i/dxi_a
+      /// Integrals of dw_i/dxi_a.
       double gradients[n_max][2] = {};
-      /// of w_i
+      /// Integrals of w_i.
       double values[n_max] = {};
     };
 
 
-    /// Add the stiffness (7) of an element in a cell of this Jacobian [m] to an empty
-    /// @p system.
+    /// Add the stiffness (7) of an element in a cell with the Jacobian @p jacobian [m] to
+    /// @p system, which must be zero before.
     void
     add_linear_stiffness(const ReferenceIntegrals   &integrals,
                          const dealii::Tensor<2, 2> &jacobian,
@@ -43,14 +42,14 @@ namespace NMM
 
 
     /**
-     * Stiffness (7), initial stress (9) and body force (10) of an element.
+     * The terms of stiffness (7), initial stress (9) and body force (10) of an element.
      *
      * With the integrals of products of reference gradients
      * S_ij^ab = sum_q w_q g_i^a g_j^b, which all whole elements share, the
-     * stiffness follows from the cell's Jacobian alone:
+     * stiffness follows from the Jacobian J of the cell alone:
      * A_ij^kl = det J (J^-T S_ij J^-1)^kl,
-     * K_ij^kl = lambda A_ij^kl + mu (A_ij^lk + delta_kl tr A_ij),
-     * about 500 multiplications per element instead of a loop over points.
+     * K_ij^kl = lambda A_ij^kl + mu (A_ij^lk + delta_kl tr A_ij).
+     * This takes about 500 multiplications per element, and no loop over points.
      */
     class VolumeTerms
     {

@@ -22,7 +22,7 @@ namespace NMM
     const std::string      head       = "time,frame";
 
 
-    /// Put the values of @p quantity into the triangles, if they are in a layer.
+    /// Copies the values of @p quantity from its layer into the triangles, if there is one.
     void
     choose_layer(const Quantity quantity, PictureData &data)
     {
@@ -33,9 +33,10 @@ namespace NMM
     }
 
 
-    /// In the range of the picture's own values, unless a range @p is_given or that
-    /// of @p frame is not known (then the picture's parameters have one), and of its
-    /// own bars. Values that differ by rounding errors alone do not fill the range.
+    /// @p frame with the ranges of values and contact tractions of this picture. The range of
+    /// values stays that of @p frame if the user has given one (@p is_given, or no range in
+    /// @p frame, since the parameters of the picture then have one), or if the values of this
+    /// picture differ by rounding errors only.
     PictureFrame
     own_frame(const PictureData  &data,
               const PictureFrame &frame,
@@ -55,7 +56,7 @@ namespace NMM
     }
 
 
-    /// Writes times with as many places as tell neighbours from each other.
+    /// Writes times with as many decimal places as are needed to distinguish neighbours.
     class TimeText
     {
     public:
@@ -123,7 +124,7 @@ namespace NMM
     };
     std::function<bool(const std::string &)> is_kept;
     std::string                              line;
-    // frames of other versions are dropped
+    // Frames of a file with another head, written by another version, are dropped.
     if (std::getline(std::ifstream(file_name), line) && line == head)
       is_kept = [&](const std::string &row) {
         return time_of(row) <= keep_until;
@@ -241,7 +242,7 @@ namespace NMM
     for (const Quantity quantity :
          common_quantities(chosen, parameters.animation_quantities))
       quantities.push_back(quantity);
-    // the first one's values are the triangles' own
+    // The values of the first quantity are in the triangles themselves, the others in layers.
     std::vector<PictureExtents> extents(quantities.size());
     for (const Record &record : chosen)
     {

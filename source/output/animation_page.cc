@@ -176,7 +176,7 @@ window.onload = () => { show(0); play(true); };
     }
 
 
-    /// As a JSON string that may stand in a script element.
+    /// @p text as a JSON string that is safe within a script element.
     std::string
     json(const std::string &text)
     {

@@ -39,7 +39,7 @@ namespace NMM
     }
 
 
-    /// Numbers that stand for a sample between ranks.
+    /// Number of doubles in which a sample is sent between ranks.
     constexpr unsigned int n_packed = 15;
 
 
@@ -100,8 +100,8 @@ namespace NMM
                      point.gap,
                      point.pressure,
                      point.shear,
-                     // nothing depends on that of an open point, which a
-                     // continuation may find by another way
+                     // the weight of an open point has no effect, and may
+                     // differ in a run that was continued
                      point.state == ContactState::open ? 0. : point.weight,
                      double(static_cast<unsigned int>(point.state)),
                      double(point.is_bonded),
@@ -157,7 +157,7 @@ namespace NMM
       {
         const Tensor<1, 2> traction =
           traction_of(point.pressure, point.shear, point.normal);
-        // corners of obstacles are slaves
+        // Obstacles can be slaves, too, since their corners carry contact points.
         add(point.edge, point.weight, traction);
         add(point.master, -point.weight, traction);
       }
@@ -205,7 +205,7 @@ namespace NMM
       }
     for (const ContactSample &point : points)
       if (point.state != ContactState::open && point.traction().norm() >= least)
-        // of an obstacle's corner the force on the solid
+        // If the slave is a corner of an obstacle, the force on the solid is the opposite one.
         data.contacts.push_back(
           {{point.reference, point.x - point.reference},
            (surface.is_rigid(point.slave) ? -1. : 1.) * point.traction(),
@@ -256,7 +256,7 @@ namespace NMM
       return;
     table.emplace(path.string(), header(), [&](const std::string &row) {
       const double value = std::strtod(row.c_str(), nullptr);
-      // The earlier run's end is no state of the series.
+      // The final state of the earlier run is not a state of the series, so it has no file.
       if (value > last || (with_fields && !files.has(value)))
         return false;
       if (written.empty() || written.back() != value)

@@ -45,7 +45,7 @@ namespace NMM
     }
 
 
-    /// The file @p file_name, read to the end of @p head.
+    /// Opens the file @p file_name and reads it up to the end of @p head.
     std::ifstream
     open_below(const std::string &file_name, const std::string &head)
     {

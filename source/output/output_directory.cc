@@ -34,7 +34,7 @@ namespace NMM
                 InputError("the output folder has no name",
                            where,
                            "name a folder"));
-    // The nearest thing on the way that exists must be a writable folder.
+    // The nearest parent of the folder that exists must be a writable folder.
     fs::path        existing = fs::absolute(folder);
     std::error_code error;
     while (!fs::exists(existing, error) && existing.has_relative_path())
@@ -56,8 +56,8 @@ namespace NMM
                  where,
                  "rename or remove it, or name another folder for the "
                  "results"));
-    // Permissions do not tell whether a name is too long, or the file system
-    // read-only, full or of the kernel's own: a trial does.
+    // Permissions do not tell whether a name is too long, or whether the file system is
+    // read-only, full or virtual. A trial does.
     const std::string fault = try_to_write();
     AssertThrow(fault.empty(),
                 InputError("files cannot be made there (" + fault + ")",
@@ -137,7 +137,7 @@ namespace NMM
     }
 
 
-    /// The name of what was being written when a run was killed.
+    /// The final name of a temporary file, which a killed run leaves; other names are unchanged.
     std::string
     without_part(std::string name)
     {

@@ -19,7 +19,7 @@ namespace NMM
     using internal::Canvas;
     using internal::Layout;
 
-    /// Width of what is right of the solid [thousandths of the picture width].
+    /// Width of the space for the colour bar right of the solid [thousandths of the picture width].
     constexpr double bar_space = 160.;
 
 
@@ -37,8 +37,7 @@ namespace NMM
       const double size = std::max(upper[0] - lower[0], upper[1] - lower[1]);
       const double box_width  = std::max(upper[0] - lower[0], 1e-3 * size);
       const double box_height = std::max(upper[1] - lower[1], 1e-3 * size);
-      // As wide as there is room, unless that makes the picture too tall; a
-      // flat solid leaves room for the colour bar.
+      // The solid is as wide as there is room, unless that makes the picture too tall.
       layout.scale = size > 0. ? std::min(layout.plot_width / box_width,
                                           1000. * layout.unit / box_height)
                                : 1.;
@@ -121,8 +120,8 @@ namespace NMM
     }
 
 
-    /// Power of ten, a multiple of three, that numbers are shown in; 0 for
-    /// handy ones.
+    /// Exponent of the power of ten that is taken out of the numbers at the colour bar, a multiple
+    /// of three; 0 if the largest one is in [0.1, 1e4).
     int
     choose_exponent(const double minimum, const double maximum)
     {
@@ -176,7 +175,7 @@ namespace NMM
       cairo_set_line_width(cr, u);
       cairo_stroke(cr);
 
-      // what differs by rounding is one number
+      // Values that differ by rounding errors only count as equal.
       const double resolution =
         1e-10 * std::max(std::abs(minimum), std::abs(maximum));
       const bool                is_constant = maximum - minimum <= resolution;
@@ -232,7 +231,7 @@ namespace NMM
       }
       if (data.deformation_scale != 0.)
       {
-        // No exponent below a million.
+        // With this precision numbers below a million have no exponent.
         text << ", displacements × " << std::setprecision(6)
              << data.deformation_scale;
       }
@@ -300,7 +299,7 @@ namespace NMM
     }
 
 
-    /// The part of a straight line that lies in the plot; false if none does.
+    /// Cuts a straight line to the part that lies in the plot. Returns false if no part does.
     bool
     clip_to_plot(const Layout &layout, Point<2> &start, Point<2> &end)
     {
@@ -332,7 +331,7 @@ namespace NMM
     }
 
 
-    /// Lines with hatches on the left, where the rigid body is.
+    /// Draws the faces of obstacles as lines with hatches on the left, where the rigid body is.
     void
     draw_obstacles(cairo_t *cr, const PictureData &data, const Layout &layout)
     {
@@ -355,7 +354,7 @@ namespace NMM
           cairo_stroke(cr);
           const double               length = a.distance(b);
           const dealii::Tensor<1, 2> d      = (b - a) / length;
-          // y of pixels is downwards
+          // The y-axis of pixels points downwards.
           const Point<2> hatch(size * (d[1] - d[0]), size * (-d[0] - d[1]));
           cairo_set_line_width(cr, 0.9 * u);
           double at = -passed;
@@ -373,7 +372,7 @@ namespace NMM
     }
 
 
-    /// Bars that start at the face and show where it is pushed to.
+    /// Draws a bar from each contact point in the direction of the traction on the solid.
     void
     draw_bars(cairo_t           *cr,
               const PictureData &data,
@@ -384,7 +383,7 @@ namespace NMM
         return;
       const double longest = 75. * layout.unit;
       cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
-      // first all rims, which would cover neighbours
+      // All rims are drawn first, since they would cover neighbouring bars.
       for (const bool is_rim : {true, false})
         for (const PictureData::Bar &bar : data.contacts)
         {
@@ -405,7 +404,7 @@ namespace NMM
     }
 
 
-    /// What bars mean, right-adjusted beside the subtitle.
+    /// Draws the legend of the bars, right-adjusted beside the subtitle.
     void
     draw_legend_of_bars(cairo_t                 *cr,
                         const PictureData       &data,
@@ -564,7 +563,7 @@ namespace NMM
   std::array<double, 3>
   colour_map(const double value)
   {
-    // Viridis (Smith & van der Walt) at eleven equal steps.
+    // The colours are those of viridis (Smith & van der Walt) at eleven equal steps.
     static const std::array<std::array<double, 3>, 11> colours = {
       {{{0.267, 0.005, 0.329}},
        {{0.283, 0.141, 0.458}},
@@ -603,7 +602,7 @@ namespace NMM
     std::vector<double> ticks;
     for (double k = std::ceil(min / step - 1e-9); k * step <= max + 1e-9 * step;
          ++k)
-      // Adding zero turns -0 into 0.
+      // Adding zero turns -0 into 0, which is printed without a sign.
       ticks.push_back(k * step + 0.);
     return ticks;
   }

@@ -31,7 +31,7 @@ namespace NMM
         const auto [y_min, y_max] = std::minmax({p[0][1], p[1][1], p[2][1]});
         // Pixel i covers [i, i + 1].
         const auto pixel = [](const double x, const int first, const int last) {
-          // clamped as a number: far outside it does not fit an int
+          // The number is clamped first, since far outside it does not fit in an int.
           return static_cast<int>(
             std::floor(std::min<double>(std::max<double>(x, first), last)));
         };
@@ -39,7 +39,8 @@ namespace NMM
         const int last_x  = pixel(x_max, canvas.left - 1, canvas.right);
         const int first_y = pixel(y_min, canvas.top, canvas.bottom + 1);
         const int last_y  = pixel(y_max, canvas.top - 1, canvas.bottom);
-        // Half a pixel as barycentric coordinate of the corner opposite an edge.
+        // Half a pixel across an edge, as a change of the barycentric coordinate of the opposite
+        // corner.
         const auto slack = [&](const unsigned int i, const unsigned int j) {
           return 0.5 * p[i].distance(p[j]) / std::abs(determinant);
         };
@@ -69,7 +70,7 @@ namespace NMM
       }
 
 
-      /// The six quadratic shape functions, nodes as in QuadraticTriangle.
+      /// The six quadratic shape functions, with nodes in the order of QuadraticTriangle.
       std::array<double, 6>
       shape_functions(const double l1, const double l2)
       {
@@ -102,7 +103,7 @@ namespace NMM
     }
 
 
-    /// Split into straight triangles of a few pixels and fill these.
+    /// The triangle is split into straight triangles of a few pixels, which are filled.
     void
     fill_quadratic_triangle(const PictureData::Triangle      &triangle,
                             const Layout                     &layout,

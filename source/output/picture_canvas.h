@@ -10,14 +10,14 @@ namespace NMM
 {
   namespace internal
   {
-    /// Where things are in the picture [pixels], and how the solid is mapped
-    /// into it.
+    /// The layout of a picture [pixels], and the map from the plane [m] to pixels.
     struct Layout
     {
-      int    width, height;
-      double unit; // a thousandth of the width: line widths and fonts scale
-      double left, top, plot_width, plot_height;
-      double scale;
+      int width, height;
+      /// A thousandth of the width, with which line widths and fonts scale.
+      double           unit;
+      double           left, top, plot_width, plot_height;
+      double           scale;
       dealii::Point<2> lower, center;
 
       dealii::Point<2>
@@ -29,7 +29,7 @@ namespace NMM
     };
 
 
-    /// A pixel image, ARGB32 in native byte order as Cairo's.
+    /// A pixel image in Cairo's format ARGB32, with native byte order.
     struct Canvas
     {
       unsigned char *pixels;
@@ -45,12 +45,13 @@ namespace NMM
     };
 
 
-    /// Colours of colour_map(), as pixels.
+    /// @p n_colours equally spaced colours of colour_map(), as pixels.
     std::vector<std::uint32_t>
     make_colour_table(unsigned int n_colours);
 
 
-    /// Colour a triangle by its values, from @p minimum to @p minimum + @p range.
+    /// Fills a triangle with the colours of its values; the table spans the values from @p minimum
+    /// to @p minimum + @p range. @p scale is the factor on displacements.
     void
     fill_quadratic_triangle(const PictureData::Triangle      &triangle,
                             const Layout                     &layout,

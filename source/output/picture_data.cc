@@ -61,7 +61,7 @@ namespace NMM
     }
 
 
-    /// Does the edge lie on material interfaces only?
+    /// Whether the edge lies on material interfaces only.
     bool
     is_interface(const ManifoldMesh &mesh, const ElementEdge &edge)
     {
@@ -85,7 +85,7 @@ namespace NMM
     }
 
 
-    /// Read four numbers from @p i on and move @p i behind them.
+    /// Reads a vertex from the four numbers from index @p i on, and advances @p i by four.
     Vertex
     extract(const std::vector<double> &numbers, std::size_t &i)
     {
@@ -98,7 +98,7 @@ namespace NMM
     }
 
 
-    /// Lines as numbers: count and coordinates of each.
+    /// Lines as numbers for MPI: for each line, the number of its vertices and their coordinates.
     std::vector<double>
     pack(const std::vector<Polyline> &lines)
     {
@@ -172,7 +172,7 @@ namespace NMM
     }
 
 
-    /// Add the lines of one element.
+    /// Adds the outlines, interfaces and mesh lines of one element to @p data.
     template <typename Displacement>
     void
     add_lines(const ManifoldMesh &mesh,

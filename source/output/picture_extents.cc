@@ -12,7 +12,7 @@ namespace NMM
 
   namespace
   {
-    /// Parameter 0 is the start, 1 the end.
+    /// The point of a piece at the parameter @p t, from 0 at its start to 1 at its end.
     Point<2>
     place_on(const CurvePiece &piece, const double t)
     {
@@ -40,7 +40,7 @@ namespace NMM
     }
 
 
-    /// 1, 2 or 5 times a power of ten, not larger than @p value.
+    /// The largest number not above @p value that is 1, 2 or 5 times a power of ten.
     double
     rounded_down(const double value)
     {
@@ -58,7 +58,7 @@ namespace NMM
                            const double diagonal,
                            const double smallest_hole)
   {
-    // both sides of a hole may move towards each other
+    // Opposite sides of a hole may move towards each other.
     const double shown = std::min(0.05 * diagonal, 0.125 * smallest_hole);
     return largest_displacement > 1e-14 * diagonal
              ? rounded_down(shown / largest_displacement)
@@ -86,7 +86,7 @@ namespace NMM
           }
         }
       const double side = std::min(upper[0] - lower[0], upper[1] - lower[1]);
-      // an open piece of a hole's boundary may be a straight line
+      // A curve that is only a part of a hole's boundary may be a straight line.
       if (side > 0.)
         smallest = std::min(smallest, side);
     }
@@ -112,7 +112,8 @@ namespace NMM
           largest = std::max(largest, vertex.displacement.norm());
       }
     }
-    // Triangles that are too small to be seen, about a crack tip, would take all the colours.
+    // Values in triangles about a crack tip that are too small to be seen would dominate the range
+    // of colours.
     constexpr double least_visible = 1e-3;
     const double     least =
       least_visible * std::max(upper[0] - lower[0], upper[1] - lower[1]);
@@ -148,7 +149,7 @@ namespace NMM
     if (!(lower[0] <= upper[0] && lower[1] <= upper[1]))
       return {Point<2>(0., 0.), Point<2>(1., 1.)};
     const double size = std::max(upper[0] - lower[0], upper[1] - lower[1]);
-    // obstacles may be endless
+    // Obstacles may be very long, so only the part near the solid is shown.
     constexpr double shown = 0.08;
     const double     space = margin * size;
     Point<2>         first, last;

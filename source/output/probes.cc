@@ -12,7 +12,7 @@ namespace NMM
 {
   namespace
   {
-    /// Number of doubles in a FieldSample.
+    /// Number of doubles of a FieldSample that are sent: displacement and stresses.
     constexpr unsigned int n_sample_numbers = 10;
 
     void

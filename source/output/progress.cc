@@ -14,7 +14,7 @@ namespace NMM
 {
   namespace
   {
-    /// Characters in a line of the terminal, 80 if there is none.
+    /// Number of characters in a line of the terminal; 80 if there is no terminal.
     std::size_t
     terminal_width()
     {
@@ -40,7 +40,7 @@ namespace NMM
   std::vector<std::string>
   merge_alike(const std::vector<std::string> &notices)
   {
-    // numbers, and names with a number, between quotation marks
+    // The pattern matches numbers, and names between quotation marks that contain a digit.
     const std::regex number("'[^']*[0-9][^']*'|[-+]?[0-9.]+(e[-+]?[0-9]+)?");
     std::map<std::string, unsigned int> counts;
     std::vector<std::string>            forms;
@@ -91,7 +91,7 @@ namespace NMM
   Progress::Stage::~Stage()
   {
     const bool failed = std::uncaught_exceptions() > n_exceptions;
-    // Ranks may not all have failed, so nobody waits then.
+    // After a failure there is no barrier, since other ranks may not have failed.
     if (!failed)
       MPI_Barrier(progress.communicator);
     --progress.n_running;
@@ -140,7 +140,7 @@ namespace NMM
     const std::string line =
       words(std::chrono::duration<double>(now - start).count());
     const std::size_t width = terminal_width();
-    // the last column would make some terminals begin a new line
+    // The last column is left empty, since some terminals would begin a new line.
     if (progress.is_terminal)
       progress.out << "\r\033[K"
                    << cut_to_width("  " + name + " ... " + line, width - 1)
@@ -153,7 +153,7 @@ namespace NMM
   void
   Progress::message(const std::string &text)
   {
-    // On a terminal the line of a running stage gives way.
+    // On a terminal the message overwrites the line of a running stage.
     if (prints)
       out << (is_terminal ? "\r\033[K" : "") << text << std::endl;
   }

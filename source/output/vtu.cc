@@ -17,7 +17,8 @@ namespace NMM
 
   namespace
   {
-    /// deal.II's have the date, by which the files of equal runs would differ.
+    /// Removes comments from an XML text. Those of deal.II contain the date, so that the files of
+    /// equal runs would differ.
     std::string
     without_comments(const std::string &text)
     {
@@ -31,7 +32,7 @@ namespace NMM
       std::string,
       dealii::DataComponentInterpretation::DataComponentInterpretation>>;
 
-    /// Velocities come last, if there are any.
+    /// Names of the fields in the file; velocity and plastic strain come last, if there are any.
     std::vector<std::string>
     field_names(const FieldTriangles &triangles)
     {
@@ -60,7 +61,7 @@ namespace NMM
     }
 
 
-    /// Neighbours of the same name are the components of a vector.
+    /// Finds the vector fields: two neighbours with the same name are the components of a vector.
     VectorRanges
     vector_ranges(const std::vector<std::string> &names)
     {
@@ -76,8 +77,8 @@ namespace NMM
     }
 
 
-    /// A triangle with the fields at its nodes, in the order of field_names(), and,
-    /// last, the places of these.
+    /// Makes a patch of each triangle: the fields at its nodes, in the order of field_names(), and
+    /// then the positions of the nodes.
     std::vector<DataOutBase::Patch<2, 2>>
     make_patches(const CoverSystem &covers, const FieldTriangles &triangles)
     {
@@ -145,7 +146,7 @@ namespace NMM
     const auto            names   = field_names(triangles);
     DataOutBase::VtkFlags flags;
     flags.print_date_and_time = false;
-    // the enumeration has another name from deal.II 9.5 on
+    // The enumeration has another name from deal.II 9.5 on, so its type is deduced.
     flags.compression_level = decltype(flags.compression_level)::no_compression;
 
     const auto piece_name = [&](const unsigned int r) {

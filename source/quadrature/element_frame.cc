@@ -12,7 +12,7 @@ namespace NMM
   {
     namespace
     {
-      /// A d for a difference d of doubles that two_sum() knows exactly.
+      /// One component of A d, where d is a difference of doubles in exact form, see two_sum().
       DoubleDouble
       apply_row(const std::array<double, 2>       &row,
                 const std::array<DoubleDouble, 2> &d)
@@ -21,7 +21,7 @@ namespace NMM
       }
 
 
-      /// Chord turned by a right angle towards the bulge of the arc.
+      /// The chord of an arc, turned by a right angle towards the bulge of the arc.
       dealii::Tensor<1, 2>
       bulge_direction(const ElementEdge &edge)
       {
@@ -38,7 +38,7 @@ namespace NMM
       dealii::Point<2>
       arc_middle(const ElementEdge &edge)
       {
-        // (1 - cos phi) / sin phi = tan(phi / 2)
+        // The height of the arc over half its chord is (1 - cos phi) / sin phi = tan(phi / 2).
         return edge.start + 0.5 * (edge.end - edge.start) +
                (0.5 * std::tan(0.5 * (0.5 * std::abs(swept_angle(edge))))) *
                  bulge_direction(edge);
@@ -131,7 +131,7 @@ namespace NMM
               0.5 * (mapped.end[d] - mapped.start[d]) / sine;
             mapped.cosine_axis[d] =
               0.5 * apply_row(real_to_scaled_matrix[d], direction).hi / sine;
-            // ds_d/dtau vanishes at tan tau = U_d / V_d
+            // ds_d/dtau vanishes where tan tau = U_d / V_d.
             const double u = mapped.sine_axis[d];
             const double v = mapped.cosine_axis[d];
             const double t = v == 0. ? 2. : std::tan(0.5 * std::atan(u / v));
@@ -165,7 +165,7 @@ namespace NMM
         scaled_offset[i] = apply_row(real_to_scaled_matrix[i], offset);
       }
 
-      // J may belong to a needle of a cell: its determinant with all digits
+      // The cell may be needle-shaped, so the determinant of J is computed with all digits.
       const double det_J =
         (two_product(J[0][0], J[1][1]) + (-two_product(J[0][1], J[1][0]))).hi;
       Assert(det_J != 0., dealii::ExcMessage("The cell has no area."));
@@ -194,9 +194,9 @@ namespace NMM
       const dealii::ArrayView<const ElementEdge> &edges,
       const CellFrame                            &cell)
     {
-      // Half a unit in the last place of every coordinate, along the extent in
-      // the other direction. Component by component: a sliver along y = 0 is
-      // known much better than one along y = 1.
+      // The error of the area is half a unit in the last place of every coordinate times the
+      // extent in the other direction. It is taken component by component, since the area of a
+      // sliver along y = 0 is known much better than that of one along y = 1.
       dealii::Point<2>     lower = edges[0].start, upper = edges[0].start;
       dealii::Tensor<1, 2> magnitude;
       for (const ElementEdge &edge : edges)
@@ -212,7 +212,7 @@ namespace NMM
       const double real = epsilon * det_A *
                           ((upper[0] - lower[0]) * magnitude[1] +
                            (upper[1] - lower[1]) * magnitude[0]);
-      // the same for reference coordinates, of magnitude one
+      // The same estimate is made for reference coordinates, which are of magnitude one.
       const double length =
         2. * (std::abs(to_reference[0][0]) + std::abs(to_reference[1][0]));
       resolution = 2. * std::max(real, epsilon * length * area_ratio);
@@ -228,8 +228,8 @@ namespace NMM
       if (axis.norm_square() == 0.)
         return false;
 
-      // Twice: the first pass finds the middle, the second the half-extents
-      // about the middle as rounded.
+      // Edges are mapped repeatedly: the first pass finds the middle, the second one the
+      // half-extents about the rounded middle, and the third one maps by the final frame.
       real_to_scaled_matrix = {{{{axis[0], axis[1]}}, {{-axis[1], axis[0]}}}};
       auto         bounds   = map_edges(edges);
       const double m0       = 0.5 * (bounds[0][0] + bounds[0][1]);

@@ -12,19 +12,19 @@ namespace NMM
   namespace internal
   {
     /**
-     * An edge in the scaled coordinates s of its element, @f$t\in[-1,1]@f$
-     * from start to end. Straight:
-     * @f$s(t)=\bar s+t\,(s_{end}-s_{start})/2@f$ with @f$\bar s@f$ the middle
-     * of the chord. Arc of half-angle @f$\varphi\le\pi/2@f$:
+     * An edge in the scaled coordinates s of its element, with the parameter @f$t\in[-1,1]@f$
+     * from start to end. A straight edge is
+     * @f$s(t)=\bar s+t\,(s_{end}-s_{start})/2@f$, where @f$\bar s@f$ is the middle
+     * of the chord. An arc of half-angle @f$\varphi\le\pi/2@f$ is
      * @f[ s(\tau)=\bar s+U\sin\tau+V(\cos\tau-\cos\varphi),\qquad
      *     \tau=\varphi t. @f]
-     * The chord form runs through both ends to the last digit however large
-     * the radius is; the form with the centre does not.
+     * This form runs through both ends to the last digit, however large
+     * the radius is; the form with the centre of the circle does not.
      */
     struct FrameEdge
     {
       std::array<double, 2> start, end, middle;
-      /// Arcs only.
+      /// U and V, and the half-angle [rad]; zero for straight edges.
       std::array<double, 2> sine_axis   = {{0., 0.}};
       std::array<double, 2> cosine_axis = {{0., 0.}};
       double                half_angle  = 0.;
@@ -32,8 +32,8 @@ namespace NMM
       double half_sine_squared = 0.;
       bool   is_arc            = false;
 
-      /// Coordinate @p d of the arc at @f$\tau@f$ with t = tan(tau/2); uses
-      /// @f$\cos\tau-\cos\varphi=2(\sin^2(\varphi/2)-\sin^2(\tau/2))@f$, which
+      /// Coordinate @p d of the arc at the angle @f$\tau@f$ that is given by @p t = tan(tau/2). It
+      /// uses @f$\cos\tau-\cos\varphi=2(\sin^2(\varphi/2)-\sin^2(\tau/2))@f$, which
       /// does not cancel for small angles.
       double
       arc_coordinate(const unsigned int d, const double t) const
@@ -46,17 +46,18 @@ namespace NMM
 
 
     /**
-     * The scaled frame of one element: @f$s=A(x-c)@f$ with s in [-1,1]^2. The
+     * The scaled frame of one element, @f$s=A(x-c)@f$ with s in [-1,1]^2. The
      * first axis runs along the longest distance in the element, so that a
-     * sliver of any aspect looks like a well-shaped piece; A and c are doubles
-     * *by definition*, hence s of an input point and of a rounded quadrature
-     * point are known to the last digit (double-double in between), and no
+     * sliver of any aspect ratio looks like a well-shaped piece. A and c are doubles
+     * *by definition*. Hence s of an input point and of a rounded quadrature
+     * point are known to the last digit (with double-double arithmetic in between), and no
      * error of the frame itself can enter a rule.
      */
     class ElementFrame
     {
     public:
-      /// @return false if the element has no extent in some direction.
+      /// Computes the frame and the mapped edges of an element. Returns false if the element has
+      /// no extent in some direction.
       bool
       reinit(const dealii::ArrayView<const ElementEdge> &edges,
              const CellFrame                            &cell);
@@ -67,22 +68,22 @@ namespace NMM
         return frame_edges;
       }
 
-      /// Area in s over area in reference coordinates of the cell.
+      /// Area in scaled coordinates over area in reference coordinates of the cell [-].
       double
       reference_to_scaled_area() const
       {
         return area_ratio;
       }
 
-      /// Below this an area in s is within the round-off of the coordinates
-      /// it is made of: the input's [m] and the reference cell's.
+      /// Areas in scaled coordinates below this are within the round-off of the input coordinates
+      /// and of the coordinates in the reference cell.
       double
       area_resolution() const
       {
         return resolution;
       }
 
-      /// Reference coordinates near the scaled point @p s (rounded).
+      /// Reference coordinates of the scaled point @p s, with rounding errors.
       std::array<double, 2>
       scaled_to_reference(const std::array<double, 2> &s) const
       {
@@ -100,7 +101,7 @@ namespace NMM
                  to_reference[1][0] * ds[0] + to_reference[1][1] * ds[1]}};
       }
 
-      /// Scaled coordinates of the reference point @p xi taken as exact.
+      /// Scaled coordinates of the reference point @p xi, whose coordinates are taken as exact.
       std::array<double, 2>
       reference_to_scaled(const std::array<double, 2> &xi) const
       {
@@ -128,7 +129,8 @@ namespace NMM
       void
       set_cell(const CellFrame &cell);
 
-      /// Bounds of the mapped edges, arcs with their extremes.
+      /// Maps the edges into frame_edges. Returns the lower and upper bounds of each scaled
+      /// coordinate, which include the extreme points of arcs.
       std::array<std::array<double, 2>, 2>
       map_edges(const dealii::ArrayView<const ElementEdge> &edges);
 
@@ -141,13 +143,13 @@ namespace NMM
 
       dealii::Point<2>     center;
       dealii::Tensor<1, 2> axis;
-      /// A.
+      /// The matrix A of s = A (x - c) [1/m].
       std::array<std::array<double, 2>, 2> real_to_scaled_matrix;
 
-      /// A J and A (origin - c).
+      /// The map from reference to scaled coordinates: A J and A (origin - c).
       std::array<std::array<DoubleDouble, 2>, 2> to_scaled;
       std::array<DoubleDouble, 2>                scaled_offset;
-      /// Its inverse, rounded.
+      /// The inverse of this map, rounded.
       std::array<std::array<double, 2>, 2> to_reference;
       std::array<double, 2>                reference_offset;
 

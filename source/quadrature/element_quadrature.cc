@@ -15,7 +15,7 @@ namespace NMM
                     const CellFrame                           &frame,
                     const unsigned int                         degree)
   {
-    // tables and scratch memory outlive the call
+    // Tables and scratch memory are kept for later calls.
     thread_local std::map<unsigned int, ElementRuleBuilder> builders;
     auto it = builders.find(degree);
     if (it == builders.end())
@@ -45,7 +45,7 @@ namespace NMM
       return rule;
 
     const dealii::Tensor<2, 2> to_reference = dealii::invert(frame.jacobian);
-    // differences first: the cell may be far from the origin
+    // Differences are taken first, since the cell may be far from the origin.
     const dealii::Tensor<1, 2> from_origin =
       0.5 * ((edge.start - frame.origin) + (edge.end - frame.origin));
     dealii::Tensor<1, 2> right;
@@ -66,11 +66,11 @@ namespace NMM
       return rule;
     }
 
-    // x = middle + sin(tau)/sin(phi) chord/2
-    //            + (cos(tau) - cos(phi))/sin(phi) bulge/2,
-    // with the bulge away from the centre: to the right of a counter-clockwise
-    // arc, whose outward normal is radial, to the left of a clockwise one,
-    // whose normal looks at the centre.
+    // The arc is x = middle + sin(tau)/sin(phi) chord/2
+    //                       + (cos(tau) - cos(phi))/sin(phi) bulge/2.
+    // The vector bulge points away from the centre. That is to the right of a counter-clockwise
+    // arc, whose outward normal points away from the centre, and to the left of a clockwise one,
+    // whose outward normal points to the centre.
     const double               phi    = 0.5 * std::abs(swept_angle(edge));
     const double               sine   = std::sin(phi);
     const double               sign   = edge.radius > 0. ? 1. : -1.;
@@ -105,7 +105,7 @@ namespace NMM
     std::vector<double> weights;
     std::vector<dealii::Tensor<1, 2>> normals;
     const double det = std::abs(dealii::determinant(frame.jacobian));
-    // Nanson: n dS = |det J| J^{-T} n_ref dS_ref, read backwards.
+    // Nanson's formula n dS = |det J| J^{-T} n_ref dS_ref is solved for n_ref dS_ref.
     for (std::size_t q = 0; q < rule.points.size(); ++q)
     {
       const dealii::Tensor<1, 2> surface =

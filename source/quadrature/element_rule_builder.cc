@@ -45,11 +45,11 @@ namespace NMM
     bool         fallback   = false;
     unsigned int n_attempts = 0;
 
-    /// On the reference triangle; empty if there is none of the degree.
+    /// Rule on the reference triangle; empty if deal.II has none of this degree.
     dealii::Quadrature<2> triangle_rule;
 
-    /// The rule of a well-shaped triangle or convex quadrilateral; false for
-    /// anything else.
+    /// Sets the rule of a well-shaped triangle or convex quadrilateral; returns false if the
+    /// element has another shape.
     bool
     divide(const dealii::ArrayView<const ElementEdge> &edges,
            const CellFrame                            &cell);
@@ -188,9 +188,9 @@ namespace NMM
         std::max(d.frame.area_resolution(), 16. * epsilon * scale))
       return d.result();
 
-    // The bar is 1e-13 of the box integral of every |monomial|. The box has an
-    // area of at least 2 in scaled coordinates, and |s_1^i s_2^j| a mean over
-    // it of 1 / (i + 1) / (j + 1).
+    // An error of a moment is tolerable up to 1e-13 of the integral of the |monomial| over the
+    // box of the element. The box has an area of at least 2 in scaled coordinates, and the mean
+    // of |s_1^i s_2^j| over it is 1 / (i + 1) / (j + 1).
     const double mean       = std::pow(0.5 * d.basis.degree() + 1., -2.);
     const double tolerable  = 1e-13 * 2. * mean;
     const double goal       = 2. * epsilon * std::max(scale, 1.);
@@ -206,9 +206,9 @@ namespace NMM
       if (!d.reduction.reduce(
             d.values, d.moments, 4. * epsilon * scale, true, d.weights))
       {
-        // A thin bent strip: polynomials that nearly vanish on it cannot be
-        // told from round-off of the moments. The candidates' own moments may
-        // still be good enough.
+        // This happens on thin bent strips, where some polynomials nearly vanish, so that their
+        // moments are round-off. The moments of the candidates themselves may still be good
+        // enough.
         d.weights = d.candidates.weights;
         d.reduction.reduce(d.values, d.moments, 0., false, d.weights);
       }

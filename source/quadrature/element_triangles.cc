@@ -11,7 +11,7 @@ namespace NMM
       using dealii::Point;
       using dealii::Tensor;
 
-      /// Starts of edges in reference coordinates.
+      /// Computes the start of each edge in reference coordinates of the cell.
       void
       set_corners(const dealii::ArrayView<const ElementEdge> &edges,
                   const CellFrame                            &cell,
@@ -31,7 +31,8 @@ namespace NMM
       }
 
 
-      /// Of twice the area, and the square of the longest distance.
+      /// Whether a polygon in reference coordinates is neither too small nor too thin; @p longest
+      /// is the square of its largest distance between corners.
       bool
       is_good(const double twice_the_area, const double longest)
       {
@@ -71,9 +72,9 @@ namespace NMM
                  ? Triangles::one
                  : Triangles::none;
 
-      // Along the diagonal whose triangles are more alike. One of them may be thin:
-      // what rounding does to it is little of the element. But its points have to
-      // be inside.
+      // The quadrilateral is divided along the diagonal whose triangles are more alike. One of
+      // them may be thin, since its rounding errors are small compared with the element; it only
+      // has to be so large that its points are inside.
       constexpr double least_part = 1e-8;
       const double     at_1       = twice_the_area(x[0], x[1], x[2]),
                    at_2           = twice_the_area(x[1], x[2], x[3]),

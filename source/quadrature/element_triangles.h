@@ -1,7 +1,7 @@
 #ifndef nmm_source_quadrature_element_triangles_h
 #define nmm_source_quadrature_element_triangles_h
 
-// Private: elements that are one or two well-shaped triangles.
+// Elements that are one or two well-shaped triangles.
 
 #include <nmm/quadrature/element_quadrature.h>
 
@@ -9,29 +9,32 @@ namespace NMM
 {
   namespace internal
   {
-    /// What an element is made of.
+    /// The division of an element into triangles.
     enum class Triangles : unsigned char
     {
-      /// It has another shape.
+      /// The element is not divided, since it has another shape.
       none,
+      /// The element is a triangle.
       one,
-      /// A convex quadrilateral, along the diagonal from corner 0 or 1.
+      /// The element is a convex quadrilateral, divided along the diagonal from corner 0.
       two_from_0,
+      /// The element is a convex quadrilateral, divided along the diagonal from corner 1.
       two_from_1
     };
 
     /**
-     * Is the element a well-shaped triangle or convex quadrilateral?
-     * Rounding of reference coordinates counts in proportion to the largest extent over
-     * the area and over the cell: shapes for which it may grow by more than a hundred are
-     * left to ElementFrame. At most @p max_triangles.
+     * Finds out whether the element is a well-shaped triangle or convex quadrilateral, which
+     * needs no more than @p max_triangles. Small and thin elements amplify the rounding of
+     * reference coordinates. Those for which it may grow by a factor of more than a hundred
+     * count as not well-shaped and are left to ElementFrame.
      */
     Triangles
     find_triangles(const dealii::ArrayView<const ElementEdge> &edges,
                    const CellFrame                            &cell,
                    unsigned int                                max_triangles);
 
-    /// Set the triangles of an element, in reference coordinates; returns how many.
+    /// Sets the triangles of an element in reference coordinates of its cell, and returns their
+    /// number, which is 0 for Triangles::none.
     unsigned int
     set_triangles(Triangles                                   kind,
                   const dealii::ArrayView<const ElementEdge> &edges,

@@ -138,10 +138,10 @@ namespace NMM
 
 
 
-    // Found by comparing with many more points, for Legendre products over arcs
-    // that fill the frame: flat arcs behave like polynomials of degree 2 k in
-    // the angle, which n > k points integrate exactly; with phi the terms that
-    // remain grow.
+    // The numbers were found by comparison with many more points, for products of Legendre
+    // polynomials over arcs that fill the frame. On flat arcs these behave like polynomials of
+    // degree 2 k in the angle, which n > k points integrate exactly; the terms that
+    // remain grow with phi.
     unsigned int
     n_arc_points(const unsigned int degree, const double half_angle)
     {

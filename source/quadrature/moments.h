@@ -30,8 +30,8 @@ namespace NMM
         return (m + 1) * (m + 2) / 2;
       }
 
-      /// Values at all points, row by row: values[i * n_points + k] of
-      /// function i at point k.
+      /// Evaluates all functions at the points (s1[k], s2[k]); function i at point k goes to
+      /// values[i * n_points + k].
       void
       evaluate(const std::vector<double> &s1,
                const std::vector<double> &s2,
@@ -42,13 +42,13 @@ namespace NMM
        * @f[ \int_E q\,ds = \oint_{\partial E} Q\,ds_2,\quad
        *     \partial_1 Q=q,\quad
        *     \int P_i = \frac{P_{i+1}-P_{i-1}}{2i+1}, @f]
-       * with Gauss points on every edge: as many as the degree m + 1 needs on
-       * straight ones; on arcs the integrand is a trigonometric polynomial of
-       * degree m + 2 in the angle, and the points are as many as leave
-       * round-off only.
+       * with Gauss points on every edge. A straight edge has as many as the degree m + 1 needs.
+       * On an arc the integrand is a trigonometric polynomial of
+       * degree m + 2 in the angle, and there are so many points that the error is
+       * round-off.
        *
-       * @return sum over the edges of @f$\int|s_1\,ds_2|@f$: the round-off of
-       * the moments is a few units in the last place of this.
+       * @return the sum over the edges of @f$\int|s_1\,ds_2|@f$: the round-off of
+       * the moments is a few units in the last place of this sum.
        */
       double
       moments(const std::vector<FrameEdge> &edges,
@@ -64,14 +64,13 @@ namespace NMM
 
       unsigned int        m;
       std::vector<double> p1, p2, antiderivative;
-      /// (2k+1)/(k+1) and k/(k+1) of the recurrence.
+      /// The coefficients (2k+1)/(k+1) and k/(k+1) of Legendre's recurrence.
       std::vector<double> recurrence_a, recurrence_b;
     };
 
 
-    /// Gauss points in the angle of an arc of half-angle @p half_angle that
-    /// integrate products of the arc's coordinates of degree @p degree to
-    /// round-off.
+    /// Number of Gauss points in the angle that integrate polynomials of degree @p degree in the
+    /// coordinates of an arc to round-off; @p half_angle is half the angle of the arc [rad].
     unsigned int
     n_arc_points(unsigned int degree, double half_angle);
   } // namespace internal

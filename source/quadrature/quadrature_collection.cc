@@ -16,7 +16,8 @@ namespace NMM
   dealii::Quadrature<2>
   make_triangle_rule(const unsigned int degree)
   {
-    // Fewest points among deal.II's rules with positive weights inside:
+    // Numbers of points of deal.II's rules with positive weights and points inside; the smallest
+    // one is taken:
     // degree             1  2  3  4  5   6   7   8   9  10  11  12  13  14
     // QGaussSimplex      1     4     7      15
     // Witherden-Vincent  1  3  6  6  7  12  15  16  19  25  28  33  37  42
@@ -67,14 +68,15 @@ namespace NMM
 
   namespace
   {
-    /// Numbers of rules from here on say how the element is divided.
+    /// Entries of element_to_rule from here on are a kind of division into triangles plus this.
     constexpr unsigned int divided = 1u << 31;
 
-    /// While rules are made: the element needs one of its own.
+    /// Marks elements that need a rule of their own, while rules are made.
     constexpr unsigned int to_be_made = invalid_index - 1;
 
 
-    /// On the threads that deal.II may use.
+    /// Calls action(begin, end) for parts of the range [0, @p n), on the threads that deal.II may
+    /// use.
     template <typename Action>
     void
     for_each_range(const unsigned int n, const Action &action)
@@ -107,7 +109,7 @@ namespace NMM
     const unsigned int n = elements.second - elements.first;
     element_to_rule.assign(n, invalid_index);
 
-    // each element by itself, so that the same comes out on any number of threads
+    // Elements are independent of each other, so the result is the same on any number of threads.
     for_each_range(n, [&](const unsigned int begin, const unsigned int end) {
       divide(degree_cut, begin, end);
     });
@@ -221,7 +223,7 @@ namespace NMM
     AssertIndexRange(element - first_element, element_to_rule.size());
     if (element_to_rule[element - first_element] == invalid_index)
       return 1.;
-    // the reference triangle has area 1/2
+    // The reference triangle has the area 1/2.
     const ElementRule element_rule = rule(element);
     double            area         = 0.;
     for (unsigned int q = 0; q < element_rule.size(); ++q)

@@ -13,7 +13,7 @@ namespace NMM
     {
       constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-      /// a -= factor b; contiguous, for the compiler to vectorize.
+      /// Computes a -= factor b on contiguous arrays, so that the compiler can vectorize it.
       inline void
       subtract_multiple(double *__restrict a,
                         const double *__restrict b,
@@ -83,8 +83,8 @@ namespace NMM
 
 
     // The smallest (delta_B, delta_N) with delta_B + T delta_N = b is
-    // delta_B = y, delta_N = T^T y, (I + T T^T) y = b; the matrix is positive
-    // definite with eigenvalues >= 1 whatever the points.
+    // delta_B = y, delta_N = T^T y, where (I + T T^T) y = b. This matrix is positive
+    // definite with eigenvalues >= 1 for any points.
     bool
     RuleReduction::correct_weights()
     {
@@ -100,7 +100,7 @@ namespace NMM
             a.dot(Eigen::Map<const Eigen::VectorXd>(row(j) + rank, n_free)) +
             (i == j ? 1. : 0.);
       }
-      // Cholesky, in place
+      // Cholesky factorization in place
       for (std::size_t i = 0; i < rank; ++i)
         for (std::size_t j = 0; j <= i; ++j)
         {
@@ -156,7 +156,7 @@ namespace NMM
     void
     RuleReduction::eliminate()
     {
-      // entries below this are round-off of zero: never a pivot
+      // Entries below this are round-off and never taken as pivots.
       constexpr double negligible = 1e-12;
       for (std::size_t c = n_columns; c-- > rank;)
       {
@@ -177,7 +177,7 @@ namespace NMM
             up_row = i;
           }
         }
-        // Without an exchange if possible, else with the larger pivot.
+        // Remove point c without an exchange if possible, else with the larger pivot.
         const bool raise =
           down_row < rank && up_row < rank &&
           std::abs(row(up_row)[c]) > std::abs(row(down_row)[c]);
@@ -226,8 +226,8 @@ namespace NMM
     {
       n                          = moments.size();
       const std::size_t n_points = weights.size();
-      // at most this many columns at once, so that the cost of a long list of
-      // candidates grows linearly
+      // No more columns than this are treated at once, so that the cost grows linearly with the
+      // number of candidates.
       const std::size_t chunk = 4 * n;
 
       const double defect  = residual_of(values, moments, weights);
@@ -275,7 +275,7 @@ namespace NMM
           weights[k] = 0.;
         for (std::size_t c = 0; c < columns.size(); ++c)
           weights[columns[c]] = solution[c];
-        // weights that are round-off of zero
+        // Remove points whose weights are round-off of zero.
         columns.erase(std::remove_if(columns.begin(),
                                      columns.end(),
                                      [&](const std::size_t k) {
@@ -291,9 +291,9 @@ namespace NMM
 
 
 
-    // As many equations as unknowns (or a few more): Gauss elimination with
-    // pivoting over rows if the pivots are good, else least squares without the
-    // directions that round-off decides.
+    // There are as many equations as unknowns, or a few more. They are solved by Gauss elimination
+    // with pivoting over rows if the pivots are good, else by least squares without the
+    // directions that only round-off determines.
     void
     RuleReduction::solve_survivors(const std::vector<double> &values,
                                    const std::vector<double> &weights)

@@ -8,31 +8,31 @@ namespace NMM
   namespace internal
   {
     /**
-     * Shortens a positive rule to at most as many points as there are
-     * functions, keeping its moments: Caratheodory's theorem, made into an
+     * Reduces a positive rule to at most as many points as there are
+     * functions, and keeps its moments. This is Caratheodory's theorem, made into an
      * algorithm for cubature by Tchakaloff (Bull. Sci. Math. 81, 1957).
      *
      * With A the matrix of the functions' values times weights (functions x
      * points) and u = 1 the relative weights, Gauss-Jordan elimination with
-     * pivoting over the *points* gives A = A_B [I T]: a well-conditioned basis B of points
-     * (discrete Leja points) and a null vector for every other point. As in
-     * the simplex method the others are driven out one by one; a basic point
-     * whose weight reaches zero first leaves in exchange. Functions that
-     * vanish on all points to round-off lower the rank, and the number of
-     * points left, by one each.
+     * pivoting over the *points* gives A = A_B [I T]. This yields a well-conditioned basis B of
+     * points (discrete Leja points) and a null vector for every other point. As in
+     * the simplex method, the other points are removed one by one. If the weight of a basic
+     * point reaches zero first, that point is removed and the other one takes its place in the
+     * basis. Each function that vanishes on all points to round-off lowers the rank, and the
+     * number of points that are left, by one.
      * Cost: O(functions^2 x points + functions x eliminated points^2).
      */
     class RuleReduction
     {
     public:
       /**
-       * @param values  functions x points, row by row.
-       * @param moments those wanted.
+       * @param values  values of the functions at the points, (functions x points), row by row.
+       * @param moments integrals of the functions that the rule should have.
        * @param noise   round-off of the moments.
-       * @param correct weights that miss the moments by more than @p noise are
+       * @param correct whether weights that miss the moments by more than @p noise are
        *   first changed by the smallest relative amounts that restore the
-       *   moments; without it the rule keeps the moments of the given weights.
-       * @param weights positive; on return zero where points are dropped.
+       *   moments; if false, the rule keeps the moments of the given weights.
+       * @param weights positive weights; on return they are zero where points were removed.
        * @return false if a corrected weight was not positive.
        */
       bool
@@ -42,9 +42,9 @@ namespace NMM
              bool                       correct,
              std::vector<double>       &weights);
 
-      /// Solve once more for the weights of the points left, until no moment
-      /// is off by more than @p goal or nothing improves; weights stay positive.
-      /// @return largest error of a moment.
+      /// Solves once more for the weights of the points that are left, at most twice, until no
+      /// moment has an error above @p goal or the error does not decrease. Weights stay positive.
+      /// @return the largest error of a moment.
       double
       polish(const std::vector<double> &values,
              const std::vector<double> &moments,
@@ -84,11 +84,11 @@ namespace NMM
 
       std::size_t n = 0, n_columns = 0, stride = 0, rank = 0;
 
-      /// n x stride; columns [rank, n_columns) hold T.
+      /// The eliminated matrix, (n x stride); columns [rank, n_columns) hold T.
       std::vector<double> tableau;
-      /// Tableau rows of the basic points.
+      /// Row of the tableau for each basic point.
       std::vector<std::size_t> rows;
-      /// Points of the columns.
+      /// The point of each column, and a copy of them before the elimination.
       std::vector<std::size_t> columns, active;
       /// Relative weights of the columns.
       std::vector<double> u;

@@ -12,18 +12,18 @@ namespace NMM
   {
     namespace
     {
-      /// Slabs below this width of scaled coordinates have no weight that
-      /// anybody could see.
+      /// Slabs narrower than this in scaled coordinates are skipped, since their area is below
+      /// round-off.
       constexpr double narrowest_slab = 1e-14;
 
-      /// Points keep this distance from the edges so that the round-off of
-      /// the test for being inside cannot matter.
+      /// Points keep this distance from the edges, so that the round-off of
+      /// the test whether they are inside does not matter.
       constexpr double inside_margin =
         8. * std::numeric_limits<double>::epsilon();
 
-      /// Grading of points along a slab towards an end where an arc turns
-      /// vertical; there its height behaves like a square root, which a
-      /// parameter with vanishing derivative makes smooth.
+      /// Grades the points along a slab towards an end where an arc becomes
+      /// vertical. The height of the arc behaves like a square root there, which a
+      /// parametrization with a vanishing derivative makes smooth.
       struct Grading
       {
         bool at_left, at_right;
@@ -67,7 +67,7 @@ namespace NMM
     // The root t = tan(tau/2) of s_1(tau) = s is that of the quadratic
     //   alpha t^2 + 2 beta t + gamma = 0,
     // whose derivative at the root, 2 (alpha t + beta), has the sign of
-    // ds_1/dtau. Both ways to write the root; the one without cancellation.
+    // ds_1/dtau. Of the two ways to write the root, the one without cancellation is taken.
     double
     SlabCandidates::Piece::arc_parameter(const double s) const
     {
@@ -136,7 +136,8 @@ namespace NMM
       pieces.clear();
       slices.clear();
 
-      // A crack is traversed twice and bounds nothing.
+      // The two faces of a crack within the element are traversed in opposite directions and
+      // bound no area.
       is_cancelled.assign(edges.size(), false);
       for (std::size_t i = 0; i < edges.size(); ++i)
         for (std::size_t j = 0; j < i && !is_cancelled[i]; ++j)
@@ -166,7 +167,7 @@ namespace NMM
           const double t_turn = v == 0. ? 2. : std::tan(0.5 * std::atan(u / v));
           if (std::abs(t_turn) < t_end)
           {
-            // s_1 has its extreme, of the sign of v, inside the arc
+            // The extreme value of s_1 is inside the arc: a maximum if v > 0, else a minimum.
             const double s    = edge.arc_coordinate(0, t_turn);
             const double sign = v > 0. ? 1. : -1.;
             slices.push_back(s);
@@ -209,9 +210,9 @@ namespace NMM
                               const double                 weight)
     {
       // Where the element is not much wider than the spacing of doubles, the
-      // rounded point may be outside: try to hit the target better, then the
-      // middle of the trapezoid, and leave the point out in the end; the
-      // moments give its weight to others.
+      // rounded point may be outside. Then a correction towards the target is tried, then one
+      // towards the middle of the trapezoid. If both fail, the point is left out, and the
+      // correction by moments distributes its weight among the other points.
       std::array<double, 2> target = s;
       std::array<double, 2> xi     = frame.scaled_to_reference(target);
       for (unsigned int attempt = 0; attempt < 4; ++attempt)
@@ -260,7 +261,8 @@ namespace NMM
           grading.at_left       = grading.at_left || at_left < 0.3 * middle;
           grading.at_right      = grading.at_right || at_right < 0.3 * middle;
         }
-      gauss.rule(n_across); // grows the table before references are taken
+      // The first call grows the table, which must not happen after references are taken.
+      gauss.rule(n_across);
       const GaussTable::Rule &along = gauss.rule(
         n_along + (grading.at_left ? 1 : 0) + (grading.at_right ? 1 : 0));
       const GaussTable::Rule &across = gauss.rule(n_across);
@@ -306,8 +308,8 @@ namespace NMM
                                   : a.second->is_bottom < b.second->is_bottom;
       });
 
-      // The winding number tells inside from outside; counting odd and even
-      // edges would fail where rounded edges overlap.
+      // The winding number distinguishes inside from outside. The parity of the number of edges
+      // would fail where rounded edges overlap.
       int          winding = 0;
       const Piece *bottom  = nullptr;
       for (const auto &[height, piece] : stack)
@@ -342,13 +344,13 @@ namespace NMM
       weights.clear();
       make_pieces(frame.edges());
 
-      // Across, q is of degree m; along, its integral over the height of a
-      // trapezoid of degree m + 1.
+      // Across the slab the integrand is of degree m. Along the slab its integral over the height
+      // of a trapezoid is of degree m + 1.
       unsigned int n_along  = (degree + 3) / 2 + level;
       unsigned int n_across = (degree + 2) / 2 + level;
       if (level >= 2)
         n_along = n_across = degree + 1 + 2 * (level - 2);
-      // Arcs: enough for the moments to correct the rest; at the last level,
+      // On arcs there are enough points for the moments to correct the rest, and at the last level
       // enough to need no correction.
       constexpr std::array<unsigned int, 4> extra = {{1, 2, 4, 14}};
       const unsigned int n_arc_extra              = extra[std::min(level, 3u)];

@@ -10,7 +10,7 @@ namespace NMM
 {
   namespace internal
   {
-    /// Gauss-Legendre rules on [0, 1], made when first asked for.
+    /// Gauss-Legendre rules on [0, 1]. Each is made when it is first asked for.
     class GaussTable
     {
     public:
@@ -28,16 +28,17 @@ namespace NMM
 
 
     /**
-     * A positive, but not yet short rule with points inside an element.
+     * A positive rule with points inside an element, which RuleReduction then reduces to few
+     * points.
      *
      * The element is sliced at the first scaled coordinate of every vertex and
-     * of every vertical tangent of an arc. Between two slices no edges end;
-     * sorted by height they bound trapezoids (with curved top or bottom), each
-     * of which gets a tensor product of Gauss rules. With straight edges that
-     * is exact for P_m; with arcs it is only near, and the moments correct it.
+     * of every vertical tangent of an arc. No edges end between two slices;
+     * sorted by height they bound trapezoids (with a curved top or bottom), each
+     * of which gets a tensor product of Gauss rules. With straight edges this rule
+     * is exact for polynomials of degree m; with arcs it is not, and the moments correct it.
      *
-     * Points are those reference coordinates that the final rule will have,
-     * rounded to double; their scaled coordinates belong to the rounded points.
+     * Points have the reference coordinates that they will have in the final rule,
+     * rounded to double. Their scaled coordinates are those of the rounded points.
      */
     class SlabCandidates
     {
@@ -46,8 +47,9 @@ namespace NMM
       std::vector<dealii::Point<2>> reference;
       std::vector<double>           weights;
 
-      /// @p level 0 has the fewest points; each next one more in both
-      /// directions, at level 2 so many that P_m is determined by one slab.
+      /// Makes the rule for polynomials of degree @p degree. Level 0 has the fewest points, and
+      /// each higher level has more in both directions. From level 2 on, the points of one slab
+      /// determine a polynomial of that degree.
       void
       reinit(const ElementFrame &frame,
              unsigned int        degree,
@@ -55,25 +57,25 @@ namespace NMM
              GaussTable         &gauss);
 
     private:
-      /// Part of an edge whose first coordinate grows or falls all the way.
+      /// Part of an edge along which the first scaled coordinate is monotonic.
       struct Piece
       {
         const FrameEdge *edge;
         double           left, right;
-        /// Run from left to right: the element is above.
+        /// Whether the edge runs from left to right, so that the element is above it.
         bool is_bottom;
-        /// Arcs: range of tan(tau/2) and the sign of ds_1/dtau.
+        /// Of arcs only: the range of tan(tau/2) and the sign of ds_1/dtau.
         double t_min, t_max, slope_sign;
 
-        /// tan(tau/2) where the arc has first coordinate @p s.
+        /// tan(tau/2) at the point of the arc with the first coordinate @p s.
         double
         arc_parameter(double s) const;
 
-        /// Second coordinate at first coordinate @p s.
+        /// Second coordinate of the point with the first coordinate @p s.
         double
         height(double s) const;
 
-        /// |ds_1/dtau| at @p s.
+        /// |ds_1/dtau| at the point of the arc with the first coordinate @p s.
         double
         arc_speed(double s) const;
       };
@@ -121,7 +123,7 @@ namespace NMM
       std::vector<Piece>  pieces;
       std::vector<double> slices;
       std::vector<bool>   is_cancelled;
-      /// (height, piece) of the pieces that span a slab.
+      /// The pieces that span a slab, each with its height in the middle of the slab.
       std::vector<std::pair<double, const Piece *>> stack;
     };
   } // namespace internal

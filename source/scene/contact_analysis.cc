@@ -36,7 +36,7 @@ namespace NMM
       cell_size         = contact_cell_size(*surface);
       this->constraints = &constraints;
       full_strength     = scene->make_contact_parameters(*surface, problem);
-      // every face would be looked at for every point, whatever the way that blocks go
+      // With a larger reach, all faces would be searched for every point.
       constexpr double most    = 10.;
       const auto       corners = covers->manifold_mesh()
                              .physical_mesh()
@@ -54,7 +54,7 @@ namespace NMM
                    "move in a step"));
       contact_pointer =
         std::make_unique<Contact>(*surface, constraints, full_strength);
-      // Rounding of arcs, in parts of the range that is looked at.
+      // The tolerance for the rounding of arcs, over the reach.
       constexpr double tolerance = 1e-6;
       contact_pointer->set_time(0.);
       surface->check_initial_overlap(tolerance * contact().parameters().reach);
@@ -187,7 +187,7 @@ namespace NMM
         for (unsigned int k = 0; k < edges.size(); ++k)
           if (edges[k].body == body)
           {
-            // The nearest point of a straight edge; of an arc the nearest of some.
+            // Take the nearest point of a straight edge, or the nearest of some points of an arc.
             std::vector<double> places;
             if (edges[k].radius == 0.)
             {
@@ -277,8 +277,8 @@ namespace NMM
       if (are_same)
         return Parallel::sum(count, covers->communicator());
 
-      // Points have been made anew: the nearest one on the same edge; what was out of
-      // reach was open.
+      // The points have changed, so each is compared with the nearest stored point on the same
+      // edge. A point without a stored one was out of reach, hence open.
       count                          = 0;
       std::vector<PointState> sorted = remembered;
       std::stable_sort(sorted.begin(), sorted.end(), is_before);
@@ -517,8 +517,8 @@ namespace NMM
       if (!fault.reason.empty() || contact().is_idle())
         return fault;
       double penetration = contact().report().largest_penetration;
-      // In conserving steps it is the mean of begin and end; this is a bound from below
-      // of that at the end, since different points may be the deepest.
+      // In conserving steps the reported penetration is the mean of begin and end. The value
+      // computed here is a lower bound of that at the end, since the deepest point may change.
       if (contact().report().is_between)
         penetration =
           2. * penetration - analysis->last_state().report.largest_penetration;
@@ -532,7 +532,7 @@ namespace NMM
     {
       const double dissipated = ContactModel::accept_step(end, t);
       work += dissipated_by_contact();
-      // The integrator assembles once more, where all points stick already.
+      // The state is taken now, since the integrator assembles once more with all points sticking.
       analysis->take_state(work);
       return dissipated;
     }

@@ -18,22 +18,22 @@ namespace NMM
   namespace internal
   {
     /**
-     * Contact of a scene: its surface and the contact itself, and the numbers that are reported
-     * step by step. All functions are collective.
+     * The contact of a scene: its surface, the Contact itself, and the numbers that are reported
+     * for each step. All functions are collective.
      *
      * Lifetime: the arguments must outlive this object.
      */
     class ContactAnalysis
     {
     public:
-      /// Makes the surface only: constraints and vectors come after it. @throws
+      /// Makes the surface only, since constraints and vectors depend on it. @throws
       /// InputError for obstacles that are wrong.
       ContactAnalysis(const Scene        &scene,
                       const PhysicalMesh &physical_mesh,
                       CoverSystem        &covers);
 
-      /// @throws InputError for laws that are wrong, blocks and obstacles
-      /// that overlap.
+      /// Makes the contact. @throws InputError for laws that are wrong, and for blocks and
+      /// obstacles that overlap.
       void
       make_contact(const dealii::AffineConstraints<double> &constraints,
                    const ElasticityProblem                 &problem);
@@ -44,43 +44,47 @@ namespace NMM
       const Contact &
       contact() const;
 
-      /// Do faces that press in the last assembly of the contact connect every block with an
-      /// obstacle? With displacement conditions, which may hold blocks as well: does any face
-      /// press? On several ranks it is not found out, and said to be so.
+      /// Whether closed contact points of the last assembly connect every block with an obstacle.
+      /// If there are displacement conditions, which may hold blocks as well, whether there is any
+      /// closed point. On several ranks this is not computed, and the result is true.
       bool
       all_are_touched(const ElasticityProblem &problem) const;
 
-      /// What was chosen, for people.
+      /// A sentence on the faces and the parameters that were chosen, for the report.
       std::string
       description() const;
 
-      /// Obstacles that have the whole solid behind them, for people.
+      /// Warnings for the report: obstacles with the whole solid on the wrong side, and corners of
+      /// blocks that cannot slide.
       std::vector<std::string>
       notices() const;
 
-      /// Obstacles that are gone from some time on.
+      /// The obstacles that are removed at some time.
       const std::vector<ObstacleRelease> &
       releases() const;
 
-      /// While held, obstacles are where they are at t = 0, and none is released.
+      /// Holds or frees the obstacles. While held, they are at their positions of t = 0, and none
+      /// is released.
       void
       hold_obstacles(bool are_held);
 
-      /// Contact anew, without history, its strength divided by @p factor, see
-      /// reduce_strength(). Whoever refers to contact() has to go first.
+      /// Makes the contact again without history, with its strength divided by @p factor [-], see
+      /// reduce_strength(). Objects that refer to contact() must be destroyed before.
       void
       begin_anew(double factor = 1.);
 
-      /// Changes are counted from the present states on.
+      /// Stores the present states of the contact points, with which later states are compared to
+      /// count changes.
       void
       remember_states();
 
-      /// Keep the last assembly, that of an accepted state, which the functions below report.
-      /// @p work: what friction, dashpots and breaking bonds have dissipated so far [J/m].
+      /// Stores the last assembly, which must be that of an accepted state, for the functions
+      /// below. @p work is the energy that friction, dashpots and breaking bonds have dissipated so
+      /// far [J/m].
       void
       take_state(double work);
 
-      /// What is reported of the state that was taken last.
+      /// The data of the state that was taken last.
       struct State
       {
         std::vector<ContactPoint>         points;
@@ -92,44 +96,44 @@ namespace NMM
       const State &
       last_state() const;
 
-      /// Tell of an earlier state.
+      /// Replaces the state that was taken last by an earlier one.
       void
       show_state(const State &earlier);
 
-      /// Names of the numbers of a state.
+      /// Names of the columns of history.csv for numbers().
       std::vector<std::string>
       columns() const;
 
-      /// Energies and forces times @p thickness.
+      /// Numbers of the state that was taken last, with energies and forces times @p thickness.
       std::vector<double>
       numbers(double thickness) const;
 
-      /// On the first rank.
+      /// The contact points of the state that was taken last, on rank 0.
       std::vector<ContactSample>
       points() const;
 
-      /// What the faces of cracks exert on each other in the state that was taken last; on the
-      /// first rank.
+      /// The forces between the faces of cracks in the state that was taken last, on rank 0.
       std::vector<ContactForce>
       forces_on_faces() const;
 
-      /// "12 stick, 3 slip, penetration 1e-6 m".
+      /// A summary of the state for the progress display, e.g. "12 stick, 3 slip, penetration 1e-6
+      /// m".
       std::string
       progress() const;
 
-      /// Words for a penetration that is deeper than the scene allows; else empty.
+      /// A message if @p penetration [m] is larger than the scene allows; else empty.
       std::string
       find_deep_penetration(double penetration) const;
 
-      /// Of the last state that was taken.
+      /// The same for the largest penetration of the state that was taken last.
       std::string
       find_deep_penetration() const;
 
-      /// Pressure of a penetration that is rounding of coordinates [Pa].
+      /// Pressure of a penetration of the size of the rounding error of coordinates [Pa].
       double
       pressure_of_rounding() const;
 
-      /// Numbers of the last state into the summary, energies times the thickness.
+      /// Adds numbers of the last state to the summary, with energies times the thickness.
       void
       add_to_summary(Summary &summary) const;
 
@@ -141,11 +145,12 @@ namespace NMM
         ContactState state;
       };
 
-      /// Does a part of the solid lie on the right of the obstacle's line?
+      /// Whether a part of the solid lies on the right of the obstacle's line, where it is free.
       bool
       is_in_front(unsigned int obstacle) const;
 
-      /// Points of all ranks whose state is not that of the nearest remembered one.
+      /// Number of points on all ranks whose state differs from that of the nearest stored point,
+      /// see remember_states().
       unsigned int
       count_changes() const;
 
@@ -159,18 +164,19 @@ namespace NMM
       ContactParameters                        full_strength;
       std::vector<PointState>                  remembered;
       State                                    state;
-      /// Of all states [m].
+      /// Largest penetration over all states that were taken [m].
       double largest_penetration = 0.;
     };
 
 
-    /// Newton's method for static contact: what the scene leaves at its default is
-    /// chosen for contact.
+    /// Parameters of Newton's method for static contact. Values that the scene leaves at their
+    /// defaults are replaced by those for contact.
     NewtonParameters
     contact_newton_parameters(const Scene &scene);
 
 
-    /// A contact model that keeps account of friction and tells which states change.
+    /// A contact model that sums the energy dissipated by contact and reports each accepted state
+    /// to a ContactAnalysis.
     class AccountedContactModel : public ContactModel
     {
     public:
@@ -182,8 +188,8 @@ namespace NMM
                  double        t,
                  double        h) override;
 
-      /// As in ContactModel; and faces may not be deeper in each other than the scene
-      /// allows.
+      /// As in ContactModel. In addition, a penetration that is larger than the scene allows is a
+      /// fault.
       StepFault
       find_fault(const Vector &end) override;
 
@@ -196,7 +202,7 @@ namespace NMM
       void
       restore_internal_state(const std::vector<char> &state) override;
 
-      /// What friction, dashpots and breaking bonds have dissipated so far [J/m].
+      /// Energy that friction, dashpots and breaking bonds have dissipated so far [J/m].
       double
       friction_work() const;
 

@@ -20,7 +20,7 @@ namespace NMM
       , quadrature(quadrature)
       , problem(problem)
       , contact(contact)
-      // what floats may be held by contact
+      // Blocks without supports are allowed, since contact may hold them.
       , elasticity(covers, quadrature, constraints, problem, true)
       , system(elasticity, /* is_linearized = */ true)
     {
@@ -30,8 +30,8 @@ namespace NMM
     void
     ContactLoading::begin_anew()
     {
-      // Contact without gaps is proportional to the load, so that more iterations help where
-      // smaller steps do not (solve()).
+      // Contact without gaps is proportional to the load, so that smaller steps do not help where
+      // an iteration does not converge, but more iterations may.
       constexpr unsigned int most_iterations = 40;
       NewtonParameters       newton          = contact_newton_parameters(scene);
       newton.max_iterations = std::max(newton.max_iterations, most_iterations);
@@ -62,7 +62,7 @@ namespace NMM
       }
       constexpr double least_step = 0.5;
       steps.min_step              = std::max(given.min_step, least_step);
-      // between changes of contact states small displacements are linear in the load
+      // Small displacements are linear in the load as long as no contact state changes.
       steps.extrapolation_degree = 1;
       load(steps);
       const std::string fault = contact.find_deep_penetration();

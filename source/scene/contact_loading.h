@@ -12,10 +12,10 @@ namespace NMM
   namespace internal
   {
     /**
-     * Loading of elastic blocks in contact, in small displacements, to load factors that are not
-     * known beforehand. A load factor above the last one continues the loading; a smaller one
-     * begins anew from zero, since friction remembers: in one step, unless the scene has load steps
-     * of its own.
+     * The loading of elastic blocks in contact, with small displacements, to load factors that are
+     * not known beforehand. A load factor above the last one continues the loading. A smaller one
+     * starts again from zero load, since friction depends on the history. It is reached in one
+     * step, unless the scene has load steps of its own.
      *
      * Lifetime: the arguments must outlive this object.
      */
@@ -31,9 +31,9 @@ namespace NMM
                      const ElasticityProblem                 &problem,
                      ContactAnalysis                         &contact);
 
-      /// Displacements [m], locally relevant, valid until the next call. The contact analysis has
-      /// taken the state. @throws NumericalFailure if there is no equilibrium, with the block that
-      /// gives way.
+      /// The displacements at the load factor @p load_factor [m], with relevant unknowns, valid
+      /// until the next call. The contact analysis has taken the state. @throws NumericalFailure
+      /// if there is no equilibrium, naming the block that moves.
       const Vector &
       solve(double load_factor);
 
@@ -45,9 +45,9 @@ namespace NMM
       ContactAnalysis            &contact;
       FiniteElasticity            elasticity;
       ElasticSystem               system;
-      /// The loading that goes on; null: none has begun.
+      /// The present loading; null if none has begun.
       std::unique_ptr<ContactStatics> loading;
-      /// Its last load factor [-] and what friction has dissipated so far [J/m].
+      /// The last load factor [-], and the energy that friction has dissipated so far [J/m].
       double reached = 0., friction_work = 0.;
 
       void

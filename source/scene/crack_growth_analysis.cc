@@ -44,7 +44,7 @@ namespace NMM
       }
       solve_problem();
       const double driven = find_growing_tips();
-      // where no tip is driven no load factor makes one grow
+      // If no tip is driven, no load factor makes one grow.
       load_factor =
         driven > 0. ? 1. / driven : std::numeric_limits<double>::quiet_NaN();
     }
@@ -55,9 +55,9 @@ namespace NMM
     {
       constexpr unsigned int most_trials = 20;
       constexpr double       tolerance   = 1e-3;
-      // load factor and drive of the trial before
+      // These are the load factor and the drive of the previous trial.
       std::optional<std::pair<double, double>> before;
-      // From below, since a load that goes on needs few iterations.
+      // The search begins below, since a load that increases needs few iterations.
       double factor = 0.5 * (states.empty() ? 1. : states.back().load_factor);
       for (unsigned int i = 0; i < most_trials; ++i)
       {
@@ -70,11 +70,11 @@ namespace NMM
           driven > 0. ? factor : std::numeric_limits<double>::quiet_NaN();
         if (std::abs(driven - 1.) <= tolerance)
           return;
-        // contact may change altogether between loads that are far apart
+        // Contact states may differ much between loads that are far apart.
         constexpr double most_change = 4.;
         if (driven <= 0.)
         {
-          // cohesion may hold the faces together until the load is larger
+          // Cohesion may hold the faces together until the load is larger.
           constexpr unsigned int most_closed = 3;
           if (i == most_closed)
             return;
@@ -273,7 +273,7 @@ namespace NMM
       }
       catch (const InputError &error)
       {
-        // The scene was good; what the crack makes of it is not.
+        // The scene itself is valid, but the geometry with the extended crack is not.
         restore(before);
         AssertThrow(false,
                     NumericalFailure("A crack that grows makes a geometry that "
@@ -335,8 +335,8 @@ namespace NMM
             const IntensityFactors &k = crack_tips->all_factors()[i];
             if (k.K_I <= 0. || std::abs(k.K_II) <= no_shear * k.K_I)
               continue;
-            // For small angles K_II' changes by K_I' / 2 per angle; two trials show by how
-            // much it does here.
+            // For small angles K_II' changes by K_I' / 2 per angle. From the second trial on, the
+            // two last trials give the rate.
             const double angle = growing.verdict.angle, shear = k.K_II / k.K_I;
             double       slope = 0.5;
             if (growing.last_trial)
@@ -381,7 +381,7 @@ namespace NMM
               out << ',' << probe.name << "_x," << probe.name << "_y";
           out << '\n';
           out.precision(12);
-          // empty where no load makes a crack grow, or a probe is outside
+          // A cell is empty if no load makes a crack grow, or if a probe is outside the solid.
           const auto write = [&](const double value) {
             out << ',';
             if (std::isfinite(value))

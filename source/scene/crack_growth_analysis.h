@@ -17,20 +17,20 @@ namespace NMM
   namespace internal
   {
     /**
-     * Cracks that grow in equilibrium: small displacements, elastic materials.
+     * The growth of cracks in equilibrium, with small displacements and elastic materials.
      *
-     * A tip is driven by the ratio of its equivalent intensity factor to the toughness. The crack
-     * whose ratio d is largest grows first, at the load factor at which d = 1. That is the
-     * equilibrium path for cracks of all lengths, also where the load that it takes, or the
-     * displacement, goes back. Without contact everything is proportional to the loads, so that
-     * @f[ \lambda = \min_\mathrm{tips} \frac{K_c}{K_\mathrm{eq}(1)}; @f]
-     * fields, pictures, probes and tips are those of the last state under the loads as given. With
-     * contact the secant method finds it to a thousandth of d, and they are those at
-     * that load factor.
+     * The drive d of a tip is the ratio of its equivalent intensity factor to the toughness. The
+     * crack with the largest d grows first, at the load factor lambda at which d = 1. This gives
+     * the equilibrium path for cracks of all lengths, also where the load or the displacement
+     * decreases. Without contact everything is proportional to the loads, so that
+     * @f[ \lambda = \min_\mathrm{tips} \frac{K_c}{K_\mathrm{eq}(1)}, @f]
+     * and fields, pictures, probes and tips are those of the last state under the given loads. With
+     * contact the secant method finds lambda up to an error of a thousandth in d, and fields,
+     * pictures, probes and tips are those at that load factor.
      *
-     * After each increment the solid is cut and meshed anew and loaded from zero. With friction
-     * that is the path of a crack whose faces slide in one direction only; slip that
-     * would go back, or lock, while the crack grows is not followed.
+     * After each increment the solid is cut and meshed again and loaded from zero. With friction
+     * this is the path of a crack whose faces slide in one direction only: slip that
+     * reverses or stops while the crack grows is not modelled.
      */
     class CrackGrowthAnalysis : public StaticAnalysis
     {
@@ -50,16 +50,16 @@ namespace NMM
       void
       clear() override;
 
-      /// A tip that grows, and how.
+      /// A tip that grows, with the reason and the result.
       struct GrowingTip
       {
         CrackTip                 tip;
         IntensityFactors         factors;
         GrowthCriterion::Verdict verdict;
-        /// K_eq / K_c
+        /// K_eq / K_c [-].
         double         drive = 0.;
         CrackExtension extension;
-        /// Angle of the trial before and K_II / K_I at its end, if there was one.
+        /// Angle of the previous trial [rad] and K_II / K_I at its end [-], if there was one.
         std::optional<std::pair<double, double>> last_trial;
       };
 
@@ -82,21 +82,20 @@ namespace NMM
       std::unique_ptr<ContactLoading> contact_loading;
       std::vector<State>              states;
       std::vector<Increment>          increments;
-      /// Of the last state.
+      /// The tips that grow next from the last state.
       std::vector<GrowingTip> growing_tips;
-      /// At which they grow; not a number if no load makes one grow.
+      /// Load factor at which they grow [-]; not a number if no load makes a tip grow.
       double load_factor  = std::numeric_limits<double>::quiet_NaN();
       double grown_length = 0.;
-      /// Why it came to an end; empty: it did not.
+      /// Why growth came to an end; empty if it did not.
       std::string end_reason;
-      /// Increments of which turning did not take away the shear.
+      /// Number of increments that still have shear at their tips after turning.
       unsigned int n_with_shear = 0;
 
       const GrowthCriterion &
       criterion() const;
 
-      /// Equilibrium at the load factor at which a crack grows, or of the linear problem; the
-      /// tips that do, and that load factor.
+      /// Finds the equilibrium, the tips that grow next, and the load factor at which they do.
       void
       equilibrate();
 
@@ -104,39 +103,39 @@ namespace NMM
       void
       equilibrate_contact();
 
-      /// The tips that grow next, into growing_tips. Returns the largest K_eq / K_c of all
-      /// tips, 0 if none is driven.
+      /// Sets growing_tips to the tips that grow next. Returns the largest K_eq / K_c of all
+      /// tips; 0 if no tip is driven.
       double
       find_growing_tips();
 
-      /// That of the fields over the load factor at which cracks grow.
+      /// Load factor of the fields over that at which cracks grow [-].
       double
       scale_of_fields() const;
 
       void
       take_state();
 
-      /// Fields and a picture of this state, if it is one of those that the scene asks for.
+      /// Writes fields and a picture of this state, if the scene asks for them.
       void
       show_state();
 
       double
       last_value() const override;
 
-      /// One increment of each tip that grows. False if there is none, or a block
-      /// came free; end_reason says so.
+      /// Extends each tip that grows by one increment. Returns false if there is none, or if a
+      /// block was separated; end_reason says so.
       bool
       grow();
 
-      /// Cut and solve with all tips grown by their angles.
+      /// Extends all tips at their angles, cuts the solid and solves.
       void
       try_increments(std::vector<GrowingTip> &tips);
 
-      /// Back to a geometry that was solved before.
+      /// Returns to a geometry that was solved before.
       void
       restore(const Geometry &before);
 
-      /// Turn increments at whose tips there is shear. False if there are none.
+      /// Turns the increments that have shear at their tips. Returns false if there is none.
       bool
       turn_increments(std::vector<GrowingTip> &tips) const;
 

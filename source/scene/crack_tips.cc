@@ -61,7 +61,7 @@ namespace NMM
     {
       factors.clear();
       for (const CrackTip &tip : tips)
-        // a tip that has grown may have less room than at first
+        // The free radius of a tip that has grown may be smaller than that at the start.
         factors.push_back(compute_intensity_factors(
           field,
           problem,

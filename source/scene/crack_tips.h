@@ -31,22 +31,22 @@ namespace NMM
       const std::vector<CrackTip> &
       all_tips() const;
 
-      /// After compute().
+      /// The intensity factors of all tips, which compute() has set.
       const std::vector<IntensityFactors> &
       all_factors() const;
 
-      /// From the solution, with the forces where faces touch, as of
+      /// Computes the intensity factors of all tips from the solution. @p contact_forces is as in
       /// interaction_integrals(). Collective.
       void
       compute(const DisplacementField         &field,
               const ElasticityProblem         &problem,
               const std::vector<ContactForce> &contact_forces = {});
 
-      /// Lines for people: what was computed, of the first few tips.
+      /// Lines for the report with the intensity factors of the first few tips.
       std::vector<std::string>
       description() const;
 
-      /// Those with the largest energy release rate into the summary.
+      /// Adds the intensity factors of the tip with the largest energy release rate to the summary.
       void
       add_to(Summary &summary) const;
 
@@ -54,11 +54,11 @@ namespace NMM
       std::vector<std::string>
       columns() const;
 
-      /// What belongs into these columns, after compute().
+      /// The values of these columns, after compute().
       std::vector<double>
       numbers() const;
 
-      /// tips.csv. For one rank.
+      /// Writes tips.csv. For use on one rank.
       void
       write(const OutputDirectory &directory) const;
 
@@ -73,7 +73,8 @@ namespace NMM
     };
 
 
-    /// Local sizes of a mesh that is graded towards the crack tips.
+    /// The local sizes, one per tip, that grade a mesh of cells of @p cell_size [m] towards the
+    /// crack tips.
     std::vector<LocalSize>
     sizes_at_tips(const PhysicalMesh       &physical_mesh,
                   const FractureParameters &parameters,

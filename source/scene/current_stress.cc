@@ -39,7 +39,7 @@ namespace NMM
         if (elasticity.law(region).cauchy_stress(F, stress.in_plane) !=
             Deformation::admissible)
         {
-          // Where the solution is turned inside out there is no stress.
+          // Where det F <= 0 there is no stress.
           const double nan        = std::numeric_limits<double>::quiet_NaN();
           stress.in_plane[0][0]   = stress.in_plane[1][1] =
             stress.in_plane[0][1] = stress.zz = nan;
@@ -54,7 +54,7 @@ namespace NMM
       }
 
 
-      /// A quantity in an element as a linear function of reference coordinates.
+      /// A linear function of reference coordinates in an element.
       template <typename Value>
       struct LinearFit
       {
@@ -70,7 +70,7 @@ namespace NMM
       };
 
 
-      /// The best fit to value(q) in the points q of a rule.
+      /// The least-squares fit to value(q) at the points q of a rule.
       template <typename Value, typename ValueAtPoint>
       LinearFit<Value>
       fit(const dealii::Quadrature<2> &rule, const ValueAtPoint &value)
@@ -95,7 +95,7 @@ namespace NMM
           for (unsigned int c = 0; c < 2; ++c)
             first_moments[c] += rule.weight(q) * d[c] * value(q);
         }
-        // Points on a line, or one alone, do not tell how it varies.
+        // A single point, or points on a line, do not determine the gradient.
         const double trace = moments[0][0] + moments[1][1];
         if (dealii::determinant(moments) > 1e-8 * trace * trace)
         {
@@ -108,7 +108,7 @@ namespace NMM
       }
 
 
-      /// Area of quadrature weight 1 in an element [m^2].
+      /// Area per unit quadrature weight in an element [m^2].
       double
       area_of_weight(const ManifoldMesh &mesh, const unsigned int element)
       {
@@ -169,7 +169,8 @@ namespace NMM
           result.in_plane = fits[element - first](xi);
           if (problem.plane_state == PlaneState::plane_strain)
           {
-            // sigma_zz = nu (sigma_xx + sigma_yy) of what strain has caused.
+            // The part of the stress that strain has caused has
+            // sigma_zz = nu (sigma_xx + sigma_yy).
             const Material &material =
               problem.materials[region_to_material[mesh.region(element)]];
             result.zz = material.initial_stress_zz(problem.plane_state) +

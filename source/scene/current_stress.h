@@ -12,39 +12,39 @@ namespace NMM
 {
   namespace internal
   {
-    /// Cauchy stress [Pa] on the axes x, y, as a FieldEvaluator wants it, where it is not linear
-    /// in the displacements: large displacements and inelastic materials.
+    /// Functions that give the Cauchy stress [Pa] in the axes x and y to a FieldEvaluator, if it is
+    /// not linear in the displacements: for large displacements and inelastic materials.
     namespace CurrentStress
     {
-      /// Of the materials' laws. All arguments must outlive the law.
+      /// The Cauchy stress of the materials' hyperelastic laws. All arguments must outlive the law.
       FieldEvaluator::StressLaw
       finite(const FiniteElasticity &elasticity);
 
-      /// Linear in each element, fitted to the stress that IncrementalElasticity
-      /// carries along at the quadrature points of owned elements. Covers and problem
-      /// must outlive the law.
+      /// The stress that IncrementalElasticity stores at the quadrature points of owned elements,
+      /// fitted by a linear function in each element. Covers and problem must outlive the law.
       FieldEvaluator::StressLaw
       incremental(const CoverSystem                                &covers,
                   const QuadratureCollection                       &quadrature,
                   const ElasticityProblem                          &problem,
                   const std::vector<dealii::SymmetricTensor<2, 2>> &stresses);
 
-      /// Linear in each element, fitted to the values at quadrature points in the last assembly
-      /// of @p terms; where the material is elastic, Hooke's law. Covers and problem must outlive
-      /// the law.
+      /// The stress at quadrature points in the last assembly of @p terms, fitted by a linear
+      /// function in each element; where the material is elastic, Hooke's law. Covers and problem
+      /// must outlive the law.
       FieldEvaluator::StressLaw
       inelastic(const InelasticTerms       &terms,
                 const CoverSystem          &covers,
                 const QuadratureCollection &quadrature,
                 const ElasticityProblem    &problem);
 
-      /// Equivalent plastic strain [-], fitted likewise; 0 where the material is elastic.
+      /// The equivalent plastic strain [-], fitted in the same way. It is 0 where the material is
+      /// elastic.
       FieldEvaluator::ScalarField
       plastic_strain(const InelasticTerms       &terms,
                      const CoverSystem          &covers,
                      const QuadratureCollection &quadrature);
 
-      /// Of the stress carried along, initial stress included, per unit thickness
+      /// Strain energy of the stored stress, initial stress included, per unit thickness
       /// [J/m]. Collective.
       double
       incremental_strain_energy(
@@ -53,7 +53,7 @@ namespace NMM
         const ElasticityProblem                          &problem,
         const std::vector<dealii::SymmetricTensor<2, 2>> &stresses);
 
-      /// Integral of det F, the area of the deformed solid [m^2]. Collective.
+      /// Area of the deformed solid, the integral of det F [m^2]. Collective.
       double
       area(const DisplacementField    &field,
            const QuadratureCollection &quadrature);

@@ -11,7 +11,7 @@ namespace NMM
 {
   namespace internal
   {
-    // Set-up and course of the run; what is written is in dynamic_output.cc.
+    // This file has the set-up and the course of the run; dynamic_output.cc writes the results.
     using dealii::Point;
     using dealii::Tensor;
     using Stage = Progress::Stage;
@@ -83,7 +83,7 @@ namespace NMM
       if (!restart.empty())
       {
         Checkpoint::read(restart, *integrator);
-        // A run that was killed before it wrote its end is at it.
+        // A run that was killed before it wrote its final results can have reached the end time.
         AssertThrow(time() <= parameters.time.end_time * (1. + 1e-12),
                     InputError("the checkpoint '" + restart +
                                  "' is of t = " + std::to_string(time()) +
@@ -173,7 +173,7 @@ namespace NMM
     Point<2>
     DynamicAnalysis::centroid(const unsigned int block) const
     {
-      // area and its moments
+      // The entries are the area and its first moments.
       std::vector<double> local(3, 0.), sums(3);
       const auto [first, last] = covers->locally_owned_elements();
       for (unsigned int element = first; element < last; ++element)
@@ -227,7 +227,7 @@ namespace NMM
       Vector v(model->locally_owned(), communicator);
       if (!scene.parameters().initial_velocities.empty())
         v = initial_velocity();
-      // releases what is released at 0
+      // This applies the releases at 0 s.
       integrator->initialize(u, v);
       last_good = integrator->state();
       write_first_state();
@@ -289,7 +289,8 @@ namespace NMM
       if (!integrator)
         return;
       integrator->restore(last_good);
-      // What contact remembers is of a state that must not be continued then.
+      // If the end of a step was being checked, the contact history is that of a refused state,
+      // from which a run must not continue.
       if (kind == Analysis::dynamics && !is_checking_state)
         write_checkpoint();
     }
@@ -345,7 +346,7 @@ namespace NMM
       const TimeParameters &parameters = scene.parameters().time;
       const double          h          = parameters.initial_step;
       const double          bound      = parameters.max_displacement;
-      // A remainder that is rounding is no step.
+      // A remainder of the size of rounding errors is not a step.
       while (parameters.end_time - incremental_time > 1e-9 * h)
       {
         StepRecord record;
@@ -370,7 +371,7 @@ namespace NMM
           record.report.max_displacement =
             incremental_dynamics->step(record.report.step);
           ++incremental_step;
-          // A product has less rounding than a sum of steps.
+          // A product has smaller rounding errors than a sum of steps.
           incremental_time =
             std::min(incremental_step * h, parameters.end_time);
         }

@@ -19,14 +19,14 @@ namespace NMM
   namespace internal
   {
     /**
-     * Motion in time, or relaxation to rest, of small, finite or incremental
-     * kinematics. Histories, series and checkpoints are written as the run goes; if
-     * it fails, the last good state is what is written.
+     * Motion in time, or relaxation to rest, with small, finite or incremental
+     * kinematics. Histories, series and checkpoints are written during the run. If
+     * it fails, the last accepted state is written at the end.
      */
     class DynamicAnalysis : public SceneAnalysis
     {
     public:
-      /// @p restart: checkpoint to continue from; empty: none.
+      /// @p restart is the file of the checkpoint from which to continue; empty for none.
       DynamicAnalysis(const Scene       &scene,
                       Progress          &progress,
                       MPI_Comm           communicator,
@@ -46,41 +46,41 @@ namespace NMM
 
       // Each object refers to those above it.
       std::unique_ptr<QuadratureCollection> mass_quadrature;
-      /// Small and finite kinematics.
+      /// The objects for small and finite kinematics; null for incremental kinematics.
       std::unique_ptr<FiniteElasticity>      elasticity;
       std::unique_ptr<ElasticModel>          model;
       std::unique_ptr<AccountedContactModel> contact_model;
       std::unique_ptr<TimeIntegrator>        integrator;
-      /// As given, or chosen.
+      /// The damping, with the coefficients that Scene::make_damping() chooses.
       RayleighDamping damping;
-      /// Null if no block may leave.
+      /// Null if no block may leave the scene.
       std::unique_ptr<LeavingBlocks> leaving;
-      /// Incremental kinematics.
+      /// The objects for incremental kinematics; null otherwise.
       std::unique_ptr<IncrementalElasticity> incremental;
       std::unique_ptr<IncrementalDynamics>   incremental_dynamics;
       double                                 incremental_time = 0.;
       unsigned int                           incremental_step = 0;
 
-      /// Of the state that is shown [m/s].
+      /// Velocity of the state that is shown [m/s].
       std::unique_ptr<DisplacementField> velocity_field;
 
-      /// On the first rank.
+      /// Tables that are written during the run, on rank 0.
       std::unique_ptr<CsvSeries>    history;
       std::unique_ptr<ProbeHistory> probe_history;
       std::unique_ptr<CsvSeries>    departures;
 
-      /// To go back to if a step fails half-way.
+      /// The last accepted state, which is restored if a step fails.
       DynamicState last_good;
-      /// Between a step and the decision that its end is good.
+      /// Whether a step was made, but its end is not accepted yet.
       bool             is_checking_state = false;
       RelaxationReport relaxation;
       StartReport      start;
-      /// Of this run, without what a checkpoint was reached by.
+      /// Numbers of this run, without those of the run that wrote the checkpoint.
       unsigned int n_steps = 0, n_iterations = 0, n_lost_iterations = 0,
                    n_cuts = 0;
-      /// Where this run starts [s].
+      /// Time at which this run starts [s].
       double start_time = 0.;
-      /// Largest of all steps [J/m].
+      /// Largest energy imbalance and largest energy of all steps [J/m].
       double           largest_balance = 0., largest_energy = 0.;
       Progress::Stage *stage = nullptr;
 
@@ -90,60 +90,61 @@ namespace NMM
       void
       make_integrator();
 
-      /// Null: all materials are elastic.
+      /// The terms of inelastic materials; null if all materials are elastic.
       InelasticTerms *
       inelastic_terms() const;
 
-      /// Does any law of contact have a friction angle?
+      /// Whether any contact law has a friction angle.
       bool
       has_friction() const;
 
       void
       make_incremental();
 
-      /// @throws InputError for a block that is out of the scene at the begin.
+      /// Makes `leaving` if the scene has limits. @throws InputError for a block that is outside of
+      /// them at the start.
       void
       make_leaving();
 
-      /// Drop blocks that have left the scene, and write who they are.
+      /// Removes the blocks that have left the scene, and adds them to the table.
       void
       drop_blocks();
 
       void
       open_departures(int continue_after);
 
-      /// Columns of history.csv after time and step, and their values in the state
-      /// reached by @p record.
+      /// Names of the columns of history.csv after time and step. history_values() are their values
+      /// in the state at the end of the step @p record.
       std::vector<std::string>
       history_columns() const;
       std::vector<double>
       history_values(const StepRecord &record) const;
 
-      /// From the scene's list. @throws InputError for a block that does not
-      /// exist.
+      /// The initial velocity from the scene's list [m/s]. @throws InputError for a block that does
+      /// not exist.
       Vector
       initial_velocity() const;
 
-      /// Of a block, or of the whole solid for dealii's invalid index [m].
+      /// Centroid of a block, or of the whole solid if @p block is deal.II's invalid index [m].
       dealii::Point<2>
       centroid(unsigned int block) const;
 
-      /// Does the run begin by looking for equilibrium?
+      /// Whether the run begins with the search for an equilibrium.
       bool
       has_start() const;
 
-      /// Look for it, and go on from there.
+      /// Finds the equilibrium, and initializes the integrator with it.
       void
       run_start();
 
       void
       open_files() override;
 
-      /// The contact is that of the state the run starts from.
+      /// Takes the contact state from which the run starts.
       void
       take_contact();
 
-      /// What is written of the state the run starts from.
+      /// Writes the state from which the run starts.
       void
       write_first_state();
 
@@ -156,7 +157,7 @@ namespace NMM
       void
       run_incremental();
 
-      /// Write what belongs to the state reached by @p record.
+      /// Writes everything that belongs to the state at the end of the step @p record.
       void
       after_step(const StepRecord &record);
 
@@ -172,7 +173,8 @@ namespace NMM
       void
       show_progress();
 
-      /// Back to the last good state after a failure, and keep it.
+      /// Restores the last accepted state after a failure, and writes a checkpoint of it if the
+      /// contact history allows that.
       void
       recover();
 
@@ -185,18 +187,18 @@ namespace NMM
       const Vector &
       velocity() const;
 
-      /// Displacements with relevant unknowns.
+      /// Displacements with relevant unknowns [m].
       Vector
       displacement() const;
 
-      /// Make field, recovery and evaluator those of the current state.
+      /// Makes field, recovery and evaluator of the current state.
       void
       show();
 
       void
       add_energies();
 
-      /// Keep the largest energies and their balance. @throws NumericalFailure
+      /// Updates the largest energy and imbalance. @throws NumericalFailure
       /// unless they are finite.
       void
       note_energies();
@@ -204,15 +206,14 @@ namespace NMM
       double
       relative_balance() const;
 
-      /// Is more energy unaccounted for than results can be trusted with?
+      /// Whether the energy balance is so wrong that the results cannot be trusted.
       bool
       balance_is_off() const;
 
       std::string
       balance_note() const;
 
-      /// @throws NumericalFailure with @p reason and what the balance says, if that
-      /// is off.
+      /// @throws NumericalFailure with @p reason, and with the energy balance if that is wrong.
       void
       explain_balance(const std::string &reason) const;
 

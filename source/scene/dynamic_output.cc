@@ -101,7 +101,7 @@ namespace NMM
       const OutputParameters &output = scene.parameters().output;
       if (output.fields_every > 0 && step_number() % output.fields_every == 0)
         write_state_of_series();
-      // Last, so that what is written of the steps up to it is complete.
+      // The checkpoint is written last, so that all files of the steps before it are complete.
       if (output.checkpoint_every > 0 &&
           step_number() % output.checkpoint_every == 0)
         write_checkpoint();
@@ -194,7 +194,7 @@ namespace NMM
       std::vector<double>       probe_values;
       if (!probe_history->is_empty())
       {
-        // Without unknowns of other ranks.
+        // The checkpoint needs vectors without unknowns of other ranks.
         Vector owned(velocity());
         owned = incremental ? incremental->solution() : integrator->state().u;
         probe_values = probe_history->evaluate(owned, velocity());
@@ -275,7 +275,7 @@ namespace NMM
         law = CurrentStress::finite(*elasticity);
       else if (inelastic_terms() != nullptr)
       {
-        // the last assembly may be that of a step that failed
+        // Assemble again, since the last assembly may be that of a step that failed.
         (void)inelastic_terms()->assemble(displacement(),
                                           /* with_tangent = */ false);
         law = CurrentStress::inelastic(*inelastic_terms(),
@@ -411,7 +411,7 @@ namespace NMM
     bool
     DynamicAnalysis::balance_is_off() const
     {
-      // Schemes and impacts that are resolved stay below a hundredth.
+      // If schemes and impacts are resolved, the imbalance stays below a hundredth.
       constexpr double limit = 0.1;
       return relative_balance() > limit;
     }

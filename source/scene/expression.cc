@@ -14,8 +14,8 @@ namespace NMM
   {
     namespace
     {
-      /// While it lives nothing is printed on the standard error stream, where
-      /// FunctionParser repeats what it throws.
+      /// Silences the standard error stream during its lifetime, since FunctionParser prints its
+      /// exceptions there.
       class SilentErrorStream
       {
       public:
@@ -49,7 +49,7 @@ namespace NMM
         function->initialize(variables,
                              expressions,
                              {{"pi", dealii::numbers::PI}});
-        // Expressions are compiled when first used.
+        // Expressions are compiled when they are first evaluated.
         const SilentErrorStream silence;
         dealii::Point<dim>      x;
         for (unsigned int d = 0; d < dim; ++d)

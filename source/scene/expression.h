@@ -12,9 +12,8 @@ namespace NMM
   namespace internal
   {
     /**
-     * Expressions of @p variables ("x,y" or "t"), which @p parameter holds, as a
-     * function. @throws InputError naming the parameter for what cannot be
-     * parsed.
+     * The @p expressions of @p variables ("x,y" or "t") as a function with a component for each of
+     * them. @throws InputError naming @p parameter if an expression cannot be parsed.
      */
     template <int dim>
     std::shared_ptr<const dealii::Function<dim>>

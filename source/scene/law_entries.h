@@ -22,9 +22,9 @@ namespace NMM
   namespace internal
   {
     /**
-     * The entries of a law that a scene chooses by name: `Law`, and the parameters of all laws,
-     * of which those of other laws must keep their defaults. Angles are in degrees here, tangents
-     * in the law.
+     * The entries of a law that a scene chooses by name: the entry `Law`, and the parameters of all
+     * laws. Parameters that the chosen law does not have must keep their defaults. Angles are in
+     * degrees in scenes; the law has their tangents.
      */
     template <class Law>
     class LawEntries
@@ -51,7 +51,7 @@ namespace NMM
       }
 
 
-      /// Names of the laws, and what they are.
+      /// The names of the laws, as words of a choice.
       Words<std::string>
       names() const
       {
@@ -62,8 +62,8 @@ namespace NMM
       }
 
 
-      /// `Law` into @p name, which is the first law if it is empty, and all parameters into
-      /// @p values.
+      /// Declares or reads the entry `Law` into @p name, whose default is the first law if it is
+      /// empty, and the parameters of all laws into @p values.
       void
       list(Entries                       &entries,
            std::string                   &name,
@@ -102,7 +102,7 @@ namespace NMM
       }
 
 
-      /// The name of @p law, and its parameters into @p values.
+      /// Returns the name of @p law, and sets @p values to its parameters in the units of scenes.
       std::string
       read(const Law &law, std::map<std::string, double> &values) const
       {
@@ -116,8 +116,8 @@ namespace NMM
       }
 
 
-      /// @throws InputError for a value that no law takes, or that the law @p name does not
-      /// use; @p place gives the place of a key.
+      /// Checks the values for the law @p name. @p place gives the place of a key for the message.
+      /// @throws InputError for a value that is out of range, or that this law does not use.
       void
       check(const std::string                                     &name,
             const std::map<std::string, double>                   &values,
@@ -152,7 +152,7 @@ namespace NMM
       }
 
     private:
-      /// A parameter in the unit of scenes; the first law that has it.
+      /// A parameter in the unit of scenes, with the first law that has it.
       struct Declared
       {
         std::string law_name, key, documentation;

@@ -7,7 +7,7 @@ namespace NMM
 {
   namespace internal
   {
-    // Blocks that leave the scene.
+    // This file removes blocks that leave the scene.
     void
     DynamicAnalysis::make_leaving()
     {
@@ -61,7 +61,7 @@ namespace NMM
         leaving->find(DisplacementField(*covers, problem, displacement()),
                       integrator->state().left_blocks);
       const auto &regions = physical_mesh->regions();
-      // one after the other, so that each one's share is known
+      // Blocks are removed one after the other, so that the energy of each one is known.
       for (const LeavingBlocks::Departure &departure : gone)
       {
         const Account before = integrator->account();

@@ -12,7 +12,7 @@ namespace NMM
 
     namespace
     {
-      /// The point with three digits, of parts of @p size that are rounding none.
+      /// A point as text with three digits; components that are rounding errors of @p size are 0.
       std::string
       rounded(const Tensor<1, 2> &x, const double size)
       {
@@ -64,8 +64,8 @@ namespace NMM
 
       const double sign = power < 0. ? -1. : 1.;
       const double turn = sign * first.rotation;
-      // Of the translation: a pole ten times as far away as the block is large is no hinge that
-      // anybody would look for.
+      // The motion counts as a translation if its centre of rotation is more than ten times the
+      // radius of the block away.
       constexpr double small_turn = 0.1;
       if (std::abs(turn) * first.radius < small_turn * first.translation.norm())
         text << " slides towards "
@@ -79,7 +79,7 @@ namespace NMM
         text << " turns " << (turn > 0. ? "counter-" : "") << "clockwise about "
              << rounded(pole, extent);
       }
-      // of the largest motion
+      // Other blocks count if they move by this part of the largest motion.
       constexpr double also = 0.1;
       const auto       n_more =
         std::count_if(motions.begin() + 1,
@@ -109,7 +109,8 @@ namespace NMM
         (void)system.assemble(statics.solution(), Tangent::none, nullptr);
         return system.residual();
       };
-      // Work of the increment of loads from the last equilibrium to where the search ended.
+      // The power is the work of the increment of loads from the last equilibrium to the end of the
+      // search.
       Vector change = assemble(statics.last_attempt().load_factor);
       change.sadd(-1., 1., assemble(last));
       Vector motion(change), before(change);

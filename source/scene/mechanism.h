@@ -11,26 +11,27 @@ namespace NMM
 {
   namespace internal
   {
-    /// Why a load step with contact has no solution.
+    /// The reason why a load step with contact has no solution.
     struct Mechanism
     {
-      /// A block has left the faces around it.
+      /// Whether a block has moved away from the faces around it.
       bool does_anything_move = false;
-      /// Which block gives way and how, or that none does: a sentence without its full stop.
+      /// Says which block moves and how, or that none does: a sentence without its full stop.
       std::string description;
     };
 
     /**
-     * From the motions of blocks between the last equilibrium and where the search for the next
-     * one ended. Where nothing holds a block, the tangent is singular but for rounding, and the
-     * search takes it further than its own size and than @p reach, within which faces are looked for
-     * [m]: 1e4 to 1e20 m in all scenes that were tried. What is held moves by its elastic part of
-     * the load step, 1e-8 m there. A block that gives way slides in the direction
-     * of its translation t, or turns about the point
+     * Finds the mechanism from the @p motions of blocks between the last equilibrium and the end of
+     * the search for the next one. If nothing holds a block, the tangent is singular up to
+     * rounding, and the search moves the block further than its own size and than @p reach [m], the
+     * distance within which faces are searched: 1e4 to 1e20 m in all scenes that were tried.
+     * Blocks that are held moved by elastic displacements of 1e-8 m there. A block that is not held
+     * slides in the direction of its translation t, or turns about the point
      * @f[ X_c + (-t_y, t_x)/\omega. @f]
      *
-     * The search may take it either way. @p power is that of the increments of loads
-     * in this motion [J/m]: blocks go the way in which it is positive.
+     * The search may move it in this or in the opposite direction. @p power is the work of the
+     * increment of loads in this motion [J/m]. Blocks move in the direction in which it is
+     * positive.
      */
     Mechanism
     find_mechanism(std::vector<BlockMotion> motions,
@@ -39,8 +40,9 @@ namespace NMM
 
 
     /**
-     * The same after @p statics, the loading of @p system, has failed; @p last is the load factor of
-     * the last equilibrium. The last assembly is then that of this equilibrium.
+     * Finds the mechanism after @p statics, the loading of @p system, has failed. @p last is the
+     * load factor of the last equilibrium [-]. On return the last assembly is that of this
+     * equilibrium.
      */
     Mechanism
     find_mechanism(const ContactStatics       &statics,

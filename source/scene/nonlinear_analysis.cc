@@ -23,7 +23,7 @@ namespace NMM
       try
       {
         if (scene.parameters().model.kinematics != Kinematics::incremental)
-          // What floats may be held by contact.
+          // Blocks without supports are allowed if there is contact, which may hold them.
           finite = std::make_unique<FiniteElasticity>(
             *covers, *quadrature, constraints, problem, contact != nullptr);
         else
@@ -100,7 +100,7 @@ namespace NMM
     NonlinearAnalysis::run_newton()
     {
       const SceneParameters &parameters = scene.parameters();
-      // materials that yield are stiff on one side only, as contact is
+      // The stiffness of materials that yield depends on the direction, as that of contact.
       NonlinearStatics statics(*system,
                                inelastic_terms() == nullptr
                                  ? parameters.newton.newton
@@ -165,7 +165,7 @@ namespace NMM
       try
       {
         LoadSteps steps = parameters.load_steps.load_steps();
-        // between changes of contact states small displacements are linear in the load
+        // Small displacements are linear in the load as long as no contact state changes.
         if (system->is_linearized())
           steps.extrapolation_degree = 1;
         statics.run(steps, after_step);
@@ -354,7 +354,7 @@ namespace NMM
       field =
         std::make_unique<DisplacementField>(*covers, problem, last_solution);
       recovery = std::make_unique<StressRecovery>(*field, aggregation);
-      // the last assembly may be that of a step that failed
+      // Assemble again, since the last assembly may be that of a step that failed.
       if (inelastic_terms() != nullptr)
         (void)system->inelastic_terms()->assemble(last_solution,
                                                   /* with_tangent = */ false);

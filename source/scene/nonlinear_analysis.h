@@ -20,9 +20,9 @@ namespace NMM
   namespace internal
   {
     /**
-     * Statics under growing load that is no linear problem: large displacements, by Newton's method
-     * or step by step (IncrementalElasticity); contact and inelastic materials. If a load step
-     * fails, the last one that converged is what is written.
+     * Nonlinear statics under growing load: large displacements, by Newton's method
+     * or incrementally (IncrementalElasticity), contact, and inelastic materials. If a load step
+     * fails, the results of the last step that converged are written.
      */
     class NonlinearAnalysis : public SceneAnalysis
     {
@@ -45,19 +45,20 @@ namespace NMM
         unsigned int n_iterations      = 0;
         unsigned int n_cuts            = 0;
         unsigned int n_lost_iterations = 0;
-        /// Of Newton's method; incremental steps have none.
+        /// Relative residual of Newton's method [-]; incremental steps have none.
         std::optional<double> relative_residual;
-        /// [J].
+        /// Strain energy [J].
         double strain_energy = 0.;
-        /// [m].
+        /// Largest displacement [m].
         double max_displacement = 0.;
-        /// Of probes that are points [m].
+        /// Displacements of the probes that are points [m].
         std::vector<dealii::Tensor<1, 2>> probe_displacements;
-        /// See ContactAnalysis::columns(); energies times the thickness.
+        /// Values of ContactAnalysis::columns(), with energies times the thickness.
         std::vector<double> contact_numbers;
-        /// See CrackTips::columns().
+        /// Values of CrackTips::columns().
         std::vector<double> tip_numbers;
-        /// Of inelastic materials: energy dissipated so far [J] and area that has yielded [m^2].
+        /// Of inelastic materials, the energy dissipated so far [J] and the area that has yielded
+        /// [m^2].
         struct Plastic
         {
           double dissipation = 0., yielded_area = 0.;
@@ -65,23 +66,24 @@ namespace NMM
         std::optional<Plastic> plastic;
       };
 
-      /// Not for incremental steps; small displacements as well, as `system` sees it.
+      /// The elasticity of large and, as linearized by `system`, of small displacements; null for
+      /// incremental steps.
       std::unique_ptr<FiniteElasticity>      finite;
       std::unique_ptr<ElasticSystem>         system;
       std::unique_ptr<IncrementalElasticity> incremental;
-      /// Why there are no equations: a block floats. Not an input error, so it waits
-      /// until solve().
+      /// The failure to set up equations, since a block floats. It is not an input error, so
+      /// solve() throws it.
       std::exception_ptr failure;
-      /// Where the largest displacement is looked for: elements and reference
-      /// coordinates.
+      /// Points among which the largest displacement is taken: elements and reference
+      /// coordinates [-].
       std::vector<std::pair<unsigned int, dealii::Point<2>>> output_points;
 
       std::vector<HistoryRow> history;
-      /// Cuts and iterations of a step that was given up at last.
+      /// Cuts and iterations of the last step, if it failed.
       unsigned int n_last_cuts = 0, n_last_iterations = 0;
-      /// Of the last step that converged.
+      /// Displacements of the last step that converged [m].
       Vector last_solution;
-      /// Of inelastic materials, of all steps [J].
+      /// Energy that inelastic materials have dissipated in all steps [J].
       double plastic_dissipation = 0.;
 
       void
@@ -90,34 +92,35 @@ namespace NMM
       bool
       has_large_displacements() const;
 
-      /// Null: all materials are elastic.
+      /// The terms of inelastic materials; null if all materials are elastic.
       const InelasticTerms *
       inelastic_terms() const;
 
-      /// Without contact, large or small displacements.
+      /// Solves a problem without contact, with large or small displacements.
       void
       run_newton();
 
       void
       run_contact();
 
-      /// @throws NumericalFailure: @p error and which block gives way, if one does.
+      /// Completes the message of @p error by the block that is not held, if there is one, and
+      /// throws it. @throws NumericalFailure.
       void
       explain(const NumericalFailure &error, const ContactStatics &statics);
 
-      /// @throws NumericalFailure, if contact alone has to hold blocks and one of them touches
-      /// nothing: @p reason and the block.
+      /// Checks that no block is without contact if only contact holds blocks. @throws
+      /// NumericalFailure with @p reason and the block.
       void
       check_that_all_touch(const std::string &reason);
 
       void
       run_incremental();
 
-      /// Note a load step that converged, and say so.
+      /// Stores and reports a load step that converged.
       void
       add_step(HistoryRow row, const Vector &solution);
 
-      /// Make field, recovery and evaluator those of the last step that converged.
+      /// Makes field, recovery and evaluator of the last step that converged.
       void
       show();
 
@@ -127,7 +130,7 @@ namespace NMM
       std::string
       unsolved_note() const override;
 
-      /// history.csv as far as it goes.
+      /// Writes history.csv with the steps so far.
       void
       write_history() const;
 

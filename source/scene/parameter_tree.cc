@@ -21,7 +21,7 @@ namespace NMM
   {
     using Tree = boost::property_tree::ptree;
 
-    /// An entry of the printed tree, as opposed to a section.
+    /// Whether a node of the printed tree is an entry, as opposed to a section.
     bool
     is_entry(const Tree &tree)
     {
@@ -105,7 +105,7 @@ namespace NMM
     }
 
 
-    /// Edit distance of two words, case ignored.
+    /// Edit distance of two words, without regard to case.
     unsigned int
     edit_distance(const std::string &a, const std::string &b)
     {
@@ -132,7 +132,7 @@ namespace NMM
     }
 
 
-    /// "did you mean ...?" or "there are: ...".
+    /// Advice for an unknown word: "did you mean ...?" or "there are: ...".
     std::string
     suggestion(const std::string              &word,
                const std::vector<std::string> &candidates,
@@ -181,11 +181,12 @@ namespace NMM
     }
 
 
-    /// @throws InputError unless the numbers of a value can be computed with.
+    /// Checks the size of the numbers in a value. @throws InputError if computations with them
+    /// would overflow or underflow.
     void
     check_size_of_numbers(const std::string &value, const std::string &where)
     {
-      // What is computed has squares of products of two numbers at most.
+      // Computations contain at most squares of products of two numbers.
       constexpr double   smallest = 1e-75, largest = 1e75;
       std::istringstream words(value);
       for (std::string word; std::getline(words, word, ',');)
@@ -205,9 +206,9 @@ namespace NMM
     }
 
 
-    /// @throws InputError for values that ParameterHandler takes from a file though
-    /// they do not fit (it does not look at those with braces), and for numbers of
-    /// extreme size.
+    /// Checks all values of a section. @throws InputError for values that ParameterHandler accepts
+    /// from a file although they do not match their patterns (it does not check those with braces),
+    /// and for numbers of extreme size.
     void
     check_values(const Tree                     &section,
                  const std::vector<std::string> &path,
@@ -239,7 +240,7 @@ namespace NMM
     }
 
 
-    /// Set one value that does not come from a .prm file.
+    /// Sets a value that does not come from a .prm file.
     void
     assign(const ParameterAssignment &assignment,
            const Tree                &tree,
@@ -263,7 +264,7 @@ namespace NMM
 
       const Tree &section = find_section(tree, sections, assignment.source);
       const Tree *entry   = find_child(section, key);
-      // JSON's empty object and empty string look the same here.
+      // An empty object and an empty string of JSON look the same in the tree.
       if (entry != nullptr && !is_entry(*entry) && assignment.value.empty())
         return;
       AssertThrow(
@@ -319,8 +320,8 @@ namespace NMM
     }
 
 
-    /// The parser calls itself for each level, so that text of very many would use
-    /// up the stack.
+    /// Checks the number of nested levels. The parser is recursive, so a text with very many levels
+    /// would overflow the stack. @throws InputError if there are too many.
     void
     check_depth(const std::string &text, const std::string &file_name)
     {
@@ -374,7 +375,7 @@ namespace NMM
     }
 
 
-    /// Line a "Line <n>" message of ParameterHandler speaks of, else 0.
+    /// The number in a message "Line <n>" of ParameterHandler; 0 if there is none.
     unsigned int
     line_number(const std::string &message)
     {
@@ -385,7 +386,7 @@ namespace NMM
     }
 
 
-    /// The sections open at @p line of a .prm text.
+    /// The sections that are open at @p line of a .prm text.
     std::vector<std::string>
     open_sections(const std::string &text, const unsigned int line)
     {
@@ -404,7 +405,7 @@ namespace NMM
     }
 
 
-    /// Turn what ParameterHandler says into an InputError and throw it.
+    /// Throws an InputError that explains a message of ParameterHandler.
     [[noreturn]] void
     explain(const std::string &message,
             const std::string &file_name,
@@ -433,13 +434,13 @@ namespace NMM
       }
       if (std::regex_search(message,
                             match,
-                            // deal.II 9.4, and 9.6
+                            // messages of deal.II 9.4, and of 9.6
                             std::regex("(?:no such subsection to be entered: |"
                                        "enter a subsection ')(.*?)(?:', but "
                                        "the ParameterHandler.*)?$")))
       {
         std::vector<std::string> child_path = path;
-        // Below the top level the name comes with its path.
+        // Below the top level the message contains the name with its path.
         const std::string prefix = path.empty() ? "" : join(path, ".") + ".";
         const std::string name   = trimmed(match.str(1));
         child_path.push_back(
@@ -547,7 +548,8 @@ namespace NMM
     }
 
 
-    /// All but comments: values are written as JSON and XML, which are UTF-8.
+    /// Checks that the text without comments is UTF-8, since values are written as JSON and XML.
+    /// @throws InputError if it is not.
     void
     check_encoding(const std::string &text, const std::string &file_name)
     {

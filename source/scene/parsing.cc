@@ -15,7 +15,7 @@ namespace NMM
 
     namespace
     {
-      /// Two finite numbers, or nothing.
+      /// Two finite numbers as a point; nothing if @p text is something else.
       std::optional<Point<2>>
       to_point(const std::string &text)
       {

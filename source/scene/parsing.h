@@ -13,7 +13,7 @@ namespace NMM
 {
   namespace internal
   {
-    /// Words of a choice, with what they stand for.
+    /// The words of a choice, each with the value it stands for.
     template <typename Value>
     using Words = std::vector<std::pair<std::string, Value>>;
 
@@ -32,9 +32,10 @@ namespace NMM
 
 
     /**
-     * The entries of a section, which the struct that owns them lists once, in
-     * `list_entries()`. That declares them, with the values of the struct as
-     * defaults; or parses them into it; or notes them, for expect_defaults().
+     * The entries of a section. The struct that owns them lists them once, in
+     * `list_entries()`. Depending on the stage, this declares the entries, with the values of the
+     * struct as defaults, or parses them into the struct, or notes their values for
+     * expect_defaults().
      *
      * @code
      *   void GeometryParameters::list_entries(Entries &entries)
@@ -56,12 +57,12 @@ namespace NMM
 
       explicit Entries(Stage stage, dealii::ParameterHandler *prm = nullptr);
 
-      /// Does the struct get its values from a scene? Then it may check them.
+      /// Whether the struct gets its values from a scene, so that it can check them.
       bool
       are_parsed() const;
 
-      /// What is not a number yet has to be set: its default is 0, which the struct's
-      /// checks refuse.
+      /// A number. A value that is NaN must be set by the scene: its default is 0, which the checks
+      /// of the struct refuse.
       void
       add(const std::string              &key,
           double                         &value,
@@ -77,7 +78,7 @@ namespace NMM
       void
       add(const std::string &key, bool &value, const std::string &help);
 
-      /// Without blanks around it.
+      /// A text, without blanks around it.
       void
       add(const std::string &key, std::string &value, const std::string &help);
 
@@ -94,7 +95,7 @@ namespace NMM
           dealii::Tensor<1, 2> &value,
           const std::string    &help);
 
-      /// A point, or nothing where the text is @p word. @p section is for the message.
+      /// A point "x, y", or no point if the text is @p word. @p section is for the message.
       void
       add(const std::string               &key,
           std::optional<dealii::Point<2>> &value,
@@ -122,7 +123,7 @@ namespace NMM
             value = word.second;
       }
 
-      /// Several of the words.
+      /// A list of words, separated by commas.
       template <typename Value>
       void
       add(const std::string  &key,
@@ -140,7 +141,7 @@ namespace NMM
               values.push_back(word.second);
       }
 
-      /// The section @p name, whose entries @p list lists.
+      /// The section @p name, whose entries the function @p list lists.
       template <typename List>
       void
       section(const std::string &name, const List &list)
@@ -178,7 +179,8 @@ namespace NMM
         }
       }
 
-      /// The same in a section @p name of structs that keep their own names.
+      /// A section @p name with an entry `Names`, and with a subsection for each of @p names, for
+      /// structs that have a member `name`.
       template <typename Parameters>
       void
       section_of_subsections(const std::string              &name,
@@ -197,7 +199,7 @@ namespace NMM
         });
       }
 
-      /// Keys and values that were noted.
+      /// The keys and values that were noted.
       const std::vector<std::pair<std::string, std::string>> &
       noted() const;
 
@@ -206,7 +208,8 @@ namespace NMM
       dealii::ParameterHandler                        *prm;
       std::vector<std::pair<std::string, std::string>> notes;
 
-      /// The value in the scene, or @p value where none is read.
+      /// Declares, reads or notes an entry. Returns the value in the scene, or @p value if none is
+      /// read.
       std::string
       entry(const std::string                   &key,
             const std::string                   &value,
@@ -236,12 +239,12 @@ namespace NMM
     join(const std::vector<std::string> &words,
          const std::string              &separator = ", ");
 
-    /// With 10 digits.
+    /// A number as text with 10 digits.
     std::string
     to_text(double value);
 
-    /// @throws InputError if a value that differs from its default would be
-    /// ignored, @p by what.
+    /// Checks that a value that is not used has its default. @throws InputError otherwise, saying
+    /// that @p by makes no use of it.
     void
     expect_default(const std::string &section,
                    const std::string &key,

@@ -16,8 +16,8 @@ namespace NMM
   namespace internal
   {
     /**
-     * probes-history.csv: displacement [m] and velocity [m/s] of the probes that are
-     * points, a row per time step. All functions are collective.
+     * The table probes-history.csv: displacement [m] and velocity [m/s] of the probes that are
+     * points, with a row per time step. All functions are collective.
      */
     class ProbeHistory
     {
@@ -28,20 +28,20 @@ namespace NMM
                    const ProbePoints        &points,
                    const std::vector<Probe> &probes);
 
-      /// Is there a probe that is a point?
+      /// Whether no probe is a point.
       bool
       is_empty() const;
 
-      /// On the first rank. See CsvSeries.
+      /// Opens the table on rank 0; see CsvSeries for @p continue_after.
       void
       open(const std::string &file_name, int continue_after);
 
-      /// Displacement and velocity of each probe in turn, from owned unknowns; on all
-      /// ranks.
+      /// Displacement and velocity of each probe in turn, from vectors of owned unknowns. The
+      /// result is the same on all ranks.
       std::vector<double>
       evaluate(const Vector &u, const Vector &v) const;
 
-      /// On the first rank.
+      /// Writes a row on rank 0.
       void
       write(double time, unsigned int step, const std::vector<double> &values);
 
@@ -54,7 +54,7 @@ namespace NMM
 
       MPI_Comm                 communicator;
       std::vector<std::string> names;
-      /// Per probe, of covers this rank owns.
+      /// For each probe, the terms of its displacement from covers that this rank owns.
       std::vector<std::vector<Term>> terms;
       std::unique_ptr<CsvSeries>     table;
     };

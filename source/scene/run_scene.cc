@@ -53,7 +53,7 @@ namespace NMM
     }
 
 
-    /// Writes what is known before the failure is passed on.
+    /// Solves the problem; if that fails, writes the results so far and passes on the exception.
     void
     solve_or_save(internal::SceneAnalysis &analysis)
     {
@@ -101,7 +101,8 @@ namespace NMM
     }
     catch (const NumericalFailure &failure)
     {
-      // A check solves nothing, so that it cannot fail to.
+      // A check does not solve the problem, so a numerical failure of the set-up is no failure of
+      // the check.
       if (!options.check_only)
         throw;
       progress.message("  warning: a run would end with exit code 3: " +

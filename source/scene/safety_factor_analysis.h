@@ -14,11 +14,12 @@ namespace NMM
   namespace internal
   {
     /**
-     * The factor by which the strength of all contacts and materials can be divided before blocks move:
-     * trials of relaxation, each from the same state, between which the factor is
-     * bracketed and bisected. What is shown is how it goes: the displacements of the
-     * trial with the smallest factor that moves; if none moves, those at the largest
-     * factor; if a trial fails, which ends the search, its last good state.
+     * Finds the factor by which the strength of all contacts and materials can be divided before
+     * blocks move. Trials of relaxation, each from the same state, bracket the factor, which is
+     * then bisected. The results show how the solid fails: the displacements of the
+     * trial with the smallest factor at which blocks move. If they move at none, the trial with the
+     * largest factor is shown. If a trial fails, which ends the search, its last accepted state is
+     * shown.
      *
      * safety_factor.csv has a row per trial and is complete after each of them.
      */
@@ -41,16 +42,16 @@ namespace NMM
       std::unique_ptr<FiniteElasticity>     elasticity;
       std::unique_ptr<ElasticModel>         model;
 
-      /// What each trial starts from, if not from nothing.
+      /// The state from which each trial starts, unless it starts without displacements.
       Vector            settled;
       ContactHistory    settled_contact;
       std::vector<char> settled_materials;
       unsigned int      n_start_steps = 0;
 
       SafetyFactor result;
-      /// Of trials so far.
+      /// The trials so far.
       std::vector<StrengthTrial> trials;
-      /// What is shown.
+      /// The trial whose results are shown, and its final state.
       StrengthTrial          shown;
       Vector                 shown_displacement;
       ContactAnalysis::State shown_contact;
@@ -59,29 +60,29 @@ namespace NMM
       void
       make_system() override;
 
-      /// Equilibrium under full strength.
+      /// Finds the equilibrium under full strength.
       void
       settle();
 
       StrengthTrial
       try_factor(double factor);
 
-      /// Shall this trial be shown, rather than the one that is?
+      /// Whether this trial is to be shown instead of the present one.
       bool
       tells_more(const StrengthTrial &trial) const;
 
-      /// No bracket was found, or a trial failed. @throws NumericalFailure.
+      /// Reports that no bracket was found, or that a trial failed. @throws NumericalFailure.
       void
       give_up();
 
-      /// Part of a message: what the trials that did not fail have shown.
+      /// Part of a message: the bounds of the factor from the trials that did not fail.
       std::string
       what_is_known() const;
 
       void
       write_trials() const;
 
-      /// Make field, recovery and evaluator those of what is shown.
+      /// Makes field, recovery and evaluator of the trial that is shown.
       void
       show();
 

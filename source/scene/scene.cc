@@ -58,9 +58,9 @@ namespace NMM
 
 
     /**
-     * What an analysis uses [bytes], measured on squares of 1e5 and 4e5 triangles
-     * (`peak_memory` in the summary). Where systems are factorized, factors grow a
-     * little faster than their number.
+     * Memory that an analysis uses [bytes], from measurements on squares of 1e5 and 4e5 triangles
+     * (`peak_memory` in the summary). If systems are factorized, the factors grow a
+     * little faster than the number of cells.
      */
     double
     estimate_memory(const SceneParameters &parameters, const double n_cells)
@@ -81,8 +81,8 @@ namespace NMM
     }
 
 
-    /// Of a regular mesh, or the coarsest part of a graded one, before it is made.
-    /// @throws InputError.
+    /// Checks the memory for a regular mesh, or for a graded one with its largest cells, before it
+    /// is made. @throws InputError if it does not suffice.
     void
     check_memory(const SceneParameters       &parameters,
                  const RegularMeshParameters &mesh,
@@ -102,7 +102,7 @@ namespace NMM
         h * h *
         (mesh.pattern == MeshPattern::equilateral ? 0.25 * std::sqrt(3.) : 0.5);
       const double n_cells = area / of_triangle;
-      // each triangle of the box is looked at
+      // Each triangle of the box is visited once, which takes this memory.
       constexpr double of_lattice = 2.5; // [bytes]
       double           needed     = estimate_memory(parameters, n_cells) +
                       of_lattice * box_area / of_triangle;
@@ -118,7 +118,7 @@ namespace NMM
                      [&](const double excess) {
                        std::ostringstream text;
                        text.precision(2);
-                       // a little more than what just fits
+                       // The advice is a little larger than the size that just fits.
                        text << "choose at least "
                             << 1.05 * h * std::sqrt(excess)
                             << " m, or a machine or limit with more memory";
@@ -127,8 +127,8 @@ namespace NMM
     }
 
 
-    /// Of a mesh from a file: of its cells whose first corner is in the solid's box.
-    /// @throws InputError.
+    /// Checks the memory for a mesh from a file, for its cells whose first corner is in the box of
+    /// the solid. @throws InputError if it does not suffice.
     void
     check_memory(const SceneParameters  &parameters,
                  const MathematicalMesh &mesh,
@@ -158,8 +158,8 @@ namespace NMM
     }
 
 
-    /// A square that stands on its base and is pressed from above: what is printed
-    /// without a scene can be run, and replaced bit by bit.
+    /// Declares a square that stands on its base and is pressed from above. Printed defaults are
+    /// thus a scene that can be run, and whose values the user can replace one by one.
     void
     declare_first_scene(dealii::ParameterHandler &prm)
     {
@@ -330,8 +330,8 @@ namespace NMM
     RegularMeshParameters regular = parameters.regular;
     if (regular.cell_size == 0.)
     {
-      // one region is resolved by this mesh; more have meshes of their own, and
-      // this one has to be too coarse for all of them
+      // A single region is resolved by this mesh. Several regions have meshes of their own, for
+      // which this one must be too coarse.
       const unsigned int n_across = scene_parameters.covers.mesh.n_across;
       const bool is_alone = physical_mesh.regions().size() == 1 && n_across > 1;
       regular.cell_size =

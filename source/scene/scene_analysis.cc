@@ -88,8 +88,8 @@ namespace NMM
       }
       {
         Stage stage(progress, "quadrature");
-        // Stiffness needs 2p - 2, a constant body force p; one that varies is
-        // integrated with the accuracy of the mass matrix.
+        // The stiffness matrix needs the degree 2p - 2, and a constant body force p. A body force
+        // that varies is integrated with the accuracy of the mass matrix.
         const unsigned int p = mathematical_mesh->degree();
         const unsigned int degree =
           problem.body_force ? 2 * p : std::max(2 * p - 2, p);
@@ -99,7 +99,7 @@ namespace NMM
       }
       make_system();
       add_counts();
-      // what lies along another curve within rounding may have been moved onto it
+      // The cut may have moved a curve onto another one that coincides with it within rounding.
       if (parameters.fracture.n_increments > 0)
         this->geometry.curves() = physical_mesh->curves();
       if (series)
@@ -128,13 +128,12 @@ namespace NMM
     {
       const CoverParameters &parameters = scene.parameters().covers;
       covers = std::make_unique<CoverSystem>(*manifold_mesh, communicator);
-      // The surface comes first: it makes more covers relevant to a rank, and
-      // aggregation what these follow.
+      // The surface is made first, since it makes more covers relevant to a rank. Aggregation then
+      // adds the covers on which these depend.
       if (scene.parameters().contact.is_present())
         contact =
           std::make_unique<ContactAnalysis>(scene, *physical_mesh, *covers);
-      // With threshold 0 every element is well supported and no cover is
-      // constrained.
+      // With the threshold 0 every element is well supported, and no cover is constrained.
       aggregation =
         aggregate(*covers,
                   parameters.stabilization == Stabilization::aggregation
@@ -168,7 +167,7 @@ namespace NMM
       summary.add("regions", physical_mesh->regions().size());
       add_block_counts();
       summary.add("own_meshes", mathematical_mesh->n_parts() - 1);
-      // of all ranks, whatever each of them holds
+      // Counts are those of all ranks, for replicated and distributed meshes.
       const RankCells *rank_cells = mathematical_mesh->rank_cells();
       unsigned int     n_cut      = manifold_mesh->n_cells_cut_exactly(),
                    n_aggregated   = 0;

@@ -27,9 +27,9 @@ namespace NMM
   namespace internal
   {
     /**
-     * A scene's analysis, from geometry to files: what all kinds have in common. The
-     * order is fixed: build(), print_report(), open(), solve(), verify(), write(). All
-     * input errors come out of build(), so that nothing is written for a scene that is
+     * The analysis of a scene, from geometry to files: the part that all kinds of analysis share.
+     * The order of calls is build(), print_report(), open(), solve(), verify(), write(). All
+     * input errors are thrown by build(), so that nothing is written for a scene that is
      * wrong.
      *
      * Lifetime: the scene and the progress display must outlive it.
@@ -43,29 +43,30 @@ namespace NMM
 
       virtual ~SceneAnalysis() = default;
 
-      /// Cut, make covers and quadrature, check the problem. @throws
-      /// InputError.
+      /// Cuts the solid, makes covers and quadrature, and checks the problem. @throws
+      /// InputError for a scene that is wrong.
       void
       build();
 
-      /// Notices, changes made by cleaning, and counts.
+      /// Prints notices, the changes made by cleaning, and counts.
       void
       print_report();
 
-      /// Make the folder for results, which must outlive this object. Results of an
-      /// earlier run there are removed, unless it is continued.
+      /// Prepares the folder for results; @p directory must outlive this object. Results of an
+      /// earlier run there are removed, unless that run is continued.
       void
       open(const OutputDirectory &directory);
 
-      /// May write as it goes. @throws NumericalFailure.
+      /// Solves the problem, and may write results of steps. @throws NumericalFailure if there is
+      /// no solution.
       virtual void
       solve() = 0;
 
-      /// What is known about the solution, into the summary.
+      /// Adds errors, energies and other checks of the solution to the summary.
       virtual void
       verify() = 0;
 
-      /// All files the scene asks for; without a solution those that need none.
+      /// Writes all files that the scene asks for; without a solution, those that need none.
       void
       write();
 
@@ -74,11 +75,11 @@ namespace NMM
       Progress    &progress;
       MPI_Comm     communicator;
       Summary      summary;
-      /// Is all that was asked for done? If not, there may still be an evaluator,
-      /// of the last state that is known.
+      /// Whether the problem is solved completely. If not, there may still be an evaluator
+      /// of the last accepted state.
       bool is_solved = false;
 
-      /// With cracks that grow: the geometry as it is now.
+      /// The present geometry, if cracks grow.
       Geometry geometry;
 
       // Each object refers to those above it.
@@ -101,32 +102,33 @@ namespace NMM
       std::unique_ptr<DisplacementField> field;
       std::unique_ptr<StressRecovery>    recovery;
       std::unique_ptr<FieldEvaluator>    evaluator;
-      /// After open().
+      /// The folder for results; null before open().
       const OutputDirectory       *directory = nullptr;
       std::unique_ptr<StateSeries> series;
 
-      /// Make everything, from the physical mesh to the system, for a geometry; what was
-      /// there before is gone. @throws InputError.
+      /// Makes everything for a geometry, from the physical mesh to the system, and replaces what
+      /// was made before. @throws InputError for a geometry that is wrong.
       void
       build(Geometry geometry);
 
-      /// Drop all that build() makes, last things first; what is written goes on.
+      /// Destroys all that build() makes, in reverse order; files remain open.
       virtual void
       clear();
 
-      /// Of all crack tips, from `field`, if the scene asks for them. Collective.
+      /// Computes the intensity factors of all crack tips from `field`, if the scene asks for them.
+      /// Collective.
       void
       compute_intensity_factors();
 
       bool
       is_first_rank() const;
 
-      /// Elastic energy [J] of `field` in small displacements, initial stress left
-      /// out. Collective.
+      /// Elastic energy of `field` with small displacements, without initial stress [J].
+      /// Collective.
       double
       small_strain_energy() const;
 
-      /// Let the first rank do something that may throw: all ranks throw then.
+      /// Runs @p action on rank 0; if it throws, all ranks throw. See NMM::on_first_rank().
       void
       on_first_rank(const std::function<void()> &action) const;
 
@@ -137,22 +139,22 @@ namespace NMM
       {
       }
 
-      /// The equations, once covers and quadrature are there.
+      /// Makes the equations, after covers and quadrature were made.
       virtual void
       make_system() = 0;
 
-      /// Clear the folder, and begin files that are written during solve().
+      /// Prepares the folder, and opens files that are written during solve().
       virtual void
       open_files();
 
-      /// Time or load factor of the last state that is known.
+      /// Time [s] or load factor [-] of the last accepted state.
       virtual double
       last_value() const
       {
         return 0.;
       }
 
-      /// Words for the picture of a run that failed.
+      /// Note in the picture of a run that failed.
       virtual std::string
       unsolved_note() const
       {
@@ -162,15 +164,15 @@ namespace NMM
       void
       add_counts();
 
-      /// Joints that bound nothing and blocks that are small.
+      /// Adds the numbers of joints that bound no block, and of small blocks, to the summary.
       void
       add_block_counts();
 
       std::vector<std::string>
       block_notices() const;
 
-      /// Of all crack tips that in the largest cell, and the size of this [m]; 0 if
-      /// there is none.
+      /// The crack tip in the largest cell of all tips, and the size of that cell [m]; the size is
+      /// 0 if there is no tip.
       std::pair<dealii::Point<2>, double>
       tip_in_the_largest_cell() const;
 

@@ -12,7 +12,7 @@
 #include <scene/shapes.h>
 #include <set>
 
-// Contact: which faces, how they act on each other, rigid obstacles.
+// This file makes the contact of a scene: its faces, laws and rigid obstacles.
 namespace NMM
 {
   using dealii::Point;
@@ -176,7 +176,7 @@ namespace NMM
     }
 
 
-    /// From the smallest to the largest; equal ones have equal ranks.
+    /// Rank of each value in ascending order, from 0 on; equal values have equal ranks.
     std::vector<unsigned int>
     ranks(const std::vector<double> &values)
     {
@@ -201,9 +201,9 @@ namespace NMM
     double     size          = contact_cell_size(surface);
     if (has_fine_tips)
     {
-      // Cells at tips are up to a million times smaller than the crack. Springs as stiff as these
-      // make the pressure scatter; a crack of the length R is closed by 30 E / (0.003 R) within
-      // 1e-4 of its intensity factors.
+      // Cells at tips are up to a million times smaller than the crack. With springs as stiff as
+      // such cells the pressure oscillates. With a stiffness of 30 E / (0.003 R), the intensity
+      // factors of a closed crack of length R are wrong by less than 1e-4.
       double shortest = std::numeric_limits<double>::max();
       for (const CrackTip &tip : find_crack_tips(
              surface.cover_system().manifold_mesh().physical_mesh()))
@@ -216,14 +216,14 @@ namespace NMM
                    problem);
     const double modulus = *std::min_element(moduli.begin(), moduli.end());
 
-    // The penalty method needs stiff springs to be accurate, and in a static
-    // analysis it can have them. Stiff shear springs keep Newton's method from
-    // deciding between stick and slip there; in motion soft ones make faces that
-    // hop slide too far.
+    // The penalty method needs stiff springs to be accurate, which a static
+    // analysis allows. Stiff shear springs prevent Newton's method from
+    // deciding between stick and slip in a static analysis; with soft ones in dynamics, faces that
+    // lose contact repeatedly slide too far.
     const Analysis analysis = scene_parameters.model.analysis;
     const bool     is_stiff = !is_augmented && analysis == Analysis::statics;
     CoulombLaw     chosen;
-    // a spring at a vertex stands for a cell's length, whatever that is
+    // A spring at a vertex represents the length of a cell, which does not enter its stiffness.
     const double length =
       section.integration == ContactIntegration::points ? 1. : size;
     chosen.normal_stiffness = (is_stiff ? 30. : 10.) * modulus / length;
@@ -274,7 +274,7 @@ namespace NMM
       masses[region.block] +=
         region.area * problem.materials[region_to_material[r]].density;
     }
-    // H / c = (A rho / E)^(1/2)
+    // The times are H / c = (A rho / E)^(1/2) of each block.
     std::vector<double> times;
     for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
       times.push_back(std::sqrt(masses[b] / moduli[b]));
@@ -290,7 +290,8 @@ namespace NMM
   {
     const ManifoldMesh &mesh    = surface.cover_system().manifold_mesh();
     const auto         &regions = mesh.physical_mesh().regions();
-    // cells of slivers are as thin as these, unless there is nothing else
+    // Slivers are left out, since their cells can be as thin as they are, unless all regions are
+    // slivers.
     const bool with_slivers =
       std::all_of(regions.begin(), regions.end(), [](const auto &region) {
         return region.is_sliver;
@@ -301,7 +302,7 @@ namespace NMM
           (with_slivers ||
            !regions[mesh.region(surface.edges()[e].element)].is_sliver))
       {
-        // of the equilateral triangle with the same area
+        // The size is the edge length of the equilateral triangle with the same area.
         const double twice_area =
           1. / std::abs(dealii::determinant(surface.edges()[e].inverse));
         sizes.push_back(std::sqrt(2. * twice_area / std::sqrt(3.)));

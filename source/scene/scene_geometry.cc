@@ -10,7 +10,7 @@
 #include <scene/shapes.h>
 #include <sstream>
 
-// The solid: what bounds it, what joints cut it, which places have names.
+// This file makes the geometry of a scene: boundaries, joints and regions.
 namespace NMM
 {
   namespace
@@ -34,7 +34,7 @@ namespace NMM
                                "rest into the section 'Geometry'"));
         if (!parameters.label.empty())
           curve.name = parameters.label;
-        // a drawing says nothing of it, and a geometry file may
+        // A drawing does not say whether joints are open, but a geometry file may.
         if (parameters.is_drawing() || parameters.state == JointState::closed)
           curve.state = parameters.state;
         curve.within     = parameters.within;
@@ -47,12 +47,13 @@ namespace NMM
 
   namespace
   {
-    /// @throws InputError if joint sets cross more often than memory has room for.
+    /// Checks the memory for the blocks that joint sets make. @throws InputError if they cross so
+    /// often that it does not suffice.
     void
     check_crossings(const std::vector<JointSet> &sets, const Geometry &geometry)
     {
-      // [bytes], for a block and its own mesh: measured on tests/scenes/network-square with
-      // 1e4 to 1.6e5 crossings (`peak_memory` in the summary)
+      // Memory per crossing for a block and its own mesh [bytes], measured on
+      // tests/scenes/network-square with 1e4 to 1.6e5 crossings (`peak_memory` in the summary).
       constexpr double   of_crossing = 3e4;
       const double       n_crossings = estimate_crossings(sets, geometry);
       std::ostringstream number;
@@ -63,7 +64,7 @@ namespace NMM
                      number.str(),
                      "the spacings in section 'Joint sets'",
                      [&](const double excess) {
-                       // a little more than what just fits
+                       // The advice is a little larger than the value that just fits.
                        const double       factor = 1.05 * std::sqrt(excess);
                        std::ostringstream text;
                        text << std::setprecision(2)
@@ -131,8 +132,8 @@ namespace NMM
         geometry.add_material_region(parameters.name, parameters.material);
       if (parameters.use == Use::place || parameters.use == Use::limit)
         continue;
-      // the faces it leaves; those of a restraint must not be called as the body
-      // that holds them
+      // The hole has the faces that the region leaves. Faces of a restraint must not have the name
+      // of the rigid body that holds them.
       region.role       = CurveRole::hole;
       region.is_clipped = true;
       if (parameters.use == Use::restraint)

@@ -9,12 +9,13 @@
 #include <scene/time_function.h>
 #include <utility>
 
-// Loads and conditions as functions of time.
+// This file makes loads and conditions as functions of time.
 namespace NMM
 {
   namespace
   {
-    /// Where a function has no number the analysis cannot go on.
+    /// Checks that a function has a finite value, without which the analysis cannot continue.
+    /// @throws NumericalFailure if it has not.
     double
     checked(const double       value,
             const double       t,
@@ -79,7 +80,7 @@ namespace NMM
     using internal::make_time_function;
     using internal::TimeFunction;
 
-    /// Indices of loads with their functions.
+    /// The functions of time of some loads, with the indices of these.
     using TimeFunctions = std::vector<std::pair<unsigned int, TimeFunction>>;
 
     void
@@ -96,7 +97,7 @@ namespace NMM
     }
 
 
-    /// All of a scene that change in time.
+    /// All loads and conditions of a scene that depend on time.
     struct LoadFunctions
     {
       TimeFunctions conditions, forces, fixed_points;

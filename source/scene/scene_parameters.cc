@@ -7,9 +7,8 @@
 #include <scene/parsing.h>
 #include <set>
 
-// Mathematical mesh and solver: how the problem is discretized
-// and solved. Its physics is in scene_parameters_mechanics.cc, what is written in
-// scene_parameters_output.cc.
+// This file has the parameters of the mathematical mesh and the solver. Those of the physics are in
+// scene_parameters_mechanics.cc, and those of the output in scene_parameters_output.cc.
 namespace NMM
 {
   using dealii::ParameterHandler;
@@ -234,7 +233,7 @@ namespace NMM
 
   namespace
   {
-    /// Section of each list of names.
+    /// The lists of names with their sections.
     template <typename Names>
     auto
     sections_of_lists(Names &names)
@@ -336,7 +335,7 @@ namespace NMM
       material.check(model.plane_state);
     for (const BoundaryConditionParameters &condition : boundary_conditions)
       condition.check();
-    // a static start is a static analysis before a dynamic one
+    // A start from equilibrium is a static analysis before a dynamic one.
     const bool starts_static = model.analysis == Analysis::dynamics &&
                                time.start == TimeParameters::Start::equilibrium;
     load_steps.check(model.kinematics,
@@ -437,7 +436,7 @@ namespace NMM
                                " Pa m^0.5, but cracks grow",
                              where + "/Toughness'",
                              "give the material's, > 0"));
-      // the load at which a crack grows is proportional to what is given
+      // The load factor of growth is computed by proportion, which initial stress does not allow.
       AssertThrow(material.initial_stress.norm() == 0.,
                   InputError("cracks do not grow in a material with initial "
                              "stress, to which the load factor does not apply",

@@ -6,7 +6,7 @@
 #include <scene/law_entries.h>
 #include <scene/parsing.h>
 
-// Contact: faces, laws, obstacles.
+// This file has the parameters of contact: faces, laws and obstacles.
 namespace NMM
 {
   namespace Patterns = dealii::Patterns;
@@ -35,7 +35,7 @@ namespace NMM
   } // namespace
 
 
-  // Limits are checked in check(), whose messages say what to do.
+  // Bounds are checked in check(), whose messages say what to do.
   void
   ContactLawParameters::list_entries(Entries &entries)
   {
@@ -127,7 +127,7 @@ namespace NMM
                              " m is given for faces that do not dilate",
                            place("Dilation limit"),
                            "set 'Dilation angle', or remove it"));
-    // stiffnesses that are left open are chosen later
+    // Stiffnesses that are left open are chosen later, so they pass the check.
     if (law->normal_stiffness == 0.)
       law->normal_stiffness = 1.;
     law->check("section 'Contact" + (name.empty() ? "" : "/" + name) + "'");

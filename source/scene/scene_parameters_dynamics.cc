@@ -5,7 +5,8 @@
 #include <cmath>
 #include <scene/parsing.h>
 
-// Time: steps, schemes, relaxation, initial velocities, loads as functions of time.
+// This file has the parameters of dynamics: steps, schemes, relaxation, initial velocities, and
+// loads as functions of time.
 namespace NMM
 {
   namespace Patterns = dealii::Patterns;
@@ -201,14 +202,14 @@ namespace NMM
       const bool           is_static = analysis == Analysis::statics;
       if (!is_static)
       {
-        // motion to rest has a scheme
+        // Relaxation uses a time scheme, whose parameters may differ from their defaults.
         given.scheme          = defaults.scheme;
         given.beta            = defaults.beta;
         given.gamma           = defaults.gamma;
         given.spectral_radius = defaults.spectral_radius;
         given.damping.mass    = defaults.damping.mass;
       }
-      // 0 asks for what these have anyway
+      // Other analyses have no damping, so a coefficient of 0 is what they use.
       if (!is_static || given.damping.stiffness == 0.)
         given.damping.stiffness = defaults.damping.stiffness;
       expect_defaults("Time",
@@ -329,7 +330,7 @@ namespace NMM
           "choose it no shorter than 'Initial step', or 0");
     if (kinematics != Kinematics::incremental)
       return;
-    // equal steps, or steps that a bound on displacements divides
+    // Incremental kinematics has equal steps, which only a bound on displacements can divide.
     TimeParameters given;
     given.max_step  = max_step;
     given.max_error = max_error;

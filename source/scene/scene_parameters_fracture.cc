@@ -5,7 +5,7 @@
 #include <cmath>
 #include <scene/parsing.h>
 
-// Crack tips.
+// This file has the parameters of crack tips and their growth.
 namespace NMM
 {
   namespace Patterns = dealii::Patterns;

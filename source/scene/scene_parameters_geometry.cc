@@ -5,7 +5,7 @@
 #include <cctype>
 #include <scene/parsing.h>
 
-// The solid: its geometry, joint sets, traces and regions.
+// This file has the parameters of the solid: its geometry, joint sets, traces and regions.
 namespace NMM
 {
   namespace Patterns = dealii::Patterns;
@@ -25,7 +25,7 @@ namespace NMM
                                     {"limit", Use::limit}};
 
 
-    /// What joint sets and traces have in common.
+    /// Adds the entries that joint sets and traces share.
     void
     add_joint_entries(Entries &entries, JointState &state, std::string &within)
     {

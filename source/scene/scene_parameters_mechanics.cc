@@ -7,7 +7,7 @@
 #include <scene/law_entries.h>
 #include <scene/parsing.h>
 
-// Materials, model, loads and supports: the physics of a scene.
+// This file has the parameters of the physics: materials, model, loads and supports.
 namespace NMM
 {
   namespace Patterns = dealii::Patterns;

@@ -7,7 +7,8 @@
 #include <scene/parsing.h>
 #include <sstream>
 
-// Load steps, Newton's method, and what goes together with which kinematics.
+// This file has the parameters of load steps and Newton's method, and the checks of parameters in
+// combination with kinematics and analysis.
 namespace NMM
 {
   namespace Patterns = dealii::Patterns;
@@ -155,8 +156,8 @@ namespace NMM
                       *this,
                       to_string(kinematics) + " kinematics",
                       "remove it, or set 'Model/Kinematics = finite'");
-    // A time step starts so near to its end that the energy of the first
-    // correction is no measure.
+    // A time step starts so close to its solution that the energy of the first
+    // correction is no scale for the tolerance.
     if (analysis != Analysis::statics)
       expect_default("Newton",
                      "Energy tolerance",
@@ -262,8 +263,8 @@ namespace NMM
   SceneParameters::check_analysis() const
   {
     time.check(model.analysis, model.kinematics, contact.is_present());
-    // a relaxed start is a relaxation before a dynamic analysis, and trials of
-    // strength are relaxations
+    // A relaxed start is a relaxation before a dynamic analysis, and trials of
+    // strength are relaxations, too.
     const bool has_relaxed_start =
       model.analysis == Analysis::dynamics &&
       time.start == TimeParameters::Start::relaxation;

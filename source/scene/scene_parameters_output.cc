@@ -5,7 +5,8 @@
 #include <cmath>
 #include <scene/parsing.h>
 
-// What is written and compared, and the scene as a whole.
+// This file has the parameters of output, probes and the exact solution, and lists all sections of
+// a scene.
 namespace NMM
 {
   using dealii::ParameterHandler;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <scene/parsing.h>
 
-// The search for the factor of safety.
+// This file has the parameters of the search for the factor of safety.
 namespace NMM
 {
   namespace Patterns = dealii::Patterns;

@@ -10,8 +10,8 @@ namespace NMM
 
   namespace
   {
-    /// Twice the area on the left of a closed chain; arcs as two chords, which
-    /// tells the sign.
+    /// Twice the area on the left of a closed chain [m^2], with each arc replaced by two chords,
+    /// which suffices for the sign.
     double
     signed_area(const std::vector<CurvePiece> &pieces)
     {
@@ -41,7 +41,7 @@ namespace NMM
     }
 
 
-    /// A full circle as two arcs, counter-clockwise.
+    /// A full circle as two counter-clockwise arcs.
     std::vector<CurvePiece>
     two_arcs(const CurvePiece &circle)
     {
@@ -53,8 +53,8 @@ namespace NMM
     }
 
 
-    /// Role of the record for a shape alone: polygons and circles are bodies, and
-    /// all else is a line with a body on the left.
+    /// The role of a shape that is given without a record: polygons and circles are bodies, and
+    /// all other shapes are lines with a body on their left.
     std::string
     role_of_shape(const std::string &shape)
     {

@@ -10,10 +10,10 @@ namespace NMM
   namespace internal
   {
     /**
-     * The one curve that the entries `Shape` or `File` of the section @p section give:
-     * @p shape as in a geometry file, or, if @p file is not empty, that geometry file.
-     * Of a shape, polygons and circles are boundaries, and all else is an
-     * interface. @throws InputError unless it is one curve.
+     * The curve that the entries `Shape` or `File` of the section @p section describe:
+     * the record @p shape of a geometry file, or, if @p file is not empty, the record in that file.
+     * In a shape, polygons and circles become boundaries, and all other curves become
+     * interfaces. @throws InputError unless there is exactly one curve.
      */
     Curve
     read_shape(const std::string &shape,
@@ -21,8 +21,8 @@ namespace NMM
                const std::string &section,
                const std::string &scene_file);
 
-    /// The body on the left: as drawn, but closed boundaries are rigid inside and
-    /// holes outside.
+    /// The pieces of a curve with the rigid body on their left. Open curves keep their direction;
+    /// closed boundaries are rigid inside, and holes are rigid outside.
     std::vector<CurvePiece>
     oriented_pieces(const Curve &curve);
   } // namespace internal

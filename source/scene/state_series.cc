@@ -23,8 +23,8 @@ namespace NMM
       }
 
 
-      /// Are displacements drawn as they are, unless the scene says otherwise? Faces
-      /// in contact would overlap if not.
+      /// Whether displacements are drawn without scaling, unless the scene gives a factor.
+      /// Otherwise faces in contact would overlap.
       bool
       shows_true_size(const Scene &scene)
       {
@@ -133,7 +133,7 @@ namespace NMM
                                                        triangles,
                                                        *directory,
                                                        "fields" + suffix.str());
-        // Every rank's piece is there before the list names it.
+        // Wait until the files of all ranks exist, before the list names them.
         MPI_Barrier(covers->communicator());
         if (is_first_rank(*covers))
           files.add(value, name);
@@ -191,7 +191,8 @@ namespace NMM
         smallest_hole(covers->manifold_mesh().physical_mesh());
       if (shows_true_size(*scene) && output.deformation_scale < 0.)
         output.deformation_scale = 1.;
-      // A run that continues this one has no such state in its series.
+      // The final state is a further frame that is not stored, since a run that continues this one
+      // does not have it in its series. An empty picture is left out.
       if (last != nullptr && last->triangles.empty())
         last = nullptr;
       directory->write_text("animation.html", [&](std::ostream &out) {

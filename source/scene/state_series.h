@@ -15,9 +15,10 @@ namespace NMM
 {
   namespace internal
   {
-    /// Draw picture.png or one of a series, as the scene says; without @p evaluator
-    /// which block is which; with forces and obstacles of @p contact, if it is given.
-    /// What was drawn is kept in @p drawn, on the first rank. Collective.
+    /// Draws picture.png or a picture of a series, with the settings of the scene. If @p evaluator
+    /// is null, the picture shows the blocks. If @p contact is not null, it also shows contact
+    /// tractions and obstacles. The content is stored in @p drawn on rank 0, unless that is null.
+    /// Collective.
     void
     write_picture(const Scene           &scene,
                   const CoverSystem     &covers,
@@ -30,11 +31,11 @@ namespace NMM
                   PictureData           *drawn = nullptr);
 
     /**
-     * Fields and pictures of states of a run, written as they come: fields-NNNN.vtu,
-     * picture-NNNN.png, and fields.pvd, which at any time lists the fields that are
-     * there; at the end animation.html, for which frames are kept in
-     * animation.frames meanwhile. With contact its points as well: contacts.csv,
-     * contacts-NNNN.vtp, contacts.pvd. All functions are collective.
+     * Writes the fields and pictures of the states of a run, one after the other:
+     * fields-NNNN.vtu, picture-NNNN.png, and fields.pvd, which always lists the fields that
+     * exist. At the end it writes animation.html, for which frames are stored in
+     * animation.frames during the run. With contact it also writes the contact points:
+     * contacts.csv, contacts-NNNN.vtp, contacts.pvd. All functions are collective.
      *
      * Lifetime: the arguments of the constructor must outlive this object.
      */
@@ -47,39 +48,38 @@ namespace NMM
                   const ContactAnalysis *contact,
                   const OutputDirectory &directory);
 
-      /// The solid was cut anew: states that follow are those of the arguments, which must
-      /// outlive this object. @p contact is null if it was null at first.
+      /// Uses the arguments for all further states, after the solid was cut again. They must
+      /// outlive this object. @p contact is null if it was null in the constructor.
       void
       follow(const CoverSystem &covers, const ContactAnalysis *contact);
 
-      /// Keep the fields of an earlier run up to the state @p last (time or load
-      /// factor).
+      /// Continues an earlier run, whose states up to the time or load factor @p last are kept.
       void
       resume(double last);
 
-      /// State @p number at @p value (time or load factor), which
-      /// @p description tells in the picture's title.
+      /// Writes the state @p number at the time or load factor @p value. @p description is added to
+      /// the title of the picture.
       void
       write(unsigned int          number,
             double                value,
             const std::string    &description,
             const FieldEvaluator &evaluator);
 
-      /// The fields of the last state are in @p file_name.
+      /// Adds the final state to the list, whose fields are in @p file_name.
       void
       finish(double value, const std::string &file_name);
 
-      /// The last state's contact points, if there is contact.
+      /// Writes the contact points of the final state, if there is contact.
       void
       finish_contact(double value);
 
-      /// Write animation.html, if there are frames for it. Its last one is of the state
-      /// at @p value, drawn as @p last, unless that is null.
+      /// Writes animation.html, if there are frames for it. @p last is the picture of the final
+      /// state at @p value, as a further frame, unless it is null.
       void
       write_animation(double value, const PictureData *last);
 
     private:
-      /// Begin to keep frames, after those of an earlier run up to @p last.
+      /// Opens the file of frames, and keeps those of an earlier run up to @p last.
       void
       open_animation(double last);
 
@@ -87,7 +87,7 @@ namespace NMM
       const CoverSystem     *covers;
       const ContactAnalysis *contact;
       const OutputDirectory *directory;
-      /// On the first rank.
+      /// The writers, which are used on rank 0 only.
       FileSeries                     files;
       std::unique_ptr<Animation>     animation;
       std::unique_ptr<ContactSeries> contact_series;

@@ -120,7 +120,7 @@ namespace NMM
 
     namespace
     {
-      /// The circle all pieces of a curve lie on.
+      /// The circle on which all pieces of a curve lie.
       CurvePiece
       circle_of(const PhysicalMesh &mesh, const std::string &name)
       {
@@ -247,7 +247,7 @@ namespace NMM
       summary.add("error_direct_stress_l2", direct.stress);
       summary.add("error_recovered_stress_l2", recovered.stress);
 
-      // Along the radius through the middle of the inner curve's first piece.
+      // Points are along the radius through the middle of the first piece of the inner curve.
       const CurvePiece inner =
         circle_of(*physical_mesh,
                   scene.parameters().exact_solution.inner_boundary);

@@ -12,7 +12,7 @@ namespace NMM
 {
   namespace internal
   {
-    /// Small displacements: one linear problem.
+    /// Statics of small displacements, which is one linear problem.
     class StaticAnalysis : public SceneAnalysis
     {
     public:
@@ -21,16 +21,16 @@ namespace NMM
       void
       solve() override;
 
-      /// Errors against the exact solution, strain energy.
+      /// Adds the errors against the exact solution and the strain energy to the summary.
       void
       verify() override;
 
     protected:
-      /// The linear problem, and the intensity factors of crack tips.
+      /// Solves the linear problem, and computes the intensity factors of crack tips.
       void
       solve_problem();
 
-      /// Make field, recovery, evaluator and intensity factors those of a solution.
+      /// Makes field, recovery, evaluator and intensity factors of a solution.
       void
       show(const dealii::TrilinosWrappers::MPI::Vector &solution);
 
@@ -44,13 +44,13 @@ namespace NMM
       std::optional<ThickRing>          exact_solution;
       std::unique_ptr<StaticElasticity> elasticity;
 
-      /// The exact solution, if the scene has one. @throws InputError if it
-      /// does not fit.
+      /// Makes the exact solution, if the scene has one. @throws InputError if it does not
+      /// match the problem.
       void
       check_problem() override;
 
-      /// Condition number and its place into the summary; a warning above the
-      /// limit.
+      /// Adds the condition number and the weakest point to the summary, and prints a warning if it
+      /// is above the limit.
       void
       estimate_condition();
 

@@ -46,7 +46,7 @@ namespace NMM
       }
 
 
-      /// One linear problem.
+      /// Solves one linear problem.
       Vector
       solve_small(const StartInput &input,
                   FiniteElasticity &elasticity,
@@ -135,7 +135,7 @@ namespace NMM
                                     input.constraints,
                                     input.problem,
                                     /* may_float = */ true);
-        // time goes on, loads do not
+        // Time advances during the relaxation, but loads keep their values of t = 0.
         const LoadAmplitudes amplitudes = amplitudes_at_start(scene);
         Loading              loading;
         loading.amplitudes = [amplitudes](const double) { return amplitudes; };
@@ -199,7 +199,7 @@ namespace NMM
       const NewtonParameters &given = scene.parameters().newton.newton;
       NewtonParameters newton   = TimeIntegrator::default_newton_parameters();
       newton.residual_tolerance = given.residual_tolerance;
-      // without contact more iterations only let steps grow that had better be cut
+      // Without contact more iterations would only allow steps to grow that should be cut.
       if (given.max_iterations != NewtonParameters().max_iterations ||
           !scene.parameters().is_nonlinear())
         newton.max_iterations = given.max_iterations;

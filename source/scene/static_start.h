@@ -18,7 +18,7 @@ namespace NMM
 {
   namespace internal
   {
-    /// What a dynamic analysis is made of, for its start.
+    /// The objects of a dynamic analysis that its start needs.
     struct StartInput
     {
       const Scene                             &scene;
@@ -29,7 +29,7 @@ namespace NMM
       const ElasticityProblem                 &problem;
       /// Null without contact.
       ContactAnalysis *contact;
-      /// Shows how far the start has come.
+      /// Shows the progress of the start.
       Progress::Stage &stage;
     };
 
@@ -42,24 +42,24 @@ namespace NMM
     };
 
 
-    /// Those of a body in small displacements; null: its materials are elastic, or it is in
-    /// large displacements.
+    /// The terms of inelastic materials; null if the materials are elastic, or with large
+    /// displacements.
     InelasticTerms *
     inelastic_terms_of(const ElasticModel *model);
 
 
-    /// Newton's method for time steps and relaxation; more iterations than the default
-    /// where there is contact and the scene does not say how many.
+    /// Parameters of Newton's method for time steps and relaxation. With contact or materials that
+    /// yield there are more iterations than by default, unless the scene gives a number.
     NewtonParameters
     motion_newton_parameters(const Scene &scene);
 
 
     /**
-     * The state a dynamic analysis starts from, if that is not the undeformed one:
-     * equilibrium of loads, supports and obstacles as they are at t = 0, before anything is
-     * released and without motion of the ground. Contact remembers what it came to: places
-     * of sticking, bonds that broke. Returns displacements of owned unknowns [m].
-     * Collective. @throws NumericalFailure if there is none.
+     * Finds the equilibrium from which a dynamic analysis starts, if it does not start undeformed.
+     * Loads, supports and obstacles are those of t = 0, before any release
+     * and without motion of the ground. The contact keeps its history from the start: anchors of
+     * the stick state and broken bonds. Returns the displacements of owned unknowns [m].
+     * Collective. @throws NumericalFailure if there is no equilibrium.
      */
     FiniteElasticity::Vector
     find_start(const StartInput &input, StartReport &report);

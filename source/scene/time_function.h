@@ -11,11 +11,12 @@ namespace NMM
     using TimeFunction = std::function<double(double)>;
 
     /**
-     * "file: name" or an expression of t as a function, null if @p text is empty.
-     * @p unit of t, for messages; @p relative_to_scene: path of a file.
+     * Makes a function of time from @p text, which is "file: name" or an expression of t; the
+     * function is null if @p text is empty. @p unit is the unit of t in messages, and
+     * @p relative_to_scene gives the path of a file. The function throws NumericalFailure where an
+     * expression has no value.
      * @throws InputError naming @p parameter for an expression that cannot be
-     * parsed or has no value at 0 or @p end_time, or a file that cannot be read;
-     * the function throws NumericalFailure where an expression has no value.
+     * parsed or has no value at 0 or @p end_time, or for a file that cannot be read.
      */
     TimeFunction
     make_time_function(

@@ -45,8 +45,8 @@ namespace NMM
     void
     LineSearch::judge_slope(const bool is_admissible, const double slope)
     {
-      // what is left of the slope along the correction: not less than this must
-      // go, and when the slope has changed its sign, not more
+      // Largest |slope| that ends the search, relative to the first one: as long as the slope has
+      // the same sign, and once a change of its sign has been bracketed.
       constexpr double       enough = 0.9, bracketed = 0.5;
       constexpr unsigned int max_brackets = 8;
 
@@ -60,7 +60,7 @@ namespace NMM
         }
         if (slope * first_slope < 0.)
         {
-          // regula falsi of the Illinois kind
+          // regula falsi with the Illinois modification
           if (is_bracketed)
             lower_slope *= 0.5;
           upper        = eta;

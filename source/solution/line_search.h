@@ -15,6 +15,7 @@ namespace NMM
     class LineSearch
     {
     public:
+      /// Criterion for a step length.
       enum class Mode
       {
         /// Take the first step length with an admissible deformation.
@@ -42,7 +43,8 @@ namespace NMM
         return done;
       }
 
-      /// Tell what step_length() has given.
+      /// Judge step_length() by its result: whether the deformation was admissible, and r . delta
+      /// and |r| there. Either ends the search or changes step_length().
       void
       judge(bool is_admissible, double slope, double norm);
 
@@ -73,7 +75,7 @@ namespace NMM
       double       lower = 0., upper = 1., lower_slope = 0., upper_slope = 0.;
       bool         is_bracketed = false;
       unsigned int n_brackets   = 0;
-      /// The least |r| so far and its step length.
+      /// The smallest |r| so far and its step length.
       double best = unknown, best_step_length = 1.;
       bool   is_last = false;
     };

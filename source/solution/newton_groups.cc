@@ -98,7 +98,7 @@ namespace NMM
                          const double  scale,
                          const double  allowed)
     {
-      // of the part of a tolerance
+      // residual of a block that counts as converged, relative to its share of the tolerance
       constexpr double negligible = 0.1;
 
       std::vector<double> squares(groups.size(), 0.);
@@ -251,7 +251,7 @@ namespace NMM
         const unsigned int b = block_of[row];
         if (!blocks.empty() && !blocks[b])
           return;
-        // columns of a block are next to each other
+        // columns of the same block follow each other
         unsigned int last = b;
         for (int i = entries.begins[row]; i < entries.begins[row + 1]; ++i)
         {
@@ -331,7 +331,7 @@ namespace NMM
         if (blocks.empty() || blocks[b])
           for (const unsigned int other : neighbours[b])
           {
-            // what is not active does not feel this row: see NonlinearSystem
+            // blocks that are not active are reported by NonlinearSystem::take_touched_blocks()
             if (states[joined.find(other)] != State::active)
               continue;
             if (joined.find(b) != joined.find(other))

@@ -23,18 +23,24 @@ namespace NMM
      * Newton's method solves at its own pace. Groups only ever grow during a solution. If the
      * system has no blocks, all unknowns are one group.
      *
-     * A group is active while it is being solved, then done; a group that is held is not solved
-     * at all. In an active group an iteration corrects the blocks that are far from equilibrium
-     * and the neighbours of these: in the end few blocks of a large heap.
+     * A group is active while it is being solved, and done once it has converged. A group that is
+     * held is not solved at all. In an active group an iteration corrects only the blocks that are
+     * far from equilibrium and their neighbours. In a large heap these are few blocks in the last
+     * iterations.
+     *
+     * Order of calls: reinit(); in each iteration choose() and invalidate_tangents(), then
+     * assemblies of blocks_without_tangent() with unite() until have_tangents(), then sum() after
+     * each assembly of a residual, and retire_converged().
      */
     class NewtonGroups
     {
     public:
       using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
+      /// Progress of the solution of a group.
       struct Group
       {
-        /// Whether it had converged in the last iteration.
+        /// Whether the group had converged after the last iteration.
         bool         has_converged = false;
         unsigned int n_unknowns    = 0;
         /// Largest distance in the contact graph from a block that has not converged at which
@@ -66,7 +72,8 @@ namespace NMM
       void
       choose(const Vector &residual, double scale, double allowed);
 
-      /// Corrected blocks whose rows of the tangent have not been assembled.
+      /// For each block, whether it is corrected and its rows of the tangent have not been
+      /// assembled; empty: this holds for all blocks.
       std::vector<bool>
       blocks_without_tangent() const;
 
@@ -74,9 +81,9 @@ namespace NMM
       bool
       have_tangents() const;
 
-      /// The rows of @p blocks (empty: all) of the tangent @p matrix have been assembled. Blocks
-      /// that are coupled in them, by @p pairs or, if these are unknown (null), by values other
-      /// than zero, are one group from now on; a group that joins another one begins its history
+      /// Record that the rows of @p blocks (empty: all) of the tangent @p matrix have been
+      /// assembled. Blocks that are coupled in these rows (by @p pairs or, if null, by nonzero
+      /// values) are one group from now on. A group that joins another one begins its history
       /// anew. Blocks that were not coupled before are corrected, too.
       void
       unite(const std::vector<bool>                      &blocks,
@@ -94,22 +101,23 @@ namespace NMM
         return neighbours;
       }
 
-      /// The rows of all blocks have to be assembled again.
+      /// Mark the rows of all blocks as not assembled.
       void
       invalidate_tangents();
 
-      /// The residual of @p blocks (empty: all) has been assembled.
+      /// Record that the residual of @p blocks (empty: all) has been assembled.
       void
       note_residual(const std::vector<bool> &blocks);
 
-      /// The root of each group, one of its blocks, by which groups are addressed; here of all
-      /// groups, below of active ones.
+      /// The roots of all groups. The root of a group is one of its blocks; its number addresses
+      /// the group.
       const std::vector<unsigned int> &
       roots() const
       {
         return all_roots;
       }
 
+      /// The roots of active groups.
       const std::vector<unsigned int> &
       active_roots() const
       {
@@ -128,6 +136,7 @@ namespace NMM
         return groups[root];
       }
 
+      /// Whether the system has blocks, so that there may be several groups.
       bool
       are_there_several() const
       {
@@ -140,7 +149,7 @@ namespace NMM
         return !all_active_roots.empty();
       }
 
-      /// Part of all unknowns that is corrected [-].
+      /// Number of unknowns that are corrected divided by that of all unknowns [-].
       double
       corrected_share() const;
 
@@ -160,9 +169,9 @@ namespace NMM
       void
       retire_converged();
 
-      /// Blocks whose residual changes with the corrections: those that are corrected and the
-      /// blocks that touch them, of active groups for which @p is_meant is true. Empty if these
-      /// are all blocks.
+      /// For each block, whether its residual changes with the corrections of those active groups
+      /// for which @p is_meant is true: this holds for corrected blocks and the blocks that touch
+      /// them. Empty if it holds for all blocks.
       template <typename Predicate>
       std::vector<bool>
       affected(const Predicate &is_meant) const
@@ -206,16 +215,17 @@ namespace NMM
         return groups[block_of.empty() ? 0 : root_of[block_of[i]]];
       }
 
-      /// Set product and square of active groups from the residual and a correction, which is
-      /// zero in unknowns that are not corrected.
+      /// Compute Group::product and Group::square of active groups from the residual and a
+      /// correction, which is zero in unknowns that are not corrected.
       void
       sum(const Vector &residual, const Vector &correction);
 
-      /// Set the squares of all groups.
+      /// Compute Group::square of all groups.
       void
       sum_squares(const Vector &residual);
 
     private:
+      /// State of a group, stored at its root.
       enum class State : unsigned char
       {
         active,
@@ -223,6 +233,7 @@ namespace NMM
         held
       };
 
+      /// Properties of a block, see choose() and affected().
       struct Block
       {
         bool residual_is_known = false, is_unconverged = false,
@@ -230,15 +241,16 @@ namespace NMM
         unsigned int n_unknowns = 0;
       };
 
-      /// Move the neighbours of @p blocks to neighbours_before, and leave these blocks without.
+      /// Move the neighbours of @p blocks (empty: all) to neighbours_before, so that these blocks
+      /// have none, and mark their rows of the tangent as assembled.
       void
       store_neighbours(const std::vector<bool> &blocks);
 
-      /// Join the groups of blocks that are coupled now.
+      /// Join the groups of @p blocks (empty: all) with those of the blocks they are coupled with.
       void
       unite_neighbours(const std::vector<bool> &blocks);
 
-      /// Find the neighbours of @p blocks from values other than zero.
+      /// Find the neighbours of @p blocks (empty: all) from the nonzero values of their rows.
       void
       find_neighbours(const std::vector<bool>                      &blocks,
                       const dealii::TrilinosWrappers::SparseMatrix &matrix);
@@ -254,16 +266,17 @@ namespace NMM
       void
       update_roots();
 
-      /// Make the lists of active groups, blocks and unknowns anew.
+      /// Recompute the lists of active groups, blocks and unknowns.
       void
       update_active_lists();
 
-      /// Double the number of rings of groups that need more, see choose().
+      /// Double the number of rings of those groups for which choose() requires it.
       void
       widen_rings(const std::vector<double> &squares, double scale);
 
-      /// Blocks that have not converged and their neighbours, each with its distance: 0, 1, ...
-      /// rings, up to one more than are corrected.
+      /// Blocks that have not converged and their neighbours, each with its distance in the
+      /// contact graph from the nearest block that has not converged. The distance goes up to one
+      /// more than that of the blocks that are corrected.
       std::vector<std::pair<unsigned int, unsigned int>>
       unconverged_neighbourhood() const;
 
@@ -280,10 +293,10 @@ namespace NMM
       std::vector<Group> groups;
       std::vector<State> states;
       std::vector<Block> all_blocks;
-      /// What couplings() returns.
+      /// For each block, the blocks it is coupled with; see couplings().
       std::vector<std::vector<unsigned int>> neighbours;
-      /// Neighbours before the last assembly, one block after the other, and where those of each
-      /// block begin and end, see store_neighbours().
+      /// Neighbours before the last assembly, sorted by block, and for each block the indices of
+      /// its first and past its last one; see store_neighbours().
       std::vector<unsigned int> neighbours_before;
       std::vector<BlockPair>    before_of_block;
       ActiveItems               active_unknowns, corrected_unknowns;

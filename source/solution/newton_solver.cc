@@ -38,8 +38,8 @@ namespace NMM
 
     NewtonParameters parameters;
 
-    /// Made for the first system and kept, with its analysis, for all of the same
-    /// size, pattern and symmetry.
+    /// The solver is kept, with its analysis of the pattern, for all systems of the same
+    /// size and symmetry.
     std::unique_ptr<internal::DirectSolver> direct_solver;
     bool                                    is_symmetric = false;
     unsigned int                            n            = 0;
@@ -48,17 +48,16 @@ namespace NMM
     NonlinearSystem                         *system      = nullptr;
     const dealii::AffineConstraints<double> *constraints = nullptr;
     NewtonReport                            *report      = nullptr;
-    /// Owned unknowns, now and before the correction. The residual of what is not
-    /// active is that of the time when it was.
+    /// Owned unknowns: u now and before the correction, the correction, and the residual. In rows
+    /// of inactive blocks the residual is that of their last assembly.
     Vector owned, before, correction, residual;
-    /// How far each group came in the last iteration that it took part in; relevant
-    /// unknowns.
+    /// For each locally relevant unknown, its change in the last iteration that corrected it.
     Vector last_increment;
     bool   use_increment = true;
-    /// That of the last assembly of all, or of the first one.
+    /// Force scale of the last assembly of all blocks, or else of the first assembly [N/m].
     double       scale = 0.;
     NewtonGroups groups;
-    /// What active groups pressed on in the last assembly.
+    /// Blocks of inactive groups that active ones touched in the last assembly.
     std::vector<unsigned int> touched;
 
     template <typename Predicate>
@@ -80,13 +79,13 @@ namespace NMM
     void
     factorize();
 
-    /// @p blocks: of whole groups; empty: all.
+    /// Solve with the last factorization for @p blocks (empty: all), which must be whole groups.
     void
     solve(const Vector            &rhs,
           Vector                  &solution,
           const std::vector<bool> &blocks = {});
 
-    /// u becomes what owned unknowns of active groups say.
+    /// Set u from the owned unknowns, in blocks that are corrected.
     void
     distribute(Vector &u);
 
@@ -123,7 +122,8 @@ namespace NMM
   NewtonSolver::~NewtonSolver() = default;
 
 
-  /// Residual of what corrections change in active groups for which @p is_meant.
+  /// Assemble the residual of the blocks that corrections change, in active groups for which
+  /// @p is_meant is true.
   template <typename Predicate>
   Deformation
   NewtonSolver::Data::assemble_residual(const Vector    &u,
@@ -138,7 +138,7 @@ namespace NMM
   }
 
 
-  /// The residual of what is done or held, too.
+  /// Assemble the residual of all blocks, also of those that are done or held.
   Deformation
   NewtonSolver::Data::assemble_all(const Vector &u)
   {
@@ -146,7 +146,7 @@ namespace NMM
   }
 
 
-  /// Of blocks of active groups; of all if there are none.
+  /// Assemble the rows of @p blocks; empty: of all blocks.
   Deformation
   NewtonSolver::Data::assemble_blocks(const Vector            &u,
                                       const Tangent            tangent,
@@ -163,7 +163,7 @@ namespace NMM
     report->assembly_time += timer.wall_time();
     if (state != Deformation::admissible)
       return state;
-    // the first one is of all that is not held
+    // the first assembly comprises all blocks that are not held
     if (blocks.empty() || scale == 0.)
       scale = system->force_scale();
     groups.note_residual(blocks);
@@ -216,7 +216,7 @@ namespace NMM
                         blocks);
       if (state != Deformation::admissible)
         return state;
-      // a matrix of another pattern has lost what was assembled before
+      // a matrix that got another pattern has lost the rows assembled before
       const unsigned int version = system->pattern_version();
       if (before != invalid_index && version != before)
         groups.invalidate_tangents();
@@ -298,7 +298,7 @@ namespace NMM
       u = owned;
       return;
     }
-    // one rank: both have the same unknowns
+    // on one rank u has the same unknowns as owned
     const auto from = owned.begin();
     const auto to   = u.begin();
     for (const unsigned int i : groups.corrected().chosen())
@@ -308,10 +308,10 @@ namespace NMM
 
   namespace
   {
-    /// Whether |r| is what it was two or three iterations ago, or none of the last iterations
-    /// brought it far below what had been reached before. Contact points that stick and slip by
-    /// turns make Newton's method cycle among three states and more, between which r . du grows and
-    /// falls as if it converged.
+    /// Whether an iteration cycles, given |r|^2 of all its iterations: |r| is the same as two or
+    /// three iterations ago, or none of the last three iterations has reduced it much below the
+    /// smallest value before. Contact points that alternate between stick and slip make Newton's
+    /// method cycle among three or more states, while r . du grows and falls as if it converged.
     bool
     is_cycling_among_states(const std::vector<double> &squares)
     {
@@ -331,7 +331,7 @@ namespace NMM
   } // namespace
 
 
-  /// From products and squares of this iteration.
+  /// Begin the line search of each active group, with products and squares of this iteration.
   void
   NewtonSolver::Data::begin_searches(const bool use_slopes)
   {
@@ -358,7 +358,7 @@ namespace NMM
   }
 
 
-  /// Finds the step length of each group; u is moved and its residual assembled.
+  /// Find the step length of each active group, apply it to u and assemble the residual there.
   Deformation
   NewtonSolver::Data::search_step_lengths(Vector &u)
   {
@@ -396,7 +396,7 @@ namespace NMM
   }
 
 
-  /// One iteration; r(u) is assembled afterwards. False if it failed.
+  /// Take one iteration. Afterwards the residual is that at the new u. Returns false if it failed.
   bool
   NewtonSolver::Data::iterate(Vector &u, const Vector *increment)
   {
@@ -449,7 +449,7 @@ namespace NMM
   }
 
 
-  /// A group's part of both tolerances is that of its unknowns.
+  /// Whether a group meets its share of both tolerances, which is its share of the unknowns.
   bool
   NewtonSolver::Data::has_converged(const Group &group,
                                     const double largest_energy) const
@@ -463,8 +463,8 @@ namespace NMM
   }
 
 
-  /// See NewtonParameters::n_refinements; of groups that have converged now. False if
-  /// u becomes inadmissible.
+  /// Refine the groups that have converged in this iteration, see NewtonParameters::n_refinements.
+  /// Returns false if u becomes inadmissible.
   bool
   NewtonSolver::Data::refine(Vector &u)
   {
@@ -495,7 +495,8 @@ namespace NMM
   }
 
 
-  /// Leaves what has converged alone; have all? Not if there is a reason why it failed.
+  /// Retire the groups that have converged. Returns whether all groups have; if not, and
+  /// report->reason is set, the solution has failed.
   bool
   NewtonSolver::Data::settle(Vector &u, const double largest_energy)
   {
@@ -508,7 +509,8 @@ namespace NMM
     }
     if (is_any_new && !refine(u))
       return false;
-    // before, since what stays in place in active groups is pressed on all the time
+    // Reactivate before retiring: `touched` contains blocks of active groups that were not
+    // assembled, which would otherwise reactivate their own group after it has been retired.
     groups.reactivate(touched);
     groups.retire_converged();
     if (groups.is_any_active())
@@ -516,8 +518,8 @@ namespace NMM
     if (!groups.are_there_several())
       return true;
 
-    // what was settled early may have been pressed on, below what was noticed; and
-    // the caller may want to know forces on what is held
+    // Verify all groups, because a group that was retired early may have been loaded by contacts
+    // that were not reported. The caller may also need the forces on blocks that are held.
     if (assemble_all(u) != Deformation::admissible)
     {
       report->reason = "the deformation is not admissible";
@@ -557,7 +559,7 @@ namespace NMM
     d.groups.reinit(system.blocks_of_unknowns(), system.held_blocks(), d.owned);
 
     double largest_energy = 0.;
-    // everything is held: only forces are wanted
+    // if all blocks are held, only the forces are assembled
     if (!d.groups.is_any_active())
       report.converged = d.settle(u, largest_energy);
     while (!report.converged &&

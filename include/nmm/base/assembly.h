@@ -1,28 +1,29 @@
 #ifndef nmm_base_assembly_h
 #define nmm_base_assembly_h
 
-/// What a nonlinear solver asks of an assembly, and what an assembly answers.
+/// The types by which a nonlinear solver asks for an assembly, and by which the assembly answers.
 namespace NMM
 {
-  /// Whether a law is defined for a deformation: an expected outcome of a
+  /// Whether a law is defined for a deformation. That it is not is an expected outcome of a
   /// Newton step that goes too far.
   enum class [[nodiscard]] Deformation{
+    /// The law is defined, and its result is valid.
     admissible,
-    /// det F <= 0 where the law needs it to be positive.
+    /// The law is not defined, e.g. since det F <= 0; its result is not valid.
     inverted};
 
 
-  /// Which derivative of the forces an assembly makes.
+  /// Which derivative of the forces with respect to the unknowns is assembled.
   enum class Tangent
   {
-    /// None: forces alone.
+    /// Only the forces are assembled.
     none,
-    /// The derivative.
+    /// The exact derivative is assembled.
     consistent,
     /**
-     * The derivative without those terms that are large far from the solution
-     * only and may lead away from it; see FiniteElasticity. For the first
-     * iterations of a step.
+     * The derivative is assembled without those terms that are large only far from the solution
+     * and may lead away from it; see FiniteElasticity. It is meant for the first iterations of a
+     * step.
      */
     robust
   };

@@ -6,9 +6,9 @@
 #include <deal.II/lac/affine_constraints.h>
 
 /**
- * The one place that knows deal.II versions: 9.4 is the oldest supported one.
- * Whatever changed its name or signature since is reached through a function
- * here, so that no other file asks for DEAL_II_VERSION_GTE().
+ * The functions of deal.II whose names or signatures depend on its version; 9.4 is the oldest
+ * version that is supported. Other files call the functions here, so that only this file asks
+ * for DEAL_II_VERSION_GTE().
  */
 namespace NMM
 {

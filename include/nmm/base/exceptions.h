@@ -10,32 +10,33 @@
 namespace NMM
 {
   /**
-   * Base of the two kinds of errors a user can cause or meet. Thrown through
-   * `AssertThrow(condition, InputError(...))`; `print_info()` prints the
-   * sentence for people, without file, line or stack trace, which `what()`
-   * adds for developers.
+   * Base class of the errors that a user can cause or meet. They are thrown by
+   * `AssertThrow(condition, InputError(...))`. `print_info()` prints the sentence for users;
+   * `what()` adds the file, the line and the stack trace for developers.
    */
   class UserError : public dealii::ExceptionBase
   {
   public:
+    /// Keeps the three parts of the message: what is wrong, the place (a curve, a parameter or
+    /// coordinates), and what the user can do. @p where and @p remedy may be empty.
     UserError(std::string what_happened, std::string where, std::string remedy);
 
-    /// "<what>, at <where>: <remedy>".
+    /// Prints "<what>, at <where>: <remedy>" and ends the line; empty parts are left out.
     void
     print_info(std::ostream &out) const override;
 
-    /// The same sentence as a string.
+    /// The sentence that print_info() prints, without the end of the line.
     std::string
     message() const;
 
-    /// What is wrong, without where and without the remedy.
+    /// What is wrong, without the place and the remedy.
     const std::string &
     description() const
     {
       return what_happened;
     }
 
-    /// Where: the name of a curve or parameter, or coordinates.
+    /// The place of the error: the name of a curve or parameter, or coordinates; may be empty.
     const std::string &
     place() const
     {
@@ -49,28 +50,30 @@ namespace NMM
   };
 
   /**
-   * The scene, a file or a call's argument is wrong. Says what is wrong, where
+   * The scene, a file or the argument of a call is wrong. The message says what is wrong, where
    * (name of the curve or parameter, coordinates, value with unit) and what to
    * do about it. Programs end with exit code 2 and write nothing.
    */
   class InputError : public UserError
   {
   public:
+    /// See UserError::UserError().
     using UserError::UserError;
   };
 
   /**
-   * The input is well-formed but the numbers do not come out: no convergence,
-   * a singular system (and which block floats freely). Programs end with exit
-   * code 3.
+   * The input is well-formed, but the problem cannot be solved: an iteration does not converge,
+   * or the system is singular (the message names the block that floats freely). Programs end
+   * with exit code 3.
    */
   class NumericalFailure : public UserError
   {
   public:
+    /// See UserError::UserError().
     using UserError::UserError;
   };
 
-  /// A point as "(x, y)", with enough digits to find it again.
+  /// A point as "(x, y)", with 12 significant digits.
   std::string
   to_string(const dealii::Point<2> &point);
 } // namespace NMM

@@ -8,30 +8,35 @@
 
 namespace NMM
 {
-  /// Memory a process can still have, and what bounds it.
+  /// The memory that a process can still allocate, and what limits it.
   struct AvailableMemory
   {
-    double      bytes;
+    /// The memory that is left [bytes], >= 0; the largest double if no limit is known.
+    double bytes;
+    /// What sets this limit, as part of a message, e.g. "the machine"; empty if there is no limit.
     std::string bound;
   };
 
   /**
-   * The least of: memory that is available on the machine (swap included), what the
-   * control groups of this process leave, both divided by @p n_processes that
-   * share them, and what the limits of this process leave (address space, data).
+   * The memory that this process can still allocate. It is the least of three numbers: the
+   * memory that is available on the machine (swap included), what the control groups of this
+   * process leave, and what the limits of this process leave (address space, data). The first
+   * two are divided by the number of processes @p n_processes that share them.
    */
   AvailableMemory
   available_memory(unsigned int n_processes = 1);
 
-  /// The same on the rank that has least, where the ranks of one machine share its
-  /// memory. Collective.
+  /// The smallest memory that is left for any rank of @p communicator, where the ranks on one
+  /// machine share its memory. AvailableMemory::bound is that of the calling rank. Collective.
   AvailableMemory
   available_memory(MPI_Comm communicator);
 
   /**
-   * To be called before memory is asked for. @p needed: estimate for this process
-   * [bytes]; @p purpose: what it is for, "1e9 cells". @p remedy gets by how many
-   * times that is too much. @throws InputError if there is less. Not collective.
+   * Checks that there is enough memory, before a large allocation. @p needed is an estimate for
+   * this process [bytes], @p purpose says what it is for, e.g. "1e9 cells", and @p where is the
+   * place in the message. @p remedy makes the advice in the message from @p needed over the
+   * memory that is available [-]. Not collective.
+   * @throws InputError if @p needed exceeds @p available.
    */
   void
   require_memory(double                                           needed,

@@ -5,38 +5,51 @@
 #include <string>
 #include <vector>
 
-/// What laws of materials and of contact have in common: parameters that scenes give, and lists
-/// of laws that scenes choose from by name.
+/// What laws of materials, of contact and of crack growth have in common: parameters that scenes
+/// give, and lists of laws from which scenes choose by name.
 namespace NMM
 {
-  /// A number of a law that scenes give.
+  /// A parameter of a law, with what is needed to read it from a scene.
   struct LawParameter
   {
+    /// How the number in a scene becomes the value in the law.
     enum class Kind
     {
+      /// The law takes the number as it is.
       number,
-      /// Scenes give an angle in degrees, and the law has its tangent [-].
+      /// The scene gives an angle [degrees], and the law takes its tangent [-].
       tangent
     };
 
+    /// Name of the entry in a scene, e.g. "Friction angle".
     std::string key;
-    /// Within the law that was asked for its parameters.
-    double     *value;
-    Kind        kind;
-    std::string documentation, remedy;
+    /// Points into the law that was asked for its parameters, and must not outlive it.
+    double *value;
+    /// Whether the value is the number in the scene or its tangent.
+    Kind kind;
+    /// Help text of the entry, with its unit.
+    std::string documentation,
+      /// Advice in the message if a scene gives a number that is negative, not finite, or an
+      /// angle of 90 degrees or more.
+      remedy;
   };
 
 
-  /// A law that scenes can choose.
+  /// A law that scenes can choose by name.
   template <class Law>
   struct NamedLaw
   {
-    std::string                name, documentation;
+    /// The word in scenes that chooses this law.
+    std::string name,
+      /// Part of the help text that says what the law does.
+      documentation;
+    /// The law with default parameters; never null.
     std::shared_ptr<const Law> law;
   };
 
 
-  /// @throws InputError saying that @p name, which belongs to @p where, has a bad @p value.
+  /// Does nothing if @p is_good. @throws InputError otherwise, with the message
+  /// "<name> is <value>, at <where>: <remedy>".
   void
   check_law_value(bool               is_good,
                   const std::string &name,

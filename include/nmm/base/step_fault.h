@@ -8,11 +8,13 @@ namespace NMM
   /// Why the result of a step must not be accepted.
   struct StepFault
   {
-    /// Part of a message; empty if the result may be accepted.
+    /// The reason, as part of a message; empty if the result may be accepted.
     std::string reason;
-    /// What the user can do if no shorter step helps; empty: the general advice on steps.
+    /// What the user can do if no shorter step helps; if empty, the general advice on steps is
+    /// given.
     std::string remedy;
-    /// Length of the next trial as a fraction of this step; 0: as after any other failure.
+    /// Length of the next trial over that of this step [-]; 0 stands for the usual cut after a
+    /// failure.
     double retry = 0.;
   };
 } // namespace NMM

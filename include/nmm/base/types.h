@@ -9,15 +9,29 @@
 /**
  * The second-order numerical manifold method on deal.II.
  *
- * Modules, in the order data flows (a module includes only those before it):
- * base, geometry, covers, quadrature, mechanics, dynamics, io.
+ * The library consists of modules ("rooms"), listed here in the order in which data flows: base,
+ * geometry, covers, quadrature, linear_algebra, solution, materials, mechanics, contact, fracture,
+ * dynamics, output, scene.
+ *
+ * The room `base` holds what all others use. It has no order of calls:
+ *
+ * | header | content |
+ * |---|---|
+ * | types.h | index types |
+ * | exceptions.h | InputError and NumericalFailure, the errors that users see |
+ * | assembly.h | the interface between nonlinear solvers and assemblies |
+ * | named_law.h | parameters of laws, and lists of laws that scenes choose from |
+ * | memory.h | available memory, checked before a large allocation |
+ * | program.h | MPI, exit codes and messages of programs |
+ * | step_fault.h | why the result of a step is refused |
+ * | compat.h | differences between versions of deal.II |
  */
 namespace NMM
 {
-  /// "No such thing": an index that no object has.
+  /// The index that stands for "none": no object has it.
   constexpr unsigned int invalid_index = dealii::numbers::invalid_unsigned_int;
 
-  /// Two blocks, by number.
+  /// The indices of two blocks.
   using BlockPair = std::pair<unsigned int, unsigned int>;
 } // namespace NMM
 

@@ -19,11 +19,11 @@ namespace NMM
    * a hyperbola with the initial stiffness k = normal_stiffness and the largest closure d_m,
    * @f[ p = \frac{k d}{1 - d/d_m},\qquad
    *     V = -k d_m \left(d + d_m \ln(1 - d/d_m)\right),\qquad d < d_m, @f]
-   * linear in tension (bonds), and linear beyond 0.99 d_m, so that iterations which go too
-   * far come back. Without d_m the spring is linear.
+   * linear in tension (bonds), and linear beyond 0.99 d_m, so that iterations can return from
+   * closures that are too large. With d_m = 0 the spring is linear.
    *
-   * Not modelled: the shear displacement at which the peak is reached, what is left after it,
-   * and hysteresis of the closure.
+   * Not modelled: the shear displacement at the peak, the strength after the peak, and hysteresis
+   * of the closure.
    */
   class BartonBandisLaw : public ContactLaw
   {
@@ -64,28 +64,32 @@ namespace NMM
     void
     check(const std::string &where) const override;
 
-    /// JRC_n [-].
+    /// Roughness coefficient JRC_n of a joint of the length L_n [-].
     double
     roughness() const;
 
-    /// JCS_n [Pa].
+    /// Wall compressive strength JCS_n of a joint of the length L_n [Pa].
     double
     compressive_strength() const;
 
-    /// JRC_0 [-], from 0 to 20, and JCS_0 [Pa], both of samples of the length L_0 [m].
-    double joint_roughness            = 0.;
+    /// Roughness coefficient JRC_0 of samples of the length L_0 [-], from 0 to 20.
+    double joint_roughness = 0.;
+    /// Wall compressive strength JCS_0 of samples of the length L_0 [Pa].
     double joint_compressive_strength = 0.;
-    /// phi_r [degrees].
+    /// Residual friction angle phi_r [degrees], from 0 up to below 70.
     double residual_angle = 0.;
-    /// L_0 and L_n [m]; equal ones: no correction.
-    double sample_length = 0.1, joint_length = 0.1;
-    /// d_m [m]; 0: the spring is linear.
+    /// Length L_0 of the samples [m].
+    double
+      sample_length = 0.1,
+      /// Length L_n of the joint [m]; if it equals L_0 there is no scale correction.
+      joint_length = 0.1;
+    /// Largest closure d_m of the hyperbola [m]; 0 selects a linear spring.
     double largest_closure = 0.;
-    /// The strength is divided by this, see reduce_strength().
+    /// Number by which the strength is divided [-], see reduce_strength().
     double strength_divisor = 1.;
 
   private:
-    /// Where the hyperbola goes over into its tangent [m].
+    /// Closure beyond which the hyperbola is continued by its tangent [m].
     double
     end_of_hyperbola() const
     {

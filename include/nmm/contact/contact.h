@@ -20,39 +20,46 @@
 
 namespace NMM
 {
-  /// The law of two faces, which may be the same one.
+  /// The contact law between two curves or obstacles, which may be the same one.
   struct ContactPair
   {
-    /// Names of curves or obstacles; empty: any.
-    std::string                       first, second;
+    /// Name of a curve or obstacle on one side; empty stands for any.
+    std::string first,
+      /// Name of a curve or obstacle on the other side; empty stands for any.
+      second;
+    /// Law of this pair; must not be null.
     std::shared_ptr<const ContactLaw> law;
   };
 
 
+  /// Laws, integration and search of a Contact object. The constructor of Contact calls check().
   struct ContactParameters
   {
-    /// The law of faces that no pair names.
+    /// Law of all faces to which no pair applies.
     std::shared_ptr<const ContactLaw> law;
     /// Laws between certain faces; the first pair that fits is used.
     std::vector<ContactPair> pairs;
-    /// Augmented Lagrangian: the weighted penetration that is allowed [m], see Contact;
-    /// 0 stands for the penalty method.
-    double       penetration_tolerance = 0.;
-    unsigned int max_augmentations     = 30;
+    /// Largest weighted penetration that the augmented Lagrangian method leaves [m], see Contact;
+    /// 0 selects the penalty method.
+    double penetration_tolerance = 0.;
+    /// Largest number of updates of the multipliers in a load step; a step that needs more fails.
+    unsigned int max_augmentations = 30;
     /// Candidate pairs of faces are searched for within this distance [m]; 0 stands for a tenth
     /// of the longest edge. No point may move further than this in a step.
     double reach = 0.;
-    /// Gauss-Lobatto points on each piece of an edge, at least 2.
-    unsigned int       n_points    = 4;
+    /// Number of Gauss-Lobatto points on each piece of an edge, from 2 to 20.
+    unsigned int n_points = 4;
+    /// Whether springs act per length of a face or at vertices only.
     ContactIntegration integration = ContactIntegration::length;
-    /// Of two blocks the one with the lower rank is the slave, which carries the contact points;
-    /// the softer or finer one is the better choice. Empty: a block's number is its rank.
+    /// Rank of each block: of two blocks the one with the lower rank is the slave, which carries
+    /// the contact points. The softer or finer block is the better slave. If this is empty, the
+    /// number of a block is its rank.
     std::vector<unsigned int> body_ranks;
     /// Whether assemblies of a time step skip points that cannot touch anything within it.
-    /// This changes the time that assemblies take, and no result.
+    /// This saves time and changes no result.
     bool skip_clear_points = true;
 
-    /// @throws InputError naming the value.
+    /// Check all values and laws. @throws InputError naming the value that is out of range.
     void
     check() const;
 
@@ -62,10 +69,15 @@ namespace NMM
   };
 
 
+  /// State of a contact point.
   enum class ContactState
   {
+    /// The faces are apart: there is neither pressure nor shear.
     open,
+    /// The point is closed, and its shear is that of the elastic spring.
     stick,
+    /// The point is closed, and its shear equals the strength. Closed points whose law has no
+    /// friction are counted here.
     slip
   };
 
@@ -73,92 +85,114 @@ namespace NMM
   /// A point at which a slave edge may touch a master.
   struct ContactPoint
   {
-    /// Slave edge of the surface, and the parameter of the point on it.
+    /// Number of the slave edge, an index for ContactSurface::edges().
     unsigned int edge = invalid_index;
-    double       s    = 0.;
-    /// Reference length times the cosine of the angle between both faces [m];
-    /// ContactIntegration::points: share of the vertex [-].
+    /// Parameter of the point on the slave edge, from 0 to 1 [-].
+    double s = 0.;
+    /// Integration weight: reference length times the cosine of the angle between both faces [m].
+    /// With ContactIntegration::points it is the share of the vertex [-].
     double weight = 0.;
-    /// Master edge and parameter of the nearest point on it; invalid_index if there is none.
+    /// Number of the nearest master edge; invalid_index if there is none within reach.
     unsigned int master = invalid_index;
-    double       t      = 0.;
-    /// Distance from the master along its normal, negative for penetration [m].
+    /// Parameter of the nearest point on the master edge [-]; outside of [0, 1] where the edge is
+    /// continued beyond its ends.
+    double t = 0.;
+    /// Distance from the master along its normal, negative for penetration [m]; the reach of the
+    /// search if there is no master.
     double gap = 0.;
     /// Gap at which the pressure vanishes, where dilation has opened the faces [m].
     double opening = 0.;
-    /// Force per reference length of the slave [Pa].
-    double       pressure = 0., shear = 0.;
+    /// Normal force per reference length of the slave, positive for compression [Pa].
+    double
+      pressure = 0.,
+      /// Tangential force per reference length of the slave [Pa], positive if it pushes the
+      /// master in the direction of increasing t.
+      shear = 0.;
+    /// State in the last assembly.
     ContactState state = ContactState::open;
-    /// Shear that the spring alone would exert [Pa], and whether the slip changed its sign in the
-    /// last iteration.
+    /// Shear that the spring would exert if its strength were not limited [Pa].
     double spring_shear = 0.;
-    bool   has_turned   = false;
-    /// Edge and parameter of the anchor, the material point of the master at which it sticks.
+    /// Whether the slip changed its sign in the last iteration; the secant stiffness is used then.
+    bool has_turned = false;
+    /// Edge of the anchor, the material point of the master at which the point sticks;
+    /// invalid_index as long as there is none.
     unsigned int stick_edge = invalid_index;
-    double       stick_t    = 0.;
+    /// Parameter of the anchor on its edge [-].
+    double stick_t = 0.;
     /// Multiplier of the augmented Lagrangian [Pa].
     double multiplier = 0.;
     /// Whether the point belongs to a bonded joint whose strength has not been exceeded.
     bool is_bonded = false;
-    /// Current position of the point, and normal of the master there.
-    dealii::Point<2>     x;
+    /// Current position of the point [m].
+    dealii::Point<2> x;
+    /// Unit normal of the master at the nearest point, pointing out of the master's body [-].
     dealii::Tensor<1, 2> normal;
   };
 
 
-  /// Counts and sums over all ranks.
+  /// Counts and sums of the last assembly, over all ranks.
   struct ContactReport
   {
-    unsigned int n_points = 0, n_open = 0, n_stick = 0, n_slip = 0;
+    /// Number of contact points.
+    unsigned int
+      n_points = 0,
+      /// Number of points that are open.
+      n_open = 0,
+      /// Number of points that stick.
+      n_stick = 0,
+      /// Number of points that slip; all closed ones if there is no friction.
+      n_slip = 0;
     /// Number of states that differ from those of the previous assembly.
     unsigned int n_changes = 0;
     /// Number of points that stick because their bond holds.
     unsigned int n_bonded = 0;
     /// Largest penetration over all closed points, from the nearest face of the other body [m].
     double largest_penetration = 0.;
-    /// Whether it was an assembly between two states, so that penetrations are means of both.
+    /// Whether the assembly was one of Contact::assemble_between(), whose penetrations are those in
+    /// the mean position of the step, or one at the end of such a step.
     bool is_between = false;
     /// Energy that is stored in springs [J/m].
     double energy = 0.;
-    /// Sum of the forces on the slaves [N/m].
+    /// Sum of the contact forces on the slaves [N/m].
     dealii::Tensor<1, 2> force;
   };
 
 
   /**
-   * Contact of the faces of a ContactSurface: penalty springs normal to the master,
-   * eq. (13), and along it, (h), with Coulomb's friction (14), integrated along the slave
-   * edges by Gauss-Lobatto points so that corners are points too:
+   * Contact forces and their tangent between the faces of a ContactSurface. What comes in are
+   * displacements of the covers and the time; what goes out are residual(), tangent(), report()
+   * and points(). The class knows positions and normals, not materials. All quantities are per
+   * unit thickness.
+   *
+   * Penalty springs act normal to the master, eq. (13), and along it, (h), with Coulomb's friction
+   * (14). They are integrated along the slave edges by Gauss-Lobatto points, so that the ends of
+   * edges are contact points, too:
    * @f[ \Pi = \sum_q w_q\left(\tfrac{1}{2\epsilon_n}\langle\lambda - \epsilon_n
    *     g\rangle_+^2 + \tfrac{\epsilon_t}{2} g_t^2\right). @f]
-   * Edges are divided where the other side's edges end, so that the
-   * rule is exact. The paper has springs at corners only, see ContactIntegration; here
-   * their stiffness is per length, and refinement does not change it.
+   * A slave edge is divided where edges of the other side end, so that the integrand is a
+   * polynomial on each piece. The paper has springs at corners only, see ContactIntegration; here
+   * the stiffness is per length and does not depend on the mesh.
    *
-   * Friction: the shear at a point is eps_t times the distance, along the
-   * master, from the material point of the master where it sticks; beyond
-   * q_max = p tan phi + c that anchor is dragged along (moving friction cone;
-   * Wriggers & Krstulovic-Opara, ZAMM 80 (2000)). So the history of a point is a place on the
-   * master, and nothing is lost when the point passes from one edge to the next.
+   * Friction: the shear at a point is eps_t times its distance, along the master, from its anchor,
+   * the material point of the master where it sticks. If the shear exceeds
+   * q_max = p tan phi + c the anchor is dragged along (moving friction cone; Wriggers &
+   * Krstulovic-Opara, ZAMM 80 (2000)). The history of a point is thus a place on the master, and it
+   * stays valid when the point passes from one edge to the next.
    *
-   * Corners: faces that are nearly parallel touch along the length that they have in
-   * common; a convex corner, of either side, that points at a face touches it as a point
-   * with a weight of its own, and is pushed out through the face by which it came
-   * in (Shi's entrance edge). Between 18 and 37 degrees one passes into the other. Where
-   * an end of a master lies on a slave, that corner is the contact point, so that it may
-   * slide along.
+   * Corners: faces that are nearly parallel touch along their common length. A convex corner of
+   * either side that points at a face touches it as a point with a weight of its own, and is
+   * pushed out through the face by which it came in (Shi's entrance edge). Between angles of 18 and
+   * 37 degrees both kinds of contact are blended. Where an end of a master lies on a slave, that
+   * corner is the contact point, so that it can slide along the slave.
    *
-   * Augmented Lagrangian (Uzawa's iteration; Alart & Curnier 1991): multipliers
-   * lambda_i >= 0 of functions phi_i that are continuous and linear along the slave's
-   * boundary, on stretches about as long as cells, grow by eps_n times the weighted
-   * penetration
+   * Augmented Lagrangian (Uzawa's iteration; Alart & Curnier 1991): the multipliers lambda_i >= 0
+   * belong to functions phi_i that are continuous and linear along the slave's boundary, on
+   * stretches about as long as cells. They grow by eps_n times the weighted penetration
    * @f$ -\int g\,\phi_i\,ds / \int \phi_i\,ds @f$
    * until they change by less than eps_n times the tolerance.
    *
-   * The class knows positions and normals, not materials. All quantities are per unit thickness.
-   *
-   * Order of calls. Each function asserts that it is called at one of the stages from which an
-   * arrow leads to it; set_time() and functions that only tell something may be called at any.
+   * Order of calls: each function asserts that it is called at one of the stages from which an
+   * arrow leads to it. set_time() and functions that only return something may be called at any.
    * @verbatim
    *   created <------------------------- set_absent_bodies(), from any stage
    *      | detect()
@@ -174,40 +208,44 @@ namespace NMM
    * @endverbatim
    * Statics: detect(), then assemble() in each iteration, with detect() between them where
    * faces have moved far; accept() at the solution. Time steps: detect() and begin_step() at the
-   * begin of the step, then assemble_between() (schemes that conserve energy) or assemble() in
-   * each iteration; at the end assemble() there, and accept(); or begin_step() again.
+   * beginning of the step, then assemble_between() (schemes that conserve energy) or assemble() in
+   * each iteration; at the end of the step assemble() and accept(), or begin_step() again if the
+   * step is repeated.
    *
    * Lifetime: the surface and the constraints must outlive this object.
    */
   class Contact
   {
   public:
+    /// Displacements and forces: two unknowns (x, y) for each cover.
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
+    /// The tangent, in the unknowns of Vector.
     using Matrix = dealii::TrilinosWrappers::SparseMatrix;
 
+    /// Contact at stage "created"; @p constraints are those of the unknowns of Vector.
+    /// @throws InputError for bad parameters.
     Contact(ContactSurface                          &surface,
             const dealii::AffineConstraints<double> &constraints,
             const ContactParameters                 &parameters);
     ~Contact();
 
-    /// Move the obstacles to where they are at @p time [s].
+    /// Move the obstacles to their positions at @p time [s].
     void
     set_time(double time);
 
     /**
-     * Static problems of small displacements: between two calls of detect() normals, tangents and
-     * the places of masters stay what they are at the first assembly after it, which should be
-     * at the same displacements. So forces are linear in the displacements as long as no point
-     * opens, closes, sticks or slips anew, and what geometry changes, by as little as
-     * displacements are small, follows when detect() is called again.
+     * Linearize the geometry of contact in static problems of small displacements. Normals,
+     * tangents and nearest points are then those of the first assembly after detect(), which
+     * should be at the displacements of detect(). Forces are linear in the displacements as long
+     * as no point changes its state. The geometry is updated when detect() is called again.
      */
     void
     freeze_geometry(bool is_frozen);
 
     /**
-     * Find candidates and make contact points at the displacements @p u (locally
-     * relevant). Multipliers and places of sticking are carried over. Faces are
-     * looked for within the larger of @p least_reach [m] and the parameters' reach.
+     * Find candidate pairs and make contact points at the displacements @p u (locally relevant).
+     * Multipliers and anchors are carried over. Faces are searched for within the larger of
+     * @p least_reach [m] and the parameters' reach.
      */
     void
     detect(const Vector &u, double least_reach = 0.);
@@ -223,14 +261,16 @@ namespace NMM
     void
     assemble(const Vector &u, bool with_tangent);
 
+    /// Contact forces r of the last assembly on owned unknowns [N/m].
     const Vector &
     residual() const;
 
-    /// dr/du; its sparsity pattern contains that of the elasticity, too.
+    /// dr/du of the last assembly with a tangent [N/m^2]. Its sparsity pattern includes that of
+    /// the elasticity.
     const Matrix &
     tangent() const;
 
-    /// Entries that a caller adds are lost when their row is assembled again.
+    /// The same for callers that add entries, which are lost when their row is assembled again.
     Matrix &
     tangent();
 
@@ -243,6 +283,7 @@ namespace NMM
     unsigned int
     pattern_version() const;
 
+    /// Whether tangent() after assemble() is symmetric: if no law has friction.
     bool
     tangent_is_symmetric() const;
 
@@ -254,24 +295,23 @@ namespace NMM
     const std::vector<ContactPoint> &
     points() const;
 
-    /// Take over pressures as multipliers, after an assemble() at a solution.
-    /// Returns the largest change of a multiplier over eps_n where there is
-    /// contact: the penetration that springs still held [m].
+    /// Add the weighted spring pressures to the multipliers, after an assemble() at a solution.
+    /// Returns the largest change of a multiplier, divided by eps_n: the weighted penetration that
+    /// the springs carried until now [m].
     double
     augment();
 
     /**
-     * Break bonds whose strength the last assembly exceeds: those whose stress over
-     * strength is at least @p share of the largest such ratio. What their springs held
-     * counts as dissipated. Returns the number of points of all ranks.
+     * Break bonds whose stress exceeds their strength in the last assembly and whose ratio of
+     * stress to strength is at least @p share of the largest such ratio. The energy that their
+     * springs lose counts as dissipated. Returns the number of broken points of all ranks.
      */
     unsigned int
     break_bonds(double share = 0.);
 
     /**
-     * The last assembly was that of an accepted state: points stick from now
-     * on where they are. Returns the work that friction and breaking bonds have
-     * dissipated since the last accepted state [J/m].
+     * Accept the state of the last assembly: anchors and slip are updated. Returns the energy that
+     * friction, breaking bonds and dashpots have dissipated since the last accepted state [J/m].
      */
     double
     accept();
@@ -280,12 +320,11 @@ namespace NMM
     /// @{
 
     /**
-     * A step begins at @p u and the time @p time, where detect() was called. What is
-     * found there must not bring energy with it: where the springs between
-     * two bodies would store more than at the end of the step before, because places and
-     * weights of points are others or faces come into sight that penetrate each
-     * other already, their gaps at rest are moved by so much that they store the same.
-     * Where they store less, the difference is dissipated.
+     * Begin a step at the displacements @p u and the time @p time [s], where detect() was called.
+     * The new contact points must not create energy: where the springs between two bodies would
+     * store more than at the end of the step before, because positions and weights of points
+     * have changed or faces are found that penetrate each other already, their gaps at rest are
+     * shifted so that they store the same. Where they store less, the difference is dissipated.
      */
     void
     begin_step(const Vector &u, double time);
@@ -294,10 +333,10 @@ namespace NMM
     std::vector<bool>
     pressed_bodies() const;
 
-    /// Say that the step that has begun goes to about @p u. The sparsity pattern of the tangent
-    /// then has the couplings of all pairs that may touch on the way there, and need not be made
-    /// anew within the step. Otherwise it has those of pairs that may touch until the first
-    /// assembly with a tangent.
+    /// Set @p u as the expected displacements at the end of the step that has begun. The sparsity
+    /// pattern of the tangent then has the couplings of all pairs that may touch on the way there,
+    /// and need not be rebuilt within the step. Otherwise it has those of pairs that may touch
+    /// on the way to the displacements of the first assembly with a tangent.
     void
     expect(const Vector &u);
 
@@ -306,25 +345,25 @@ namespace NMM
     largest_motion(const Vector &from, const Vector &to);
 
     /**
-     * Forces between the begin of the step and the displacements @p end at @p time,
-     * acting in the mean position, so that they exert no moment: the pressure
+     * Assemble the forces of the step from its beginning to the displacements @p end at @p time
+     * [s]. They act in the mean position, so that they exert no moment. The pressure
      * @f[ \hat p = -\frac{V(g_1) - V(g_0)}{\delta},\quad
      *     V = \tfrac{\epsilon_n}{2}\langle -g\rangle_+^2,\quad
      *     \delta = n\cdot(\Delta x_s - \Delta x_m) @f]
      * does the work by which the energy of the springs changes (Laursen & Chawla, Int.
      * J. Numer. Methods Eng. 40 (1997) 863; Gonzalez 2000). Dashpots add
-     * @f[ c\,(\langle -g_1\rangle - \langle -g_0\rangle)/h, @f] but not so much
-     * that there would be tension: what they do is always a loss. In the same way the
-     * shear of what sticks is the mean of the spring's at both ends of the slip
+     * @f[ c\,(\langle -g_1\rangle - \langle -g_0\rangle)/h @f]
+     * as far as there is no tension, so that they only dissipate. Likewise, the shear of a point
+     * that sticks is the sum of the spring's mean shear during the slip
      * @f$s=\tau\cdot(\Delta x_s - \Delta x_m)@f$ and the dashpot's,
      * @f[ \hat q = q_0 + \tfrac{\epsilon_t}{2}s + \tfrac{c_t}{h}s, @f]
-     * beginning with 0 where faces come into contact; beyond the strength it slides.
-     * tangent() is the derivative by the mean displacement at given begin: of forces
-     * in the mean position and gaps at the end, so it is not symmetric.
+     * with q_0 = 0 where faces come into contact. The point slides where this exceeds the strength.
+     * tangent() is the derivative by the mean displacement with the beginning of the step fixed.
+     * It is not symmetric, because forces depend on the mean position and on the gaps at the end.
      * Multipliers are not used.
      * tangent() is multiplied by @p tangent_factor. If @p body_matrix is not null, the tangent is
-     * added to it instead, and tangent() is undefined: on one rank, if constraints couple no
-     * unknowns; its bodies are the blocks of the mesh.
+     * added to it instead, and tangent() is undefined. This needs one rank and constraints that
+     * couple no unknowns; the bodies of the matrix are the blocks of the mesh.
      */
     void
     assemble_between(const Vector &end,
@@ -336,10 +375,10 @@ namespace NMM
     /// @name Inactive blocks, which do not move for a while
     /// @{
 
-    /// From now on assemblies skip points between two inactive bodies, which stay as the last
-    /// assembly found them; the rows of inactive bodies are undefined. Bodies that are held are
-    /// not returned by take_touched(). One entry for each block; empty: all are active, and none
-    /// is held.
+    /// Let assemblies skip points between two inactive blocks; these points stay as the last
+    /// assembly found them, and the rows of inactive blocks are undefined. Blocks that are held are
+    /// not returned by take_touched(). Both vectors have one entry for each block; if they are
+    /// empty, all blocks are active, and none is held.
     void
     set_active_bodies(const std::vector<bool> &is_active,
                       const std::vector<bool> &is_held);
@@ -362,8 +401,9 @@ namespace NMM
     /// @}
 
     /// The reason why a step from detect() to @p end, at the time that is set, must not be
-    /// accepted: a point has moved further than the reach of the search, penetrates by half of
-    /// it, or has passed through a body on the way. The last assembly must be that of @p end.
+    /// accepted, or an empty one: a point has moved further than the reach of the search,
+    /// penetrates by more than half of it, or has passed through a body on the way. The last
+    /// assembly must be that of @p end.
     StepFault
     find_fault(const Vector &end);
 
@@ -372,7 +412,7 @@ namespace NMM
     history() const;
 
     /**
-     * From now on these bodies of the surface are absent, see
+     * Remove the bodies that are set, one entry for each body of the surface, see
      * ContactSurface::set_absent_bodies(). The energy that springs against them stored at the last
      * accepted state is lost and does not count as dissipated. detect() has to be called before
      * the next assembly, unless the same bodies were absent before.
@@ -384,9 +424,11 @@ namespace NMM
     void
     restore_history(const ContactHistory &history);
 
+    /// The parameters of the constructor; a reach of 0 is replaced by the value that is used.
     const ContactParameters &
     parameters() const;
 
+    /// The surface of the constructor, at the positions of the last call.
     const ContactSurface &
     surface() const;
 

@@ -12,26 +12,33 @@
 namespace NMM
 {
   /**
-   * What contact remembers of the last accepted state, of all ranks: all that a continuation on any
-   * number of ranks needs to go on with the same bits. Made by Contact::history(), taken over
-   * by Contact::restore_history(), and serialized by boost for checkpoints.
+   * The history of contact at the last accepted state, of all ranks. A computation that continues
+   * from it gives the same results to the last bit, on any number of ranks. Contact::history()
+   * makes it, Contact::restore_history() takes it over, and boost serializes it for checkpoints.
    *
    * Edges are numbers of ContactSurface::edges(). A *place* is an edge along which contact points
-   * lie, or a corner: edge + (kind + 1) * n_edges, see Contact::Data::place_key().
+   * lie, or a corner: edge + (kind + 1) * n_edges, see internal::place_key().
    */
   struct ContactHistory
   {
-    /// Where a point at the parameter s of a place sticks.
+    /// Anchor, bond and slip of one contact point.
     struct Stick
     {
-      unsigned int place     = 0;
-      double       s         = 0.;
-      unsigned int edge      = 0;
-      double       t         = 0.;
-      bool         is_bonded = false;
-      /// Length of the way that has been slid, where the law depends on it [m].
+      /// Place of the contact point.
+      unsigned int place = 0;
+      /// Parameter of the contact point on its edge, from 0 to 1 [-].
+      double s = 0.;
+      /// Edge of the anchor.
+      unsigned int edge = 0;
+      /// Parameter of the anchor on its edge [-].
+      double t = 0.;
+      /// Whether the bond of the point holds.
+      bool is_bonded = false;
+      /// Length of the path that the point has slid [m]; 0 unless strength or dilation depend on
+      /// it.
       double slip = 0.;
 
+      /// Read or write all members.
       template <typename Archive>
       void
       serialize(Archive &archive, const unsigned int /*version*/)
@@ -40,12 +47,18 @@ namespace NMM
       }
     };
 
-    /// Energies of the normal and the shear springs between two bodies [J/m].
+    /// Energy that the springs between two bodies store.
     struct PairEnergy
     {
-      unsigned int          first = 0, second = 0;
+      /// Number of the body with the lower number.
+      unsigned int
+        first = 0,
+        /// Number of the other body; equal to the first one for contact within a body.
+        second = 0;
+      /// Energies of the normal springs and of the shear springs [J/m].
       std::array<double, 2> energies = {{0., 0.}};
 
+      /// Read or write all members.
       template <typename Archive>
       void
       serialize(Archive &archive, const unsigned int /*version*/)
@@ -54,6 +67,9 @@ namespace NMM
       }
     };
 
+    /// Read or write all members.
+    /// Read or write all members.
+    /// Read or write all members.
     template <typename Archive>
     void
     serialize(Archive &archive, const unsigned int /*version*/)
@@ -63,21 +79,26 @@ namespace NMM
           &entrances &touching &pair_energies;
     }
 
-    /// Whether a state has been accepted yet: before, faces that touch may be bonded.
+    /// Whether a state has been accepted yet. Faces that touch can become bonded only before that.
     bool has_accepted_state = false;
     /// Whether a step that conserves energy has been tried.
     bool is_conserving = false;
-    /// Multipliers of the augmented Lagrangian [Pa]; empty without.
+    /// Multipliers of the augmented Lagrangian [Pa]; empty for the penalty method.
     std::vector<double> multipliers;
-    /// Displacements of covers [m], time and distance [m] of the last search for candidates.
+    /// Displacements of covers at the last search for candidates [m]; empty before the first one.
     std::vector<double> searched_displacements;
-    double              searched_time = 0., searched_reach = 0.;
-    std::vector<Stick>  sticks;
+    /// Time of the last search for candidates [s].
+    double searched_time = 0.,
+           /// Reach of the last search for candidates [m].
+      searched_reach = 0.;
+    /// Anchors of all contact points that have a master and a law with friction.
+    std::vector<Stick> sticks;
     /// Corners (places) that are in contact, and the edge through which they came in.
     std::vector<std::pair<unsigned int, unsigned int>> entrances;
-    /// Edges that have been behind each other.
+    /// Pairs of edges that penetrate each other, and their neighbours, in both orders.
     std::vector<std::pair<unsigned int, unsigned int>> touching;
-    std::vector<PairEnergy>                            pair_energies;
+    /// Energies of all pairs of bodies in contact.
+    std::vector<PairEnergy> pair_energies;
   };
 } // namespace NMM
 

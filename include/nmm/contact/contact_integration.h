@@ -3,17 +3,17 @@
 
 namespace NMM
 {
-  /// What a spring of a contact stands for.
+  /// Where the springs of contact act, and the units of their stiffness.
   enum class ContactIntegration
   {
-    /// A length of a face; stiffness per length.
+    /// Springs are distributed along faces; their stiffness is per length [Pa/m].
     length,
     /**
-     * A vertex: eq. (13) and (h) as the paper has them. Springs are at convex corners,
-     * and on arcs where edges meet; their stiffnesses are forces over lengths, per
-     * thickness [N/m^2], dashpots [N s/m^2], pressure, shear, cohesion and tensile
-     * strength forces per thickness [N/m]. The force does not depend on the mesh, but
-     * faces between vertices bear nothing: stress near them is that of point loads.
+     * Springs act at vertices as in the paper's eq. (13) and (h): at convex corners, and on arcs
+     * where edges meet. Their stiffnesses are forces over lengths, per thickness [N/m^2], those of
+     * dashpots [N s/m^2]. Pressure, shear, cohesion and tensile strength are forces per thickness
+     * [N/m]. The force does not depend on the mesh, but faces between vertices transmit nothing,
+     * so that the stress near vertices is that of point loads.
      */
     points
   };

@@ -11,26 +11,25 @@
 namespace NMM
 {
   /**
-   * How two faces act on each other at a contact point: a stateless law. What a point remembers
-   * (where it sticks, how far it has slid, whether it is bonded) belongs to the point and is an
-   * argument.
+   * Base class of contact laws: pressure and shear strength at a contact point. Laws are
+   * stateless; the state (anchor, slip, bond) belongs to the contact point and is an argument.
    *
    * Normal direction: a spring with the potential V(d) of the penetration d = -gap [m],
    * @f[ p = V'(d),\quad d > 0; \qquad p = 0,\quad d \le 0, @f]
    * and only bonded points bear tension, p = V'(d) for d < 0.
    *
    * Shear: a linear spring, @f$ q = \epsilon_t (g_t - g_t^\mathrm{slip}) @f$, up to the
-   * strength, which may depend on the pressure and on the length kappa of the way that the
-   * point has slid, whichever way,
+   * strength, which may depend on the pressure and on the length kappa of the path that the
+   * point has slid in either direction,
    * @f[ |q| \le S(p, \kappa), \qquad \dot\kappa = |\dot g_t^\mathrm{slip}|. @f]
    *
    * Dilation: faces that slide in contact ride up on each other and open by
    * @f$ \delta = \tan\psi\,\min(\kappa, \kappa_\mathrm{max}) @f$, so that
-   * p = V'(delta + d). That is a flow rule which is not associated; Coulomb's law with it
+   * p = V'(delta + d). This is a non-associated flow rule; with it Coulomb's law
    * dissipates @f$ (p(\tan\phi-\tan\psi) + c)\,\dot\kappa \ge 0 @f$ (Plesha, Int. J. Numer. Anal.
-   * Methods Geomech. 11 (1987) 345, without wear). The opening stays with the point as long as there
-   * is a face within reach, and grows there even if the point itself is open, as long as both
-   * bodies touch somewhere.
+   * Methods Geomech. 11 (1987) 345, without wear). A point keeps its opening as long as there is a
+   * face within reach. The opening grows even at open points, as long as both bodies touch
+   * somewhere.
    *
    * Stresses are per reference length of the slave and unit thickness.
    *
@@ -41,35 +40,48 @@ namespace NMM
   public:
     virtual ~ContactLaw() = default;
 
-    /// A function's value and its derivative by its argument.
+    /// Pressure as a function of the penetration.
     struct Response
     {
-      double value = 0., derivative = 0.;
+      /// Pressure [Pa].
+      double value = 0.,
+             /// Derivative of the pressure by the penetration [Pa/m].
+        derivative = 0.;
     };
 
-    /// S [Pa] and its derivatives by the pressure [-] and by the slip [Pa/m].
+    /// Shear strength as a function of pressure and slip.
     struct Strength
     {
-      double value = 0., by_pressure = 0., by_slip = 0.;
+      /// Strength S [Pa].
+      double
+        value = 0.,
+        /// Derivative of the strength by the pressure [-].
+        by_pressure = 0.,
+        /// Derivative of the strength by the slip [Pa/m]; negative for weakening.
+        by_slip = 0.;
     };
 
+    /// A number of the law that scenes give.
     using Parameter = LawParameter;
 
+    /// A copy with the same parameters, of the same derived class.
     virtual std::unique_ptr<ContactLaw>
     clone() const = 0;
 
-    /// All parameters; those of the base class come first.
+    /// All parameters of the law, with pointers to its members; those of the base class come
+    /// first.
     virtual std::vector<Parameter>
     parameters();
 
-    /// V(d) [J/m^2] of the penetration @p d [m]; linear spring unless overridden.
+    /// Potential V(d) of the normal spring [J/m^2] at the penetration @p d [m]; that of a linear
+    /// spring unless overridden.
     virtual double
     energy(const double d) const
     {
       return 0.5 * normal_stiffness * d * d;
     }
 
-    /// p = V'(d) [Pa] and V''(d) [Pa/m].
+    /// p = V'(d) [Pa] and V''(d) [Pa/m] at the penetration @p d [m].
     virtual Response
     pressure(const double d) const
     {
@@ -83,46 +95,48 @@ namespace NMM
       return pressure / normal_stiffness;
     }
 
-    /// Mean pressure (V(d_1) - V(d_0)) / (d_1 - d_0) between two penetrations, and its
-    /// derivative by d_1.
+    /// Mean pressure (V(d_1) - V(d_0)) / (d_1 - d_0) between two penetrations [Pa], and its
+    /// derivative by d_1 [Pa/m].
     virtual Response
     mean_pressure(const double d_0, const double d_1) const
     {
       return {0.5 * normal_stiffness * (d_0 + d_1), 0.5 * normal_stiffness};
     }
 
-    /// Strength of faces that are not bonded (any more), @p pressure >= 0, @p slip >= 0.
+    /// Strength of faces that are not, or no longer, bonded, under the @p pressure >= 0 [Pa] after
+    /// the @p slip >= 0 [m].
     virtual Strength
     strength(double pressure, double slip) const = 0;
 
-    /// Shear strength of a bond under a pressure >= 0 [Pa].
+    /// Shear strength of an intact bond [Pa] under the @p pressure >= 0 [Pa].
     virtual double
     bond_strength(const double pressure) const
     {
       return strength(pressure, 0.).value;
     }
 
-    /// Whether there is any shear; otherwise faces are smooth, and points have no anchors.
+    /// Whether the law transmits shear; otherwise points have no anchors.
     virtual bool
     has_friction() const = 0;
 
-    /// Whether the strength depends on the slip, which then is kept.
+    /// Whether the strength depends on the slip, so that points have to store it.
     virtual bool
     depends_on_slip() const
     {
       return false;
     }
 
-    /// Divide the strength by @p factor, and whatever has to follow it; for a search for the
-    /// factor of safety.
+    /// Divide the shear and tensile strength by @p factor [-], and reduce other parameters that
+    /// the strength bounds. Used by the strength reduction method.
     virtual void
     reduce_strength(double factor) = 0;
 
-    /// @throws InputError naming the value and @p where it is. Laws check theirs as well.
+    /// Check all parameters; derived laws check their own in addition. @throws InputError naming
+    /// the value and @p where it is.
     virtual void
     check(const std::string &where) const;
 
-    /// delta after the slip kappa [m].
+    /// Opening delta by dilation after the slip kappa [m].
     double
     opening(const double slip) const
     {
@@ -130,14 +144,14 @@ namespace NMM
              (dilation_limit == 0. ? slip : std::min(slip, dilation_limit));
     }
 
-    /// eps_t [Pa/m].
+    /// Stiffness eps_t of the shear spring [Pa/m].
     double
     shear_spring() const
     {
       return shear_stiffness == 0. ? normal_stiffness : shear_stiffness;
     }
 
-    /// What a shear spring stores [J/m^2] under the shear @p q [Pa].
+    /// Energy of the shear spring [J/m^2] under the shear @p q [Pa].
     double
     shear_energy(const double q) const
     {
@@ -146,32 +160,37 @@ namespace NMM
 
     /// V''(0), the penalty eps_n: pressure over small penetrations [Pa/m].
     double normal_stiffness = 0.;
-    /// eps_t: shear over elastic slip [Pa/m]; 0: that of the normal direction.
+    /// eps_t: shear over elastic slip [Pa/m]; 0 stands for the normal stiffness.
     double shear_stiffness = 0.;
     /**
-     * Dashpots in time steps that conserve energy: pressure over the rate of
-     * penetration and shear over that of the elastic slip [Pa s/m]. Never tension.
-     * A share xi of the critical one for faces with the mass m per area is
-     * @f$ 2\xi\sqrt{\epsilon m} @f$. Other steps do without.
+     * Dashpot constant of the normal direction: pressure over the rate of penetration [Pa s/m].
+     * Dashpots act only in time steps that conserve energy, and never exert tension. For faces of
+     * the mass m per area the constant of the damping ratio xi is @f$ 2\xi\sqrt{\epsilon m} @f$.
      */
-    double normal_damping = 0., shear_damping = 0.;
+    double
+      normal_damping = 0.,
+      /// Dashpot constant of the shear direction: shear over the rate of elastic slip [Pa s/m].
+      shear_damping = 0.;
     /**
-     * A joint whose faces are bonded where they touch when the computation begins.
-     * The bond bears tension up to @p tensile_strength [Pa] and shear up to
-     * bond_strength(); where one of them is exceeded it breaks, and from then on the faces
-     * have the strength of faces that are not bonded.
+     * Whether the faces of the joint are bonded where they touch when the computation begins.
+     * The bond bears tension up to the tensile strength and shear up to bond_strength(). Where one
+     * of them is exceeded the bond breaks, and strength() holds from then on.
      */
-    bool   is_bond          = false;
+    bool is_bond = false;
+    /// Tension at which a bond breaks [Pa]; 0 for faces that are not bonded.
     double tensile_strength = 0.;
-    /// Tangent of the dilation angle psi [-], and the slip kappa_max beyond which nothing
-    /// opens any more [m]; 0: no limit.
-    double dilation = 0., dilation_limit = 0.;
+    /// Tangent of the dilation angle psi [-].
+    double
+      dilation = 0.,
+      /// Slip kappa_max beyond which the opening no longer grows [m]; 0 stands for no limit.
+      dilation_limit = 0.;
   };
 
 
+  /// A contact law with the name and documentation by which scenes choose it.
   using NamedContactLaw = NamedLaw<ContactLaw>;
 
-  /// All laws; the first one is the default.
+  /// All laws with their default parameters; the first one is the default law.
   const std::vector<NamedContactLaw> &
   contact_laws();
 } // namespace NMM

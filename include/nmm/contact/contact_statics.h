@@ -12,14 +12,15 @@
 namespace NMM
 {
   /**
-   * Elasticity and contact as one system of equations: forces add, the tangent is
-   * the sum. Without candidates it is the elasticity alone.
+   * Elasticity and contact as one system of equations for Newton's method: forces and tangents
+   * are added. If there are no candidate pairs, the system is the elasticity alone.
    *
    * Lifetime: both must outlive this object.
    */
   class ContactSystem : public NonlinearSystem
   {
   public:
+    /// Combine two systems with the same unknowns.
     ContactSystem(NonlinearSystem &elasticity, Contact &contact);
     ~ContactSystem() override;
 
@@ -31,9 +32,12 @@ namespace NMM
     const Vector &
     residual() const override;
 
+    /// Sum of both tangents, stored in the matrix of the contact; the tangent of the elasticity if
+    /// there are no candidate pairs.
     const dealii::TrilinosWrappers::SparseMatrix &
     tangent() const override;
 
+    /// Whether both tangents are symmetric.
     bool
     tangent_is_symmetric() const override;
 
@@ -52,55 +56,66 @@ namespace NMM
   /// A load step with contact that converged.
   struct ContactStep : public LoadStep
   {
-    unsigned int  n_augmentations = 0;
+    /// Number of updates of the multipliers in the step; 0 for the penalty method.
+    unsigned int n_augmentations = 0;
+    /// Report of the contact at the end of the step.
     ContactReport contact;
-    /// Energy dissipated in the step by friction and breaking bonds, and by inelastic materials
-    /// [J/m].
-    double dissipated = 0., dissipated_by_material = 0.;
+    /// Energy dissipated in the step by friction and breaking bonds [J/m].
+    double dissipated = 0.,
+           /// Energy dissipated in the step by inelastic materials [J/m].
+      dissipated_by_material = 0.;
   };
 
 
   /**
-   * Static equilibrium of elastic bodies in contact under growing load, obstacles
-   * being where they are at the time that equals the load factor.
+   * Static equilibrium of elastic bodies in contact under growing load. The load factor is also
+   * the time at which the positions of obstacles are taken.
    *
-   * Each step: Newton's method for displacements and contact states together
-   * (points open, stick and slip as they come: a semi-smooth Newton method); then
-   * candidates and divisions are found anew at the solution and, with a
-   * penetration tolerance, multipliers are updated; again, until residual and penetration
-   * are below their tolerances. All loops are bounded: a step converges, or
-   * it is halved, with the reason.
+   * In each step a semi-smooth Newton method solves for displacements and contact states (open,
+   * stick, slip) together. Then candidate pairs and contact points are updated at the solution
+   * and, with a penetration tolerance, multipliers, too. This is repeated until residual and
+   * penetration are below their tolerances. All loops are bounded: a step converges, or it is
+   * halved, with the reason.
+   *
+   * Order of calls: the constructor, run(), then solution().
+   * Lifetime: the elasticity and the contact must outlive this object.
    */
   class ContactStatics
   {
   public:
+    /// Displacements, see NonlinearSystem.
     using Vector = NonlinearSystem::Vector;
 
+    /// Solver for @p elasticity with the forces of @p contact, both on the same covers.
     ContactStatics(
       ElasticSystem          &elasticity,
       Contact                &contact,
       const NewtonParameters &newton = default_newton_parameters());
     ~ContactStatics();
 
+    /// Newton parameters for contact: up to 25 iterations, always with a line search, and no
+    /// criterion on the energy.
     static NewtonParameters
     default_newton_parameters();
 
-    /// See NonlinearStatics::run(). @throws InputError for blocks that overlap an
-    /// obstacle before the first step.
+    /// Apply the load in @p steps, see NonlinearStatics::run(), and call @p after_step after each
+    /// one that converged. @throws InputError for blocks that overlap an obstacle before the first
+    /// step.
     std::vector<ContactStep>
     run(const LoadSteps &steps,
         const std::function<void(const ContactStep &, const Vector &)>
           &after_step = {});
 
-    /// Displacements [m], locally relevant.
+    /// Displacements after the last step that converged [m], locally relevant.
     const Vector &
     solution() const;
 
-    /// See NonlinearStatics.
+    /// The load step that was tried last, see NonlinearStatics::last_attempt().
     const LoadStep &
     last_attempt() const;
 
-    /// See NonlinearStatics.
+    /// Displacements at which the last search for an equilibrium failed [m], locally relevant, see
+    /// NonlinearStatics::last_iterate().
     const Vector &
     last_iterate() const;
 

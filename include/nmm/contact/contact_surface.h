@@ -16,17 +16,18 @@
 namespace NMM
 {
   /**
-   * A body that does not deform and has no unknowns: walls, floors, the plates of
+   * A body that does not deform and has no unknowns, such as a wall, a floor or the plate of
    * a press.
    */
   struct RigidObstacle
   {
-    /// For messages and laws of contact.
+    /// Name by which messages and contact laws refer to it.
     std::string name;
-    /// Its boundary, the body on the left; each piece starts where the last one
-    /// ended. It need not be closed. Full circles are no pieces: give arcs.
+    /// Boundary of the obstacle, with the body on the left; each piece starts where the last one
+    /// ended. It need not be closed. Full circles are not accepted: give two arcs.
     std::vector<CurvePiece> pieces;
-    /// Displacement [m] at a time (or load factor); empty: at rest.
+    /// Displacement [m] as a function of time [s] (statics: the load factor); empty for an
+    /// obstacle at rest.
     std::function<dealii::Tensor<1, 2>(double)> displacement;
   };
 
@@ -41,56 +42,79 @@ namespace NMM
    * arc, so that arcs stay arcs. t beyond [0, 1] continues the curve and the
    * polynomial.
    *
-   * Every rank holds all edges.
+   * What comes in: the cover system and the obstacles, then displacements (set_displacements() or
+   * set_state()) and the time (set_time()). What goes out: positions, derivatives and normals at
+   * any place of an edge. Every rank holds all edges.
    *
    * Lifetime: the cover system must outlive this object.
    */
   class ContactSurface
   {
   public:
-    /// What the boundary does where an edge meets the next one.
+    /// Shape of the boundary where an edge meets the next one, in the reference configuration.
     enum class Corner
     {
+      /// The boundary turns by less than 1e-3 rad.
       smooth,
+      /// The angle inside the body is less than 180 degrees.
       convex,
+      /// The angle inside the body is more than 180 degrees; tips of cracks are concave, too.
       concave,
       /// No edge follows.
       end
     };
 
-    /// What straight edges are asked for most lies in one line of the cache, and what arcs
-    /// need comes last: edges are met all over the memory.
+    /// An edge in the reference configuration. The members that straight edges need most often
+    /// share one cache line, and those of arcs come last, because access to edges is random.
     struct alignas(64) Edge
     {
-      /// See ElementEdge [m].
-      dealii::Point<2> start, end;
-      double           radius = 0.;
+      /// First point, see ElementEdge [m].
+      dealii::Point<2> start,
+        /// Last point [m].
+        end;
+      /// Signed radius of an arc, 0 for straight edges, see ElementEdge [m].
+      double radius = 0.;
       /// Manifold element, invalid_index for obstacles.
       unsigned int element = invalid_index;
       /// Block; for obstacle i the number of blocks + i.
       unsigned int body = invalid_index;
-      /// Along the boundary, or invalid_index.
-      unsigned int previous = invalid_index, next = invalid_index;
-      Corner       at_start = Corner::end, at_end = Corner::end;
-      /// Map to the reference coordinates of the element's cell: xi = inverse (X - origin).
-      dealii::Point<2>     origin;
+      /// Edge before this one along the boundary, or invalid_index.
+      unsigned int previous = invalid_index,
+                   /// Edge after this one along the boundary, or invalid_index.
+        next = invalid_index;
+      /// Corner between the previous edge and this one.
+      Corner at_start = Corner::end,
+             /// Corner between this edge and the next one.
+        at_end = Corner::end;
+      /// Origin of the map xi = inverse (X - origin) to the reference coordinates of the element's
+      /// cell [m].
+      dealii::Point<2> origin;
+      /// Inverse of the Jacobian matrix of the element's cell [1/m].
       dealii::Tensor<2, 2> inverse;
-      /// [m]
+      /// Length [m].
       double length = 0.;
       /// Curve of the physical mesh, invalid_index for obstacles.
       unsigned int curve = invalid_index;
-      /// Arcs: see ElementEdge [m], and angles of start and end [rad].
+      /// Centre of an arc [m].
       dealii::Point<2> center;
-      double           first_angle = 0., last_angle = 0.;
+      /// Polar angle of the start of an arc about its centre [rad].
+      double
+        first_angle = 0.,
+        /// Polar angle of its end [rad]; less than first_angle if the arc runs clockwise.
+        last_angle = 0.;
     };
 
-    /// Position [m] and derivatives by t [m].
+    /// A place on an edge.
     struct Place
     {
-      dealii::Point<2>     x;
-      dealii::Tensor<1, 2> a, b;
+      /// Position [m].
+      dealii::Point<2> x;
+      /// First derivative of the position by t [m], tangent to the edge.
+      dealii::Tensor<1, 2> a,
+        /// Second derivative of the position by t [m].
+        b;
 
-      /// Unit normal out of the body.
+      /// Unit normal, pointing out of the body [-].
       dealii::Tensor<1, 2>
       normal() const
       {
@@ -99,29 +123,34 @@ namespace NMM
       }
     };
 
-    /// Weight functions of the element at a place.
+    /// Weight functions of the edge's element at a place, in the order of covers().
     struct WeightValues
     {
+      /// Number of weight functions; 0 for obstacles.
       unsigned int n = 0;
-      double       w[WeightFunctions::max_per_cell];
+      /// Values [-]; the first n are valid.
+      double w[WeightFunctions::max_per_cell];
     };
 
-    /// And derivatives by t.
+    /// Weight functions of the edge's element at a place, with derivatives by t.
     struct Weights : public WeightValues
     {
+      /// First derivatives by t [-].
       double dw[WeightFunctions::max_per_cell];
+      /// Second derivatives by t [-].
       double ddw[WeightFunctions::max_per_cell];
     };
 
-    /// Along straight edges displacements are polynomials d[0] + d[1] t + d[2] t^2 [m].
+    /// Displacement along a straight edge, which is a polynomial in t.
     struct alignas(64) EdgeDisplacement
     {
+      /// Coefficients of d[0] + d[1] t + d[2] t^2 [m].
       dealii::Tensor<1, 2> d[3];
     };
 
     /**
-     * @p obstacles are numbered after the blocks. The covers of all edges are made
-     * relevant to all ranks, so vectors have to be laid out afterwards.
+     * Collect all edges. In the numbering of bodies @p obstacles follow the blocks. The covers of
+     * all edges are made relevant to all ranks, so vectors have to be laid out afterwards.
      * @throws InputError for an obstacle whose pieces do not follow each other,
      * have no length or are full circles.
      */
@@ -132,54 +161,60 @@ namespace NMM
     ContactSurface &
     operator=(const ContactSurface &) = delete;
 
+    /// All edges: those of blocks in the order of their elements, then those of obstacles.
     const std::vector<Edge> &
     edges() const
     {
       return all_edges;
     }
 
+    /// The obstacles of the constructor.
     const std::vector<RigidObstacle> &
     obstacles() const;
 
+    /// The cover system of the constructor.
     const CoverSystem &
     cover_system() const;
 
+    /// Number of blocks and obstacles.
     unsigned int
     n_bodies() const;
 
+    /// Whether an edge belongs to an obstacle.
     bool
     is_rigid(const unsigned int edge) const
     {
       return all_edges[edge].element == invalid_index;
     }
 
-    /// Edges of elements that this rank owns.
+    /// Edges of elements that this rank owns, first and past-the-end.
     std::pair<unsigned int, unsigned int>
     locally_owned_edges() const;
 
-    /// Bodies that are not there: blocks that have left the model and obstacles that have been
-    /// released. Nothing touches them, and they are in no picture. By body.
+    /// Set which bodies are absent, one entry for each body: blocks that have left the model and
+    /// obstacles that have been released. They take part neither in contact nor in pictures.
     void
     set_absent_bodies(std::vector<bool> is_absent);
 
+    /// For each body, whether it is absent; none is unless set_absent_bodies() has been called.
     const std::vector<bool> &
     absent_bodies() const
     {
       return is_body_absent;
     }
 
-    /// Whether the body of an edge is not there.
+    /// Whether the body of an edge is absent.
     bool
     is_absent(const unsigned int edge) const
     {
       return is_body_absent[all_edges[edge].body];
     }
 
-    /// Obstacles move to where they are at @p time.
+    /// Move the obstacles to their positions at @p time [s].
     void
     set_time(double time);
 
-    /// Obstacles move to the mean of where they are at two times.
+    /// Move the obstacles to the mean of their positions at two times [s].
     void
     set_time(double time_begin, double time_end);
 
@@ -188,9 +223,9 @@ namespace NMM
     obstacle_displacement(unsigned int obstacle) const;
 
     /**
-     * Blocks cannot overlap each other in the reference configuration, but obstacles
-     * can. Of an obstacle that is not closed, what lies behind it altogether is no
-     * overlap.
+     * Check that no block overlaps an obstacle; blocks cannot overlap each other in the reference
+     * configuration. A block that lies entirely behind an obstacle that is not closed counts as
+     * no overlap.
      * @throws InputError if a block and an obstacle overlap by more than
      * @p tolerance [m] at the time that was set, with how much and where.
      */
@@ -198,49 +233,52 @@ namespace NMM
     check_initial_overlap(double tolerance) const;
 
     /**
-     * How deep bodies are in each other at the current displacements and time [m]: the
-     * largest distance of a corner, or of an edge's middle, of a block that lies
-     * inside of another one or behind an obstacle from the boundary of that
-     * one. Of all blocks, whether they are in contact or not, by Boost.Geometry
-     * and without anything that the contact knows: what it says can be checked by this.
-     * Edges count as two chords. A corner of an obstacle in a block is not seen, nor is
-     * what lies beyond the ends of an obstacle that is not closed.
+     * Largest overlap of bodies at the current displacements and time [m]. Of all corners and
+     * middles of edges of blocks that lie inside of another block or behind an obstacle, it is the
+     * largest distance from the boundary of that body. All blocks are examined with
+     * Boost.Geometry, independently of Contact, so that this can verify the penetrations that
+     * Contact reports. Edges are approximated by two chords. Corners of obstacles inside of a
+     * block and points beyond the ends of an obstacle that is not closed are not detected.
      */
     double
     largest_overlap() const;
 
-    /// Displacements: two per cover of the whole system [m]; to be called again
-    /// whenever they change. Must outlive their use.
+    /// Set the displacements: two for each cover of the whole system [m]. Call this again whenever
+    /// they change. The vector must outlive its use.
     void
     set_displacements(const std::vector<double> *nodal);
 
-    /// What set_displacements() makes of them, to keep several of them side by side.
+    /// Displacements as set_displacements() stores them, for callers that need several states.
     struct State
     {
-      std::vector<double>           nodal;
+      /// Two displacements for each cover of the whole system [m].
+      std::vector<double> nodal;
+      /// Displacements along edges, by edge; valid for straight edges of blocks only.
       std::vector<EdgeDisplacement> edges;
     };
 
+    /// A copy of the current displacements.
     State
     state() const;
 
-    /// The covers of an edge have moved.
+    /// Update the displacement of an edge in @p state after its covers in state.nodal have moved.
     void
     update(State &state, unsigned int edge) const;
 
-    /// As set_displacements() with its displacements. Must outlive their use.
+    /// Set the displacements of @p state, without work at each edge. The state must outlive its
+    /// use.
     void
     set_state(const State &state);
 
-    /// X(t) [m], and derivatives.
+    /// Reference position X(t) [m] and its derivatives.
     Place
     reference_place(unsigned int edge, double t) const;
 
-    /// x(t) at the current displacements and time.
+    /// Current position x(t) [m] and its derivatives, at the current displacements and time.
     Place
     place(unsigned int edge, double t) const;
 
-    /// x(t) - X(t), with the digits that positions have no room for [m].
+    /// Displacement x(t) - X(t) [m], without the rounding of a difference of positions.
     dealii::Tensor<1, 2>
     displacement(unsigned int edge, double t) const;
 
@@ -257,9 +295,9 @@ namespace NMM
       return result;
     }
 
-    /// Is a point surely further than @p distance [m] from all places
-    /// -before <= t <= 1 + after, both at most 1/2? For straight edges; of arcs this is
-    /// not known. Much less work than looking for the nearest place.
+    /// Whether a point is certainly further than @p distance [m] from all places
+    /// -before <= t <= 1 + after of an edge, both parameters being at most 1/2. Always false for
+    /// arcs. This costs much less than the search for the nearest place.
     bool
     is_further(unsigned int            edge,
                const dealii::Point<2> &x,
@@ -267,10 +305,12 @@ namespace NMM
                double                  before,
                double                  after) const;
 
+    /// Weight functions of the edge's element at the parameter @p t, and their derivatives by t.
     void
     weights(unsigned int edge, double t, Weights &weights) const;
 
-    /// Position of a place with given weights: less work than place().
+    /// Current position [m] of the place whose @p reference position [m] and @p weights are known;
+    /// cheaper than place().
     dealii::Point<2>
     position(unsigned int            edge,
              const dealii::Point<2> &reference,
@@ -280,18 +320,19 @@ namespace NMM
     dealii::ArrayView<const unsigned int>
     covers(unsigned int edge) const;
 
-    /// For people: the curve's or obstacle's name.
+    /// Name of the edge's curve or obstacle.
     std::string
     name(unsigned int edge) const;
 
   private:
-    /// Distance from an obstacle.
+    /// Distance of a point from an obstacle.
     struct Nearest
     {
-      /// Distance from its nearest point [m], and the same with a sign, negative behind the face.
+      /// Distance from the nearest point of the obstacle [m].
       double distance = std::numeric_limits<double>::max();
-      double gap      = 0.;
-      /// The nearest point is an end of a chain that is not closed.
+      /// The same with a sign, negative behind the face [m].
+      double gap = 0.;
+      /// Whether the nearest point is an end of an obstacle that is not closed.
       bool is_open_end = false;
     };
 
@@ -329,14 +370,17 @@ namespace NMM
     std::pair<unsigned int, unsigned int> owned;
     unsigned int                          degree, n_blocks;
     const std::vector<double>            *nodal = nullptr;
-    /// Displacements along edges of blocks, from set_displacements(), and those in use.
+    /// Displacements along edges that set_displacements() computes.
     std::vector<EdgeDisplacement> edge_displacements;
-    const EdgeDisplacement       *current = nullptr;
-    /// For the elements of straight edges, one edge after the other, at t = 0: weight functions and
-    /// their first and half their second derivatives by t.
+    /// Displacements along edges in use: edge_displacements or those of set_state().
+    const EdgeDisplacement *current = nullptr;
+    /// Weight functions of straight edges at t = 0, one edge after the other: values, first
+    /// derivatives by t and half of the second ones.
     std::vector<std::array<double, 3>> start_weights;
-    std::vector<unsigned int>          start_weights_begin;
-    /// Construction only: edge of an element's boundary position.
+    /// First entry of start_weights of each edge, and the number of all entries.
+    std::vector<unsigned int> start_weights_begin;
+    /// Edge of the surface for (element, position in the element's boundary), ascending; used in
+    /// the constructor only.
     std::vector<std::pair<std::pair<unsigned int, unsigned int>, unsigned int>>
       position_to_edge;
   };

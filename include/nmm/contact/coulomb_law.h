@@ -8,12 +8,12 @@ namespace NMM
   /**
    * Coulomb's friction with cohesion,
    * @f[ S = p\tan\phi + \min(c, 1000\,p). @f]
-   * Bonds have the strength p tan(phi) + c until they break, and then no cohesion.
+   * Bonds have the strength p tan(phi) + c until they break; after that there is no cohesion.
    *
    * If cohesion acted in full as soon as faces touch, shear would jump where a point closes or
    * opens, and the point might have no equilibrium: with its cohesion it opens, without it closes.
-   * So cohesion grows in proportion to the pressure up to a thousandth of c, which no balance of
-   * blocks notices.
+   * So cohesion grows in proportion to the pressure until that is a thousandth of c, which is
+   * negligible in the equilibrium of blocks.
    */
   class CoulombLaw : public ContactLaw
   {
@@ -52,9 +52,9 @@ namespace NMM
     void
     check(const std::string &where) const override;
 
-    /// tan phi [-].
+    /// Friction coefficient tan phi [-].
     double friction = 0.;
-    /// c: what cohesion adds to the shear strength of faces in contact [Pa].
+    /// Cohesion c, the part of the shear strength that does not depend on the pressure [Pa].
     double cohesion = 0.;
 
   protected:

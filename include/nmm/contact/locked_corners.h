@@ -8,28 +8,33 @@
 
 namespace NMM
 {
-  /// See find_locked_corners().
+  /// A corner of a block that a face of another body keeps from sliding, see
+  /// find_locked_corners().
   struct LockedCorner
   {
+    /// Position of the corner in the reference configuration [m].
     dealii::Point<2> place;
-    unsigned int     block = invalid_index;
-    /// Names of the face it lies on, and of the one that it would run into.
-    std::string along, ahead;
+    /// Number of the block.
+    unsigned int block = invalid_index;
+    /// Name of the curve or obstacle on which the block lies.
+    std::string along,
+      /// Name of the curve or obstacle into which the corner would slide.
+      ahead;
   };
 
 
   /**
-   * Corners of blocks that lie on a face of another body exactly as far as that face goes, where
-   * another face begins that rises before them: a sliding plane that ends at the toe of a slope
-   * with level ground before it, the point of a wedge in a corner of its base. A block cannot
-   * slide that way without going into the ground, however sharp its corner: the corner bears as
-   * much as the ground does, and the block stands where limit equilibrium, which knows no
-   * corners, lets it slide.
+   * Find corners of blocks that cannot slide because another face begins exactly where the face
+   * below them ends. Examples are a sliding plane that ends at the toe of a slope with level ground
+   * in front of it, and the tip of a wedge in a corner of its base. Such a block cannot slide
+   * without penetrating the ground, however sharp its corner is. It is stable in the computation
+   * where limit equilibrium, which neglects corners, predicts sliding.
    *
-   * Found are convex corners at which one side lies along a face that ends there, the other side
-   * is free, and another body's face is less than 60 degrees ahead of the way down the first one.
-   * Uphill, against @p gravity, nothing slides; zero: every way counts. In the reference
-   * configuration. Cost: O(n log n) for n edges.
+   * The result are convex corners at which one side lies along a face that ends there, the other
+   * side is free, and a face of another body begins less than 60 degrees off the direction of
+   * sliding. Directions against @p gravity (any unit) do not count; if @p gravity is zero, all
+   * directions count. Positions are those of the reference configuration.
+   * Cost: O(n log n) for n edges.
    */
   std::vector<LockedCorner>
   find_locked_corners(const ContactSurface       &surface,

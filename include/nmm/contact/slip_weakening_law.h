@@ -11,11 +11,12 @@ namespace NMM
    * @f[ S = p\,\tan\phi(\kappa) + c(\kappa),\quad
    *     \tan\phi = \tan\phi_r + w (\tan\phi_p - \tan\phi_r),\quad
    *     c = c_r + w (c_p - c_r),\quad w = \langle 1 - \kappa / L\rangle_+ @f]
-   * (Ida, J. Geophys. Res. 77 (1972) 3796). Peak values are those of CoulombLaw,
-   * and as there cohesion grows with the first thousandth of it of pressure.
+   * (Ida, J. Geophys. Res. 77 (1972) 3796). Peak values are those of CoulombLaw. As there, cohesion
+   * grows in proportion to the pressure until that is a thousandth of the cohesion.
    *
-   * If strength falls faster than the shear spring lets go, @f$ -dS/d\kappa > \epsilon_t @f$,
-   * the shear jumps to where both meet: then the shear spring is too soft for the law.
+   * If the strength falls faster than the shear spring unloads, @f$ -dS/d\kappa > \epsilon_t @f$,
+   * the shear jumps to the value at which both agree. The shear spring is then too soft for the
+   * law.
    */
   class SlipWeakeningLaw : public CoulombLaw
   {
@@ -44,11 +45,11 @@ namespace NMM
     void
     check(const std::string &where) const override;
 
-    /// tan phi_r [-].
+    /// Residual friction coefficient tan phi_r [-], at most the peak one.
     double residual_friction = 0.;
-    /// c_r [Pa].
+    /// Residual cohesion c_r [Pa].
     double residual_cohesion = 0.;
-    /// L [m].
+    /// Slip L over which the strength falls to its residual value [m].
     double weakening_length = 0.;
   };
 } // namespace NMM

@@ -10,47 +10,48 @@
 
 namespace NMM
 {
-  /// What is done about covers with too little support.
+  /// Treatment of covers whose support within the solid is too small.
   enum class Stabilization
   {
-    /// Nothing: the plain method of the paper.
+    /// No treatment: the plain method of the paper.
     none,
-    /// Express them through a well-supported neighbour by polynomial extension.
+    /// Constrain them to the polynomial of a well-supported element nearby, see Aggregation.
     aggregation,
-    /// Penalize the difference of neighbours' polynomials, see GhostPenalty.
+    /// Penalize the difference between polynomials of neighbours, see GhostPenalty.
     ghost_penalty
   };
 
 
   /**
-   * Least element_support() [-] that makes an element *good*. Measured on a disk
-   * at 200 places of the mesh, thresholds 0.002, 0.005, 0.01, 0.02, 0.05, 0.1:
-   * largest condition number 31, 9, 4.9, 2.7, 2.8, 3.0 times the uncut one,
-   * largest L2 error 1.07, 1.09, 1.15, 1.15, 1.22, 1.33 times.
+   * Least element_support() [-] of an element that can be a root. Measured on a disk at 200
+   * positions relative to the mesh, with the thresholds 0.002, 0.005, 0.01, 0.02, 0.05, 0.1: the
+   * largest condition number is 31, 9, 4.9, 2.7, 2.8, 3.0 times the uncut one, the largest L2
+   * error 1.07, 1.09, 1.15, 1.15, 1.22, 1.33 times.
    */
   constexpr double default_aggregation_threshold = 0.02;
 
   /**
-   * The *root* of each element: itself if its element_support() is at least
-   * @p threshold, else the nearest such element of the same connected set
-   * (breadth-first search over ManifoldMesh::joined(), three layers of elements
-   * at most, ten for slivers on a mesh that is not distributed). Where there is none, as in long thin arms of a region, the
-   * element with the largest support becomes a root all the same, and so on: a
-   * polynomial continued far is worse than one with little support. What is
-   * equal to rounding is chosen by place, so that neither the numbering nor
-   * the number of ranks counts.
+   * The *root* of each element: the element itself if its element_support() is at least the
+   * threshold, else the nearest such element of the same connected set (breadth-first search over
+   * ManifoldMesh::joined(), three layers of elements at most, ten for slivers on a mesh that is
+   * not distributed). Where there is none, as in long thin arms of a region, the element with the
+   * largest support becomes a root, and so on, because a polynomial that is extended far is worse
+   * than one with little support. Ties up to rounding are decided by position, so that the
+   * result depends neither on the numbering nor on the number of ranks.
    *
-   * On a distributed mesh the numbers are those of this rank's elements, and
-   * invalid_index stands for an element that it does not hold; those of owned elements and
-   * three layers around them are known.
+   * On a distributed mesh the numbers are those of this rank's elements, and invalid_index stands
+   * for an element that it does not hold. Roots of owned elements and of three layers around them
+   * are known.
    */
   struct ElementRoots
   {
+    /// Root of each element; itself for roots.
     std::vector<unsigned int> element_to_root;
     /// The neighbour through which an element found its root; itself for roots.
     std::vector<unsigned int> element_to_parent;
   };
 
+  /// Find the roots of all elements; @p threshold: least element_support() of a root [-].
   /// Collective on a distributed mesh.
   ElementRoots
   find_roots(const ManifoldMesh &mesh, double threshold);
@@ -60,35 +61,35 @@ namespace NMM
    * Cover aggregation (Badia, Verdugo & Martin, arXiv 1709.09122, for physical
    * covers instead of cells).
    *
-   * A cover that no root element uses is constrained to the polynomial of a
-   * root, that of its largest element, see find_roots(), evaluated at the
-   * cover's node:
+   * A cover that no root element uses is constrained to the polynomial of one root, evaluated at
+   * the cover's node. That root is the one of the cover's largest element, see find_roots():
    * @f[ u_k = \sum_j w_j^{root}(x_k)\,u_{root,j} @f]
-   * So a sliver that vanishes leaves nothing behind: its polynomial is its
-   * root's.
-   * Polynomials of the element's degree are kept exactly, nothing couples
-   * across a joint, and the covers of roots are never constrained themselves.
+   * On a sliver the displacement is thus the polynomial of its root, however small the sliver is.
+   * Polynomials of the element's degree are reproduced exactly, no unknowns are coupled across a
+   * joint, and the covers of roots are never constrained themselves.
+   *
+   * Order of calls: aggregate(), then make_constraints() for the unknowns of a system.
    */
   struct Aggregation
   {
-    /// Root element of each element (itself if good).
+    /// Root element of each element; itself for roots.
     std::vector<unsigned int> element_to_root;
     /// Constrained covers, ascending, each with its root element. On a distributed mesh
     /// those of owned elements and of their neighbours.
     std::vector<std::pair<unsigned int, unsigned int>> cover_to_root;
-    /// Is the cover free, i.e. not constrained?
+    /// For each cover, whether it is free, that is, not constrained.
     std::vector<bool> is_free;
   };
 
   /**
-   * Find roots. Extends the relevant covers of @p covers by those of the roots
-   * this rank needs. Collective.
+   * Find the roots and the constrained covers. The relevant covers of @p covers are extended by
+   * those of the roots that this rank needs. Collective.
    */
   Aggregation
   aggregate(CoverSystem &covers,
             double       threshold = default_aggregation_threshold);
 
-  /// The aggregation as constraints on the unknowns, closed.
+  /// The aggregation as closed constraints on the unknowns, @p n_components per cover.
   dealii::AffineConstraints<double>
   make_constraints(const CoverSystem &covers,
                    const Aggregation &aggregation,
@@ -96,28 +97,27 @@ namespace NMM
 
 
   /**
-   * Ghost penalty (Burman 2010), the alternative to aggregation: all covers stay
-   * unknowns, and where an element has too little area, the energy of the
-   * difference between its polynomial and its neighbour's, each continued over
-   * both cells, is added to the system (the "direct" form of Preuss 2018 and
-   * Lehrenfeld & Olshanskii, arXiv 1803.05817, with the strain energy instead of
-   * the L2 norm, so that there is no length to choose and stretched cells are
-   * no special case):
+   * Ghost penalty (Burman 2010), the alternative to aggregation. All covers stay unknowns, and for
+   * elements with too little support an energy is added to the system: that of the difference
+   * between the polynomials of the element and its neighbour, both extended over both cells. This
+   * is the "direct" form of Preuss 2018 and Lehrenfeld & Olshanskii, arXiv 1803.05817. It has the
+   * strain energy instead of the L2 norm, so that no length has to be chosen and stretched cells
+   * need no special treatment:
    * @f[ s(u,v) = \gamma \sum_{(E,F)} \int_{T_E\cup T_F}
    *     C\,\varepsilon(u_E-u_F):\varepsilon(v_E-v_F)\,dA @f]
-   * Quadratics are kept exactly: their continuations are equal. E and F are
-   * joined, so nothing couples across a joint.
+   * Polynomials of the element's degree are reproduced exactly, because their extensions are
+   * equal. E and F are joined, so no unknowns are coupled across a joint.
    */
   struct GhostPenalty
   {
-    /// Pairs (E, F), E < F: every element that is no root with its parent.
+    /// Pairs (E, F), E < F: every element that is not a root with its parent.
     std::vector<std::pair<unsigned int, unsigned int>> pairs;
-    /// See find_roots().
+    /// Root of each element, see find_roots().
     std::vector<unsigned int> element_to_root;
   };
 
-  /// Pairs for all ranks; on a distributed mesh those of elements that this rank holds.
-  /// Collective there.
+  /// Find the pairs of all ranks, or, on a distributed mesh, those of elements that this rank
+  /// holds. Collective on a distributed mesh.
   GhostPenalty
   make_ghost_penalty(const ManifoldMesh &mesh,
                      double threshold = default_aggregation_threshold);

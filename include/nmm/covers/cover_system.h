@@ -13,7 +13,8 @@
 namespace NMM
 {
   /**
-   * Physical covers and their unknowns.
+   * Physical covers and their unknowns. A manifold mesh comes in; covers and unknowns of each
+   * element and the index sets of this rank go out.
    *
    * A physical cover is a connected component, per mathematical cover, of the
    * manifold elements in its support, joined across shared mathematical edges
@@ -25,44 +26,45 @@ namespace NMM
    * numbering, which keeps the bandwidth small. Unknown of component c of cover
    * k: n_components * k + c.
    *
-   * Ownership: an element belongs to the rank that owns its cell; ranks own
-   * consecutive stretches of the element numbering of about equal length. A cover belongs to the lowest
-   * rank among its elements.
+   * Ownership: an element belongs to the rank that owns its cell; ranks own consecutive ranges of
+   * the element numbering of about equal length. A cover belongs to the lowest rank among its
+   * elements.
    *
-   * On a distributed mesh a rank knows the covers of the elements it holds, and
-   * numbers them from 0 to n_covers() - 1; that is what "cover" stands for
-   * everywhere but in index sets and unknowns, which are global. global_cover() is
-   * ascending, and the owned covers are consecutive in both numberings. Otherwise
-   * both numbers of a cover are the same.
+   * On a distributed mesh a rank knows the covers of the elements it holds, and numbers them from
+   * 0 to n_covers() - 1. Arguments called "cover" are these local numbers; only index sets and
+   * unknowns are global. global_cover() is ascending, and the owned covers are consecutive in both
+   * numberings. On a mesh that is not distributed both numbers of a cover are the same.
    *
    * Lifetime: the manifold mesh must outlive this object.
    */
   class CoverSystem
   {
   public:
-    /// Collective.
+    /// Find the covers of @p manifold_mesh and number them. Collective.
     /// @throws InputError if the mesh is distributed over another communicator.
     CoverSystem(const ManifoldMesh &manifold_mesh, MPI_Comm communicator);
 
+    /// The manifold mesh of the constructor.
     const ManifoldMesh &
     manifold_mesh() const;
 
+    /// The communicator of the constructor, over which unknowns are distributed.
     MPI_Comm
     communicator() const;
 
-    /// Covers this rank knows.
+    /// Number of covers that this rank knows.
     unsigned int
     n_covers() const;
 
-    /// Covers of all ranks.
+    /// Number of covers of all ranks.
     unsigned int
     n_global_covers() const;
 
-    /// Its number on all ranks.
+    /// Global number of a cover of this rank.
     unsigned int
     global_cover(unsigned int cover) const;
 
-    /// invalid_index for one that this rank does not know.
+    /// Number of a cover on this rank; invalid_index if this rank does not know it.
     unsigned int
     local_cover(unsigned int global_cover) const;
 
@@ -70,7 +72,7 @@ namespace NMM
     dealii::ArrayView<const unsigned int>
     covers(unsigned int element) const;
 
-    /// Unknowns (global) of an element with @p n_components values per cover: entry
+    /// Get the global unknowns of an element with @p n_components unknowns per cover: entry
     /// n_components * i + c belongs to weight function i, component c.
     void
     get_dof_indices(
@@ -82,35 +84,38 @@ namespace NMM
     unsigned int
     mathematical_cover(unsigned int cover) const;
 
-    /// Node of the weight function [m]; may lie outside the solid.
+    /// Node of the cover's weight function [m]; it may lie outside the solid.
     const dealii::Point<2> &
     node(unsigned int cover) const;
 
-    /// Elements this rank integrates.
+    /// Elements that this rank integrates, first and past-the-end.
     std::pair<unsigned int, unsigned int>
     locally_owned_elements() const;
 
-    /// Global numbers of covers owned / needed by this rank.
+    /// Global numbers of the covers that this rank owns.
     const dealii::IndexSet &
     locally_owned_covers() const;
 
+    /// Global numbers of the covers whose values this rank needs; they include the owned ones.
     const dealii::IndexSet &
     locally_relevant_covers() const;
 
-    /// The same for unknowns with @p n_components per cover.
+    /// Global unknowns of the owned covers, @p n_components for each.
     dealii::IndexSet
     locally_owned_dofs(unsigned int n_components) const;
 
+    /// Global unknowns of the relevant covers, @p n_components for each.
     dealii::IndexSet
     locally_relevant_dofs(unsigned int n_components) const;
 
-    /// This rank needs the values of @p covers too.
+    /// Add @p covers (global numbers) to the relevant covers of this rank. Vectors that exist
+    /// already keep their layout.
     void
     make_relevant(std::vector<dealii::types::global_dof_index> covers);
 
   private:
-    /// Layers of elements around the owned ones whose covers are relevant: what
-    /// recovery of stresses looks at.
+    /// Number of layers of elements around the owned ones whose covers are relevant; the
+    /// recovery of stresses needs them.
     static constexpr unsigned int halo_width = 6;
 
     void
@@ -119,7 +124,7 @@ namespace NMM
     void
     distribute();
 
-    /// Give covers global numbers on a distributed mesh, and local ones in the same order.
+    /// Number covers globally on a distributed mesh, and locally in the same order.
     void
     number_globally();
 
@@ -131,7 +136,7 @@ namespace NMM
     unsigned int              n_per_element;
     std::vector<unsigned int> element_to_covers;
     std::vector<unsigned int> cover_to_mathematical;
-    /// Empty if both numbers are the same.
+    /// Global number of each cover, ascending; empty if both numbers are the same.
     std::vector<unsigned int>             local_to_global;
     unsigned int                          n_global = 0;
     std::pair<unsigned int, unsigned int> owned_elements;

@@ -24,17 +24,20 @@ namespace NMM
   } // namespace internal
 
   /**
-   * One oriented edge of a manifold element's boundary; the element lies to its
-   * left. Straight, or an arc about a centre.
+   * One oriented edge of a manifold element's boundary, a straight line or a circular arc; the
+   * element lies to its left.
    */
   struct ElementEdge
   {
-    dealii::Point<2> start, end;
-    /// Arcs only: centre [m].
+    /// First point in the reference configuration [m].
+    dealii::Point<2> start,
+      /// Last point [m].
+      end;
+    /// Centre of an arc [m].
     dealii::Point<2> center;
-    /// 0: straight. Positive: arc of this radius run through counter-clockwise
-    /// about the centre (the element is on the concave side); negative: clockwise [m].
-    /// Arcs span at most a half circle.
+    /// Signed radius of an arc [m]: positive if the edge runs counter-clockwise about the centre,
+    /// so that the element is on the concave side; negative if it runs clockwise. 0 for a straight
+    /// edge. Arcs span at most a half circle.
     double radius = 0.;
     /// Physical curves that lie on this edge, an index for
     /// ManifoldMesh::curve_set(), or invalid_index for a purely mathematical edge.
@@ -44,6 +47,7 @@ namespace NMM
     /// Edge of the mathematical mesh that this edge lies on, or invalid_index.
     unsigned int mesh_edge = invalid_index;
 
+    /// Whether the edge is an arc and not a straight line.
     bool
     is_arc() const
     {
@@ -52,40 +56,45 @@ namespace NMM
   };
 
   /**
-   * The edges of one element, one after the other. Of most elements the mesh keeps the
-   * corners and what lies beyond; their edges are made when they are asked for, and live as
-   * long as this object, others as long as the mesh.
+   * The edges of one element, one after the other. For most elements the mesh stores only corners
+   * and neighbours; this object then owns the edges, which live as long as it does. Edges of other
+   * elements live as long as the mesh. Used like an array.
    */
   class ElementEdges
   {
   public:
+    /// No edges.
     ElementEdges() = default;
 
-    /// Edges that are stored elsewhere, and must outlive this object.
+    /// Refer to @p edges, which must outlive this object.
     explicit ElementEdges(const dealii::ArrayView<const ElementEdge> &edges)
       : kept(edges.data())
       , n(edges.size())
     {
     }
 
+    /// The first edge; edges are contiguous.
     const ElementEdge *
     begin() const
     {
       return kept != nullptr ? kept : n <= max_inside ? inside() : many.data();
     }
 
+    /// Past the last edge.
     const ElementEdge *
     end() const
     {
       return begin() + n;
     }
 
+    /// Number of edges.
     std::size_t
     size() const
     {
       return n;
     }
 
+    /// Edge @p i, from 0 to size() - 1.
     const ElementEdge &
     operator[](const unsigned int i) const
     {
@@ -93,6 +102,7 @@ namespace NMM
       return begin()[i];
     }
 
+    /// A view of the edges, valid as long as this object.
     operator dealii::ArrayView<const ElementEdge>() const
     {
       return dealii::ArrayView<const ElementEdge>(begin(), n);
@@ -103,7 +113,7 @@ namespace NMM
 
     static constexpr unsigned int max_inside = 6;
 
-    /// Room for @p n_edges edges, to be filled.
+    /// Storage for @p n_edges edges, which the caller fills.
     ElementEdge *
     make(const unsigned int n_edges)
     {
@@ -127,8 +137,8 @@ namespace NMM
     const ElementEdge       *kept = nullptr;
     unsigned int             n    = 0;
     std::vector<ElementEdge> many;
-    /// Edges are constructed in here by make() only: most elements are whole and have none.
-    /// Copies are copies of the bytes.
+    /// Storage of up to max_inside edges. Only make() constructs edges in it, since most elements
+    /// are whole and have none. Copies of this object copy the bytes.
     static_assert(std::is_trivially_copyable<ElementEdge>::value &&
                     std::is_trivially_destructible<ElementEdge>::value,
                   "Edges in the storage are copied and left without calls.");
@@ -139,30 +149,31 @@ namespace NMM
 
   /**
    * The manifold elements: connected pieces of the mathematical mesh's triangles
-   * cut by the physical mesh; the units of integration. Immutable.
+   * cut by the physical mesh; the units of integration. A mathematical mesh and a physical mesh
+   * come in; elements with their edges, regions and links to neighbours go out. The constructor
+   * does all the work; the result is immutable.
    *
-   * Cutting is exact and touches only cells that a physical curve comes near;
-   * all others are whole elements that keep no edges. Cells that straight edges run
-   * through or end in are divided by themselves, which takes the signs of a few
-   * determinants; cells with arcs, with cracks or blocks inside, and all cells of a
-   * mesh of several parts by an arrangement with exact numbers. Elements are numbered so
-   * that neighbours have near numbers (reverse Cuthill-McKee on the element
-   * graph).
+   * Cutting is exact and is done only in cells that a physical curve comes near; all others are
+   * whole elements without stored edges. Cells through which straight edges run, or in which they
+   * end, are divided one by one with the signs of a few determinants. Cells with arcs, with cracks
+   * or blocks inside, and all cells of a mesh of several parts are divided by an arrangement with
+   * exact numbers. Elements are numbered so that neighbours have near numbers (reverse
+   * Cuthill-McKee on the element graph).
    *
    * If the mathematical mesh has several parts, each region of the physical mesh
-   * has its elements in the cells of one part, and each part is cut by itself
+   * has its elements in the cells of one part. Each part is cut separately
    * with the curves of its regions only, at a cost in proportion to them. Along
    * curves between regions on different parts the elements of both sides have
-   * the same edges: those are divided wherever a mesh edge of either part
+   * the same edges, which are divided wherever a mesh edge of either part
    * meets the curve.
    *
    * If the mathematical mesh is distributed, each rank cuts the cells it holds, with
-   * all curves, and numbers its elements by itself: those of ghost cells of lower
-   * ranks, its own, those of higher ranks. Edges and links of elements at the rim of the
+   * all curves, and numbers its elements separately: first those of ghost cells of lower
+   * ranks, then its own, then those of higher ranks. Edges and links of elements in the outermost
    * ghost cells may lack their neighbours.
    *
-   * Not for two threads at once: CGAL's exact numbers are counted without locks
-   * here, and the copy of the physical mesh's arrangement shares them.
+   * The constructor must not run in two threads at once: CGAL counts references to exact numbers
+   * without locks here, and copies of the physical mesh's arrangement share these numbers.
    *
    * Lifetime: both meshes must outlive this object.
    */
@@ -170,8 +181,8 @@ namespace NMM
   {
   public:
     /**
-     * @p region_to_part: part of the mathematical mesh for each region of the
-     * physical mesh; empty: all on part 0.
+     * Cut the mathematical mesh. @p region_to_part is the part of the mathematical mesh for each
+     * region of the physical mesh; if it is empty, all regions are on part 0.
      * @throws InputError if the mathematical mesh does not cover the solid (a
      * part not its regions), or if region_to_part does not fit the meshes.
      */
@@ -179,26 +190,31 @@ namespace NMM
                  const PhysicalMesh              &physical_mesh,
                  const std::vector<unsigned int> &region_to_part = {});
 
+    /// The mathematical mesh of the constructor.
     const MathematicalMesh &
     mathematical_mesh() const;
 
+    /// The physical mesh of the constructor.
     const PhysicalMesh &
     physical_mesh() const;
 
+    /// Number of elements; on a distributed mesh of those that this rank holds.
     unsigned int
     n_elements() const;
 
+    /// Cell of the mathematical mesh that an element is a piece of.
     unsigned int
     cell(unsigned int element) const;
 
-    /// Region of the physical mesh, hence material and block.
+    /// Region of the physical mesh, which gives material and block.
     unsigned int
     region(unsigned int element) const;
 
+    /// Block of the physical mesh that an element belongs to.
     unsigned int
     block(unsigned int element) const;
 
-    /// Whole triangle (it may still have physical curves along its edges).
+    /// Whether an element is a whole triangle; physical curves may run along its edges.
     bool
     is_whole(unsigned int element) const;
 
@@ -215,46 +231,52 @@ namespace NMM
     ElementEdges
     edges(unsigned int element) const;
 
-    /// How many those are.
+    /// Number of edges(), without making them.
     unsigned int
     n_edges(unsigned int element) const;
 
-    /**
-     * Elements joined to @p element across mathematical edges that no physical
-     * curve blocks, as (neighbour, local edge of the element's cell, local edge
-     * of the neighbour's cell).
-     */
+    /// Connection of an element to one that is joined to it across a mathematical edge, without a
+    /// physical curve between both.
     struct Link
     {
-      unsigned int  neighbor;
-      unsigned char edge_here, edge_there;
+      /// The other element.
+      unsigned int neighbor;
+      /// Local edge of the element's cell, 0 to 2, see MathematicalMesh::cell_edges().
+      unsigned char edge_here,
+        /// Local edge of the neighbour's cell, 0 to 2.
+        edge_there;
     };
 
     /**
-     * The links of an element, in no particular order. Those of a whole element among
-     * whole ones follow from the mathematical mesh, and are made when they are asked for.
+     * The links of an element, in no particular order. Those of a whole element among whole ones
+     * follow from the mathematical mesh and are stored in this object; those of other elements
+     * live as long as the mesh. Used like an array.
      */
     class Links
     {
     public:
+      /// The first link; links are contiguous.
       const Link *
       begin() const
       {
         return stored != nullptr ? stored : made;
       }
 
+      /// Past the last link.
       const Link *
       end() const
       {
         return begin() + n;
       }
 
+      /// Number of links.
       std::size_t
       size() const
       {
         return n;
       }
 
+      /// Link @p i, from 0 to size() - 1.
       const Link &
       operator[](const unsigned int i) const
       {
@@ -270,6 +292,7 @@ namespace NMM
       Link         made[3];
     };
 
+    /// Links of an element to all elements that are joined to it.
     Links
     joined(unsigned int element) const;
 
@@ -279,14 +302,14 @@ namespace NMM
     owned_elements() const;
 
     /**
-     * A point that tells the elements of a cell from each other to rounding,
-     * whichever way they were found: the mean of the corners, of the cell's for
-     * whole elements [m].
+     * A point that identifies an element among those of its cell, up to rounding and on all ranks
+     * [m]: the mean of its corners, or of the cell's corners for whole elements.
      */
     dealii::Point<2>
     reference_point(unsigned int element) const;
 
-    /// For modules of this library: null if the mesh is not distributed.
+    /// Exchange of element data with other ranks, for modules of this library; null if the mesh is
+    /// not distributed.
     const internal::ElementExchange *
     exchange() const;
 
@@ -294,19 +317,21 @@ namespace NMM
     dealii::std_cxx20::ranges::iota_view<unsigned int, unsigned int>
     cell_elements(unsigned int cell) const;
 
-    /// Pieces of the physical mesh (PhysicalMesh::pieces()) on an edge.
+    /// Pieces of the physical mesh (indices for PhysicalMesh::pieces()) that belong to the number
+    /// ElementEdge::curve_set.
     const std::vector<unsigned int> &
     curve_set(unsigned int index) const;
 
-    /// Cells that physical curves come near, which are cut exactly.
+    /// Number of cells that physical curves come near, which are cut exactly; on a distributed
+    /// mesh of those that this rank owns.
     unsigned int
     n_cells_cut_exactly() const;
 
-    /// Element containing @p x [m] (on an edge: one of them), or invalid_index.
+    /// Element that contains @p x [m], one of them if @p x is on an edge, or invalid_index.
     unsigned int
     find_element(const dealii::Point<2> &x) const;
 
-    /// The same of the owned elements only.
+    /// Owned element that contains @p x [m], or invalid_index.
     unsigned int
     find_owned_element(const dealii::Point<2> &x) const;
 
@@ -320,6 +345,8 @@ namespace NMM
 
   public:
     ~ManifoldMesh();
+    /// Take over the elements of another mesh. Objects that refer to that one, such as a
+    /// CoverSystem, must not be used any more.
     ManifoldMesh(ManifoldMesh &&) noexcept;
   };
 } // namespace NMM

@@ -21,11 +21,12 @@ namespace NMM
 {
   struct RankCells;
 
-  /// Triangles that will be a part of a mathematical mesh.
+  /// Triangles that will be a part of a mathematical mesh, see combine_meshes().
   struct MeshPart
   {
+    /// Positions of the vertices [m].
     std::vector<dealii::Point<2>> vertices;
-    /// Corner vertices, counter-clockwise.
+    /// Corner vertices of each triangle, counter-clockwise.
     std::vector<std::array<unsigned int, 3>> cells;
   };
 
@@ -40,22 +41,27 @@ namespace NMM
    *
    * A mesh can consist of several *parts* (combine_meshes()) that share no
    * vertex and may overlap in space: each is the mathematical mesh of regions of
-   * its own. Cells, covers and edges are numbered through, part after part.
+   * its own. Cells, covers and edges are numbered consecutively, part after part.
    *
-   * Beside the deal.II objects it keeps flat tables of vertices, cells, edges
-   * and covers, because walking deal.II iterators per element and step would
-   * cost more than the arithmetic.
+   * The class stores flat tables of vertices, cells, edges and covers beside the deal.II objects,
+   * because deal.II iterators would cost more than the arithmetic on each element.
+   *
+   * Order of calls in this room: make a mathematical mesh with make_regular_mesh(),
+   * make_graded_mesh(), read_gmsh_mesh() or make_distributed_mesh(); cut it with a PhysicalMesh by
+   * the constructor of ManifoldMesh, or by make_own_meshes() if regions may be smaller than cells;
+   * number the unknowns by a CoverSystem; treat covers with little support by aggregate() or
+   * make_ghost_penalty().
    */
   class MathematicalMesh
   {
   public:
-    /// An edge of the triangulation between two cells.
+    /// An edge of the triangulation, between two cells or at the rim of the mesh.
     struct Edge
     {
       /// Vertices, lower index first.
       std::array<unsigned int, 2> vertices;
       /// Cells to the left and right of vertices[0] -> vertices[1];
-      /// invalid_index beyond the mesh.
+      /// invalid_index where there is no cell.
       std::array<unsigned int, 2> cells;
     };
 
@@ -68,25 +74,30 @@ namespace NMM
     MathematicalMesh(std::unique_ptr<dealii::Triangulation<2>> triangulation,
                      unsigned int                              degree);
 
-    /// Copy the cells of a triangulation the caller keeps.
+    /// Copy the cells of @p triangulation, which the caller keeps; otherwise as above.
     MathematicalMesh(const dealii::Triangulation<2> &triangulation,
                      unsigned int                    degree);
 
-    /// Take over a part of a mesh, see make_distributed_mesh().
+    /// Take over this rank's part of a distributed mesh, see make_distributed_mesh().
     MathematicalMesh(std::unique_ptr<dealii::Triangulation<2>> triangulation,
                      unsigned int                              degree,
                      std::unique_ptr<const RankCells>          rank_cells);
 
+    /// Take over the tables of another mesh. Objects that refer to that one, such as a
+    /// ManifoldMesh, must not be used any more.
     MathematicalMesh(MathematicalMesh &&) noexcept;
     ~MathematicalMesh();
 
+    /// The deal.II triangulation; it lives as long as this object.
     const dealii::Triangulation<2> &
     triangulation() const;
 
-    /// Scalar: one dof per mathematical cover.
+    /// Degrees of freedom of the scalar finite element: one per mathematical cover.
     const dealii::DoFHandler<2> &
     dof_handler() const;
 
+    /// The scalar finite element FE_SimplexP<2>(degree()), whose shape functions are the weight
+    /// functions.
     const dealii::FiniteElement<2> &
     fe() const;
 
@@ -94,28 +105,32 @@ namespace NMM
     const dealii::Mapping<2> &
     mapping() const;
 
+    /// Degree of the weight functions, 1 or 2.
     unsigned int
     degree() const;
 
+    /// Number of cells that this rank holds; all cells if the mesh is not distributed.
     unsigned int
     n_cells() const;
 
+    /// Number of mathematical covers of the cells that this rank holds.
     unsigned int
     n_mathematical_covers() const;
 
-    /// Weight functions per cell: 3 or 6.
+    /// Number of weight functions on a cell: 3 or 6.
     unsigned int
     n_covers_per_cell() const;
 
-    /// Who owns which cell if this rank holds a part of the mesh only; null if it
-    /// holds all of it.
+    /// Owners of the cells if this rank holds only a part of a distributed mesh; null if it
+    /// holds all of the mesh.
     const RankCells *
     rank_cells() const;
 
-    /// Parts; 1 unless made by combine_meshes().
+    /// Number of parts; 1 unless combine_meshes() made the mesh.
     unsigned int
     n_parts() const;
 
+    /// Part that a cell belongs to.
     unsigned int
     cell_part(unsigned int cell) const;
 
@@ -123,10 +138,11 @@ namespace NMM
     std::pair<unsigned int, unsigned int>
     part_cells(unsigned int part) const;
 
+    /// Positions of all vertices [m].
     const std::vector<dealii::Point<2>> &
     vertices() const;
 
-    /// Corner vertices, counter-clockwise, in deal.II's order.
+    /// Corner vertices of a cell, counter-clockwise, in deal.II's order.
     const std::array<unsigned int, 3> &
     cell_vertices(unsigned int cell) const;
 
@@ -134,24 +150,26 @@ namespace NMM
     const std::vector<std::array<unsigned int, 3>> &
     cells() const;
 
-    /// Mathematical covers in the order of the finite element's dofs; pointer to
+    /// Mathematical covers of a cell in the order of the finite element's dofs: pointer to
     /// n_covers_per_cell() entries.
     const unsigned int *
     cell_covers(unsigned int cell) const;
 
-    /// Edge numbers, in the order of deal.II's lines: edge i of a cell joins its
+    /// Edges of a cell in the order of deal.II's lines: edge i of a cell joins its
     /// corners i and (i+1)%3.
     const std::array<unsigned int, 3> &
     cell_edges(unsigned int cell) const;
 
+    /// All edges of the triangulation.
     const std::vector<Edge> &
     edges() const;
 
-    /// Weight functions (finite element dofs) on each edge of a cell: those of
+    /// Weight functions (finite element dofs) on each of a cell's three edges: those of
     /// its two corners, then the mid-side one (degree 2; else invalid_index).
     const std::vector<std::array<unsigned int, 3>> &
     edge_to_local_covers() const;
 
+    /// The deal.II cell of a cell number.
     dealii::Triangulation<2>::active_cell_iterator
     cell_iterator(unsigned int cell) const;
 
@@ -159,20 +177,24 @@ namespace NMM
     const dealii::Point<2> &
     cover_node(unsigned int mathematical_cover) const;
 
-    /// Columns v1 - v0 and v2 - v0 [m] of the affine map x = v0 + J xi.
+    /// Jacobian matrix J of a cell's affine map x = v0 + J xi [m]; its columns are v1 - v0 and
+    /// v2 - v0.
     dealii::Tensor<2, 2>
     jacobian(unsigned int cell) const;
 
+    /// Reference coordinates xi [-] of the point @p x [m], which may lie outside the cell.
     dealii::Point<2>
     real_to_reference(unsigned int cell, const dealii::Point<2> &x) const;
 
+    /// Position x [m] of the reference coordinates @p xi [-].
     dealii::Point<2>
     reference_to_real(unsigned int cell, const dealii::Point<2> &xi) const;
 
+    /// Area of a cell [m^2].
     double
     cell_area(unsigned int cell) const;
 
-    /// Longest edge [m].
+    /// Length of a cell's longest edge [m].
     double
     cell_diameter(unsigned int cell) const;
 
@@ -186,7 +208,7 @@ namespace NMM
 
 
   /**
-   * One mathematical mesh of several parts, in the order given: a deal.II
+   * Make one mathematical mesh of several parts, in the order given: a deal.II
    * triangulation of as many disconnected pieces. Parts may overlap.
    * @throws InputError for no parts, a part without cells, or what the
    * constructor does not accept.
@@ -194,17 +216,17 @@ namespace NMM
   MathematicalMesh
   combine_meshes(const std::vector<MeshPart> &parts, unsigned int degree);
 
-  /// The cells of a mesh, for example to combine them with others.
+  /// Copy the cells of a mesh, for example to combine them with others.
   MeshPart
   make_mesh_part(const MathematicalMesh &mesh);
 
 
-  /// How a regular mesh is made of triangles.
+  /// Arrangement of the triangles in a regular mesh.
   enum class MeshPattern
   {
-    /// Equilateral triangles: the smallest error for a number of unknowns.
+    /// Equilateral triangles: the smallest error for a given number of unknowns.
     equilateral,
-    /// Squares halved along one diagonal: corners at round coordinates.
+    /// Squares halved along one diagonal: their corners have round coordinates.
     right_angled
   };
 
@@ -213,21 +235,23 @@ namespace NMM
   {
     /// Edge length of a triangle (equilateral) or of a square [m].
     double cell_size = 0.;
-    /// A node of the mesh, before rotation, is moved to box centre + offset [m].
+    /// Before the rotation, a node of the mesh is at the centre of the bounding box + offset [m].
     dealii::Tensor<1, 2> offset;
-    /// Turned counter-clockwise about the box centre [degrees].
-    double      rotation = 0.;
-    MeshPattern pattern  = MeshPattern::equilateral;
-    /// Cells of the whole (inflated) box, or only those that can touch the solid.
+    /// Angle by which the mesh is turned counter-clockwise about the centre of the box [degrees].
+    double rotation = 0.;
+    /// Arrangement of the triangles.
+    MeshPattern pattern = MeshPattern::equilateral;
+    /// Whether the mesh has the cells of the whole (inflated) box, or only those that can touch
+    /// the solid.
     bool whole_box = false;
   };
 
   class PhysicalMesh;
 
   /**
-   * Regular mesh over the solid's bounding box. Unless whole_box is set, cells
-   * that surely lie outside (further than a cell from every curve and not
-   * inside) are never created.
+   * Make a regular mesh over the solid's bounding box. Unless whole_box is set, cells that are
+   * certainly outside the solid (further than a cell from every curve and not inside) are not
+   * created.
    * @throws InputError if the cell size is not positive or would give more than
    * 2^31 cells.
    */

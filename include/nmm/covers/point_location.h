@@ -38,8 +38,8 @@ namespace NMM
 
   /**
    * Angle that an arc of a manifold element sweeps, positive counter-clockwise
-   * [rad]; 0 for a straight edge. Such arcs span at most a half circle, and half
-   * the angle is atan2(chord / 2, distance of the centre from the chord): that
+   * [rad]; 0 for a straight edge. Such arcs span at most a half circle, so that half
+   * the angle is atan2(chord / 2, distance of the centre from the chord). This
    * stays small for a chord of a few ulp, whose ends may have angles in either order.
    */
   double
@@ -78,7 +78,8 @@ namespace NMM
     }
   }
 
-  /// The same for an edge of a manifold element or of the physical mesh.
+  /// Call @p action for points of an edge of a manifold element or of the physical mesh, at most
+  /// @p spacing [m] apart, including its ends.
   template <typename Action>
   void
   for_each_sample(const ElementEdge &edge,
@@ -108,18 +109,18 @@ namespace NMM
   }
 
   /**
-   * Is @p x in the solid? Crossing parity of boundaries and holes in floating
-   * point: for points that are not within rounding of a curve.
+   * Whether @p x is in the solid, by the parity of crossings with boundaries and holes. The test is
+   * done in floating point and not reliable within rounding of a curve.
    */
   bool
   is_in_solid(const PhysicalMesh &physical_mesh, const dealii::Point<2> &x);
 
-  /// The same for the closed boundary of a manifold element.
+  /// Whether @p x is inside the closed boundary @p edges of a manifold element, by the same test.
   bool
   is_inside(dealii::ArrayView<const ElementEdge> edges,
             const dealii::Point<2>              &x);
 
-  /// Distance of @p x from an edge [m].
+  /// Distance of @p x from the nearest point of an edge [m].
   double
   distance(const ElementEdge &edge, const dealii::Point<2> &x);
 } // namespace NMM

@@ -9,15 +9,15 @@
 namespace NMM
 {
   /**
-   * Corners 0-2, counter-clockwise, then the mid-side points 3-5 of the edges
-   * 01, 12, 20 [m], as in VTK's quadratic triangle.
+   * A triangle with curved sides: corners 0-2, counter-clockwise, then the mid-side points 3-5 of
+   * the edges 01, 12, 20 [m], as in VTK's quadratic triangle.
    */
   using QuadraticTriangle = std::array<dealii::Point<2>, 6>;
 
   /**
-   * A manifold element as quadratic triangles, for pictures and output: arcs
-   * keep their curvature by mid-side points that lie on them (an arc is split
-   * so that a parabola is within 1e-4 of its radius). Not meant for integration.
+   * Divide a manifold element into quadratic triangles, for pictures and output. Mid-side points
+   * lie on arcs, and arcs are split so that a parabola deviates by less than 1e-4 of the radius.
+   * Not accurate enough for integration.
    */
   std::vector<QuadraticTriangle>
   triangulate(const ManifoldMesh &mesh, unsigned int element);

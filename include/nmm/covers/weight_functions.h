@@ -10,15 +10,15 @@ namespace NMM
   /**
    * The weight functions of the paper's eq. (3)-(5) on the reference triangle,
    * in the order of FE_SimplexP<2>: corners, then the middles of the edges
-   * (0,1), (1,2), (2,0). Written out because a virtual call of the finite
+   * (0,1), (1,2), (2,0). They are written out here because a virtual call of the finite
    * element per function and point costs more than the function.
    */
   namespace WeightFunctions
   {
-    /// Most weight functions a cell can have.
+    /// Largest number of weight functions on a cell.
     constexpr unsigned int max_per_cell = 6;
 
-    /// 3 for degree 1, 6 for degree 2.
+    /// Number of weight functions on a cell: 3 for degree 1, 6 for degree 2.
     inline unsigned int
     n_per_cell(const unsigned int degree)
     {
@@ -27,7 +27,7 @@ namespace NMM
     }
 
 
-    /// w_i(xi) [-]; @p values has n_per_cell(degree) entries.
+    /// Compute w_i(xi) [-]; @p values has n_per_cell(degree) entries.
     inline void
     values(const unsigned int      degree,
            const dealii::Point<2> &xi,
@@ -54,7 +54,7 @@ namespace NMM
     }
 
 
-    /// dw_i/dxi_j [-]; @p gradients has n_per_cell(degree) entries.
+    /// Compute dw_i/dxi_j [-]; @p gradients has n_per_cell(degree) entries.
     inline void
     gradients(const unsigned int      degree,
               const dealii::Point<2> &xi,

@@ -10,30 +10,30 @@
 namespace NMM
 {
   /**
-   * A rigid obstacle that holds until a time and is gone from then on, with the
-   * springs of its contacts: what they hold is taken out of the account as external
-   * work.
+   * The removal of a rigid obstacle at a time, together with its contacts. The energy that their
+   * penalty springs hold then is counted as (negative) external work.
    */
   struct ObstacleRelease
   {
     /// Index into ContactSurface::obstacles().
     unsigned int obstacle = 0;
-    /// [s]
+    /// Time of the removal [s].
     double time = 0.;
   };
 
 
   /**
-   * A mechanical model whose faces touch: forces, energies and tangent are those of
-   * the model plus those of a Contact; obstacles are where they are at the time.
-   * Candidates are looked for at the beginning of each step, as far as the step may
-   * go. While there are none, it is the model alone, a linear one included.
+   * A mechanical model with contact between its faces: forces, energies and tangent are those of
+   * the model plus those of a Contact. Obstacles have their positions at the current time.
+   * Candidate pairs are searched for at the beginning of each step, within the distance that the
+   * step may cover. While there are none, forces and tangent are those of the model alone, and a
+   * linear model remains linear.
    *
-   * Energies: that of the contact's springs counts as `conditions`, friction as
-   * dissipated, what moving obstacles do as work of supports. With
-   * TimeScheme::energy_momentum() contact forces conserve, too (see
-   * Contact::assemble_between()). Other schemes let points that
-   * come into contact gain or lose energy, as penalties do.
+   * Energies: the energy of the contacts' penalty springs counts as `conditions`, friction as
+   * dissipated energy, the work of moving obstacles as work of supports. With
+   * TimeScheme::energy_momentum() contact forces conserve energy, too (see
+   * Contact::assemble_between()). With other schemes, points that come into contact gain or lose
+   * energy, as usual with penalties.
    *
    * Lifetime: model and contact must outlive this object. Multipliers of the contact
    * are not updated.
@@ -46,9 +46,13 @@ namespace NMM
                        public TangentModel
   {
   public:
+    /// See MechanicalModel::Vector.
     using Vector = MechanicalModel::Vector;
+    /// See MechanicalModel::Matrix.
     using Matrix = MechanicalModel::Matrix;
 
+    /// Add @p contact, which was made for the same unknowns, to @p model. @p releases may have
+    /// any order.
     ContactModel(MechanicalModel             &model,
                  Contact                     &contact,
                  std::vector<ObstacleRelease> releases = {});
@@ -63,7 +67,7 @@ namespace NMM
     const Matrix &
     mass() const override;
 
-    /// Without contact.
+    /// The stiffness of the model without contact [Pa].
     const Matrix &
     stiffness_at_rest() override;
 
@@ -95,7 +99,8 @@ namespace NMM
     Matrix *
     tangent_to_add_to(double factor) override;
 
-    /// If blocks are small, and nothing but contact couples them.
+    /// The tangent as a body matrix if all blocks are small (BodyMatrix::is_suitable()) and only
+    /// contact couples them; null otherwise, or if there are no candidate pairs.
     BodyMatrix *
     body_tangent() override;
 
@@ -176,10 +181,12 @@ namespace NMM
     void
     pass_events(double t) override;
 
-    /// What friction, dashpots and breaking bonds dissipated in the step accepted last [J/m].
+    /// Energy that friction, dashpots and breaking bonds dissipated in the last accepted step
+    /// [J/m].
     double
     dissipated_by_contact() const;
 
+    /// The contact given to the constructor, in the state of the last assembly.
     const Contact &
     contact() const;
 
@@ -187,7 +194,7 @@ namespace NMM
     struct Data;
     std::unique_ptr<Data> data;
 
-    /// Tell the contact which blocks and obstacles are not there.
+    /// Pass the absent blocks and removed obstacles on to the contact.
     void
     take_bodies_away();
   };

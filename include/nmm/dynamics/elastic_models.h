@@ -13,11 +13,11 @@
 namespace NMM
 {
   /**
-   * What bodies in `small` and `finite` kinematics share: consistent mass (8),
-   * loads in time, releases, base acceleration.
+   * The common part of elastic models in `small` and `finite` kinematics: consistent mass (8),
+   * loads as functions of time, releases, base acceleration.
    *
-   * Lifetime: the elasticity must outlive this object. Its amplitudes are this
-   * object's business from now on.
+   * Lifetime: the elasticity must outlive this object, and from then on only this object may set
+   * its load amplitudes.
    */
   class ElasticModel : public MechanicalModel,
                        public SupportModel,
@@ -25,7 +25,9 @@ namespace NMM
                        public BlockModel
   {
   public:
+    /// See MechanicalModel::Vector.
     using Vector = MechanicalModel::Vector;
+    /// See MechanicalModel::Matrix.
     using Matrix = MechanicalModel::Matrix;
 
     const ModelLayout &
@@ -67,41 +69,47 @@ namespace NMM
 
   protected:
     /**
-     * @p mass_quadrature: exact for degree 2p.
-     * @throws InputError for a material without density, or a release of what is not
-     * there.
+     * Assemble the mass matrix with @p mass_quadrature, which must be exact for degree 2p.
+     * @p ghost_penalty may be null; see assemble_mass_matrix().
+     * @throws InputError for a material without density, the release of a load, or the release
+     * of a condition or fixed point that does not exist.
      */
     ElasticModel(FiniteElasticity           &elasticity,
                  const QuadratureCollection &mass_quadrature,
                  Loading                     loading,
                  const GhostPenalty         *ghost_penalty);
 
-    /// Amplitudes at @p t with releases, without loads if not @p with_loads.
+    /// Amplitudes at the time @p t [s], with the releases passed so far. Loads get the amplitude
+    /// 0 unless @p with_loads.
     LoadAmplitudes
     amplitudes_at(double t, bool with_loads = true) const;
 
-    /// Hand over to the elasticity; true if they differ from the last ones.
+    /// Pass amplitudes on to the elasticity. Returns whether they differ from the last ones.
     bool
     set_amplitudes(const LoadAmplitudes &amplitudes);
 
-    /// Are loads a function of time beside releases?
+    /// Whether loads or prescribed displacements are given as functions of time.
     bool
     loads_change() const;
 
-    /// forces += scale * M a_g(t)
+    /// Add @p scale times M a_g(t), a_g being the base acceleration, to @p forces [N/m].
     void
     add_base_force(double t, double scale, Vector &forces) const;
 
-    /// Another number whenever events or absent blocks have changed forces.
+    /// A number that changes whenever an event or absent blocks change the forces.
     unsigned int
     version() const
     {
       return n_passed + (loading.releases.size() + 1) * n_departures;
     }
 
+    /// Forces of the solid.
     FiniteElasticity *elasticity;
-    Loading           loading;
-    Vector            zero;
+    /// Amplitudes, releases and base acceleration given to the constructor.
+    Loading loading;
+    /// The undeformed state: locally relevant unknowns, zero except for inhomogeneities of the
+    /// constraints [m].
+    Vector zero;
     /// Owned unknowns of absent blocks.
     dealii::IndexSet absent;
 
@@ -115,10 +123,9 @@ namespace NMM
     void
     set_mass_of_translation();
 
-    /// Number of passed events that changed something, and of calls of
-    /// set_absent_blocks().
+    /// Number of releases passed so far, and of calls of set_absent_blocks().
     unsigned int n_passed = 0, n_departures = 0;
-    /// Empty on several ranks, or of a single block.
+    /// See blocks_of_unknowns(). Empty on several ranks, or if there is only one block.
     std::vector<unsigned int> unknown_to_block;
     Matrix                    mass_matrix;
     Vector                    positions, mass_of_translation[2];
@@ -128,18 +135,20 @@ namespace NMM
   };
 
 
-  /// Total Lagrangian kinematics: FiniteElasticity in time. In conserving steps damping
-  /// in proportion to the stiffness acts on rates of the Green-Lagrange strain of
-  /// the material, not on turning, supports and ties.
+  /// The dynamic model in total Lagrangian kinematics, see FiniteElasticity. In conserving steps
+  /// stiffness-proportional damping acts on the rate of the Green-Lagrange strain, and hence
+  /// neither on rigid rotation nor on supports and ties.
   class FiniteModel : public ElasticModel,
                       public SteppedModel,
                       public TangentModel
   {
   public:
+    /// See MechanicalModel::Vector.
     using Vector = MechanicalModel::Vector;
+    /// See MechanicalModel::Matrix.
     using Matrix = MechanicalModel::Matrix;
 
-    /// See ElasticModel.
+    /// See the constructor of ElasticModel for arguments and errors.
     FiniteModel(FiniteElasticity           &elasticity,
                 const QuadratureCollection &mass_quadrature,
                 Loading                     loading = {});
@@ -172,8 +181,8 @@ namespace NMM
     Energies
     energies() const override;
 
-    /// Displacement conditions and ties may not be missed by a good part of an element, see
-    /// FiniteElasticity::largest_jump().
+    /// A step is faulty if displacement conditions or ties are violated by a considerable part of
+    /// the size of an element, see FiniteElasticity::largest_jump().
     StepFault
     find_fault(const Vector &end) override;
 
@@ -204,31 +213,34 @@ namespace NMM
     unsigned int known_at  = 0;
     bool         has_known = false;
     bool         has_follower;
-    /// Coefficient of the stiffness [s]; dissipated by the last assemble_between().
+    /// Coefficient of the stiffness in the damping [s], and the energy that damping dissipates in
+    /// the step of the last assemble_between() [J/m].
     double damping = 0., dissipated_between = 0.;
   };
 
 
   /**
-   * Small displacements: FiniteElasticity linearized at u = 0,
+   * The dynamic model of small displacements: FiniteElasticity linearized at u = 0,
    * @f[ r(u,t) = K u - f(t), @f]
    * with the geometric stiffness of initial stresses. Follower pressure keeps its
-   * direction. K contains the conditions; the energy of conditions
-   * therefore counts as strain energy u.K u / 2, and prescribed displacements as
-   * loads. K changes with releases only; f is assembled when amplitudes change.
+   * direction. K contains the displacement conditions. Their energy
+   * therefore counts as strain energy u.K u / 2, and prescribed displacements count as
+   * loads. K changes with releases and absent blocks only; f is assembled when amplitudes change.
    *
-   * Inelastic materials add their forces (InelasticTerms). assemble_between() takes the mean of
-   * these forces at both ends of a step. What a step dissipates is the work of that mean less the
-   * change of the stored energy, so that the energy balance closes. Damping in proportion to the
-   * stiffness is that of the elastic solid.
+   * Inelastic materials add their forces (InelasticTerms). assemble_between() uses the mean of
+   * these forces at both ends of a step. The energy dissipated in a step is the work of that mean
+   * minus the change of the stored energy, so that the energy balance closes.
+   * Stiffness-proportional damping uses the stiffness of the elastic solid.
    */
   class SmallModel : public ElasticModel, public SteppedModel
   {
   public:
+    /// See MechanicalModel::Vector.
     using Vector = MechanicalModel::Vector;
+    /// See MechanicalModel::Matrix.
     using Matrix = MechanicalModel::Matrix;
 
-    /// See ElasticModel.
+    /// See the constructor of ElasticModel for arguments and errors.
     SmallModel(FiniteElasticity           &elasticity,
                const QuadratureCollection &mass_quadrature,
                Loading                     loading       = {},
@@ -259,7 +271,7 @@ namespace NMM
     void
     restore_internal_state(const std::vector<char> &state) override;
 
-    /// Null: all materials are elastic.
+    /// Forces of inelastic materials, or null if all materials are elastic.
     InelasticTerms *
     inelastic_terms() const;
 
@@ -295,15 +307,15 @@ namespace NMM
                      double        t_1) override;
 
   private:
-    /// K and f for the time @p t.
+    /// Assemble K and f for the time @p t, as far as they have changed.
     void
     update(double t);
 
-    /// Elastic forces at the displacements in `owned`.
+    /// Compute the elastic forces at the displacements in `owned`.
     void
     assemble_owned(double t);
 
-    /// Add @p share of inelastic forces at @p u.
+    /// Add @p share times the inelastic forces at @p u to the forces.
     Deformation
     add_inelastic(const Vector &u, double share, bool with_tangent);
 
@@ -312,16 +324,17 @@ namespace NMM
     bool                            has_stiffness = false, has_load = false;
     double                          strain_energy = 0.;
     std::unique_ptr<InelasticTerms> inelastic;
-    /// With inelastic materials: that of the last assembly.
+    /// Tangent of the last assembly if there are inelastic materials; null: that of `elasticity`.
     const Matrix *current_tangent = nullptr;
-    /// Inelastic forces [N/m] and energy [J/m] where the step begins, and u there.
+    /// Inelastic forces [N/m], displacements [m] and stored energy of inelastic materials [J/m] at
+    /// the beginning of the step.
     Vector forces_at_begin, begin_of_step;
     double energy_at_begin = 0.;
   };
 
 
-  /// v(X) of the solid of a block (ManifoldMesh::block()) at X, interpolated at the
-  /// covers' nodes; owned unknowns.
+  /// Interpolate a velocity field v(X) [m/s], given for each block (ManifoldMesh::block()), at the
+  /// nodes of the covers. Returns owned unknowns, which satisfy @p constraints.
   MechanicalModel::Vector
   interpolate_velocity(
     const CoverSystem                                             &covers,
@@ -330,14 +343,17 @@ namespace NMM
                                              unsigned int block)> &velocity);
 
 
-  /// Rigid motion of a block: translation [m/s] plus a turn with the angular
-  /// velocity [rad/s], counter-clockwise, about a point.
+  /// The velocity field of a rigid motion: a translation and a rotation about a point.
   struct RigidVelocity
   {
+    /// Velocity of the point `center` [m/s].
     dealii::Tensor<1, 2> translation;
-    double               angular_velocity = 0.;
-    dealii::Point<2>     center;
+    /// Angular velocity, positive counter-clockwise [rad/s].
+    double angular_velocity = 0.;
+    /// Centre of the rotation [m].
+    dealii::Point<2> center;
 
+    /// Velocity at the point @p x [m/s].
     dealii::Tensor<1, 2>
     operator()(const dealii::Point<2> &x) const;
   };

@@ -11,25 +11,29 @@
 namespace NMM
 {
   /**
-   * The paper's equation (6) in its step-by-step kinematics: one linear problem a
+   * The paper's equation (6) in its step-by-step kinematics: one linear problem per
    * step on the current geometry,
    * @f[ \left(\frac{2}{h^2} M + K\right)\Delta u
    *     = f - \int B^T\sigma\,da + \frac{2}{h} M v, \qquad
-   *     v \leftarrow \frac{2}{h}\Delta u - v, @f]
-   * the scheme of constant acceleration, M the mass matrix (8) of the reference
-   * configuration (mass stays with the material). The comparison for
-   * TimeIntegrator: a turning block moves on straight lines in each step, and grows
-   * (see IncrementalElasticity).
+   *     v \leftarrow \frac{2}{h}\Delta u - v. @f]
+   * This is the scheme of constant acceleration. M is the mass matrix (8) of the reference
+   * configuration (mass stays with the material). The class serves as a comparison for
+   * TimeIntegrator: the points of a rotating block move on straight lines in each step, so that
+   * the block grows (see IncrementalElasticity).
+   *
+   * Order of calls: set_velocity() if the solid moves initially, then advance() (with step
+   * control) or step() until time() is the end.
    *
    * Lifetime: the arguments of the constructor must outlive this object.
    */
   class IncrementalDynamics
   {
   public:
+    /// See IncrementalElasticity::Vector.
     using Vector = IncrementalElasticity::Vector;
 
-    /// @p elasticity may float; its covers, constraints and problem are to be
-    /// given again. @p mass_quadrature: exact for degree 2p.
+    /// @p covers, @p constraints and @p problem must be those of @p elasticity, whose blocks need
+    /// no supports. @p mass_quadrature must be exact for degree 2p.
     /// @throws InputError for a material without density.
     IncrementalDynamics(IncrementalElasticity      &elasticity,
                         const CoverSystem          &covers,
@@ -38,94 +42,110 @@ namespace NMM
                         const ElasticityProblem                 &problem);
     ~IncrementalDynamics();
 
-    /// Owned unknowns [m/s]. The account of energies starts anew.
+    /// Set the velocities of owned unknowns [m/s]. The energy account starts anew.
     void
     set_velocity(const Vector &velocity);
 
-    /// A step of @p h [s] under loads times @p load_factor. Returns the largest
+    /// Take a step of @p h [s] under loads times @p load_factor. Returns the largest
     /// displacement of a cover in the step [m]. @throws NumericalFailure as
     /// IncrementalElasticity::step().
     double
     step(double h, double load_factor = 1.);
 
-    /// The same, unless a cover would move by more than @p max_displacement [m]:
-    /// then nothing changes.
+    /// Take the same step, unless a cover would move by more than @p max_displacement [m]: then
+    /// nothing changes.
     [[nodiscard]] IncrementalElasticity::StepResult
     try_step(double h, double load_factor, double max_displacement);
 
-    /// How advance() chooses its steps.
+    /// Bounds on the steps that advance() chooses.
     struct Control
     {
-      /// The largest step, and the first one tried; the smallest allowed [s].
+      /// @{
+      /// Largest step, which is also the first one tried, and smallest step [s].
       double max_step, min_step;
+      /// @}
       /// Largest displacement of a cover in a step [m].
       double max_displacement;
     };
 
-    /// What advance() did.
+    /// The step that advance() took.
     struct Advance
     {
-      /// [s]
+      /// Length of the step [s].
       double step = 0.;
-      /// [m]
-      double       largest_displacement = 0.;
-      unsigned int n_cuts               = 0;
+      /// Largest displacement of a cover in the step [m].
+      double largest_displacement = 0.;
+      /// Number of longer steps that were tried and given up before.
+      unsigned int n_cuts = 0;
     };
 
     /**
-     * One step towards the time @p end [s], as large as @p control allows: it is cut
-     * and tried again from the same state until no cover moves by more than allowed,
-     * and the next one is at most twice as large. @p load_factor at the end of the step
-     * acts. @throws NumericalFailure if a step would be smaller than allowed.
+     * Take one step towards the time @p end [s], as large as @p control allows. The step is
+     * reduced and tried again from the same state until no cover moves by more than allowed. The
+     * next step is at most twice as large. Loads are multiplied by @p load_factor at the end of
+     * the step; an empty function stands for 1.
+     * @throws InputError for bounds that are not positive or an end that is reached already.
+     * @throws NumericalFailure if a step would be smaller than allowed.
      */
     Advance
     advance(double                                 end,
             const Control                         &control,
             const std::function<double(double t)> &load_factor = {});
 
-    /// Since the start [s].
+    /// Time since the start [s].
     double
     time() const;
 
-    /// [J/m]
+    /// Energies per unit thickness [J/m].
     struct Account
     {
+      /// @{
+      /// Kinetic energy and strain energy [J/m].
       double kinetic = 0., strain = 0.;
-      /// Work of loads that keep their direction, IncrementalElasticity::work_of_loads().
+      /// @}
+      /// Work of loads that keep their direction, see IncrementalElasticity::work_of_loads().
       double work = 0.;
-      /// kinetic + strain - work less that at the start: what the scheme, supports and
-      /// follower pressure add (> 0) or take away.
+      /// Change of kinetic + strain - work since the start: energy that the scheme, supports and
+      /// follower pressure add (> 0) or remove (< 0).
       double balance = 0.;
     };
 
+    /// The energy account of the current state.
     Account
     account() const;
 
-    /// All that steps change; to go back to, or to continue from.
+    /// Everything that a step changes, to return to a state or to continue from it.
     struct State
     {
+      /// Displacements and stresses.
       IncrementalElasticity::State elasticity;
-      /// Owned unknowns [m/s].
+      /// Velocities of owned unknowns [m/s].
       Vector velocity;
+      /// @{
+      /// Time [s], the step that advance() would try next (0: none chosen yet) [s], and
+      /// kinetic + strain energy - work at the start of the account [J/m].
       double time = 0., next_step = 0., initial_energy = 0.;
+      /// @}
     };
 
+    /// A copy of the current state.
     State
     state() const;
 
-    /// The same bits follow.
+    /// Continue from @p state. The steps that follow are bitwise the same as they were.
     void
     restore(const State &state);
 
-    /// Owned unknowns [m/s].
+    /// Velocities of owned unknowns [m/s].
     const Vector &
     velocity() const;
 
-    /// [J/m]
+    /// Kinetic energy [J/m].
     double
     kinetic_energy() const;
 
-    /// About the origin, in the current configuration [kg m/s].
+    /// Angular momentum about the origin in the current configuration, positive
+    /// counter-clockwise [kg m/s].
     double
     angular_momentum() const;
 

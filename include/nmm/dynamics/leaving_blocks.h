@@ -11,46 +11,51 @@
 namespace NMM
 {
   /**
-   * Finds blocks that have left the scene, i.e. lie outside of all its limits with
-   * the ends and middles of their faces (arcs: with a point every 10 degrees).
+   * Finds blocks that have left the scene. A block has left if the ends and midpoints of all its
+   * edges (on arcs a point every 10 degrees) are outside of all limits of the scene.
    * Blocks that are tied to each other leave together.
    *
-   * Cost: O(faces times edges of the limits) per call of find().
+   * Cost: O(number of edges times number of edges of the limits) per call of find().
    *
    * Lifetime: the cover system must outlive this object.
    */
   class LeavingBlocks
   {
   public:
-    /// A block and the box around its faces where it is now [m].
+    /// A block that has left, and the bounding box of its edges at the current positions.
     struct Departure
     {
-      unsigned int     block = 0;
+      /// Number of the block, see ManifoldMesh::block().
+      unsigned int block = 0;
+      /// @{
+      /// Lower left and upper right corner of the bounding box [m].
       dealii::Point<2> lower, upper;
+      /// @}
     };
 
     /**
-     * @p limits: closed curves; the scene is what any of them encloses.
-     * @p ties: blocks that are tied to each other, in pairs; each rank may know
-     * some of them. Collective.
+     * @p limits are closed curves; the scene is the union of the areas that they enclose.
+     * @p ties are pairs of blocks that are tied to each other; each rank may know
+     * some of them only. Collective.
      */
     LeavingBlocks(
       const CoverSystem                                        &covers,
       const std::vector<Curve>                                 &limits,
       const std::vector<std::pair<unsigned int, unsigned int>> &ties = {});
 
-    /// Blocks outside where displacements are @p field, without those that are
-    /// @p gone already; ascending, the same on all ranks. Collective.
+    /// Blocks that are outside at the displacements @p field, without those in @p gone, in
+    /// ascending order; the same on all ranks. Collective.
     std::vector<Departure>
     find(const DisplacementField         &field,
          const std::vector<unsigned int> &gone = {}) const;
 
-    /// Is @p x enclosed by any of the limits?
+    /// Whether the point @p x is enclosed by any of the limits.
     bool
     is_within(const dealii::Point<2> &x) const;
 
   private:
-    /// A point of a face of this rank's elements, in the reference configuration.
+    /// A point on an edge of a block, in an element of this rank and in the reference
+    /// configuration: physical coordinates x [m] and reference coordinates xi of the cell.
     struct Sample
     {
       unsigned int     element, block;
@@ -65,7 +70,7 @@ namespace NMM
     const CoverSystem   *covers;
     std::vector<Polygon> polygons;
     std::vector<Sample>  samples;
-    /// The lowest one of the blocks a block is tied to.
+    /// For each block, the lowest number of all blocks tied to it, itself included.
     std::vector<unsigned int> block_to_group;
   };
 } // namespace NMM

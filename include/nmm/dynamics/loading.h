@@ -12,9 +12,10 @@
 
 namespace NMM
 {
-  /// A displacement condition or fixed point that holds until a time.
+  /// The removal of a displacement condition or fixed point at a time.
   struct Release
   {
+    /// The kind of support that is removed.
     enum class Kind
     {
       /// Index into ElasticityProblem::boundary_conditions.
@@ -22,53 +23,60 @@ namespace NMM
       /// Index into ElasticityProblem::fixed_points.
       fixed_point
     };
-    Kind         kind  = Kind::boundary_condition;
+    /// Which list `index` refers to.
+    Kind kind = Kind::boundary_condition;
+    /// Index into that list; the condition must not be a load.
     unsigned int index = 0;
-    /// [s]
+    /// Time of the removal [s].
     double time = 0.;
   };
 
 
-  /// How the loads and conditions of an ElasticityProblem change in time.
+  /// The loads and supports of an ElasticityProblem as functions of time.
   struct Loading
   {
-    /// Multiplies loads and prescribed displacements at a time [s]; empty: ones.
-    /// What it says of releases is kept.
+    /// Amplitudes of loads and prescribed displacements as a function of time [s]; empty: all are
+    /// 1. Releases in the amplitudes hold in addition to `releases`.
     std::function<LoadAmplitudes(double)> amplitudes;
-    std::vector<Release>                  releases;
+    /// Supports that are removed, in any order.
+    std::vector<Release> releases;
     /**
-     * Acceleration a_g(t) of the ground [m/s^2]; empty: none. Displacements are then
-     * those relative to the ground, and the inertia force -rho a_g acts on all of
-     * the solid.
+     * Acceleration a_g(t) of the ground [m/s^2]; empty: none. If given, displacements are
+     * relative to the ground, and the inertia force -rho a_g acts on the whole solid.
      */
     std::function<dealii::Tensor<1, 2>(double)> base_acceleration;
   };
 
 
   /**
-   * A function of time given by points, linear in between, e.g. an earthquake's
-   * acceleration. Before the first and after the last point it is 0.
+   * A piecewise linear function of time given by points, e.g. the acceleration of an
+   * earthquake. It is 0 before the first and after the last point.
    *
-   * File: two numbers a line, time [s] (strictly ascending) and value, separated by
+   * File: two numbers per line, time [s] (strictly ascending) and value, separated by
    * blanks or a comma; empty lines and lines that begin with # are skipped.
    */
   class TimeHistory
   {
   public:
+    /// Read a history from a file.
     /// @throws InputError naming the file, the line and what is wrong.
     static TimeHistory
     read(const std::string &filename);
 
-    /// @p name stands for the file in messages.
+    /// Read a history from a stream; @p name stands for the file in messages.
     static TimeHistory
     read(std::istream &in, const std::string &name);
 
-    /// @throws InputError if times do not ascend or the numbers of both differ.
+    /// Make a history from as many @p times [s] as @p values.
+    /// @throws InputError if times do not ascend strictly, a number is not finite, or the numbers
+    /// of times and values differ or are 0.
     TimeHistory(std::vector<double> times, std::vector<double> values);
 
+    /// Value at the time @p t [s], in the unit of the given values.
     double
     operator()(double t) const;
 
+    /// Time of the last point [s].
     double
     last_time() const;
 

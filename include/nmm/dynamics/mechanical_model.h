@@ -18,55 +18,66 @@
 
 namespace NMM
 {
-  /// Where the unknowns of a model are, and what holds for them whatever the forces.
+  /// Distribution of the unknowns of a model over ranks, and their constraints and positions.
   struct ModelLayout
   {
-    MPI_Comm         communicator = MPI_COMM_SELF;
+    /// Ranks that share the unknowns.
+    MPI_Comm communicator = MPI_COMM_SELF;
+    /// @{
+    /// Unknowns that this rank owns, and those whose values it needs for an assembly.
     dealii::IndexSet locally_owned, locally_relevant;
-    /// Homogeneous for increments; inhomogeneities hold from the start.
+    /// @}
+    /// Constraints of u; their inhomogeneities do not change in time. Increments of u satisfy the
+    /// homogeneous constraints.
     const dealii::AffineConstraints<double> *constraints = nullptr;
-    /// X_k at the place of u_k [m]; owned unknowns.
+    /// Reference positions of the unknowns: entries 2k and 2k + 1 are the coordinates of X_k [m];
+    /// owned unknowns.
     const dealii::TrilinosWrappers::MPI::Vector *reference_positions = nullptr;
   };
 
 
-  /// What solvers may use of a model's forces r(u, t).
+  /// Properties of a model's forces r(u, t) that solvers may exploit.
   struct ForceProperties
   {
-    /// Whether r is linear in u, with one tangent between events.
+    /// Whether r is linear in u and its tangent changes at events only.
     bool is_linear = false;
-    /// Whether tangents of assemble() and of assemble_between() are symmetric.
+    /// @{
+    /// Whether the tangents of assemble() and of assemble_between() are symmetric.
     bool is_symmetric = false, is_symmetric_between = false;
+    /// @}
   };
 
 
   /**
-   * What time integration knows of a discretized body: unknowns u, the mass
+   * The interface between time integration and a discretized body: unknowns u, the mass
    * matrix M and forces r in
    * @f[ M\ddot u + C\dot u + r(u,t) = 0,\qquad
    *     r = \text{internal forces} - \text{loads}. @f]
-   * Unknowns come in pairs, u_{2k} and u_{2k+1} being the components [m] of what
-   * moves with the reference position X_k; a rigid motion is exact in them.
+   * Unknowns come in pairs: u_{2k} and u_{2k+1} are the components [m] of the displacement of
+   * the reference position X_k. Rigid motions are represented exactly.
    * Constrained unknowns follow from the layout's constraints; equations hold for free ones.
    *
-   * What only some models have is in interfaces of their own, from which a model is derived as
-   * well: SupportModel, SteppedModel, SavedModel, BlockModel, TangentModel. Who needs one asks
-   * for it by model_interface().
+   * Capabilities that only some models have are in interfaces of their own, from which such a
+   * model is derived as well: SupportModel, SteppedModel, SavedModel, BlockModel, TangentModel.
+   * Use model_interface() to get one of them.
    *
    * All quantities are per unit thickness. Functions are collective.
    */
   class MechanicalModel
   {
   public:
+    /// Distributed vector of displacements [m], velocities [m/s] or forces [N/m].
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
+    /// Distributed sparse matrix of the unknowns.
     using Matrix = dealii::TrilinosWrappers::SparseMatrix;
 
     virtual ~MechanicalModel() = default;
 
+    /// The layout of the unknowns, which never changes.
     virtual const ModelLayout &
     layout() const = 0;
 
-    /// M [kg/m]; constrained unknowns have a diagonal entry that means nothing.
+    /// M [kg/m]. The rows of constrained unknowns have an arbitrary diagonal entry.
     virtual const Matrix &
     mass() const = 0;
 
@@ -80,10 +91,10 @@ namespace NMM
     virtual ForceProperties
     force_properties() const = 0;
 
-    /// @name Forces at displacements with locally relevant unknowns
+    /// @name Forces. Displacements that are passed have the locally relevant unknowns.
     /// @{
 
-    /// r(u, t) and K = dr/du; see NonlinearSystem::assemble().
+    /// Assemble r(u, t) and K = dr/du at the time @p t [s]; see NonlinearSystem::assemble().
     virtual Deformation
     assemble(const Vector &u,
              double        t,
@@ -91,10 +102,10 @@ namespace NMM
              const Vector *increment = nullptr) = 0;
 
     /**
-     * Forces between the states @p begin at @p t_0 and @p end at @p t_1, loads
-     * being those of the mean time: internal forces times (@p end - @p begin) is the
-     * change of the strain energy and they exert no moment in the mean
-     * position. K is the derivative by the mean displacement at given @p begin.
+     * Assemble the conserving forces of a step from @p begin at @p t_0 to @p end at @p t_1. The
+     * work of internal forces along (@p end - @p begin) is the change of the strain energy, and
+     * they exert no moment in the mean position. Loads are those of the mean time. K is the
+     * derivative with respect to the mean displacement at fixed @p begin.
      */
     virtual Deformation
     assemble_between(const Vector &begin,
@@ -103,31 +114,33 @@ namespace NMM
                      double        t_1,
                      Tangent       tangent) = 0;
 
-    /// r of the last assembly [N/m]; owned unknowns, 0 for constrained ones.
+    /// r of the last assembly on owned unknowns, 0 for constrained ones [N/m].
     virtual const Vector &
     residual() const = 0;
 
+    /// K of the last assembly with a tangent [Pa].
     virtual const Matrix &
     tangent() const = 0;
 
-    /// Size of the forces in balance [N/m], of the last assembly.
+    /// Magnitude of the forces that balance each other in the last assembly [N/m].
     virtual double
     force_scale() const = 0;
 
+    /// Stored energies of a model.
     struct Energies
     {
-      /// Stored in the material [J/m].
+      /// Strain energy of the material [J/m].
       double strain = 0.;
       /// Energy of displacement conditions, ties, springs and contacts [J/m].
       double conditions = 0.;
     };
 
-    /// Energies at the last assemble(); assemble_between() does not change them.
+    /// Energies at the displacements of the last assemble(); undefined after assemble_between().
     virtual Energies
     energies() const = 0;
 
-    /// Loads, those of a moving base included, at @p u and @p t into @p forces
-    /// (owned unknowns) [N/m]. Spoils residual().
+    /// Write the loads at @p u and @p t, inertia forces of a moving base included, into
+    /// @p forces (owned unknowns) [N/m]. Invalidates residual().
     virtual void
     external_forces(const Vector &u, double t, Vector &forces) = 0;
 
@@ -135,30 +148,36 @@ namespace NMM
 
     /// @name Parts of the layout
     /// @{
+
+    /// ModelLayout::communicator.
     MPI_Comm
     communicator() const
     {
       return layout().communicator;
     }
 
+    /// ModelLayout::locally_owned.
     const dealii::IndexSet &
     locally_owned() const
     {
       return layout().locally_owned;
     }
 
+    /// ModelLayout::locally_relevant.
     const dealii::IndexSet &
     locally_relevant() const
     {
       return layout().locally_relevant;
     }
 
+    /// ModelLayout::constraints.
     const dealii::AffineConstraints<double> &
     constraints() const
     {
       return *layout().constraints;
     }
 
+    /// ModelLayout::reference_positions.
     const Vector &
     reference_positions() const
     {
@@ -168,32 +187,33 @@ namespace NMM
   };
 
 
-  /// A model whose supports move or are taken away.
+  /// The interface of models whose supports move or are removed.
   class SupportModel
   {
   public:
+    /// See MechanicalModel::Vector.
     using Vector = MechanicalModel::Vector;
 
     virtual ~SupportModel() = default;
 
-    /// Times at which forces jump [s], e.g. a support is taken away; ascending.
+    /// Times at which forces jump, e.g. because a support is removed, in ascending order [s].
     virtual std::vector<double>
     events() const
     {
       return {};
     }
 
-    /// From now on forces are those after the events up to and including @p t,
-    /// and before all later ones.
+    /// Apply exactly the events up to and including the time @p t [s] to the forces of all
+    /// following assemblies.
     virtual void
     pass_events(double /*t*/)
     {
     }
 
     /**
-     * Work that supports do [J/m] by moving from where they are at @p t_0 to where they
-     * are at @p t_1, with forces at @p u and the time @p t. 0 if nothing prescribed
-     * changes. Spoils the residual.
+     * Work that supports do [J/m] by moving from their positions at @p t_0 to those
+     * at @p t_1, with the forces at the displacements @p u and the time @p t. 0 if no prescribed
+     * displacement changes. Invalidates the residual.
      */
     virtual double
     work_of_supports(const Vector & /*u*/,
@@ -206,8 +226,8 @@ namespace NMM
 
     /**
      * The same for a step from @p begin at @p t_0 to @p end at @p t_1 with the
-     * forces of assemble_between(): the account is exact if these forces and this
-     * work together make the change of the energy of conditions. Unless overridden,
+     * forces of assemble_between(). The energy account is exact if the work of these forces and
+     * this work add up to the change of the energy of conditions. Unless overridden, this is
      * work_of_supports() in the mean position @p mean.
      */
     virtual double
@@ -224,16 +244,19 @@ namespace NMM
   };
 
 
-  /// A model whose forces depend on more than u and t, e.g. on where contacts stick.
+  /// The interface of models whose forces depend on more than u and t, e.g. on the anchors of
+  /// sticking contact points. Order of calls: begin_step(), assemblies, find_fault(), and
+  /// accept_step() if the step is accepted; otherwise begin_step() again.
   class SteppedModel
   {
   public:
+    /// See MechanicalModel::Vector.
     using Vector = MechanicalModel::Vector;
 
     virtual ~SteppedModel() = default;
 
-    /// A step of @p h from @p begin at the time @p t is going to be tried, to about
-    /// @p predicted.
+    /// Prepare a step of @p h [s] from the displacements @p begin at the time @p t. @p predicted
+    /// are approximate displacements at its end.
     virtual void
     begin_step(const Vector & /*begin*/,
                const Vector & /*predicted*/,
@@ -242,23 +265,23 @@ namespace NMM
     {
     }
 
-    /// For each block, whether it has a closed contact point where the step begins. Empty: none
-    /// has, or all blocks are solved for together.
+    /// For each block, whether it has a closed contact point at the beginning of the step. Empty:
+    /// no block has, or all blocks are solved together.
     virtual std::vector<bool>
     pressed_blocks() const
     {
       return {};
     }
 
-    /// Why the step to @p end must not be accepted.
+    /// Reason why the step to the displacements @p end must not be accepted, if any.
     virtual StepFault
     find_fault(const Vector & /*end*/)
     {
       return {};
     }
 
-    /// The step to @p end at the time @p t is accepted. Returns the energy that
-    /// the model has dissipated in it [J/m].
+    /// Accept the step to the displacements @p end at the time @p t: the internal state becomes
+    /// that at the end. Returns the energy that the model has dissipated in the step [J/m].
     virtual double
     accept_step(const Vector & /*end*/, double /*t*/)
     {
@@ -267,27 +290,28 @@ namespace NMM
   };
 
 
-  /// A model that can be saved and continued.
+  /// The interface of models whose state can be saved and restored.
   class SavedModel
   {
   public:
     virtual ~SavedModel() = default;
 
-    /// The same number for the same unknowns, elements and materials only, on any
-    /// number of ranks.
+    /// A hash of unknowns, elements and materials, to verify that a saved state fits the model.
+    /// It does not depend on the number of ranks.
     virtual std::uint64_t
     fingerprint() const
     {
       return 0;
     }
 
-    /// All that a continuation needs beside u, as bytes; the same on all ranks.
+    /// All data besides u that a continuation needs, as bytes; the same on all ranks.
     virtual std::vector<char>
     internal_state() const
     {
       return {};
     }
 
+    /// Restore what internal_state() of an equal model returned, on any number of ranks.
     virtual void
     restore_internal_state(const std::vector<char> & /*state*/)
     {
@@ -295,7 +319,8 @@ namespace NMM
   };
 
 
-  /// A model that knows its blocks apart: they may leave, and be solved for one by one.
+  /// The interface of models that distinguish blocks, which may leave the scene and be solved
+  /// separately.
   class BlockModel
   {
   public:
@@ -325,7 +350,8 @@ namespace NMM
       return 0;
     }
 
-    /// Block of each owned unknown; empty if all are solved for together, see NonlinearSystem.
+    /// Block of each owned unknown; empty if all unknowns are solved together. See
+    /// NonlinearSystem::blocks_of_unknowns().
     virtual const std::vector<unsigned int> &
     blocks_of_unknowns() const
     {
@@ -333,23 +359,24 @@ namespace NMM
       return none;
     }
 
-    /// From now on forces are needed in the rows of these blocks only (empty: all); other rows,
-    /// energies and force_scale() are undefined. Blocks that @p is_held names are inactive, and
-    /// take_touched_blocks() leaves them out.
+    /// From now on forces are needed in the rows of active blocks only (empty: all); other rows,
+    /// energies and force_scale() are undefined. Blocks in @p is_held do not move: they are
+    /// inactive, and take_touched_blocks() does not report them.
     virtual void
     set_active_blocks(const std::vector<bool> & /*is_active*/,
                       const std::vector<bool> & /*is_held*/)
     {
     }
 
-    /// Blocks that are neither active nor held and touched one that is since the last call.
+    /// Blocks that are neither active nor held, and that have been in contact with an active one
+    /// since the last call of this function.
     virtual std::vector<unsigned int>
     take_touched_blocks()
     {
       return {};
     }
 
-    /// See NonlinearSystem, for assemble_between().
+    /// See NonlinearSystem::coupled_blocks(); for the tangent of assemble_between().
     virtual const std::vector<BlockPair> *
     coupled_blocks() const
     {
@@ -365,19 +392,21 @@ namespace NMM
   };
 
 
-  /// A model that helps to save work where its tangent is made.
+  /// The interface of models that can assemble the tangent of a time step with less work. All
+  /// functions may be left to their defaults.
   class TangentModel
   {
   public:
+    /// See MechanicalModel::Matrix.
     using Matrix = MechanicalModel::Matrix;
 
     virtual ~TangentModel() = default;
 
     /**
-     * From now on the forces of assemble_between() shall be those of damping in
-     * proportion to the stiffness, too, with the @p coefficient [s]; accept_step()
-     * says what they dissipated. False if the model leaves that to its caller, who
-     * has stiffness_at_rest() for it, which must not turn.
+     * Let the forces of assemble_between() include stiffness-proportional damping with the
+     * @p coefficient [s] from now on; SteppedModel::accept_step() returns the energy that it
+     * dissipates. False if the model does not do so: the caller then adds damping by
+     * stiffness_at_rest(), which does not rotate with a body.
      */
     virtual bool
     set_stiffness_damping(double /*coefficient*/)
@@ -386,10 +415,11 @@ namespace NMM
     }
 
     /**
-     * From now on tangents of assemble_between() are multiplied by @p factor, and may be
-     * added to: what was added is gone once a row is assembled again, and stays if
-     * another one is. Null, and the factor 1, if tangent() is not to be changed. Saves its
-     * caller a matrix of the same size. To be called before each assembly.
+     * Let the next tangent of assemble_between() be multiplied by @p factor, and return the
+     * matrix, to which the caller may add entries. This saves the caller a matrix of the same
+     * size. Entries that the caller adds are lost when that row is reassembled, and stay
+     * otherwise. Null if tangent() must not be changed; the factor is then 1. To be called before
+     * each assembly.
      */
     virtual Matrix *
     tangent_to_add_to(double /*factor*/)
@@ -398,9 +428,9 @@ namespace NMM
     }
 
     /**
-     * The tangent of the last assemble_between() for a caller who was to add to it, as
-     * said above, if that is a body matrix, and tangent() is not made; otherwise
-     * null.
+     * The tangent of the last assemble_between() if it was assembled as a body matrix instead of
+     * tangent(). This happens only after tangent_to_add_to() has returned a matrix, and the caller
+     * adds its entries to this one instead. Otherwise null.
      */
     virtual BodyMatrix *
     body_tangent()
@@ -408,13 +438,13 @@ namespace NMM
       return nullptr;
     }
 
-    /// Rows that have been assembled so far need not be kept.
+    /// Tell the model that rows assembled so far need not be kept.
     virtual void
     forget_tangent()
     {
     }
 
-    /// Another number whenever tangent() has another pattern.
+    /// A number that changes whenever tangent() has a new sparsity pattern.
     virtual unsigned int
     pattern_version() const
     {
@@ -423,8 +453,8 @@ namespace NMM
   };
 
 
-  /// An interface that not all models have. If @p model has not, its functions say so: there are
-  /// no events, no blocks, nothing is remembered.
+  /// Return an interface of @p model that not all models have, such as BlockModel. If the model
+  /// does not have it, an object with the defaults is returned: no events, no blocks, no state.
   template <class Interface>
   Interface &
   model_interface(MechanicalModel &model)
@@ -435,6 +465,7 @@ namespace NMM
   }
 
 
+  /// The same for a constant model.
   template <class Interface>
   const Interface &
   model_interface(const MechanicalModel &model)

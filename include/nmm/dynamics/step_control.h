@@ -8,22 +8,24 @@
 
 namespace NMM
 {
+  /// Bounds on time steps and on their results; see StepControl.
   struct StepControlParameters
   {
-    /// First step, and the only one if nothing below asks for others [s].
+    /// First step [s]. All steps have this length unless one fails or exceeds a bound below, or
+    /// max_step allows longer ones.
     double initial_step = std::numeric_limits<double>::signaling_NaN();
-    /// No step is smaller, except the last one before an event or the end [s]; 0:
-    /// a millionth of the first.
+    /// Smallest step [s]; 0: a millionth of the first. Steps that end at an event or at the end
+    /// of the run may be smaller.
     double min_step = 0.;
-    /// [s]; 0: the first step.
+    /// Largest step [s]; 0: the first step.
     double max_step = 0.;
-    /// Largest displacement of a cover in a step, as in the paper [m]; 0: any.
+    /// Largest displacement of a cover in a step, as in the paper [m]; 0: no bound.
     double max_displacement = 0.;
-    /// Largest StepReport::error [m]; 0: any.
+    /// Largest StepReport::error [m]; 0: no bound.
     double max_error = 0.;
-    /// Steps may grow while Newton's method takes fewer iterations, each counted by the
-    /// share of the unknowns that it was about: contact takes some eight however short
-    /// the step.
+    /// Steps may grow as long as Newton's method needs at most this many iterations
+    /// (StepReport::n_full_iterations), and shrink if it needs more than twice as many. Contact
+    /// takes some eight iterations however short the step is.
     unsigned int few_iterations = 12;
 
     /// @throws InputError naming the parameter and its value.
@@ -32,36 +34,40 @@ namespace NMM
   };
 
 
-  /// What was done between two accepted states.
+  /// Effort of one accepted step.
   struct StepRecord
   {
+    /// Report on the accepted step.
     StepReport report;
-    /// Steps tried and given up before, and their iterations.
+    /// @{
+    /// Steps that were tried and given up since the last accepted one, and their iterations.
     unsigned int n_cuts = 0, n_lost_iterations = 0;
+    /// @}
   };
 
 
   /**
-   * Chooses steps: a step that fails, moves more or errs more than allowed is cut
-   * and tried again from the last good state; steps grow, by 1.5 at
-   * most, while Newton's method needs few iterations and bounds are far. Steps end
-   * at events and at the end of the run.
+   * Chooses the lengths of time steps. A step that fails, or whose displacement or error is larger
+   * than allowed, is reduced and tried again from the last accepted state. Steps grow by a factor
+   * of at most 1.5 while Newton's method needs few iterations and results are well within their
+   * bounds. Steps end at events of the model and at the end of the run.
    */
   class StepControl
   {
   public:
+    /// @throws InputError as StepControlParameters::check().
     explicit StepControl(const StepControlParameters &parameters);
 
     /**
-     * One accepted step towards @p end [s]. False if the end is
-     * reached already.
+     * Take one accepted step towards the time @p end [s], and describe it in @p record. Returns
+     * false without a step if the end is reached already.
      * @throws NumericalFailure if a step would be smaller than allowed, with time,
-     * step and reason; the integrator is then in the last good state.
+     * step and reason; the integrator is then in the last accepted state.
      */
     bool
     advance(TimeIntegrator &integrator, double end, StepRecord &record) const;
 
-    /// Advance to @p end; @p after_step is called after each step and
+    /// Advance to the time @p end [s]. @p after_step, if given, is called after each step and
     /// stops the run by returning false.
     void
     run(TimeIntegrator                                &integrator,
@@ -76,43 +82,53 @@ namespace NMM
   };
 
 
+  /// Steps, tolerance and bounds of a dynamic relaxation; see relax().
   struct RelaxationParameters
   {
-    /// First step [s]; the lowest period is a good one.
+    /// First step [s]. The longest natural period of the solid is a good choice.
     double step = std::numeric_limits<double>::signaling_NaN();
-    /// Account::imbalance that counts as rest.
-    double       tolerance = 1e-8;
+    /// Largest Account::imbalance that counts as rest [-].
+    double tolerance = 1e-8;
+    /// Number of steps after which the relaxation is given up.
     unsigned int max_steps = 1000;
-    /// Factor by which steps grow after each success.
+    /// Factor by which steps grow after each accepted step [-].
     double growth = 1.2;
-    /// Steps may grow while Newton's method takes fewer iterations, and shrink beyond
-    /// twice as many; see StepControlParameters.
+    /// Steps may grow as long as Newton's method needs at most this many iterations, and shrink
+    /// if it needs more than twice as many; see StepControlParameters.
     unsigned int few_iterations = 12;
-    /// End as soon as a cover has moved further than this since the begin [m]; 0:
-    /// any way is allowed.
+    /// The relaxation ends once an unknown has changed by more than this since its beginning [m];
+    /// 0: no bound.
     double max_displacement = 0.;
-    /// No step moves a cover further [m]; 0: a hundredth of max_displacement, or any way
-    /// if that is not bound. Long steps pass by what would give way on the
-    /// way, and come to rest where nothing stands.
+    /// Largest displacement of a cover in a step [m]; 0: a hundredth of max_displacement, or no
+    /// bound if that is 0 as well. Longer steps may jump over states in which blocks fail, to an
+    /// equilibrium that the true motion does not reach.
     double max_step_displacement = 0.;
   };
 
 
+  /// Result of relax().
   struct RelaxationReport
   {
+    /// @{
+    /// Accepted steps, iterations of all steps (also of those given up), and times at which the
+    /// motion was stopped.
     unsigned int n_steps = 0, n_iterations = 0, n_stops = 0;
-    double       imbalance = 0.;
-    /// Ended because something has moved too far, not at rest.
+    /// @}
+    /// Account::imbalance at the end [-].
+    double imbalance = 0.;
+    /// Whether the relaxation ended because of RelaxationParameters::max_displacement, and not at
+    /// rest.
     bool moves_away = false;
   };
 
 
   /**
-   * Dynamic relaxation to the static answer: the motion is stopped whenever the
+   * Dynamic relaxation to static equilibrium: the motion is stopped whenever the
    * kinetic energy has passed a peak (kinetic damping, Cundall 1976), and
-   * steps grow. Loads must not depend on time, which goes on. @p after_step is
+   * steps grow. Loads must not depend on time, because time goes on. @p after_step, if given, is
    * called after each step, before the motion is stopped.
-   * @throws NumericalFailure if rest is not reached.
+   * @throws NumericalFailure if rest is not reached within the steps allowed, or steps become
+   * shorter than a millionth of the first one.
    */
   RelaxationReport
   relax(TimeIntegrator                                &integrator,

@@ -13,10 +13,10 @@
 namespace NMM
 {
   /**
-   * Laws of contact whose strength is divided by a factor F: tan phi / F, c / F and
+   * Contact laws whose strength is divided by a factor F: tan phi / F, c / F and
    * tensile strength / F (Zienkiewicz, Humpheson & Lewis, Geotechnique 25
-   * (1975) 671). Stiffness and dilation are left alone, but for a dilation that would
-   * exceed the friction.
+   * (1975) 671). Stiffness and dilation angle remain as they are, except for a dilation angle
+   * that would exceed the reduced friction angle.
    * @throws InputError for a factor that is not positive.
    */
   ContactParameters
@@ -29,33 +29,39 @@ namespace NMM
   reduce_strength(const std::vector<Material> &materials, double factor);
 
 
-  /// What became of blocks whose strength was reduced.
+  /// Result of a relaxation with reduced strength; see try_to_stand().
   struct StrengthTrial
   {
+    /// The possible results of a trial.
     enum class Outcome
     {
-      /// Came to rest before anything moved too far.
+      /// The solid came to rest before any displacement became too large.
       stands,
-      /// Something moved too far, or there was no rest within the steps allowed.
+      /// A displacement became too large, or there was no rest within the steps allowed.
       moves,
-      /// A step did not converge: this tells neither.
+      /// A step did not converge, so that neither is known.
       fails
     };
 
-    double  factor  = 1.;
+    /// Factor that strength was divided by [-].
+    double factor = 1.;
+    /// Result of the trial.
     Outcome outcome = Outcome::moves;
-    /// Largest displacement of a cover since the begin of the trial [m].
-    double       displacement = 0.;
-    unsigned int n_steps      = 0;
-    /// Why it does not stand, for people.
+    /// Largest change of an unknown since the beginning of the trial [m].
+    double displacement = 0.;
+    /// Number of accepted steps.
+    unsigned int n_steps = 0;
+    /// Why the solid does not stand, as part of a message; empty if it stands.
     std::string reason;
 
+    /// Whether the solid came to rest.
     bool
     stands() const
     {
       return outcome == Outcome::stands;
     }
 
+    /// Whether the trial has no result, because a step did not converge.
     bool
     fails() const
     {
@@ -65,9 +71,10 @@ namespace NMM
 
 
   /**
-   * Relax, see relax(), until rest or until something has moved by more than
+   * Call relax() until rest or until a displacement exceeds
    * RelaxationParameters::max_displacement. No rest within the steps allowed counts as
-   * motion, too. A step that fails ends the trial, which then fails.
+   * motion, too. A step that fails ends the trial, which then fails. @p factor is only copied to
+   * the result: the caller has to build the model with the reduced strength.
    */
   StrengthTrial
   try_to_stand(TimeIntegrator                                &integrator,
@@ -76,15 +83,18 @@ namespace NMM
                const std::function<void(const StepRecord &)> &after_step = {});
 
 
+  /// Range and accuracy of find_safety_factor().
   struct SafetyFactorParameters
   {
-    /// Tried first [-].
+    /// Factor of the first trial [-].
     double first = 1.;
-    /// Factor between trials until both outcomes are known [-].
+    /// Ratio of the factors of successive trials until one stands and one moves [-].
     double ratio = 1.5;
-    /// Nothing is tried beyond these [-].
+    /// @{
+    /// Smallest and largest factor that is tried [-].
     double lowest = 0.05, highest = 50.;
-    /// Ratio of both ends of the bracket, less 1 [-].
+    /// @}
+    /// The search ends when moves_at / stands_at - 1 of SafetyFactor is at most this [-].
     double tolerance = 0.01;
 
     /// @throws InputError naming the parameter and its value.
@@ -93,20 +103,23 @@ namespace NMM
   };
 
 
-  /// The number by which strength can be divided before blocks move.
+  /// The factor of safety, by which strength can be divided before blocks move, as a bracket.
   struct SafetyFactor
   {
-    /// Largest factor known to stand, 0 if there is none; smallest known to move,
-    /// infinity if there is none.
+    /// @{
+    /// Largest factor that stands (0: none does) and smallest factor that moves (infinity: none
+    /// does) [-].
     double stands_at = 0., moves_at = std::numeric_limits<double>::infinity();
+    /// @}
+    /// All trials in the order of the search.
     std::vector<StrengthTrial> trials;
 
-    /// Their geometric mean; where one of them is missing the other one, and where both
-    /// are not a number.
+    /// Geometric mean of stands_at and moves_at [-]. If only one of them is known, that one; if
+    /// none is, NaN.
     double
     value() const;
 
-    /// The last trial failed, which ended the search.
+    /// Whether the search ended because its last trial failed.
     bool
     has_failed() const
     {
@@ -116,11 +129,12 @@ namespace NMM
 
 
   /**
-   * Bracket and bisect, in the mean geometric. @p try_factor begins each trial anew. A
-   * trial that fails ends the search at once: it is no bound of the factor.
-   * Friction makes limits that depend on the way they are reached: blocks that
+   * Find the factor of safety: bracket it, then bisect the bracket at its geometric mean.
+   * @p try_factor makes a new trial, from the initial state, for each factor. A trial that fails
+   * ends the search at once, because it bounds the factor on neither side.
+   * With friction the result depends on the loading path: blocks that
    * settle under full strength first may stand at a factor at which the same
-   * blocks, put together under reduced strength, move.
+   * blocks move if they are loaded under reduced strength from the beginning.
    */
   SafetyFactor
   find_safety_factor(

@@ -12,128 +12,193 @@
 #include <string>
 #include <vector>
 
+/**
+ * @defgroup dynamics Dynamics
+ *
+ * Time integration of blocks that deform, touch and move.
+ *
+ * **In**: a FiniteElasticity with the solid, a Loading with loads and supports as functions of
+ * time, and, if blocks touch, a Contact. **Out**: displacements, velocities and accelerations
+ * after each step (DynamicState), and an account of energies and momenta (Account).
+ *
+ * | file (in nmm/dynamics) | job |
+ * |---|---|
+ * | mechanical_model.h | interface of models to time integration: mass, forces, events, blocks |
+ * | elastic_models.h | the model of small displacements and the total Lagrangian one |
+ * | contact_model.h | adds contact to a model |
+ * | loading.h | loads, releases and base acceleration as functions of time |
+ * | time_scheme.h | coefficients of the time integration schemes |
+ * | time_integrator.h | one time step, energy account, sleeping and leaving blocks |
+ * | step_control.h | lengths of steps; dynamic relaxation to static equilibrium |
+ * | strength_reduction.h | search for the factor of safety |
+ * | leaving_blocks.h | finds blocks that have left the scene |
+ * | checkpoint.h | saves and restores the state |
+ * | incremental_dynamics.h | the paper's step-by-step kinematics, for comparison |
+ *
+ * Order of calls:
+ * @code
+ * FiniteModel  body(elasticity, mass_quadrature, loading);
+ * ContactModel model(body, contact);                     // only if blocks touch
+ * TimeIntegrator integrator(model, TimeScheme::energy_momentum());
+ * integrator.initialize(u, v);                           // otherwise undeformed and at rest
+ * StepControlParameters parameters;
+ * parameters.initial_step = 1e-3;
+ * StepControl(parameters).run(integrator, end_time, [&](const StepRecord &) {
+ *   print(integrator.account());
+ *   return true;                                         // go on
+ * });
+ * @endcode
+ */
+
 namespace NMM
 {
-  /// Sums that the energy account keeps [J/m].
+  /// Sums of energies since the start, which belong to the state [J/m].
   struct EnergySums
   {
-    /// Kinetic + strain + conditions at the start.
+    /// Kinetic energy + strain energy + energy of conditions at the start [J/m].
     double initial = 0.;
-    /// Done by loads, moving supports and, in a release, by what is taken away.
+    /// Work of loads and of moving supports, and the change of the stored energy when supports
+    /// are removed [J/m].
     double external_work = 0.;
-    /// Energy dissipated by Rayleigh damping and by stops of a relaxation [J/m].
+    /// Energy dissipated by damping, friction, inelastic materials, blocks that fall asleep, and
+    /// stops of a relaxation [J/m].
     double dissipated = 0.;
-    /// Kinetic + strain + conditions of blocks that have left, when they did.
+    /// Kinetic energy + strain energy + energy of conditions of blocks that have left, at that
+    /// time [J/m].
     double left = 0.;
   };
 
 
-  /// All that a continuation needs. Vectors hold owned unknowns.
+  /// All data that a continuation needs besides SavedModel::internal_state(). Vectors hold owned
+  /// unknowns.
   struct DynamicState
   {
+    /// See MechanicalModel::Vector.
     using Vector = MechanicalModel::Vector;
 
-    double       time = 0.;
+    /// Time [s].
+    double time = 0.;
+    /// Number of accepted steps since the start.
     unsigned int step = 0;
-    /// [m], [m/s], [m/s^2].
+    /// @{
+    /// Displacements [m], velocities [m/s] and accelerations [m/s^2]. In conserving schemes the
+    /// accelerations are the mean ones of the last step.
     Vector u, v, a;
-    /// What MechanicalModel::pass_events() was called with last.
+    /// @}
+    /// Time up to which events of the model have been passed [s]; see SupportModel::pass_events().
     double events_passed = 0.;
     /// Step that would be tried next, chosen by the step control; 0: none yet [s].
-    double     next_step = 0.;
-    double     kinetic   = 0.;
+    double next_step = 0.;
+    /// Kinetic energy [J/m].
+    double kinetic = 0.;
+    /// Sums of the energy account.
     EnergySums sums;
     /// Blocks that have left, in the order in which they did.
     std::vector<unsigned int> left_blocks;
-    /// For each block, how long it has been at rest [s], infinity if it sleeps, and if
-    /// so forces [N/m] and moment [N] on it when it fell asleep. Empty if none
-    /// may. See SleepParameters.
+    /// For each block the time that it has been at rest [s]. For a block that sleeps this is
+    /// infinity, followed by the two components of the force [N/m] and the moment [N] on it when
+    /// it fell asleep. Empty if sleeping is disabled. See SleepParameters.
     std::vector<std::array<double, 4>> rest;
   };
 
 
   /**
-   * Which blocks may sleep: they are held where they are, neither assembled nor
-   * solved for, while what touches them feels them as before. A block falls asleep once
-   * it has been slow for some time, and wakes, in the same step, when forces on it
-   * differ from those when it fell asleep. What it errs by: motion that is slower
-   * than this ends, its energy counts as dissipated, and force that changes by less
-   * than mass times the acceleration given here moves nothing.
+   * Thresholds for sleeping blocks. A sleeping block is held in place and neither assembled nor
+   * solved, while blocks that touch it feel its contact as before. A block falls asleep once
+   * it has been slow for some time. It wakes, within the same step, when the forces on it
+   * differ from those when it fell asleep. The errors are these: motion slower than `speed` ends
+   * and its energy counts as dissipated, and a force on a sleeping block that changes by less
+   * than its mass times `acceleration` has no effect.
    */
   struct SleepParameters
   {
     /// Root mean square of a block's speed below which it is at rest [m/s].
     double speed = 0.01;
-    /// For so long before it sleeps [s].
+    /// Time that a block has to be at rest before it sleeps [s].
     double time = 0.25;
-    /// Change of the force on it over its mass, and of the moment over sqrt(mass *
-    /// moment of inertia), that wake it [m/s^2].
+    /// A block wakes if the change of the force on it divided by its mass, plus the change of the
+    /// moment divided by sqrt(mass * moment of inertia), exceeds this [m/s^2].
     double acceleration = 1.;
   };
 
 
-  /// Energies [J/m], linear momentum [kg/s] and angular momentum about the
-  /// origin [kg m/s], all per unit thickness.
+  /// The account of energies and momenta of a state, all per unit thickness.
   struct Account
   {
+    /// @{
+    /// Kinetic energy, strain energy and energy of conditions (MechanicalModel::Energies) of the
+    /// state; external work, dissipated energy and energy of blocks that have left (EnergySums)
+    /// since the start [J/m].
     double kinetic = 0., strain = 0., conditions = 0., external_work = 0.,
            dissipated = 0., left = 0.;
-    /// kinetic + strain + conditions + dissipated + left - external_work -
-    /// initial: what the scheme adds (> 0) or takes away.
-    double               balance = 0.;
+    /// @}
+    /// kinetic + strain + conditions + dissipated + left - external_work - EnergySums::initial:
+    /// energy that the scheme adds (> 0) or removes (< 0) [J/m].
+    double balance = 0.;
+    /// Linear momentum [kg/s].
     dealii::Tensor<1, 2> linear_momentum;
-    double               angular_momentum = 0.;
-    /// |r + C v| / force scale: 0 at rest in balance [-].
+    /// Angular momentum about the origin, positive counter-clockwise [kg m/s].
+    double angular_momentum = 0.;
+    /// |r + C v| / force scale [-]; 0 in static equilibrium.
     double imbalance = 0.;
   };
 
 
-  /// A step that was tried.
+  /// Result of a step that was tried.
   struct StepReport
   {
+    /// Whether the step may be accepted.
     bool converged = false;
-    /// Messages: why the step failed, and what the user can do; see StepFault.
+    /// @{
+    /// For a step that failed: why, as part of a message, and what the user can do; see StepFault.
     std::string reason, remedy;
-    /// Share of the step that is to be tried next; 0: nothing is known of that.
-    double       retry        = 0.;
-    double       step         = 0.;
+    /// @}
+    /// Length of the next trial divided by that of this step; 0: unknown. See StepFault::retry.
+    double retry = 0.;
+    /// Length of the step [s].
+    double step = 0.;
+    /// Iterations of Newton's method; 1 if the model is linear.
     unsigned int n_iterations = 0;
-    /// The same, each times the share of the unknowns it was for.
+    /// Sum over iterations of the part of the unknowns that was corrected [-].
     double n_full_iterations = 0.;
-    /// Wall times of the equations' factorization and of substitutions [s]; 0 if
-    /// the step is linear.
+    /// @{
+    /// Wall times of factorizations and of substitutions [s]; 0 if the model is linear.
     double factorization_time = 0., substitution_time = 0.;
+    /// @}
     /// Largest displacement of a cover in the step [m].
     double max_displacement = 0.;
     /**
-     * Estimate of the local error of u, |beta - 1/6| h^2 |a_1 - a_0| in the mean
-     * weighted with mass (Zienkiewicz & Xie, Earthq. Eng. Struct. Dyn. 20 (1991)
-     * 871, eq. (11); 1/12 for midpoint rules) [m].
+     * Estimate of the local error of u: the mass-weighted root mean square of
+     * |beta - 1/6| h^2 (a_1 - a_0) (Zienkiewicz & Xie, Earthq. Eng. Struct. Dyn. 20 (1991)
+     * 871, eq. (11); the factor is 1/12 for conserving schemes) [m].
      */
     double error = 0.;
   };
 
 
   /**
-   * Advances a MechanicalModel by one step at a time. A step is tried, and the state
-   * changes only when it is accepted.
+   * Advances a MechanicalModel by one step at a time. A step is tried by try_step(), and the
+   * state changes only when accept() is called. StepControl does both.
    *
-   * Linear models: one factorization for all steps of equal size, one
-   * solution per step. Others: NewtonSolver from
-   * @f$ u_0 + h v_0 + h^2 a_0 / 2 @f$.
+   * Linear models need one factorization for all steps of equal length, and one
+   * solve per step. Others are solved by NewtonSolver, starting from
+   * @f$ u_0 + h v_0 + h^2 a_0 / 2 @f$, or from @f$ u_0 + h v_0 @f$ in conserving schemes.
    *
    * Lifetime: the model must outlive this object.
    */
   class TimeIntegrator
   {
   public:
+    /// See MechanicalModel::Vector.
     using Vector = MechanicalModel::Vector;
 
-    /// Residuals of turned stiff bodies end near 1e-10 of force_scale().
+    /// Parameters of Newton's method for time steps. Residuals of rotated stiff bodies cannot be
+    /// reduced below about 1e-10 of force_scale().
     static NewtonParameters
     default_newton_parameters();
 
-    /// @throws InputError if the scheme's coefficients do not fit.
+    /// The state is that of initialize() without arguments.
+    /// @throws InputError for coefficients of the scheme or of the damping that are out of range.
     TimeIntegrator(
       MechanicalModel        &model,
       const TimeScheme       &scheme,
@@ -142,72 +207,78 @@ namespace NMM
     ~TimeIntegrator();
 
     /**
-     * Start at @p time with displacements and velocities of owned unknowns
-     * (constrained ones are set) and the accelerations that follow:
+     * Start at @p time [s] with the displacements @p u and velocities @p v of owned unknowns.
+     * Constrained unknowns are set from the constraints, and accelerations from
      * M a = -C v - r(u, t). @throws NumericalFailure if u is not admissible.
      */
     void
     initialize(const Vector &u, const Vector &v, double time = 0.);
 
-    /// Begin at rest, undeformed.
+    /// Start undeformed and at rest at the time 0.
     void
     initialize();
 
-    /// Continue from a state that state() returned: the same bits follow.
+    /// Continue from a state that state() returned. The steps that follow are bitwise the same as
+    /// they were, if the internal state of the model has been restored before
+    /// (SavedModel::restore_internal_state()).
     void
     restore(const DynamicState &state);
 
-    /// Try a step of @p step [s]. Expected failures are results.
+    /// Try a step of @p step [s]. Expected failures (no convergence, a fault that the model
+    /// finds) are results. The state does not change.
     [[nodiscard]] StepReport
     try_step(double step);
 
-    /// Take the step that was tried last. @pre It converged.
+    /// Accept the step that was tried last. @pre It converged.
     void
     accept();
 
-    /// Pass the model's events up to @p until, the current time but for
-    /// rounding: forces jump, accelerations with them. What energy the conditions
-    /// taken away had counts as (negative) external work.
+    /// Pass the model's events up to the time @p until [s], which must be the current time up to
+    /// rounding. Forces jump, and accelerations with them. The energy of conditions
+    /// that are removed counts as (negative) external work.
     void
     pass_events(double until);
 
-    /// Zero velocities; their energy counts as dissipated.
+    /// Set velocities to zero. Their kinetic energy counts as dissipated.
     void
     stop_motion();
 
     /**
-     * The blocks (ManifoldMesh::block()) leave for good, see
-     * MechanicalModel::set_absent_blocks(). Their energies, that of contact with
-     * others included, count as `left`, and what they still touched loses that
-     * force. @throws InputError for a block that has left already.
+     * Remove blocks (ManifoldMesh::block()) for good, see BlockModel::set_absent_blocks(). Their
+     * energies, including that of contact with other blocks, count as `left`. Blocks that they
+     * touched no longer feel their contact forces.
+     * @throws InputError for a block that does not exist or has left already.
      */
     void
     drop_blocks(const std::vector<unsigned int> &blocks);
 
-    /// From now on blocks may sleep. They are awake unless the state says otherwise.
-    /// @throws InputError for a model that does not tell blocks apart, as on several
-    /// ranks, or parameters that are not positive.
+    /// Let blocks sleep from now on. All are awake unless the state says otherwise.
+    /// @throws InputError for a model that does not distinguish blocks, as on several
+    /// ranks, or parameters out of range.
     void
     let_blocks_sleep(const SleepParameters &parameters);
 
-    /// How many sleep now.
+    /// Number of blocks that sleep now; 0 if sleeping is disabled.
     unsigned int
     n_asleep() const;
 
+    /// The state after the last accepted step.
     const DynamicState &
     state() const;
 
-    /// For the step control.
+    /// Set DynamicState::next_step [s]; called by the step control only.
     void
     set_next_step(double step);
 
-    /// The energy account of the current state.
+    /// The account of energies and momenta of the current state.
     const Account &
     account() const;
 
+    /// The model given to the constructor.
     MechanicalModel &
     model() const;
 
+    /// The scheme given to the constructor.
     const TimeScheme &
     scheme() const;
 

@@ -11,45 +11,49 @@ namespace NMM
    *     v_1 = v_0 + h\left((1-\gamma) a_0 + \gamma a_1\right), @f]
    * @f[ M a_{1-\alpha_m} + C v_{1-\alpha_f} + r(u_{1-\alpha_f}, t_{1-\alpha_f}) = 0,
    *     \qquad x_{1-\alpha} = (1-\alpha) x_1 + \alpha x_0, @f]
-   * h being the step. Coefficients without a unit.
+   * h being the step.
    */
   struct TimeScheme
   {
+    /// Name of the scheme for messages.
     std::string name = "newmark";
-    double      beta = 0.25, gamma = 0.5, alpha_m = 0., alpha_f = 0.;
-    /// Forces between both states (MechanicalModel::assemble_between())
-    /// instead of r at u_{1 - alpha_f}.
+    /// @{
+    /// Coefficients of the formulas above [-], in the ranges that check() verifies.
+    double beta = 0.25, gamma = 0.5, alpha_m = 0., alpha_f = 0.;
+    /// @}
+    /// Whether the forces are those of MechanicalModel::assemble_between(), which depend on both
+    /// ends of the step, instead of r at u_{1 - alpha_f}.
     bool is_conserving = false;
 
-    /// Newmark; beta = 1/4, gamma = 1/2, the trapezoidal rule, is
+    /// Newmark's scheme. With beta = 1/4 and gamma = 1/2, the trapezoidal rule, it is
     /// of order 2, unconditionally stable and without damping for linear problems.
     static TimeScheme
     newmark(double beta = 0.25, double gamma = 0.5);
 
     /**
-     * Chung & Hulbert (J. Appl. Mech. 60 (1993) 371), eqs. (17), (20), (25): order
-     * 2, damping only what the step does not resolve; @p spectral_radius in
-     * [0, 1] is the factor per step that is left of infinite frequencies.
+     * The generalized-alpha scheme of Chung & Hulbert (J. Appl. Mech. 60 (1993) 371),
+     * eqs. (17), (20), (25). It has order 2 and damps mainly those frequencies that the step does
+     * not resolve. @p spectral_radius in [0, 1] is the factor by which the amplitude of
+     * infinite frequencies is multiplied in each step.
      */
     static TimeScheme
     generalized_alpha(double spectral_radius);
 
     /**
-     * The scheme of DDA and the numerical manifold method (Shi): in each
+     * The scheme of DDA and the numerical manifold method (Shi). In each
      * step the acceleration is the constant @f$ a_1 = 2 (u_1 - u_0 - h v_0)/h^2 @f$,
-     * of the forces at its end: beta = 1/2, gamma = 1. Order 1; it damps, and
-     * turning bodies lose energy.
+     * which balances the forces at the end of the step: beta = 1/2, gamma = 1. The scheme has
+     * order 1 and damps; rotating bodies lose energy.
      */
     static TimeScheme
     constant_acceleration();
 
     /**
-     * Midpoint rule with forces that conserve (Simo & Tarnow 1992, Gonzalez 2000):
-     * linear and angular momentum, and without loads energy, are those of the
-     * start to rounding and to the tolerance of the iteration, whatever the step.
-     * Order 2. a_1 is the mean acceleration of the step. Displacement conditions
-     * are evaluated at the mean displacement, which conserves energy
-     * up to the order of the scheme for nonlinear models.
+     * The energy-momentum scheme (Simo & Tarnow 1992, Gonzalez 2000): the midpoint rule with
+     * conserving forces. Linear and angular momentum and, without loads, energy are
+     * conserved up to rounding and the tolerance of the iteration, whatever the step.
+     * The order is 2. a_1 is the mean acceleration of the step. Forces of displacement conditions
+     * and ties conserve energy as well, see FiniteElasticity::assemble_between().
      */
     static TimeScheme
     energy_momentum();
@@ -60,14 +64,14 @@ namespace NMM
   };
 
 
-  /// C = mass M + stiffness K(u = 0), see MechanicalModel::stiffness_at_rest(). K(u = 0)
-  /// does not turn with a body; in conserving steps of `finite` kinematics the
-  /// damping does, see MechanicalModel::set_stiffness_damping().
+  /// Coefficients of Rayleigh damping, C = mass M + stiffness K(u = 0), see
+  /// MechanicalModel::stiffness_at_rest(). K(u = 0) does not rotate with a body. In conserving
+  /// steps of `finite` kinematics the damping does, see TangentModel::set_stiffness_damping().
   struct RayleighDamping
   {
-    /// [1/s]
+    /// Coefficient of the mass matrix, not negative [1/s].
     double mass = 0.;
-    /// [s]
+    /// Coefficient of the stiffness matrix, not negative [s].
     double stiffness = 0.;
   };
 } // namespace NMM

@@ -13,8 +13,8 @@
 /**
  * @defgroup fracture Fracture
  *
- * Crack tips: how strongly they are stressed, and where cracks grow to. This room knows covers,
- * materials and displacement fields; it solves nothing itself.
+ * Intensity factors of crack tips, and the directions in which cracks grow. This room knows covers,
+ * materials and displacement fields; it solves no system itself.
  *
  * **In**: the tips of a physical mesh (find_crack_tips()) and a DisplacementField.
  * **Out**: IntensityFactors of each tip, and the direction in which it grows.
@@ -22,11 +22,11 @@
  * | file | job |
  * |---|---|
  * | nmm/covers/crack_tip.h | the tips, their frames, and the angle that jumps on the crack |
- * | nmm/geometry/crack_extension.h | a crack that is longer, up to what it meets |
- * | tip_grading.h | cells that become small towards a tip |
+ * | nmm/geometry/crack_extension.h | the extension of a crack, up to the first curve it meets |
+ * | tip_grading.h | grading of cells towards a tip |
  * | tip_field.h | elastic fields about a tip |
  * | intensity_factors.h | interaction integrals |
- * | growth_criterion.h | the interface of criteria, and their list; a file for each of them |
+ * | growth_criterion.h | the interface of growth criteria, and their list; each has its own file |
  * | kink_factors.h | intensity factors of a short kink |
  *
  * Order of calls:

@@ -9,29 +9,30 @@
 namespace NMM
 {
   /**
-   * Where a crack grows to, and how strongly it is driven, from the intensity factors of its
-   * tip. To add a criterion: derive a class in a file of its own, and name it in
-   * growth_criteria().
+   * A growth criterion: it gives the direction in which a crack grows, and the driving force,
+   * from the intensity factors of its tip. To add a criterion, derive a class in a file of its
+   * own, and name it in growth_criteria().
    */
   class GrowthCriterion
   {
   public:
     virtual ~GrowthCriterion() = default;
 
+    /// The direction of growth and the driving force.
     struct Verdict
     {
-      /// From the tip's direction, counter-clockwise [rad], in (-pi/2, pi/2).
+      /// Angle from the tip's direction, counter-clockwise [rad]; in [-pi/2, pi/2] if K_I >= 0.
       double angle = 0.;
-      /// The intensity factor that is compared with the toughness [Pa m^(1/2)]; K_I if K_II
-      /// vanishes. 0 or negative: the crack does not grow, since it is closed.
+      /// The intensity factor that is compared with the toughness [Pa m^(1/2)]; it is K_I if K_II
+      /// vanishes. If it is 0 or negative, the crack is closed and does not grow.
       double equivalent_intensity = 0.;
     };
 
-    /// @p K_I and @p K_II at the tip as it is, before it grows [Pa m^(1/2)].
+    /// The verdict for the intensity factors of the tip before the crack grows [Pa m^(1/2)].
     virtual Verdict
     judge(double K_I, double K_II) const = 0;
 
-    /// Is the increment to be turned until K_II vanishes at its own tip?
+    /// Whether the increment must be turned until K_II vanishes at its own tip.
     virtual bool
     is_implicit() const
     {
@@ -40,7 +41,7 @@ namespace NMM
   };
 
 
-  /// All criteria that scenes can choose; the first one is the default.
+  /// All growth criteria that scenes can choose; the first one is the default.
   const std::vector<NamedLaw<GrowthCriterion>> &
   growth_criteria();
 } // namespace NMM

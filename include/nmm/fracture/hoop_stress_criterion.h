@@ -6,11 +6,12 @@
 namespace NMM
 {
   /**
-   * A crack grows in the direction of the largest hoop stress about its tip,
+   * The criterion of the largest hoop stress: a crack grows in the direction in which the hoop
+   * stress about its tip is largest,
    * @f[ \theta = 2\arctan\frac{K_I-\sqrt{K_I^2+8K_{II}^2}}{4K_{II}}, \qquad
        K_\mathrm{eq} = \cos^2\tfrac\theta2
          \left(K_I\cos\tfrac\theta2 - 3K_{II}\sin\tfrac\theta2\right), @f]
-   * K_eq being that stress times (2 pi r)^(1/2).
+   * where K_eq is that stress times (2 pi r)^(1/2).
    * Source: F. Erdogan, G. Sih, J. Basic Eng. 85 (1963), 519-525.
    */
   class HoopStressCriterion : public GrowthCriterion

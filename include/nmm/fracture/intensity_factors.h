@@ -11,106 +11,114 @@
 
 namespace NMM
 {
-  /// What a crack tip is like under the load.
+  /// The parameters of the stress field at a crack tip.
   struct IntensityFactors
   {
-    /// Stress intensity factors [Pa m^(1/2)]: ahead of the tip
-    /// sigma_22 = K_I (2 pi r)^(-1/2), sigma_12 = K_II (2 pi r)^(-1/2).
-    double K_I = 0., K_II = 0.;
+    double
+      /// Stress intensity factor of the opening mode [Pa m^(1/2)]: ahead of the tip
+      /// sigma_22 = K_I (2 pi r)^(-1/2) in the tip's frame.
+      K_I = 0.,
+      /// Stress intensity factor of the sliding mode [Pa m^(1/2)]: ahead of the tip
+      /// sigma_12 = K_II (2 pi r)^(-1/2) in the tip's frame.
+      K_II = 0.;
     /// T-stress [Pa]: the part of sigma_11 at the tip that is not singular.
     double T = 0.;
-    /// Energy that the crack releases where it grows straight on, per area [J/m^2]:
+    /// Energy that the crack releases per area if it grows straight on [J/m^2]:
     /// (K_I^2 + K_II^2) / E'.
     double energy_release_rate = 0.;
-    /// Radius of the disk they were computed from [m].
+    /// Radius of the disk from which the factors were computed [m].
     double radius = 0.;
-    /// How far the intensity factors from smaller disks are from these, the largest
-    /// difference [Pa m^(1/2)]: the error that comes from cells within the disk. What is wrong
-    /// outside of it, or with all disks alike, is not seen.
+    /// Largest difference of K_I and of K_II from those of smaller disks [Pa m^(1/2)]. It
+    /// estimates the error that comes from cells within the disk. Errors from outside of the
+    /// disk, and errors that all disks share, do not show.
     double spread = 0.;
   };
 
 
-  /// Traction [Pa] on a crack face at x with the unit normal that points out of the solid.
+  /// Traction on a crack face [Pa], a function of the point x [m] and of the unit normal there
+  /// that points out of the solid.
   using FaceTraction =
     std::function<dealii::Tensor<1, 2>(const dealii::Point<2> &,
                                        const dealii::Tensor<1, 2> &)>;
 
 
-  /// A force that the two faces of a crack exert on each other where they touch.
+  /// A force that the two faces of a crack exert on each other at a point of contact.
   struct ContactForce
   {
-    /// Where they touch [m].
+    /// The point of contact [m].
     dealii::Point<2> x;
-    /// Unit normal of one of the faces there, out of the solid.
+    /// Unit normal of one of the faces, pointing out of the solid [-].
     dealii::Tensor<1, 2> normal;
-    /// On the face with that normal, per unit thickness [N/m]. The opposite force acts on the
-    /// other face.
+    /// Force on the face with that normal, per unit thickness [N/m]. The opposite force acts on
+    /// the other face.
     dealii::Tensor<1, 2> force;
   };
 
 
-  /// u [m] at reference coordinates of an element.
+  /// Displacement u [m], a function of the element and of reference coordinates in its cell [-].
   using ElementDisplacement =
     std::function<dealii::Tensor<1, 2>(unsigned int, const dealii::Point<2> &)>;
 
-  /// du_i/dx_j [-] there.
+  /// Displacement gradient du_i/dx_j [-], a function of the element and of reference coordinates
+  /// in its cell [-].
   using ElementGradient =
     std::function<dealii::Tensor<2, 2>(unsigned int, const dealii::Point<2> &)>;
 
 
   /**
    * Intensity factors of a crack tip by interaction integrals in domain form, for each of several
-   * disks about the tip, from any displacement.
+   * disks about the tip. The displacement can be any function.
    *
-   * Let a be an elastic field without body force, singular at the tip (TipField),
-   * with stress s^a and strain e^a, continued up to the faces of the crack, however these
-   * bend. With a function q that is 1 near the tip and 0 outside the disk, sigma the stress
-   * with initial stress, f the body force and t the traction on the faces, n
-   * pointing out of the solid, and indices in the tip's frame,
+   * Let a be an elastic field without body force that is singular at the tip (TipField),
+   * with stress s^a and strain e^a. It is continued up to the faces of the crack, also where these
+   * bend. Let q be a function that is 1 near the tip and 0 outside the disk, sigma the stress
+   * including initial stress, f the body force, t the traction on the faces, and n the normal
+   * that points out of the solid. With indices in the tip's frame,
    * @f[ P_j = \sigma_{kl}e^a_{kl}\delta_{1j} - \sigma_{ij}a_{i,1} - s^a_{ij}u_{i,1},
        \qquad P_{j,j} = f_ia_{i,1}, @f]
    * @f[ I = \lim_{\rho\to0}\int_{r=\rho}P_jm_j\,ds
          = -\int_A (P_jq_{,j} + q f_ia_{i,1})\,dA
          + \int_{\mathrm{faces}} q P_jn_j\,ds. @f]
-   * On the faces derivatives of u appear along the face only,
+   * On the faces only derivatives of u along the face appear,
    * @f[ P_jn_j = n_1\sigma^0_{kl}e^a_{kl} - t_ia_{i,1} + s^a_{i2}\,\partial_su_i, @f]
-   * s being the direction with the solid on its left. The last term is integrated by parts, so
+   * where s is the direction with the solid on its left. The last term is integrated by parts, so
    * that I is a bounded functional of u and converges with the square of the energy error:
    * @f[ \int q s^a_{i2}\,\partial_su_i\,ds
        = -\int \partial_s(q s^a_{i2})\,(u_i-u_i^{\mathrm{tip}})\,ds. @f]
-   * The displacement of the tip changes nothing but makes the T-stress's integral
-   * exist. On straight faces without traction all of this vanishes and is skipped. A body force
-   * is divided: with its value f^0 at the tip,
+   * Subtracting the displacement of the tip does not change the result, but the integral for the
+   * T-stress exists only with it. On straight faces without traction these terms vanish and are
+   * skipped. The body force is split into its value f^0 at the tip and the rest. For the former,
    * @f$ \int_A q f^0_ia_{i,1} = -\int_A q_{,1}f^0_ia_i
        + \int_{\mathrm{faces}} q f^0_i a_i n_1@f$, which has no singular integrand.
    *
-   * Then K_I = E' I / 2 with the field of unit K_I, likewise K_II, and with the
+   * Then K_I = E' I / 2 with the field of unit K_I, and likewise for K_II. With the field of the
    * point force
-   * @f$ T = E' I + \sigma_{22} + \sigma^0_{11} - \nu'\sigma^0_{22}@f$, sigma_22 being minus the
-   * normal pressure on the faces at the tip and nu' = (3 - kappa) / (1 + kappa).
+   * @f$ T = E' I + \sigma_{22} + \sigma^0_{11} - \nu'\sigma^0_{22}@f$, where sigma_22 is minus
+   * the normal pressure on the faces at the tip and nu' = (3 - kappa) / (1 + kappa).
    *
    * q is a polynomial of degree 7 in r between an inner and the outer radius, with three
-   * continuous derivatives. Element rules have the degree 10: their own error is 1e-7 of K
-   * with ten cells and 1e-8 with twenty along the radius.
+   * continuous derivatives. Element rules have the degree 10. Their own error is 1e-7 of K
+   * with ten cells along the radius, and 1e-8 with twenty.
    *
-   * Where faces touch, t is not a function but forces of single points, as in the equilibrium of
-   * u, and their sum stands for the integral of t. In the first cells at the tip these are as
-   * wrong as stresses are there, and covers are not divided any more. So the traction is taken to
-   * be uniform in the part w = (1 - s^2)^2, s = r / rho, of all forces, with rho = 0.2 of the
-   * radius. Its resultant follows from the forces farther out, since the integral of w is 7 times
-   * that of s^2 w, and is 8 / 15 rho times the traction; the integral of w r^(-1/2) is that of a
-   * force at r = (3/8)^2 rho.
+   * Where faces are in contact, t consists of forces at single points, as in the equilibrium of
+   * u, and sums over these points replace the integrals of t. In the first cells at the tip these
+   * forces are as inaccurate as stresses are there, and the crack no longer splits the covers.
+   * Therefore the part w = (1 - s^2)^2 of all forces, with s = r / rho and rho = 0.2 of the
+   * radius, is replaced by that of a uniform traction. Its resultant follows from the forces
+   * farther out, since the integral of w is 7 times that of s^2 w. The resultant is 8 / 15 rho
+   * times the traction. It is applied at r = (3/8)^2 rho, where a single force has the same
+   * integral of w r^(-1/2).
    *
-   * Limits: small displacements; initial stress is uniform in the region; no inertia, no
-   * inelastic strain within the disk; nothing but this crack in the disk
+   * Limits: displacements are small, and initial stress is uniform in the region. Within the disk
+   * there is no inertia and no inelastic strain, and no curve but this crack
    * (CrackTip::free_radius).
    *
    * Sources: M. Stern, E. Becker, R. Dunham, Int. J. Fract. 12 (1976), 359-368; J. Yau, S. Wang, H.
    * Corten, J. Appl. Mech. 47 (1980), 335-341; the form for bent cracks is derived here.
    *
-   * @p radii of the disks [m]. @p face_traction acts on the faces besides the pressures of
-   * the problem; empty: none. Of @p contact_forces each rank gives its own. Collective.
+   * @p radii are the radii of the disks [m]. @p face_traction acts on the faces in addition to the
+   * pressures of the problem; if it is empty, there is none. Each rank passes its own part of
+   * @p contact_forces. Returns the factors of each disk, with a spread of 0. Collective.
    * @throws InputError for a radius larger than the tip's free radius.
    */
   std::vector<IntensityFactors>
@@ -125,9 +133,10 @@ namespace NMM
 
 
   /**
-   * Intensity factors of a tip from five disks: those of the largest one, with the spread
-   * of all. @p largest_radius [m]; 0 stands for 0.9 times the tip's free radius.
-   * @p contact_forces as in interaction_integrals(). Collective.
+   * Intensity factors of a tip from five disks. The factors are those of the largest disk, and
+   * IntensityFactors::spread compares all of them. @p largest_radius is the radius of that disk
+   * [m]; 0 stands for 0.9 times the tip's free radius.
+   * @p contact_forces is as in interaction_integrals(). Collective.
    */
   IntensityFactors
   compute_intensity_factors(

@@ -6,10 +6,11 @@
 namespace NMM
 {
   /**
-   * A crack grows so that its new tip has K_II' = 0; its K_I' is compared with the toughness.
-   * The angle that kink_factors() give is the first guess: the increment is turned
-   * until K_II vanishes at its own tip, of its own length (is_implicit()), so that the path
-   * converges with the length of increments and has no zig-zag.
+   * The criterion of local symmetry: a crack grows so that its new tip has K_II' = 0, and K_I'
+   * of the new tip is compared with the toughness. The angle that follows from kink_factors() is
+   * only the first guess. Since is_implicit() is true, the increment is then turned until K_II
+   * vanishes at the tip of the increment, whose length is finite. The path therefore converges
+   * with the length of increments and does not zigzag.
    * Source: R. Goldstein, R. Salganik, Int. J. Fract. 10 (1974), 507-523.
    */
   class LocalSymmetryCriterion : public GrowthCriterion

@@ -13,8 +13,9 @@ namespace NMM
 {
   /**
    * A plane elastic field without body force about the tip of a straight crack with
-   * stress-free faces, in the tip's frame (CrackTip), of degree n/2 in the distance r:
-   * Williams' terms. By Kolosov's formulas with two analytic functions,
+   * stress-free faces, in the tip's frame (CrackTip). Such fields are the terms of Williams'
+   * series, of degree n/2 in the distance r. Kolosov's formulas give them by two analytic
+   * functions,
    * @f[ \sigma_{11}+\sigma_{22} = 4\,\mathrm{Re}\,\varphi', \qquad
        \sigma_{22}-\sigma_{11}+2i\sigma_{12} = 2(\bar z\varphi''+\psi'), \qquad
        2\mu(u_1+iu_2) = \kappa\varphi - z\overline{\varphi'}-\overline{\psi}, @f]
@@ -25,7 +26,7 @@ namespace NMM
    * leaves the faces @f$\theta=\pm\pi@f$ free of stress.
    *
    * The caller gives the angle, so that the field can be continued beyond
-   * @f$\pm\pi@f$ to a crack that bends: it remains an elastic field, and only its
+   * @f$\pm\pi@f$ for a crack that bends. It remains an elastic field there, but its
    * tractions on the faces no longer vanish.
    *
    * Sources: N. Muskhelishvili, Some basic problems of the mathematical theory of
@@ -34,50 +35,53 @@ namespace NMM
   class TipField
   {
   public:
+    /// The terms that can be evaluated.
     enum class Kind
     {
-      /// n = 1, the stress intensity K_I = 1 Pa m^(1/2):
+      /// The term n = 1 with K_I = 1 Pa m^(1/2):
       /// sigma_22 = (2 pi r)^(-1/2) ahead of the tip.
       opening,
-      /// n = 1, K_II = 1 Pa m^(1/2): sigma_12 = (2 pi r)^(-1/2) ahead of the tip.
+      /// The term n = 1 with K_II = 1 Pa m^(1/2): sigma_12 = (2 pi r)^(-1/2) ahead of the tip.
       sliding,
-      /// The force 1 N per metre of thickness at the tip, in the direction e_1:
-      /// psi = -phi = log(z) / (4 pi). It is the field that extracts the T-stress.
+      /// The field of a force of 1 N per metre of thickness at the tip, in the direction e_1:
+      /// psi = -phi = log(z) / (4 pi). The T-stress is computed with this field.
       point_force
     };
 
+    /// The field @p kind for the given elastic constants.
     TipField(Kind kind, const PlaneElasticity &elasticity);
 
     /// Values of the field in components of the tip's frame.
     struct Values
     {
-      /// u [m]; of a point force up to a translation.
+      /// Displacement u [m]; that of a point force is defined up to a translation.
       dealii::Tensor<1, 2> displacement;
-      /// du_i/dx_j [-].
+      /// Displacement gradient du_i/dx_j [-].
       dealii::Tensor<2, 2> gradient;
-      /// [Pa]
+      /// Stress, tension positive [Pa].
       dealii::SymmetricTensor<2, 2> stress;
-      /// d sigma / dx_j [Pa/m].
+      /// Derivatives of the stress d sigma / dx_j [Pa/m].
       std::array<dealii::SymmetricTensor<2, 2>, 2> stress_derivatives;
     };
 
-    /// The field at the distance @p r > 0 [m] and angle @p theta [rad] from the tip.
+    /// The field at the distance @p r > 0 [m] from the tip and at the angle @p theta [rad],
+    /// counter-clockwise from the direction of the crack.
     Values
     evaluate(double r, double theta) const;
 
   private:
     double mu, kappa;
-    /// phi' = phi_factor z^power, psi' = psi_factor z^power
+    /// The functions are given by phi' = phi_factor z^power and psi' = psi_factor z^power.
     double               power;
     std::complex<double> phi_factor, psi_factor;
   };
 
 
-  /// Kolosov's constant: 3 - 4 nu in plane strain, (3 - nu) / (1 + nu) in plane stress.
+  /// Kolosov's constant kappa [-]: 3 - 4 nu in plane strain, (3 - nu) / (1 + nu) in plane stress.
   double
   kolosov_constant(const PlaneElasticity &elasticity);
 
-  /// E' [Pa]: E / (1 - nu^2) in plane strain, E in plane stress.
+  /// Young's modulus of the plane E' [Pa]: E / (1 - nu^2) in plane strain, E in plane stress.
   double
   plane_modulus(const PlaneElasticity &elasticity);
 } // namespace NMM

@@ -7,18 +7,19 @@
 namespace NMM
 {
   /**
-   * Cells that become small towards a crack tip, so that all of them have the same part
-   * in the error of second-order displacements. These are off by h^3 times third
-   * derivatives, which grow like r^(-5/2); squared, times the area h^2 of a cell and by
-   * h^(-2) for the strain, the energy of the error in a cell is
+   * The cell sizes about a crack tip that distribute the error of second-order displacements
+   * equally among cells. The error of displacements is h^3 times their third derivatives, which
+   * grow like r^(-5/2). Its square, times h^(-2) for the strain and times the area h^2 of a cell,
+   * is the energy of the error in a cell,
    * @f[ h^6\,r^{-5} = \mathrm{const.}
        \quad\Rightarrow\quad h = g R \left(\frac rR\right)^{5/6}, @f]
-   * R being the free radius of the tip and g @p growth [-], the size of cells at that distance
-   * over R. About 44 / g^2 cells lie in the disk r < R, however small they are at
-   * the tip: there they are 1e-6 R, since the crack opens up to the cell that holds its tip, and
-   * what is missing of its length a costs about half of its share in a of K.
+   * where R is the free radius of the tip and g = @p growth is the size of cells at the distance R
+   * over R [-]. About 44 / g^2 cells lie in the disk r < R, for any cell size at
+   * the tip. That size is 1e-6 R: the crack is open only up to the cell that contains its tip,
+   * and a crack that is too short by a fraction of its length has a K that is too small by
+   * about half of that fraction.
    *
-   * In each refinement at most 2^20 divisions are possible: @p cell_size [m] of the mesh elsewhere
+   * A cell can be halved at most 20 times, so that the size of cells elsewhere, @p cell_size [m],
    * bounds the size at the tip from below.
    */
   LocalSize

@@ -10,26 +10,27 @@
 
 namespace NMM
 {
-  /// What became of a crack tip that grew.
+  /// Result of extend_crack().
   struct CrackExtension
   {
-    /// Where the crack ends now [m].
+    /// Position of the end of the crack after the growth [m].
     dealii::Point<2> end;
-    /// The curve it has arrived at: a boundary, hole, joint, interface or another
-    /// crack, where it ends. Empty: it ends inside a block, and is a tip again.
+    /// Role and name of the curve at which the crack ends now, such as "joint 'j1'": a boundary,
+    /// hole, joint, interface or another crack. Empty if the crack ends inside a block and has a
+    /// tip there.
     std::string met;
   };
 
   /**
-   * Let a crack grow straight on from its tip at @p tip in the unit direction @p direction by
+   * Let a crack grow straight from its tip at @p tip in the unit direction @p direction by
    * @p length [m], as a further open joint called @p name.
    *
-   * A crack does not cross other curves: it ends at the first one that it meets, and also where
-   * this is up to half of the length further away, so that no bridge remains that is short beside
-   * the increment. The curve it meets is divided there, at a point in doubles, which moves it by
-   * rounding, so that both are connected exactly.
+   * A crack does not cross other curves: it ends at the first one that it meets. It is extended to
+   * a curve that is up to half of the length further away, so that no bridge remains that is
+   * short compared with the increment. The curve that it meets is divided at a point with
+   * double coordinates, which moves the curve by rounding, so that both are connected exactly.
    *
-   * @p tip must be the end of a joint of @p geometry, to the last bit.
+   * @p tip must be exactly the end of a joint of @p geometry.
    */
   CrackExtension
   extend_crack(Geometry                   &geometry,

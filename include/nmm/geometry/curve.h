@@ -11,54 +11,65 @@ namespace NMM
   /**
    * One straight segment, circular arc or full circle of the physical mesh.
    *
-   * Coordinates are taken as the exact numbers their doubles are. An arc is
-   * given by three points it passes through, because three doubles always lie
-   * exactly on one circle, while a rounded end point does not lie exactly on a
-   * circle given by centre and radius.
+   * Coordinates are the exact values of their doubles. An arc is given by three points on it,
+   * because three points with double coordinates lie exactly on one circle, while a rounded end
+   * point does not lie exactly on a circle given by centre and radius.
+   *
+   * Pieces are made by segment(), arc() and circle(); Curve::check() examines them.
    */
   struct CurvePiece
   {
+    /// Shape of a piece.
     enum class Kind
     {
+      /// Straight segment from start to end.
       segment,
+      /// Circular arc from start over through to end.
       arc,
+      /// Full circle, counter-clockwise.
       circle
     };
 
+    /// A straight segment between two points [m].
     static CurvePiece
     segment(const dealii::Point<2> &start, const dealii::Point<2> &end);
 
     /**
-     * An arc is the segment between its ends, with is_straightened set, if its
-     * sagitta @f$ s @f$ is below what rounding moves its points by anyway,
+     * A circular arc over three points [m]. The result is the segment between the ends, with
+     * is_straightened set, if the sagitta @f$ s @f$ of the arc is no more than the rounding of its
+     * points,
      * @f[ s \le 4\,\varepsilon\,\max(R, |x|, |y|), \qquad
          \varepsilon = 2^{-52}, @f]
-     * R being its radius and x, y the coordinates of its ends: points on an arc are
-     * computed from centre and radius in doubles. Measured by its chord c that is a
-     * sagitta of at most 1.1e-8 c, and a radius of at least 1.2e7 c.
+     * with the radius R and the coordinates x, y of the ends, because points on an arc are
+     * computed from centre and radius in doubles. If R is the largest of these, an arc with the
+     * chord c is straightened if its sagitta is at most 1.1e-8 c, or its radius at least 1.2e7 c.
      */
     static CurvePiece
     arc(const dealii::Point<2> &start,
         const dealii::Point<2> &through,
         const dealii::Point<2> &end);
 
+    /// A full circle; @p center and @p radius in [m].
     static CurvePiece
     circle(const dealii::Point<2> &center, double radius);
 
+    /// Shape of the piece.
     Kind kind = Kind::segment;
 
-    /// First and last point [m]; for a circle both are center + (radius, 0).
-    dealii::Point<2> start, end;
+    /// First point [m]; for a circle center + (radius, 0).
+    dealii::Point<2> start,
+      /// Last point [m]; for a circle the same as the first one.
+      end;
 
     /// A point of the arc between start and end [m]; arcs only.
     dealii::Point<2> through;
 
-    /// Centre [m] and radius [m]: given for circles; for arcs derived exactly
-    /// and rounded once.
+    /// Centre of a circle or arc [m]; for arcs computed exactly and rounded once.
     dealii::Point<2> center;
-    double           radius = 0.;
+    /// Radius of a circle or arc [m], positive; 0 for segments.
+    double radius = 0.;
 
-    /// A segment that was given as an arc of hardly any sagitta, see arc().
+    /// Whether the segment was given as an arc with negligible sagitta, see arc().
     bool is_straightened = false;
   };
 
@@ -69,7 +80,7 @@ namespace NMM
                      const dealii::Point<2> &end,
                      double                  radius);
 
-  /// What a curve means to the solid.
+  /// Meaning of a curve for the solid.
   enum class CurveRole
   {
     /// Part of the outer boundary of a domain.
@@ -78,15 +89,16 @@ namespace NMM
     hole,
     /// A joint or crack: the displacement may jump across it.
     joint,
-    /// A material interface: bonded, strain may jump, displacement does not.
+    /// A material interface across which strain may jump, but not displacement.
     interface
   };
 
-  /// A joint whose faces do not touch (open: stress free) or are held together
-  /// (closed: tied until a strength is exceeded).
+  /// Connection of the two faces of a joint.
   enum class JointState
   {
+    /// The faces are separate; they transmit stress only where the analysis has contact.
     open,
+    /// The faces are tied to each other.
     closed
   };
 
@@ -95,36 +107,39 @@ namespace NMM
    */
   struct Curve
   {
-    std::string             name;
-    CurveRole               role = CurveRole::boundary;
+    /// Name, by which loads, laws and messages refer to it; curves of one role may share a name.
+    std::string name;
+    /// Meaning of the curve for the solid.
+    CurveRole role = CurveRole::boundary;
+    /// The pieces in order; each starts exactly where the last one ended.
     std::vector<CurvePiece> pieces;
 
-    /// Joints only.
+    /// Joints only: connection of both faces.
     JointState state = JointState::open;
 
-    /// Joints only: the domain (name of its boundary) or the region of
-    /// Geometry::regions() outside of which the curve does not count. Empty: the
-    /// solid.
+    /// Joints only: name of the domain's boundary, or of the region of Geometry::regions(), outside
+    /// of which the curve is ignored. Empty if the curve is not confined.
     std::string within;
 
-    /// Joints only: parts with the same region on both sides, which bound no
-    /// block, do not count.
+    /// Joints only: whether parts with the same region on both sides, which bound no block, are
+    /// removed.
     bool drops_ends = false;
 
-    /// Joints: what lies outside the solid, or all of it, is nothing to tell. Holes:
-    /// one may reach beyond its domain, and overlap others, as an excavation does.
+    /// Joints: whether parts outside the solid are ignored without an error or a notice. Holes:
+    /// whether the hole may reach beyond its domain and overlap others, as an excavation does.
     bool is_clipped = false;
 
     /// For a boundary, the material of its domain; for a closed interface, the material inside it.
-    /// Empty: this curve does not give one.
+    /// Empty if the curve does not determine a material.
     std::string material;
 
-    /// Where it was read, as "file:line"; empty if made by a call.
+    /// Place where the curve was read, as "file:line"; empty if a function call made it.
     std::string source;
 
-    /// First point of the first piece and last point of the last piece [m].
+    /// First point of the first piece [m].
     const dealii::Point<2> &
     start() const;
+    /// Last point of the last piece [m].
     const dealii::Point<2> &
     end() const;
 
@@ -133,16 +148,17 @@ namespace NMM
     is_closed() const;
 
     /**
-     * Throw an InputError that names the curve, unless every coordinate is
-     * finite, every piece has a length, every radius is positive and finite, no
-     * arc runs through infinity (points exactly on a line, the middle one not
-     * between the others), each piece starts exactly where the last one ended, a full circle is the only piece, and there is a piece.
+     * Check the pieces. @throws InputError naming the curve unless it has at least one piece,
+     * every coordinate is finite, every piece has a length, every radius is positive and finite,
+     * the three points of an arc do not lie exactly on a line with the middle one outside of the
+     * others, each piece starts exactly where the last one ended, and a full circle is the only
+     * piece.
      */
     void
     check() const;
   };
 
-  /// "boundary", "hole", "joint" or "interface": the word of geometry files.
+  /// The word of geometry files for a role: "boundary", "hole", "joint" or "interface".
   std::string
   to_string(CurveRole role);
 } // namespace NMM

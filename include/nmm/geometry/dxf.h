@@ -8,21 +8,20 @@
 
 namespace NMM
 {
-  /// Was this library built with dxflib?
+  /// Whether this library was built with dxflib.
   bool
   can_read_dxf();
 
   /**
-   * Joints of a DXF drawing: LINE, LWPOLYLINE and POLYLINE (with bulges, which become
-   * arcs), ARC and CIRCLE, each called after its layer; z is left out. Texts, points and
-   * dimensions are skipped, and so is what is defined in blocks. With
-   * @p layers only these are read.
+   * Read joints from a DXF drawing: LINE, LWPOLYLINE and POLYLINE (with bulges, which become
+   * arcs), ARC and CIRCLE. Each joint has the name of its layer, and z is ignored. Texts, points,
+   * dimensions and definitions of DXF blocks are skipped. If @p layers is not empty, only these
+   * layers are read.
    *
-   * @throws InputError naming the file and the entity with its line for a file that
-   * cannot be read, ends early or has coordinates that are no numbers; a layer that
-   * has nothing on it; splines, ellipses, inserted blocks and rays, which are curves
-   * that would be missing; what is drawn in another plane; or if can_read_dxf() is
-   * false.
+   * @throws InputError naming the file and the entity with its line if the file cannot be read,
+   * ends early or has coordinates that are not numbers; if a layer has no curves; for splines,
+   * ellipses, inserted blocks and rays, which would be missing from the joints; for entities in
+   * another plane; or if can_read_dxf() is false.
    */
   std::vector<Curve>
   read_dxf(const std::string              &file_name,

@@ -10,40 +10,42 @@
 namespace NMM
 {
   /**
-   * The description of a physical mesh, as a user gives it: named curves with
-   * their roles, and material points. It is only collected here; PhysicalMesh
-   * checks it and works out blocks.
+   * Description of a physical mesh by the user: named curves with their roles, regions, and
+   * material points.
    *
-   * Boundaries and holes may come as one closed curve or as several named open
-   * ones (so that loads can name a side) whose end points coincide exactly and
-   * which then chain to closed loops.
+   * A boundary or hole is one closed curve, or several named open ones (so that loads can refer to
+   * a side), whose end points coincide exactly and which form closed loops.
+   *
+   * Order of calls: add() and the other functions that add, or read_geometry(); then clean() if
+   * end points do not coincide; then the constructor of PhysicalMesh, which checks the description
+   * and finds regions and blocks.
    */
   class Geometry
   {
   public:
     /**
-     * Add a curve. @throws InputError for a non-finite coordinate, a piece of
-     * zero length, a radius that is not positive, collinear arc points, pieces
-     * that do not follow each other, no piece at all.
+     * Add a curve; one without a name is named after its role and number.
+     * @throws InputError as Curve::check().
      */
     void
     add(Curve curve);
 
-    /// Closed polygon (first point need not be repeated) as outer boundary.
+    /// Add a closed polygon with at least three @p vertices [m]; the first one need not be
+    /// repeated.
     void
     add_polygon(const std::vector<dealii::Point<2>> &vertices,
                 const std::string                   &name,
                 CurveRole                            role = CurveRole::boundary,
                 const std::string                   &material = "");
 
-    /// Open polyline, e.g. a joint.
+    /// Add an open polyline through @p vertices [m], for example a joint.
     void
     add_polyline(const std::vector<dealii::Point<2>> &vertices,
                  const std::string                   &name,
                  CurveRole                            role,
                  JointState                           state = JointState::open);
 
-    /// Full circle.
+    /// Add a full circle; @p center and @p radius in [m].
     void
     add_circle(const dealii::Point<2> &center,
                double                  radius,
@@ -51,39 +53,45 @@ namespace NMM
                CurveRole               role,
                const std::string      &material = "");
 
-    /// The region around @p point consists of @p material. Later ones win.
+    /// Set the material of the region that contains @p point [m]. If there are several points in a
+    /// region, the last one counts.
     void
     add_material_point(const dealii::Point<2> &point,
                        const std::string      &material);
 
     /**
-     * A place that curves can be confined to (Curve::within), and that is no part of
-     * the physical mesh itself: a closed curve with a name of its own. Role and
-     * state mean nothing. @throws InputError unless it is closed, as for add(), and
-     * for a name that another region has.
+     * Add a closed curve with a unique name, inside of which other curves can be confined
+     * (Curve::within). It is not a part of the physical mesh; its role and state are ignored.
+     * @throws InputError as Curve::check(), for a curve that is not closed, and for a name that
+     * another region has.
      */
     void
     add_region(Curve curve);
 
-    /// All regions of the solid whose point PhysicalMesh::Region::inside is in the
-    /// region called @p region consist of @p material; later ones win, material
-    /// points over all. @throws InputError for a region that does not exist.
+    /// Set the material of all regions of the solid whose point PhysicalMesh::Region::inside is in
+    /// the closed curve called @p region. If several calls apply to a region of the solid, the last
+    /// one counts; material points take precedence. @throws InputError if there is no such closed
+    /// curve.
     void
     add_material_region(const std::string &region, const std::string &material);
 
+    /// All curves in the order in which they were added.
     const std::vector<Curve> &
     curves() const;
 
+    /// The same for changes, which are not checked until PhysicalMesh is made.
     std::vector<Curve> &
     curves();
 
+    /// The closed curves of add_region().
     const std::vector<Curve> &
     regions() const;
 
-    /// Names of regions and their materials.
+    /// Names of closed curves and materials of add_material_region(), in the order of calls.
     const std::vector<std::pair<std::string, std::string>> &
     material_regions() const;
 
+    /// Points [m] and materials of add_material_point(), in the order of calls.
     const std::vector<std::pair<dealii::Point<2>, std::string>> &
     material_points() const;
 
@@ -94,46 +102,54 @@ namespace NMM
   };
 
   /**
-   * Read a geometry file: one record per line (a record may go on over several
-   * lines until its parentheses close), `#` starts a comment. The format is in
-   * doc/scene-format.md.
+   * Read a geometry file. It has one record per line; a record may continue over several lines
+   * until its parentheses close, and `#` starts a comment. doc/scene-format.md describes the
+   * format.
    * @throws InputError naming file and line.
    */
   Geometry
   read_geometry(const std::string &file_name);
 
-  /// The same from a string; @p source_name stands in messages.
+  /// Read a geometry from a string; messages call it @p source_name.
   Geometry
   parse_geometry(const std::string &text, const std::string &source_name);
 
   /// One change made by clean().
   struct CleaningAction
   {
+    /// Kind of a change.
     enum class Kind
     {
-      /// An end point moved onto a near-coincident vertex.
+      /// An end point was moved to a vertex nearby.
       snapped_to_vertex,
-      /// An end point short of a curve moved onto it.
+      /// An end point that was short of a curve was moved onto it.
       extended_to_curve,
-      /// An overshoot past a curve cut off.
+      /// The part of a curve beyond another one was cut off.
       trimmed_overshoot,
-      /// A piece shorter than the tolerance removed.
+      /// A piece that was not longer than the tolerance was removed.
       removed_piece
     };
 
-    Kind             kind;
-    std::string      curve;
-    dealii::Point<2> from, to;
-    double           distance;
+    /// Kind of this change.
+    Kind kind;
+    /// Name of the curve that was changed.
+    std::string curve;
+    /// Position of the end point before the change [m]; start of a removed piece.
+    dealii::Point<2> from,
+      /// Position of the end point after the change [m]; end of a removed piece.
+      to;
+    /// Distance by which the end point was moved [m]; length of a removed piece.
+    double distance;
 
+    /// A sentence for the user that describes the change.
     std::string
     description() const;
   };
 
   /**
-   * The cleaning step: snap end points closer than @p tolerance [m] to a vertex
-   * or curve, trim overshoots shorter than it. Off for tolerance 0. Returns
-   * every change made, in order.
+   * Clean the curves of a geometry: snap end points closer than @p tolerance [m] to a vertex or
+   * curve, trim overshoots shorter than it, and remove short pieces. A tolerance of 0 changes
+   * nothing. Returns all changes in order.
    */
   std::vector<CleaningAction>
   clean(Geometry &geometry, double tolerance);

@@ -21,88 +21,102 @@ namespace NMM
 
   /**
    * The physical mesh: the exact arrangement of boundaries, holes, joints and
-   * interfaces, and the regions and blocks it makes.
+   * interfaces, and the regions and blocks that it forms. A Geometry comes in; curves, pieces,
+   * regions, materials and notices go out. The constructor does all the work; the result is
+   * immutable.
    *
    * A *region* is a bounded, connected piece of the solid that no curve
    * crosses; it has one material. A *block* is a maximal set of regions
-   * connected across material interfaces: what moves as one piece. A joint that
+   * connected across material interfaces, so that it moves as one piece. A joint that
    * ends inside a block (a crack) does not divide it.
    *
    * The topology is exact (CGAL Arrangement_2 over circles and segments with
    * exact constructions): a joint through a vertex, along another or tangent to
-   * a circle is an ordinary case. Coordinates are doubles, however, and what exact
-   * lines enclose may be smaller than these can tell apart: three lines through one
-   * point, with rounded digits, make a triangle with all corners in that point. The
-   * area of such a face, from its rounded vertices, is no more than their rounding,
+   * a circle is an ordinary case. Coordinates are doubles, however, and exact lines may enclose
+   * faces that are smaller than rounding: three lines through one
+   * point, with rounded digits, form a triangle with all corners in that point. A face is
+   * negligible if its area, from its rounded vertices, is no more than their rounding,
    * @f$ 16\,\varepsilon \sum_i l_i \max(M, R_i) @f$ with lengths l of its edges, radii
-   * R of arcs and the largest coordinate M. It is no region but a part of that region
+   * R of arcs and the largest coordinate M. Such a face is not a region but a part of the region
    * with which it shares the longest edge, as if the lines met in the point, and the
-   * edge between them is no more. A face without such a neighbour is left out of the
-   * solid. Segments that run along each other within rounding, so that one of them may
-   * end inside a block, are made to coincide there before. Notices tell of both.
-   * Immutable once built.
+   * edge between them is removed. A face without such a neighbour is removed from the
+   * solid. Before that, segments that run along each other within rounding, so that one of them may
+   * end inside a block, are made to coincide. Notices report both.
    */
   class PhysicalMesh
   {
   public:
+    /// A bounded, connected piece of the solid that no curve crosses.
     struct Region
     {
       /// Index into material_names(), or invalid_index if none was given.
       unsigned int material;
-      /// Block this region belongs to.
+      /// Block that the region belongs to.
       unsigned int block;
       /// Area [m^2].
       double area;
-      /// A point inside [m], for messages and pictures.
+      /// A point inside the region [m]; it also decides about Geometry::add_material_region().
       dealii::Point<2> inside;
-      /// Thinner than a millionth of its length.
+      /// Whether the region is thinner than a millionth of its length.
       bool is_sliver = false;
     };
 
-    /// Parts of joints with the same region on both sides: they bound no block.
+    /// Parts of joints with the same region on both sides, which bound no block.
     struct DanglingEnds
     {
-      /// Crack tips: points inside the solid where one piece of a joint ends.
-      unsigned int n_kept = 0, n_dropped = 0;
-      /// [m].
-      double length_kept = 0., length_dropped = 0.;
-      /// The crack tips [m].
+      /// Number of crack tips that are kept: points inside the solid where one piece of a joint
+      /// ends.
+      unsigned int
+        n_kept = 0,
+        /// Number of crack tips that are removed, see Curve::drops_ends.
+        n_dropped = 0;
+      /// Length of the parts that are kept [m].
+      double length_kept = 0.,
+             /// Length of the parts that are removed [m].
+        length_dropped = 0.;
+      /// Positions of the crack tips that are kept [m].
       std::vector<dealii::Point<2>> tips;
     };
 
     /**
-     * Check and build. @throws InputError with the curve's name, coordinates and
-     * remedy for: an open or self-intersecting boundary or hole, a hole outside
-     * its domain, overlapping domains, a joint or interface wholly outside, a
-     * joint confined to what does not exist, a material point outside, no
+     * Check the geometry and build the mesh. @throws InputError with the curve's name, coordinates
+     * and remedy for: an open or self-intersecting boundary or hole, a hole outside
+     * its domain, overlapping domains, a joint or interface entirely outside, a
+     * joint confined to a domain or region that does not exist, a material point outside, or no
      * boundary at all.
      */
     explicit PhysicalMesh(Geometry geometry);
 
     ~PhysicalMesh();
+    /// Take over the contents of another mesh. Objects that refer to that one, such as a
+    /// ManifoldMesh, must not be used any more.
     PhysicalMesh(PhysicalMesh &&) noexcept;
+    /// Replace the contents by those of another mesh. Objects that refer to either of them must
+    /// not be used any more.
     PhysicalMesh &
     operator=(PhysicalMesh &&) noexcept;
 
+    /// The curves of the geometry, in its order.
     const std::vector<Curve> &
     curves() const;
 
-    /**
-     * Pieces of all curves, numbered through: piece i belongs to curve
-     * piece_to_curve()[i].
-     */
+    /// Pieces of all curves, numbered consecutively.
     const std::vector<CurvePiece> &
     pieces() const;
 
+    /// Curve that each piece belongs to.
     const std::vector<unsigned int> &
     piece_to_curve() const;
 
+    /// All regions, from left to right.
     const std::vector<Region> &
     regions() const;
 
+    /// Number of blocks; Region::block is from 0 to n_blocks() - 1.
     unsigned int
     n_blocks() const;
 
+    /// Names of the materials, by number of the material.
     const std::vector<std::string> &
     material_names() const;
 
@@ -110,35 +124,33 @@ namespace NMM
     const dealii::BoundingBox<2> &
     bounding_box() const;
 
-    /// Index of the first curve called @p name, or invalid_index.
+    /// Index of the first curve called @p name, or invalid_index if there is none.
     unsigned int
     find_curve(const std::string &name) const;
 
-    /// Indices of all curves called @p name: curves of one role may share a
-    /// name and then form one group, to all of which conditions apply.
+    /// Indices of all curves called @p name. Curves of one role may share a name; conditions for
+    /// that name apply to all of them.
     std::vector<unsigned int>
     find_curves(const std::string &name) const;
 
     /**
-     * Whether a curve on the boundary of a region may be its face. Where domains
-     * share an edge, the boundaries of both lie on it, and each is a face of its
-     * own domain only; a hole is one of what is outside of it. Others always
-     * are.
+     * Whether a curve on the boundary of a region can be a face of that region. Where two domains
+     * share an edge, the boundaries of both lie on it, and each is a face of its own domain only. A
+     * hole is a face of the regions outside of it. Joints and interfaces are faces of all regions.
      */
     bool
     is_face_of(unsigned int curve, unsigned int region) const;
 
-    /// Notices that are no errors: parts of joints outside the solid, a joint
-    /// along a boundary, duplicated joints, an interface that separates
-    /// nothing. Sentences for people.
+    /// Sentences for the user about findings that are not errors: parts of joints outside the
+    /// solid, a joint along a boundary, duplicated joints, an interface that separates nothing.
     const std::vector<std::string> &
     notices() const;
 
-    /// Dangling ends of joints, kept or dropped (Curve::drops_ends).
+    /// Parts of joints that bound no block, kept or removed (Curve::drops_ends).
     const DanglingEnds &
     dangling_ends() const;
 
-    /// For the covers module: the exact arrangement.
+    /// The exact arrangement of the curves, for the covers module.
     const internal::PhysicalArrangement &
     arrangement() const;
 

@@ -12,33 +12,37 @@ namespace NMM
    * The square tangent matrix of many small bodies,
    * @f[ A = (A_{ij}), \qquad A_{ij}\in\mathbb R^{n_i\times n_j}, @f]
    * where A_ij is the dense *coupling* of body i, which has n_i unknowns, with body j.
-   * Only couplings that something is added to are stored.
+   * Only couplings to which something is added are stored.
    *
-   * Each body touches few others, and other ones in the next iteration. A sparse matrix has
-   * to know its pattern beforehand; in a heap of 2,000 bodies of 12 unknowns two of three
-   * entries of such a pattern would be places for contact that is not closed.
+   * Each body touches few others, and which ones changes from iteration to iteration. A sparse
+   * matrix needs its pattern beforehand: in a heap of 2,000 bodies of 12 unknowns two thirds of
+   * the entries of such a pattern would belong to contacts that are not closed.
    *
-   * The unknowns of a body follow each other, body by body. One rank.
+   * The unknowns of each body are numbered consecutively, in the order of the bodies. The class
+   * works on one rank only.
    */
   class BodyMatrix
   {
   public:
+    /// The sparse matrices that are read, added or returned.
     using Matrix = dealii::TrilinosWrappers::SparseMatrix;
 
-    /// Unknowns of the largest body: matrices of larger ones are sparse themselves.
+    /// Largest number of unknowns of a body. The matrices of larger bodies are themselves sparse.
     static constexpr unsigned int max_body = 64;
 
-    /// For each body, the bodies that it is coupled with.
+    /// For each body, the numbers of the bodies that it is coupled with.
     using Couplings = std::vector<std::vector<unsigned int>>;
 
-    /// Whether no body has more than max_body unknowns, and unknowns follow each other,
-    /// body by body in the order of their numbers. False if there are none.
+    /// Whether no body has more than max_body unknowns, and the unknowns of each body are
+    /// numbered consecutively, in the order of the bodies. False if there are no unknowns.
     static bool
     is_suitable(const std::vector<unsigned int> &unknown_to_body);
 
-    /// Make a matrix without any row. @p unknown_to_body must be suitable.
+    /// Make a matrix without any coupling. @p unknown_to_body gives the body of each unknown and
+    /// must satisfy is_suitable().
     explicit BodyMatrix(const std::vector<unsigned int> &unknown_to_body);
 
+    /// Number of bodies, whether their rows are stored or not.
     unsigned int
     n_bodies() const
     {
@@ -59,6 +63,7 @@ namespace NMM
       return begins[body + 1] - begins[body];
     }
 
+    /// Body of an unknown.
     unsigned int
     body_of(const unsigned int unknown) const
     {
@@ -71,34 +76,34 @@ namespace NMM
 
     /**
      * Start the rows of @p bodies (empty: all) anew, with a zero coupling of each body with
-     * itself. Until the next call add() changes these rows only and leaves others as
-     * they are, so that a matrix can be assembled in parts. The memory of the old rows is
-     * kept until clear().
+     * itself. Until the next call, add() changes these rows only and leaves all other rows as
+     * they are, so that a matrix can be assembled in parts. The memory of the replaced rows is
+     * released by clear() only.
      */
     void
     begin_rows(const std::vector<bool> &bodies);
 
     /**
-     * Add a local matrix (2n x 2n), row by row, to n @p covers; unknown c of cover k is
-     * unknown 2k + c of this matrix. A cover may be named twice.
+     * Add a local matrix (2n x 2n, stored row by row) of n @p covers. Component c of cover k is
+     * unknown 2k + c of this matrix. A cover may be named more than once.
      */
     void
     add(dealii::ArrayView<const unsigned int> covers, const double *matrix);
 
-    /// Add @p factor times a sparse matrix that couples no body with another.
+    /// Add @p factor times a sparse matrix that couples no two different bodies.
     void
     add(double factor, const Matrix &matrix);
 
-    /// Become a copy of the rows of @p bodies (empty: all) of @p matrix. Read are
-    /// couplings of bodies with themselves and, in both directions, those of
-    /// @p neighbors, which has to name each pair in one direction at least.
+    /// Replace this matrix by the rows of @p bodies (empty: all) of @p matrix. The couplings of
+    /// each body with itself are read, and those of the pairs in @p neighbors in both directions;
+    /// @p neighbors must contain each pair in at least one direction.
     void
     read(const Matrix            &matrix,
          const std::vector<bool> &bodies,
          const Couplings         &neighbors);
 
-    /// Call action(column, values) for the couplings of a body, the one with itself
-    /// first; values are (size(row) x size(column)), column by column.
+    /// Call action(column, values) for each coupling of body @p row, the one with itself first;
+    /// values has the shape size(row) x size(column) and is stored column by column.
     template <typename Action>
     void
     for_each_in_row(const unsigned int row, const Action &action) const
@@ -108,14 +113,15 @@ namespace NMM
         action(couplings[i].column, values.data() + couplings[i].begin);
     }
 
-    /// The same as a sparse matrix, with zeros on the diagonal of rows that are not there.
+    /// A copy as a sparse matrix. Rows that are not stored get a zero on the diagonal.
     Matrix
     sparse() const;
 
   private:
     static constexpr unsigned int none = static_cast<unsigned int>(-1);
 
-    /// Where the values of a coupling begin, and the next coupling of the row.
+    /// Index of a coupling's first entry in values, its column, and the index of the next
+    /// coupling of the same row, or none.
     struct Coupling
     {
       std::size_t  begin;
@@ -128,11 +134,12 @@ namespace NMM
       return active.empty() || active[body];
     }
 
-    /// Values of a coupling, which is made if need be. Valid until another one is made.
+    /// Values of a coupling, which is created if it does not exist. The pointer is valid until
+    /// another coupling is created.
     double *
     coupling(unsigned int row, unsigned int column);
 
-    /// Make a coupling at the end of its row.
+    /// Append a coupling with zero values to the end of its row.
     double *
     append(unsigned int row, unsigned int column);
 
@@ -141,8 +148,8 @@ namespace NMM
     /// First coupling of each row, or none.
     std::vector<unsigned int> first_of_rows;
     std::vector<Coupling>     couplings;
-    /// Values in the order in which couplings were made, so that what an iteration works
-    /// on lies together.
+    /// Values of all couplings in the order in which these were created, so that the rows
+    /// assembled in an iteration are contiguous in memory.
     std::vector<double> values;
   };
 } // namespace NMM

@@ -14,39 +14,43 @@ namespace NMM
    * @f[ \kappa = \lambda_{max} / \lambda_{min} \quad\text{of}\quad
    *     D^{-1/2} A\,D^{-1/2},\quad D = diag\,A, @f]
    * on the free unknowns: rows of constrained ones are decoupled and left out.
-   * Diagonal scaling takes units and stiffness of materials out; what it leaves
-   * is what a cut does to the basis.
+   * Diagonal scaling removes the influence of units and of the materials' stiffness; what
+   * remains is the influence of the way the covers are cut.
    */
   struct ConditionNumber
   {
-    /// Extreme eigenvalues of the scaled matrix [-]; smallest = 0 if the matrix
-    /// is singular to rounding.
+    /// @{
+    /// Smallest and largest eigenvalue of the scaled matrix [-]. The smallest one is 0 if the
+    /// matrix is singular to rounding.
     double smallest = 0., largest = 0.;
-    /// Cover with the largest share in the eigenvector of the smallest
-    /// eigenvalue: where the matrix is weakest; invalid_index if it is
-    /// singular.
+    /// @}
+    /// Cover with the largest entry of the eigenvector of the smallest eigenvalue, where the
+    /// matrix is closest to singular; invalid_index if the matrix is singular to rounding.
     unsigned int weakest_cover = invalid_index;
-    /// Its node [m].
+    /// Node of weakest_cover [m].
     dealii::Point<2> weakest_node;
-    /// Steps of the two Lanczos iterations.
+    /// @{
+    /// Steps of the Lanczos iterations for the largest eigenvalue (a product with the matrix
+    /// each) and for the smallest one (a solve each).
     unsigned int n_products = 0, n_solves = 0;
+    /// @}
 
-    /// largest / smallest [-], infinite for a singular matrix.
+    /// The condition number largest / smallest [-]; infinite for a singular matrix.
     double
     value() const;
   };
 
   /**
-   * Both ends by Lanczos' iteration with full reorthogonalization, the largest
-   * eigenvalue with products by the scaled matrix, the smallest with solves
-   * (one direct factorization). Ends when the residual shows an eigenvalue
-   * within @p tolerance [-] (relative) of the Ritz value: a sharp estimate from
-   * below. The start vector follows from the numbers of the unknowns alone.
-   * Cost: a factorization and some 20 solves, and some 50 products.
+   * Estimate the extreme eigenvalues by Lanczos' iteration with full reorthogonalization: the
+   * largest one with products with the scaled matrix, the smallest one with solves (one direct
+   * factorization). An iteration ends when the residual proves an eigenvalue within @p tolerance
+   * [-] (relative) of the Ritz value, or after 150 steps. The result is an estimate of the
+   * condition number from below. The start vector depends on the numbers of the unknowns only.
+   * Cost: a factorization, some 20 solves and some 50 products.
    *
    * Reference: Parlett, The Symmetric Eigenvalue Problem, chap. 13.
-   * @throws NumericalFailure for a matrix with a diagonal entry that is not
-   * positive, or lack of memory.
+   * @throws NumericalFailure if a diagonal entry of the matrix is not positive. A matrix that
+   * cannot be factorized counts as singular.
    */
   ConditionNumber
   estimate_condition_number(

@@ -10,47 +10,51 @@
 namespace NMM
 {
   /**
-   * A hyperelastic law in the plane: energy W per reference volume [Pa] as
+   * A hyperelastic law in the plane. It gives the energy W per reference volume [Pa] as a
    * function of the in-plane deformation gradient F = I + du/dX [-], with
    * @f[ P = \frac{\partial W}{\partial F}, \qquad
    *     A = \frac{\partial P}{\partial F}. @f]
    *
-   * The third direction has the stretch s = 1 in plane strain; in plane stress
+   * The stretch of the third direction is s = 1 in plane strain; in plane stress
    * s follows from dW/ds = 0.
    *
    * An initial stress S_0 of the material adds S_0 : E to W, E being the Green-Lagrange strain.
    * At F = I a law has the stress S_0 and the moduli of PlaneElasticity.
    *
-   * Stateless, no allocation: some 50 to 200 operations per evaluation.
+   * A law has no state and allocates no memory. An evaluation takes some 50 to 200 operations.
    */
   class HyperelasticLaw
   {
   public:
-    /// Energy [Pa], P [Pa] and A [Pa], A_iJkL at [2i + J][2k + L].
+    /// The energy and its derivatives at one deformation.
     struct Response
     {
-      double               energy = 0.;
+      /// W per reference volume, with the part of the initial stress [Pa].
+      double energy = 0.;
+      /// First Piola-Kirchhoff stress P, initial stress included [Pa].
       dealii::Tensor<2, 2> stress;
-      double               tangent[4][4];
+      /// A = dP/dF, with A_iJkL at [2i + J][2k + L] [Pa]; only evaluate() sets it.
+      double tangent[4][4];
     };
 
     virtual ~HyperelasticLaw() = default;
 
-    /// Energy and P alone.
+    /// Computes the energy and P, but not A. If it returns @c inverted, the response is undefined.
     virtual Deformation
     evaluate_stress(const dealii::Tensor<2, 2> &F,
                     Response                   &response) const = 0;
 
-    /// Energy, P and A. With @c inverted, the response is undefined.
+    /// Computes the energy, P and A. If it returns @c inverted, the response is undefined.
     virtual Deformation
     evaluate(const dealii::Tensor<2, 2> &F, Response &response) const = 0;
 
-    /// Stretch s of the third direction in plane stress [-].
+    /// Computes the stretch s of the third direction in plane stress [-]. It is undefined if
+    /// @c inverted is returned.
     virtual Deformation
     plane_stress_stretch(const dealii::Tensor<2, 2> &F,
                          double                     &stretch) const = 0;
 
-    /// Cauchy stress across the plane in plane strain, without initial stress [Pa].
+    /// Cauchy stress sigma_zz in plane strain, without initial stress [Pa]. Requires det F > 0.
     virtual double
     plane_strain_stress(const dealii::Tensor<2, 2> &F) const = 0;
 
@@ -59,25 +63,26 @@ namespace NMM
     is_linear_in_green_strain() const = 0;
 
     /**
-     * Derivative of A along @p G, as A by a central difference: exact to
-     * rounding for St. Venant-Kirchhoff, whose A is quadratic in F, and to 1e-8
-     * relative otherwise.
+     * Computes the derivative of A in the direction @p G by a central difference [Pa], in the
+     * order of Response::tangent. It is exact to rounding for St. Venant-Kirchhoff's law, whose A
+     * is quadratic in F, and has a relative error of 1e-8 otherwise.
      */
     Deformation
     tangent_derivative(const dealii::Tensor<2, 2> &F,
                        const dealii::Tensor<2, 2> &G,
                        double (&derivative)[4][4]) const;
 
-    /// Stretch s of the third direction [-].
+    /// Computes the stretch s of the third direction [-]: 1 in plane strain,
+    /// plane_stress_stretch() in plane stress.
     Deformation
     out_of_plane_stretch(const dealii::Tensor<2, 2> &F, double &stretch) const;
 
-    /// sigma = P F^T / (s det F) [Pa], in-plane components.
+    /// Computes the in-plane Cauchy stress sigma = P F^T / (s det F), initial stress included [Pa].
     Deformation
     cauchy_stress(const dealii::Tensor<2, 2>    &F,
                   dealii::SymmetricTensor<2, 2> &stress) const;
 
-    /// The moduli at F = I.
+    /// The elastic constants at F = I.
     const PlaneElasticity &
     small_strain() const
     {
@@ -85,11 +90,16 @@ namespace NMM
     }
 
   protected:
+    /// Copies the constants below from @p material.
     HyperelasticLaw(const Material &material, PlaneState plane_state);
 
-    PlaneState                    plane_state;
-    PlaneElasticity               elasticity;
-    double                        poissons_ratio;
+    /// Whether the third direction is free of stress or of strain.
+    PlaneState plane_state;
+    /// The elastic constants at F = I [Pa].
+    PlaneElasticity elasticity;
+    /// nu [-].
+    double poissons_ratio;
+    /// S_0, in-plane components, tension positive [Pa].
     dealii::SymmetricTensor<2, 2> initial_stress;
   };
 
@@ -97,7 +107,7 @@ namespace NMM
   /// @name Parts that laws share
   /// @{
 
-  /// P = F S.
+  /// The first Piola-Kirchhoff stress P = F S [Pa] of the second one @p S [Pa].
   inline dealii::Tensor<2, 2>
   first_stress(const dealii::Tensor<2, 2>          &F,
                const dealii::SymmetricTensor<2, 2> &S)
@@ -110,7 +120,8 @@ namespace NMM
   }
 
 
-  /// Add d(F S)/dF at constant S, delta_ik S_JL, to A_iJkL at [2i + J][2k + L].
+  /// Adds the derivative of F S with respect to F at constant S, delta_ik S_JL [Pa], to A_iJkL at
+  /// [2i + J][2k + L].
   inline void
   add_geometric_stiffness(const dealii::SymmetricTensor<2, 2> &S,
                           double (&A)[4][4])
@@ -122,7 +133,7 @@ namespace NMM
   }
 
 
-  /// E = (F^T F - I) / 2.
+  /// The Green-Lagrange strain E = (F^T F - I) / 2 [-].
   inline dealii::SymmetricTensor<2, 2>
   green_strain(const dealii::Tensor<2, 2> &F)
   {

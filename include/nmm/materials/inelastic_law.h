@@ -8,16 +8,17 @@
 
 namespace NMM
 {
-  /// What the material remembers at a quadrature point.
+  /// The history variables of the material at a quadrature point. A new point has zeros.
   struct MaterialState
   {
-    /// epsilon^p in the plane and across it [-].
+    /// In-plane plastic strain epsilon^p [-].
     dealii::SymmetricTensor<2, 2> plastic_strain;
-    double                        plastic_strain_zz = 0.;
-    /// Integral of sqrt(2/3 e : e) over the history, e the deviator of the plastic strain rate
-    /// [-].
+    /// Plastic strain epsilon^p_zz across the plane [-].
+    double plastic_strain_zz = 0.;
+    /// Time integral of sqrt(2/3 e : e), where e is the deviator of the plastic strain rate [-].
     double equivalent_plastic_strain = 0.;
 
+    /// Writes or reads the state by one of Boost's archives, for checkpoints.
     template <class Archive>
     void
     serialize(Archive &archive, const unsigned int /*version*/)
@@ -30,36 +31,42 @@ namespace NMM
 
 
   /**
-   * A law for small strains whose stress depends on what the material has been through:
+   * A law for small strains whose stress depends on the history of the material:
    * @f[ \sigma_{n+1} = \sigma(\varepsilon_{n+1}, s_n), \qquad s_{n+1} = s(\varepsilon_{n+1},
    *     s_n), @f]
-   * s being the state at the last step that was accepted. Evaluating it changes nothing, so that
-   * a step may be tried again.
+   * where s_n is the state after the last accepted step. An evaluation does not change s_n, so
+   * that a step can be repeated.
    */
   class InelasticLaw
   {
   public:
+    /// The stress at the end of a step, and what follows from it.
     struct Response
     {
-      /// sigma in the plane and across it, initial stress included [Pa].
+      /// In-plane stress sigma, initial stress included [Pa].
       dealii::SymmetricTensor<2, 2> stress;
-      double                        stress_zz = 0.;
+      /// Stress sigma_zz across the plane, initial stress included [Pa].
+      double stress_zz = 0.;
       /// d sigma_ij / d epsilon_kl at [2i + j][2k + l], symmetric in i, j and in k, l [Pa]; not
       /// set if the step is elastic.
       double tangent[4][4];
-      /// Energy stored in elastic strains e: e : C : e / 2 + sigma_0 : e [Pa].
+      /// Energy stored in the elastic strain e, e : C : e / 2 + sigma_0 : e, where C is Hooke's
+      /// tensor and sigma_0 the initial stress [Pa].
       double energy = 0.;
-      /// sigma : Delta epsilon^p of the step from the given state, all components [Pa].
+      /// sigma : Delta epsilon^p, the energy that the step dissipates, all components [Pa].
       double dissipated = 0.;
-      /// Whether the step from the given state is elastic, with the tangent of Hooke's law.
-      bool          is_elastic = true;
+      /// Whether the step from the given state is elastic; the tangent is then that of Hooke's
+      /// law.
+      bool is_elastic = true;
+      /// The state at the end of the step.
       MaterialState state;
     };
 
     virtual ~InelasticLaw() = default;
 
-    /// At the strain @p strain in the plane, coming from @p state. With @c inverted there is no
-    /// stress for it, and the response is undefined.
+    /// Computes the response for the in-plane strain @p strain [-] at the end of a step that
+    /// began in @p state. If it returns @c inverted, no admissible stress was found, and the
+    /// response is undefined.
     virtual Deformation
     evaluate(const dealii::SymmetricTensor<2, 2> &strain,
              const MaterialState                 &state,

@@ -10,12 +10,12 @@
 
 namespace NMM
 {
-  /// What is assumed about the third direction.
+  /// The assumption about the direction across the plane.
   enum class PlaneState
   {
-    /// sigma_zz = 0 (thin plates).
+    /// There is no stress across the plane, sigma_zz = 0, as in thin plates.
     plane_stress,
-    /// epsilon_zz = 0 (long bodies).
+    /// There is no strain across the plane, epsilon_zz = 0, as in long bodies.
     plane_strain
   };
 
@@ -36,10 +36,13 @@ namespace NMM
    */
   struct PlaneElasticity
   {
+    /// Lame's first constant of the plane, which depends on the plane state [Pa].
     double lambda = 0.;
-    double mu     = 0.;
+    /// Shear modulus [Pa].
+    double mu = 0.;
 
-    /// sigma without initial stress [Pa] from du_i/dx_j [-].
+    /// In-plane stress sigma without initial stress [Pa], tension positive, for the displacement
+    /// gradient du_i/dx_j [-].
     dealii::SymmetricTensor<2, 2>
     stress(const dealii::Tensor<2, 2> &gradient) const;
 
@@ -49,36 +52,40 @@ namespace NMM
     largest_eigenvalue() const;
   };
 
-  /// An isotropic material. Units are any consistent set; SI is written here.
+  /// An isotropic material. Any consistent set of units can be used; comments name SI units.
   struct Material
   {
+    /// Name by which geometries refer to the material, also in messages.
     std::string name;
-    /// E [Pa], > 0.
+    /// Young's modulus E [Pa], > 0.
     double youngs_modulus = std::numeric_limits<double>::signaling_NaN();
-    /// nu [-], in (-1, 0.5).
+    /// Poisson's ratio nu [-], in (-1, 0.5).
     double poissons_ratio = std::numeric_limits<double>::signaling_NaN();
-    /// rho [kg/m^3], >= 0.
+    /// Mass per volume rho [kg/m^3], >= 0.
     double density = 0.;
-    /// K_c [Pa m^(1/2)]: a crack grows where its equivalent intensity factor reaches
-    /// it. 0: not known.
+    /// Fracture toughness K_c [Pa m^(1/2)]: a crack grows when its equivalent intensity factor
+    /// reaches it. 0 stands for an unknown toughness.
     double toughness = 0.;
-    /// How stress follows from deformation; never null.
+    /// The law that gives stress from deformation; never null.
     std::shared_ptr<const MaterialLaw> law = default_material_law();
-    /// sigma_0 of the paper's eq. (9), tension positive [Pa]; in `finite`
-    /// kinematics the second Piola-Kirchhoff stress at rest.
+    /// Initial stress sigma_0 of the paper's eq. (9), tension positive [Pa]. In `finite`
+    /// kinematics it is the second Piola-Kirchhoff stress at rest.
     dealii::SymmetricTensor<2, 2> initial_stress = {};
-    /// The initial stress across the plane [Pa] in plane strain; if it is not given, nu times
-    /// the sum of both normal components, as if the plane had never been strained across.
+    /// The initial stress sigma_zz across the plane in plane strain [Pa]. If it is not given, it is
+    /// nu times the sum of both normal components in the plane, which is the stress of a body
+    /// that was never strained across the plane.
     std::optional<double> given_initial_stress_zz = std::nullopt;
 
-    /// @throws InputError naming the material, the parameter and its value.
+    /// Checks all parameters, and those of the law. @throws InputError naming the material, the
+    /// parameter and its value.
     void
     check(PlaneState plane_state) const;
 
+    /// The elastic constants of the plane.
     PlaneElasticity
     plane_elasticity(PlaneState plane_state) const;
 
-    /// sigma = C : epsilon, the in-plane part [Pa].
+    /// The in-plane part of Hooke's tensor C in sigma = C : epsilon [Pa].
     dealii::SymmetricTensor<4, 2>
     elasticity_tensor(PlaneState plane_state) const;
 
@@ -86,16 +93,17 @@ namespace NMM
     double
     initial_stress_zz(PlaneState plane_state) const;
 
-    /// The law for large deformations. @throws InputError if the material's law has none.
+    /// The law for large deformations; never null. @throws InputError if the material's law has
+    /// none.
     std::shared_ptr<const HyperelasticLaw>
     hyperelastic_law(PlaneState plane_state) const;
 
-    /// The law for small strains; null: stress is linear in strain.
+    /// The law for small strains. Null means that stress is linear in strain.
     std::shared_ptr<const InelasticLaw>
     inelastic_law(PlaneState plane_state) const;
 
-    /// sigma_zz for in-plane strain @p strain, initial stress included [Pa]; 0 in plane
-    /// stress.
+    /// Hooke's sigma_zz for the in-plane strain @p strain, initial stress included [Pa]; 0 in
+    /// plane stress.
     double
     out_of_plane_stress(const dealii::SymmetricTensor<2, 2> &strain,
                         PlaneState                           plane_state) const;

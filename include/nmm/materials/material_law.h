@@ -14,56 +14,78 @@ namespace NMM
   class InelasticLaw;
 
   /**
-   * How stress follows from deformation: a stateless strategy with the parameters that the law
-   * has beside the elastic constants, density and initial stress of Material. It makes the
-   * functions that are evaluated at quadrature points, for the kinematics in which the law is
-   * defined:
+   * A material law: how stress follows from deformation. It is a stateless strategy and holds the
+   * parameters that the law has beside the elastic constants, density and initial stress of
+   * Material. It makes the objects that are evaluated at quadrature points, for the kinematics in
+   * which the law is defined:
    *
-   * | kinematics | function | a law without it |
+   * | kinematics | object | a law without it |
    * |---|---|---|
    * | `small` | InelasticLaw | is linear elastic there |
    * | `finite` | HyperelasticLaw | cannot be used there |
    *
-   * To add a law: derive a class in a file of its own, and name it in material_laws().
+   * The room `materials` consists of these laws. A scene or a program fills in a Material, whose
+   * member Material::law is one of material_laws(). Order of calls: Material::check(); then
+   * Material::hyperelastic_law() or Material::inelastic_law(), once per material; then
+   * HyperelasticLaw::evaluate() or InelasticLaw::evaluate() at each quadrature point, which give
+   * stress, tangent and energy, and the new MaterialState of an inelastic law.
+   *
+   * @code
+   *   Material material;
+   *   material.name           = "steel";
+   *   material.youngs_modulus = 2.1e11;
+   *   material.poissons_ratio = 0.3;
+   *   material.law            = material_law("neo-Hookean");
+   *   material.check(PlaneState::plane_strain);
+   *   const auto law = material.hyperelastic_law(PlaneState::plane_strain);
+   *   HyperelasticLaw::Response response;
+   *   if (law->evaluate(F, response) == Deformation::inverted)
+   *     return; // det F <= 0: the step was too large
+   * @endcode
+   *
+   * To add a law, derive a class in a file of its own, and name it in material_laws().
    */
   class MaterialLaw
   {
   public:
+    /// A parameter of this law, with its name and help text in scenes.
     using Parameter = LawParameter;
 
     virtual ~MaterialLaw() = default;
 
+    /// A copy with the same parameters, which the caller may change.
     virtual std::unique_ptr<MaterialLaw>
     clone() const = 0;
 
-    /// Parameters beside those of Material.
+    /// The parameters beside those of Material, with pointers into this law.
     virtual std::vector<Parameter>
     parameters()
     {
       return {};
     }
 
-    /// @throws InputError naming a parameter of this law, its value and @p where it is.
+    /// Checks the parameters of this law. @throws InputError naming the parameter, its value and
+    /// the place @p where.
     virtual void
     check(const std::string & /*where*/, PlaneState /*plane_state*/) const
     {
     }
 
-    /// Whether the law may be used with small strains.
+    /// Whether the law can be used in kinematics with small strains.
     virtual bool
     has_small_strains() const
     {
       return true;
     }
 
-    /// Whether inelastic_law() gives a law.
+    /// Whether inelastic_law() returns a law.
     virtual bool
     is_inelastic() const
     {
       return false;
     }
 
-    /// The law for large deformations. Null: it has none.
+    /// The law for large deformations. Null means that there is none.
     virtual std::shared_ptr<const HyperelasticLaw>
     hyperelastic_law(const Material & /*material*/,
                      PlaneState /*plane_state*/) const
@@ -71,7 +93,7 @@ namespace NMM
       return nullptr;
     }
 
-    /// The law for small strains. Null: stress is linear in strain.
+    /// The law for small strains. Null means that stress is linear in strain.
     virtual std::shared_ptr<const InelasticLaw>
     inelastic_law(const Material & /*material*/,
                   PlaneState /*plane_state*/) const
@@ -79,8 +101,8 @@ namespace NMM
       return nullptr;
     }
 
-    /// Divide the strength by @p factor, in a search for the factor of safety. Elastic laws have
-    /// no strength.
+    /// Divides the strength by @p factor [-], in a search for the factor of safety. Elastic laws
+    /// have no strength and are not changed.
     virtual void
     reduce_strength(double /*factor*/)
     {
@@ -88,9 +110,10 @@ namespace NMM
   };
 
 
+  /// A material law with the name by which scenes choose it.
   using NamedMaterialLaw = NamedLaw<MaterialLaw>;
 
-  /// All laws; the first one is the default.
+  /// All material laws; the first one is the default.
   const std::vector<NamedMaterialLaw> &
   material_laws();
 

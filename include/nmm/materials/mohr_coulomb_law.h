@@ -7,7 +7,7 @@ namespace NMM
 {
   /**
    * Elastic, perfectly plastic rock and soil in plane strain: Mohr-Coulomb's condition with a
-   * tension cut-off. With principal stresses @f$\sigma_1\ge\sigma_2\ge\sigma_3@f$ (tension
+   * tension cut-off. With the principal stresses @f$\sigma_1\ge\sigma_2\ge\sigma_3@f$ (tension
    * positive),
    * @f[ N\sigma_1-\sigma_3\le 2c\sqrt N,\quad N=\frac{1+\sin\phi}{1-\sin\phi};\qquad
    *     \sigma_1\le\sigma_t. @f]
@@ -17,10 +17,11 @@ namespace NMM
    *
    * The stress at the end of a step is found by the fully implicit rule
    * @f[ \sigma = \sigma^\mathrm{trial} - C\,\Delta\varepsilon^p @f]
-   * in closed form: in principal stresses all conditions are planes, so that all sets of one, two
-   * and three active planes are tried (planes, edges and apexes; after Clausen, Damkilde &
-   * Andersen, Int. J. Numer. Meth. Eng. 66 (2006) 1738, who find the set from the geometry). The
-   * tangent is the derivative of that rule, including how principal directions turn.
+   * in closed form. In the space of principal stresses all conditions are planes, and all sets of
+   * one, two and three active planes are tried (planes, edges and apexes). This follows Clausen,
+   * Damkilde & Andersen, Int. J. Numer. Meth. Eng. 66 (2006) 1738, who find the set from the
+   * geometry instead. The tangent is the derivative of that rule, including the rotation of the
+   * principal directions.
    *
    * A cut-off above the apex c / tan(phi) has no effect.
    */
@@ -36,7 +37,8 @@ namespace NMM
     std::vector<Parameter>
     parameters() override;
 
-    /// @throws InputError in plane stress as well, for which there is no return here.
+    /// @throws InputError naming a parameter and its value; also in plane stress, for which the
+    /// return to the yield surface is not implemented.
     void
     check(const std::string &where, PlaneState plane_state) const override;
 
@@ -50,17 +52,17 @@ namespace NMM
     inelastic_law(const Material &material,
                   PlaneState      plane_state) const override;
 
-    /// tan phi, c, sigma_t and tan psi are divided by the factor.
+    /// Divides tan phi, c, sigma_t and tan psi by @p factor [-].
     void
     reduce_strength(double factor) override;
 
-    /// tan phi [-].
+    /// Tangent of the friction angle, tan phi [-], >= 0.
     double friction = 0.;
-    /// c [Pa].
+    /// Cohesion c [Pa], >= 0.
     double cohesion = 0.;
-    /// sigma_t [Pa].
+    /// Tensile strength sigma_t [Pa], >= 0.
     double tensile_strength = 1e20;
-    /// tan psi [-].
+    /// Tangent of the dilation angle, tan psi [-], in [0, tan phi].
     double dilation = 0.;
   };
 } // namespace NMM

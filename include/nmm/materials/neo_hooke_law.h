@@ -10,8 +10,9 @@ namespace NMM
    * (CMAME 98 (1992) 41),
    * @f[ W = \mu/2\,(J^{-2/3}(F:F+s^2)-3) + K/2\,(J-1)^2,\;
    *   J = s \det F,\; K = E/(3(1-2\nu)). @f]
-   * In plane stress s is found by a Newton iteration, in which W is convex; A follows by static
-   * condensation of s. Defined for det F > 0.
+   * Here s is the stretch of the third direction. In plane stress it is found by a Newton
+   * iteration on dW/ds = 0, where W is convex in s; A follows by static condensation of s. The
+   * law is defined for det F > 0.
    */
   class NeoHookeLaw : public MaterialLaw
   {

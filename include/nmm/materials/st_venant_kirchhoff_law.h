@@ -6,11 +6,11 @@
 namespace NMM
 {
   /**
-   * Stress that is linear in strain. In `finite` kinematics this is St. Venant-Kirchhoff's law,
+   * The law with stress linear in strain. In `finite` kinematics it is St. Venant-Kirchhoff's law,
    * @f[ W = \lambda/2\,(\mathrm{tr} E)^2 + \mu\,E:E, \qquad E = (F^TF - I)/2, @f]
-   * with the plane lambda of PlaneElasticity, which is the condition S_33 = 0 of plane stress in
-   * closed form. It is defined for all F, and for large rotations with moderate strains: it
-   * gives way under strong compression.
+   * with the plane lambda of PlaneElasticity, which contains the condition S_33 = 0 of plane
+   * stress in closed form. The law is defined for all F, but is meant for large rotations with
+   * moderate strains: it loses its stiffness under strong compression.
    */
   class LinearLaw : public MaterialLaw
   {
@@ -27,7 +27,8 @@ namespace NMM
   };
 
 
-  /// LinearLaw for those who want to say that they mean large rotations.
+  /// The same law as LinearLaw, but for `finite` kinematics only: a scene that chooses it cannot
+  /// be run with small strains by mistake.
   class StVenantKirchhoffLaw : public LinearLaw
   {
   public:

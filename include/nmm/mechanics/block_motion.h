@@ -9,29 +9,29 @@
 namespace NMM
 {
   /**
-   * The motion of a block as a whole between two displacement fields u and v, as a stiff block
-   * would follow their difference d = v - u best: with its area A and its centre X_c, all in the
-   * reference configuration,
+   * The rigid part of the motion of a block between two displacement fields u and v: the
+   * least-squares fit of a linearized rigid motion to the difference d = v - u. With the area A
+   * and the centroid X_c of the block, all in the reference configuration,
    * @f[ t = \frac1A\int d\,dA, \qquad
    *     \omega = \frac{\int (X - X_c)\times d\,dA}{\int |X - X_c|^2\,dA}. @f]
-   * What is left of d is deformation; of a large turn, omega is the sine.
+   * The remainder of d is deformation. For a large rotation, omega is the sine of the angle.
    */
   struct BlockMotion
   {
     /// Number of the block in the physical mesh.
     unsigned int block = invalid_index;
-    /// [m^2]
+    /// Area of the block in the reference configuration [m^2].
     double area = 0.;
-    /// X_c [m].
+    /// Centroid X_c in the reference configuration [m].
     dealii::Point<2> center;
     /// Radius of gyration, the root of the mean of |X - X_c|^2 [m].
     double radius = 0.;
-    /// t [m].
+    /// Translation t [m].
     dealii::Tensor<1, 2> translation;
-    /// omega, counter-clockwise [rad].
+    /// Rotation omega, positive counter-clockwise [rad].
     double rotation = 0.;
 
-    /// Root of the mean square of the displacement of the block's points,
+    /// Root mean square of the rigid displacement of the block's points,
     /// sqrt(t . t + (omega radius)^2) [m].
     double
     size() const;

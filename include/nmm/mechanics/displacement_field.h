@@ -11,15 +11,15 @@
 namespace NMM
 {
   /**
-   * The displacement u = sum_i w_i u_i of eq. (5) and what follows from it, at
-   * any point of any manifold element this rank knows the unknowns of.
-   * The values are copied out of the vector; the cover system must outlive this
+   * The displacement u = sum_i w_i u_i of eq. (5), its gradient and the stress, at
+   * any point of any manifold element whose unknowns are known to this rank.
+   * The values are copied from the vector; the cover system must outlive this
    * object.
    */
   class DisplacementField
   {
   public:
-    /// @p solution holds the locally relevant unknowns (2 per cover) [m].
+    /// Make the field of @p solution, which has the locally relevant unknowns (2 per cover) [m].
     DisplacementField(const CoverSystem                           &covers,
                       const ElasticityProblem                     &problem,
                       const dealii::TrilinosWrappers::MPI::Vector &solution);
@@ -29,28 +29,30 @@ namespace NMM
                       const ElasticityProblem          &problem,
                       std::vector<dealii::Tensor<1, 2>> nodal_values);
 
+    /// The cover system given to the constructor.
     const CoverSystem &
     cover_system() const;
 
-    /// u [m] at reference coordinates @p xi of the element's cell.
+    /// Displacement u at reference coordinates @p xi of the element's cell [m].
     dealii::Tensor<1, 2>
     displacement(unsigned int element, const dealii::Point<2> &xi) const;
 
-    /// du_i/dx_j [-].
+    /// Displacement gradient du_i/dx_j at reference coordinates @p xi of the element's cell [-].
     dealii::Tensor<2, 2>
     gradient(unsigned int element, const dealii::Point<2> &xi) const;
 
-    /// Direct stress sigma_0 + C : eps(u_h) [Pa].
+    /// Stress sigma_0 + C : eps(u_h) of linear elasticity, evaluated directly, without recovery, at
+    /// reference coordinates @p xi of the element's cell [Pa].
     dealii::SymmetricTensor<2, 2>
     stress(unsigned int element, const dealii::Point<2> &xi) const;
 
-    /// The same from a given displacement gradient.
+    /// The same stress for a given displacement gradient [Pa].
     dealii::SymmetricTensor<2, 2>
     stress_from_gradient(unsigned int                element,
                          const dealii::Tensor<2, 2> &gradient) const;
 
-    /// Value of a cover [m]: the displacement at its node, continued
-    /// polynomially if the node lies outside the solid. NaN for a cover that is
+    /// Value of a cover [m]: the displacement at its node. If the node lies outside of the solid,
+    /// this is the value of the polynomial extension. NaN for a cover that is
     /// not relevant to this rank.
     dealii::Tensor<1, 2>
     nodal_value(unsigned int cover) const;

@@ -11,43 +11,82 @@
 #include <string>
 #include <vector>
 
+/**
+ * @defgroup mechanics Mechanics
+ *
+ * Element terms, loads and supports of elastic and inelastic solids in three kinematics. This
+ * module does not know contact.
+ *
+ * **In**: a CoverSystem, a QuadratureCollection, dealii::AffineConstraints (of aggregated covers)
+ * and an ElasticityProblem with materials, loads and supports. **Out**: the displacement unknowns
+ * (2 per cover) [m], stresses, residuals and tangents.
+ *
+ * | file (in nmm/mechanics) | job |
+ * |---|---|
+ * | elasticity_problem.h | materials, loads and supports |
+ * | static_elasticity.h | small displacements, one linear system |
+ * | finite_elasticity.h | total Lagrangian forces and tangent |
+ * | inelastic_terms.h | adds inelastic materials to small displacements |
+ * | elastic_system.h, nonlinear_statics.h | static equilibrium at growing load factors |
+ * | incremental_elasticity.h, incremental_statics.h | the paper's step-by-step kinematics |
+ * | mass_matrix.h | consistent mass matrix |
+ * | displacement_field.h, stress_recovery.h, block_motion.h | evaluation of a solution |
+ * | error_norms.h, thick_ring.h | errors, and an exact solution to compare with |
+ *
+ * Order of calls, for small and for finite displacements:
+ * @code
+ * StaticElasticity elasticity(covers, quadrature, constraints, problem);
+ * elasticity.assemble();
+ * elasticity.solve(LinearSolverParameters());
+ * DisplacementField field(covers, problem, elasticity.solution());
+ *
+ * FiniteElasticity elasticity(covers, quadrature, constraints, problem);
+ * NonlinearStatics statics(elasticity);
+ * statics.run(LoadSteps::equal(10));
+ * DisplacementField field(covers, problem, statics.solution());
+ * @endcode
+ */
+
 namespace NMM
 {
   class PhysicalMesh;
 
-  /// A condition on a named boundary curve.
+  /// A load or displacement condition on a named curve.
   struct BoundaryCondition
   {
+    /// The kinds of loads and conditions.
     enum class Type
     {
       /// Force per area t(x) [Pa], two components.
       traction,
-      /// Pressure p(x) [Pa], positive when it pushes: t = -p n, with the normal
-      /// and per area of the reference configuration, so that the force keeps its
-      /// direction.
+      /// Pressure p(x) [Pa], positive in compression: t = -p n, with normal and area of the
+      /// reference configuration, so that the force keeps its direction.
       pressure,
-      /// Pressure p(X) [Pa] that turns with the surface and acts on its current
+      /// Pressure p(X) [Pa] that rotates with the surface and acts on its current
       /// area: t dA = -p cof(F) N dA. In small-displacement analyses the same
       /// as `pressure`.
       follower_pressure,
       /// Prescribed displacement [m] of the components in `components`.
       displacement,
       /// Prescribed displacement along the outward normal [m]; the tangential
-      /// direction is free of traction. With value 0: a symmetry line.
+      /// direction is free of traction. The value 0 makes a symmetry line.
       normal_displacement
     };
 
-    /// For messages.
+    /// Name for messages.
     std::string name;
-    /// Curve of the physical mesh it holds on: a boundary or hole; of pressures also an open
-    /// joint, on both of whose faces they act.
+    /// Name of the curve of the physical mesh on which the condition holds: a boundary or a hole.
+    /// A pressure may also act on an open joint, on both of its faces.
     std::string curve;
-    Type        type = Type::traction;
-    /// Two components for traction and displacement, else one. Null: zero.
+    /// Kind of the condition.
+    Type type = Type::traction;
+    /// Value as a function of the reference position, with two components for traction and
+    /// displacement, one for the other types. Null stands for zero.
     std::shared_ptr<const dealii::Function<2>> value;
-    /// Which components a displacement condition prescribes.
+    /// Which components (x, y) a condition of type `displacement` prescribes.
     bool components[2] = {true, true};
 
+    /// Whether the condition is a pressure of either type.
     bool
     is_pressure() const
     {
@@ -55,47 +94,62 @@ namespace NMM
     }
   };
 
-  /// Eq. (11): a force [N per unit thickness] at a point of the solid.
+  /// Eq. (11): a force at a point of the solid.
   struct PointForce
   {
-    dealii::Point<2>     point;
+    /// Point in the reference configuration [m].
+    dealii::Point<2> point;
+    /// Force per unit thickness [N/m].
     dealii::Tensor<1, 2> force;
   };
 
-  /// Eq. (12): a point held by a spring of `stiffness` [N/m per unit thickness]
-  /// at `displacement` [m]. Stiffness 0 stands for the default, 1000 times the largest
-  /// Young's modulus.
+  /// Eq. (12): a point that is held by a spring.
   struct FixedPoint
   {
-    dealii::Point<2>     point;
+    /// Point in the reference configuration [m].
+    dealii::Point<2> point;
+    /// Displacement at which the spring exerts no force [m].
     dealii::Tensor<1, 2> displacement;
-    double               stiffness     = 0.;
-    bool                 components[2] = {true, true};
+    /// Stiffness of the spring per unit thickness [N/m^2]. 0 stands for the default, 1000 times
+    /// the largest Young's modulus.
+    double stiffness = 0.;
+    /// Which components (x, y) of the displacement are held.
+    bool components[2] = {true, true};
   };
 
-  /// Everything the static problem consists of besides geometry and covers.
+  /// A static problem except for geometry and covers: materials, loads and supports.
   struct ElasticityProblem
   {
-    PlaneState                     plane_state = PlaneState::plane_stress;
-    double                         thickness   = 1.;
-    std::vector<Material>          materials;
+    /// Plane stress or plane strain, for all materials.
+    PlaneState plane_state = PlaneState::plane_stress;
+    /// Thickness of the solid [m]. Forces and energies are computed per unit thickness, so that it
+    /// matters for output only.
+    double thickness = 1.;
+    /// Materials, with names that differ.
+    std::vector<Material> materials;
+    /// Loads and displacement conditions on curves.
     std::vector<BoundaryCondition> boundary_conditions;
-    std::vector<PointForce>        point_forces;
-    std::vector<FixedPoint>        fixed_points;
-    /// Acceleration of gravity [m/s^2]; acts on density.
+    /// Forces at points.
+    std::vector<PointForce> point_forces;
+    /// Points held by springs.
+    std::vector<FixedPoint> fixed_points;
+    /// Acceleration of gravity, which acts on the density of materials [m/s^2].
     dealii::Tensor<1, 2> gravity;
-    /// Further body force f(x) [N/m^3], two components; null: none.
+    /// Further body force f(x) with two components [N/m^3]; null: none.
     std::shared_ptr<const dealii::Function<2>> body_force;
 
     /**
-     * Material of each region of @p mesh as index into materials; a region without a
-     * named material takes the only one there is.
-     * @throws InputError for an unknown material, a region without one, a
-     * condition on an unknown curve or on a curve that is no boundary, a point outside.
+     * Index into `materials` for each region of @p mesh. A region without a
+     * named material gets the only material if there is just one.
+     * @throws InputError for an unknown material or a region without one.
      */
     std::vector<unsigned int>
     region_to_material(const PhysicalMesh &mesh) const;
 
+    /// Check that values are valid and that the problem fits @p mesh.
+    /// @throws InputError naming the value, also for an unknown material, a region without one, a
+    /// condition on an unknown curve or on a curve that is no boundary, and a point outside of the
+    /// bounding box of @p mesh.
     void
     check(const PhysicalMesh &mesh) const;
   };

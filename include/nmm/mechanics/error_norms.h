@@ -7,7 +7,7 @@
 
 namespace NMM
 {
-  /// Errors over the solid, and the norms of the exact fields they relate to.
+  /// Relative errors over the solid, and the norms of the exact fields.
   struct ErrorNorms
   {
     /// ||u_h - u||_L2 / ||u||_L2 [-]; not divided if u is zero.
@@ -21,15 +21,15 @@ namespace NMM
     double stress_norm = 0.;
   };
 
-  /// u(x) [m].
+  /// Exact displacement u(x) [m].
   using ExactDisplacement =
     std::function<dealii::Tensor<1, 2>(const dealii::Point<2> &)>;
 
-  /// sigma(x) [Pa].
+  /// Exact in-plane stress sigma(x) [Pa].
   using ExactStress =
     std::function<dealii::SymmetricTensor<2, 2>(const dealii::Point<2> &)>;
 
-  /// sigma_h at reference coordinates xi of an element [Pa].
+  /// Computed stress sigma_h of an element at reference coordinates xi of its cell [Pa].
   using ElementStress =
     std::function<dealii::SymmetricTensor<2, 2>(unsigned int,
                                                 const dealii::Point<2> &)>;
@@ -37,8 +37,8 @@ namespace NMM
   /**
    * Relative L2 errors of displacement and stress over the solid, summed over
    * ranks, with element rules of polynomial degree @p quadrature_degree (0: 2p + 4,
-   * at which the rule's own error is far below the solution's). @p stress is what is compared, e.g.
-   * StressRecovery::stress; if empty, the field's direct stress.
+   * for which the quadrature error is far below that of the solution). @p stress is the computed
+   * stress, e.g. StressRecovery::stress; if empty, the direct stress of @p field.
    */
   ErrorNorms
   compute_errors(const DisplacementField &field,

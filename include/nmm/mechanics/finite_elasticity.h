@@ -17,20 +17,26 @@
 namespace NMM
 {
   /**
-   * What multiplies the loads and conditions of an ElasticityProblem, all beside
-   * the common load factor. An empty list stands for ones (or nothing released).
+   * Factors of the loads and conditions of an ElasticityProblem, in addition to
+   * the common load factor. An empty list stands for factors 1, or for no release.
    */
   struct LoadAmplitudes
   {
-    /// Per boundary condition: its value, prescribed displacements included.
+    /// For each boundary condition, the factor of its value, also of a prescribed displacement [-].
     std::vector<double> boundary_conditions;
+    /// For each point force, its factor [-].
     std::vector<double> point_forces;
-    /// Per fixed point: its displacement.
+    /// For each fixed point, the factor of its displacement [-].
     std::vector<double> fixed_points;
-    double              gravity    = 1.;
-    double              body_force = 1.;
-    /// Displacement conditions and fixed points that hold no longer.
+    /// Factor of gravity [-].
+    double gravity = 1.;
+    /// Factor of the further body force [-].
+    double body_force = 1.;
+    /// @{
+    /// For each boundary condition (displacement conditions only) and each fixed point, whether it
+    /// has been removed.
     std::vector<bool> released_conditions, released_fixed_points;
+    /// @}
   };
 
 
@@ -47,33 +53,34 @@ namespace NMM
    * Displacement conditions and ties are imposed weakly by the potential form of
    * Nitsche's method, with d = B (u - g):
    * @f[ \Pi_N = \int_\Gamma -P(F):(d\otimes N) + \frac{\gamma}{2}|d|^2\,ds, @f]
-   * gamma as in StaticElasticity, from the moduli at rest: consistent, exact
-   * under rotation (the terms with d vanish with d), and with a symmetric tangent; its
-   * linearization at u = 0 is StaticElasticity's form. N and curves of normal
+   * gamma as in StaticElasticity, from the moduli of the undeformed state. The form is consistent,
+   * invariant under rotation (the terms with d vanish with d), and has a symmetric tangent; its
+   * linearization at u = 0 is the form of StaticElasticity. The normals N of normal
    * displacement conditions are those of the reference configuration.
    *
    * Loads and prescribed displacements are multiplied by a load factor. Initial
    * stress is not.
    *
    * Cost: weights and physical gradients at quadrature points are computed once
-   * and shared by equal whole elements; the pattern of the matrix is made once.
+   * and shared by equal whole elements; the sparsity pattern is made once.
    * A quadrature of degree 2(p - 1) for whole elements keeps the order of
    * convergence (the bound for linear problems; the energy of St.
-   * Venant-Kirchhoff is a polynomial of degree 4(p - 1)), see results of step-nmm-2.
+   * Venant-Kirchhoff is a polynomial of degree 4(p - 1)), see the results of step-nmm-2.
    *
-   * All terms are per unit thickness. Inhomogeneities of the constraints hold
-   * from the first solution on, whatever the load factor.
+   * All terms are per unit thickness. The inhomogeneities of the constraints are not multiplied
+   * by the load factor.
    *
    * Lifetime: all arguments of the constructor must outlive this object.
    */
   class FiniteElasticity
   {
   public:
+    /// Distributed vector of displacements [m] or forces [N/m].
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
     /// @throws InputError if the problem does not fit the mesh, see
     /// ElasticityProblem::check(), or a point lies outside the solid.
-    /// @throws NumericalFailure for a block that floats freely, unless
+    /// @throws NumericalFailure for a block whose supports permit a rigid motion, unless
     /// @p may_float (dynamics).
     FiniteElasticity(const CoverSystem                       &covers,
                      const QuadratureCollection              &quadrature,
@@ -83,13 +90,13 @@ namespace NMM
     ~FiniteElasticity();
 
     /**
-     * Residual r = internal forces - loads at @p u (locally relevant, [m]) and
-     * K = dr/du. For @p increment see NonlinearSystem. Tangent::robust
-     * leaves out D_G A, the third derivative of W, where the jump d is so large
-     * (more than a tenth of 1 / Lambda, a fraction of the element) that it spoils
-     * ellipticity: when a prescribed displacement has just grown. The first
-     * iteration then moves the boundary to its place as in a linear problem.
-     * The same result on all ranks.
+     * Assemble the residual r = internal forces - loads at @p u (locally relevant, [m]) and
+     * K = dr/du. For @p increment see NonlinearSystem::assemble(). Tangent::robust
+     * omits the terms with the third derivative of W where the jump d is so large
+     * (more than a tenth of 1 / Lambda, a fraction of the element) that they would destroy
+     * ellipticity. This happens when a prescribed displacement has just grown. The first
+     * iteration then moves the boundary to its prescribed position as in a linear problem.
+     * Returns the same result on all ranks.
      */
     Deformation
     assemble(const Vector &u,
@@ -98,22 +105,21 @@ namespace NMM
              const Vector *increment = nullptr);
 
     /**
-     * Residual between the displacements @p begin and @p end of a time step, of
-     * the energy-momentum conserving scheme. Internal forces and those of
-     * conditions and ties (source/mechanics/conserving_terms.h) do the work by
-     * which the strain energy and the energy of conditions change, but for the
-     * work of moving supports; internal forces and ties exert no moment in the mean
+     * Assemble the residual of the energy-momentum conserving scheme between the displacements
+     * @p begin and @p end of a time step. The work of internal forces and of the forces of
+     * conditions and ties (source/mechanics/conserving_terms.h) equals the
+     * change of the strain energy and of the energy of conditions, except for the
+     * work of moving supports. Internal forces and ties exert no moment in the mean
      * position. All other terms are those at the mean displacement. Prescribed
-     * displacements are multiplied by what @p first and @p last say of them at
-     * the beginning and at the end, where these are given, else by the amplitudes
-     * that were set. tangent() is the
-     * derivative by the mean displacement at given @p begin, i.e. twice that by
-     * @p end, and not symmetric. Of energies() only `loads`,
-     * `work_of_conditions` and `dissipated` are set.
+     * displacements are multiplied by the amplitudes @p first at the beginning and @p last at the
+     * end, if given, otherwise by the amplitudes that were set. tangent() is the
+     * derivative with respect to the mean displacement at fixed @p begin, i.e. twice that with
+     * respect to @p end, and not symmetric. Of energies() only `loads`,
+     * `work_of_conditions` and `dissipated` are valid afterwards.
      *
-     * @p damping: a coefficient of the stiffness [s] over the step; adds to the second
-     * Piola-Kirchhoff stress the moduli at rest times the change of the
-     * Green-Lagrange strain times it.
+     * @p damping is the coefficient of stiffness-proportional damping [s] divided by the length
+     * of the step [s]. This number times the moduli of the undeformed state times the change of
+     * the Green-Lagrange strain is added to the second Piola-Kirchhoff stress.
      */
     Deformation
     assemble_between(const Vector         &begin,
@@ -125,45 +131,47 @@ namespace NMM
                      double                damping = 0.);
 
     /**
-     * Let the penalties gamma grow with the moduli A(u) at the boundary once these
-     * are more than twice those at rest, e.g. under strong compression; they
-     * never decrease. Between steps, not within: the
-     * potential changes, by the order of the discretization error.
+     * Increase the penalties gamma with the moduli A(u) at the boundary once these
+     * are more than twice those of the undeformed state, e.g. under strong compression. Penalties
+     * never decrease. Call this between steps only, because the
+     * potential changes, though only by the order of the discretization error.
      */
     void
     adapt_penalties(const Vector &u);
 
-    /// Multiplies loads from the next assembly on.
+    /// Set the factors of loads and conditions from the next assembly on.
+    /// @throws InputError for lists of the wrong length.
     void
     set_amplitudes(const LoadAmplitudes &amplitudes);
 
     /**
-     * From the next assembly on nothing is added of these blocks
-     * (ManifoldMesh::block()), nor of what ties them to others: their rows of the
-     * tangent keep a diagonal entry that means nothing. Empty: all blocks are there.
+     * Leave out absent blocks (ManifoldMesh::block()) and their ties to other blocks from the next
+     * assembly on. Their rows of the tangent keep an arbitrary diagonal entry. Empty: no block
+     * is absent.
      * @throws InputError for another number of blocks.
      */
     void
     set_absent_blocks(const std::vector<bool> &is_absent);
 
-    /// From now on nothing of other blocks is assembled: residual and tangent are
-    /// wrong in their rows, and energies and force_scale() are those of the rest. Empty:
-    /// all blocks are active.
+    /// Assemble only the elements of active blocks from now on. Rows of inactive blocks are
+    /// undefined in residual and tangent; energies and force_scale() are those of active blocks.
+    /// Empty: all blocks are active.
     void
     set_active_blocks(const std::vector<bool> &is_active);
 
-    /// Pairs of blocks that are tied to each other and that this rank knows of.
+    /// Pairs of different blocks that are tied to each other, as far as this rank knows them.
     std::vector<std::pair<unsigned int, unsigned int>>
     tied_blocks() const;
 
-    /// Elements that the last assembly worked on, on this rank.
+    /// Number of elements on this rank that the last assembly processed.
     unsigned int
     n_assembled_elements() const;
 
-    /// Owned unknowns [N/m thickness]; 0 for constrained ones.
+    /// Residual of the last assembly on owned unknowns, 0 for constrained ones [N/m].
     const Vector &
     residual() const;
 
+    /// Derivative of the residual at the last assembly with a tangent [N/m^2].
     const dealii::TrilinosWrappers::SparseMatrix &
     tangent() const;
 
@@ -178,20 +186,21 @@ namespace NMM
       double strain = 0.;
       /// Energy of weak conditions, ties and springs of fixed points [J/m].
       double conditions = 0.;
-      /// Minus the work of loads that keep direction and size, at the current
-      /// factor [J/m].
+      /// Potential of loads that keep direction and size: minus their work at the current factors
+      /// [J/m].
       double loads = 0.;
-      /// Done in assemble_between() by the change of what is prescribed [J/m].
+      /// Work done in assemble_between() by the change of prescribed displacements [J/m].
       double work_of_conditions = 0.;
       /// Energy dissipated by damping in assemble_between() [J/m].
       double dissipated = 0.;
     };
 
+    /// Energies of the last assembly, summed over ranks.
     const Energies &
     energies() const;
 
     /// Root of the sum over elements of the squares of internal forces, of
-    /// loads and of the forces of conditions, of the last assembly; not less than
+    /// loads and of the forces of conditions in the last assembly; not less than the
     /// forces at a strain of 1e-6 [N/m].
     double
     force_scale() const;
@@ -199,40 +208,44 @@ namespace NMM
     /**
      * Largest |d| of displacement conditions and ties of the last assembly,
      * times the Lambda of the element [-]: 1 is a jump of about a tenth of a cell.
-     * At a solution it is of the order of the discretization error, 0.1 at
+     * At a solution it is of the order of the discretization error, and 0.1 at
      * singular corners of coarse meshes. The potential of Nitsche's
-     * method is not bounded from below, and a stationary point with large
-     * jumps is none of the problem: one above @c largest_good_jump.
+     * method is not bounded from below. A stationary point with a jump above @c largest_good_jump
+     * is spurious: it is no solution of the problem.
      */
     double
     largest_jump() const;
 
+    /// Value of largest_jump() above which a stationary point counts as spurious [-].
     static constexpr double largest_good_jump = 0.5;
 
-    /// A vector of locally relevant unknowns, zero but for inhomogeneities of
-    /// the constraints.
+    /// A vector of locally relevant unknowns that are zero except for the inhomogeneities of
+    /// the constraints [m].
     Vector
     initial_solution() const;
 
+    /// The cover system given to the constructor.
     const CoverSystem &
     cover_system() const;
 
+    /// The problem given to the constructor.
     const ElasticityProblem &
     elasticity_problem() const;
 
+    /// The constraints given to the constructor.
     const dealii::AffineConstraints<double> &
     affine_constraints() const;
 
-    /// Law of a region of the physical mesh.
+    /// Hyperelastic law of a region of the physical mesh.
     const HyperelasticLaw &
     law(unsigned int region) const;
 
-    /// Whether a region has an inelastic law, of which this knows the elastic part only, without
-    /// initial stress; see InelasticTerms.
+    /// Whether any region has an inelastic law. This class contains only the elastic part of such
+    /// a law, without initial stress; InelasticTerms adds the rest.
     bool
     is_inelastic() const;
 
-    /// Tables of gradients that whole elements share.
+    /// Number of tables of gradients that whole elements share.
     unsigned int
     n_shared_tables() const;
 

@@ -18,36 +18,38 @@ namespace NMM
 {
   /**
    * The step-by-step kinematics of the paper (and of Shi's method): a load is
-   * put on in small steps, each of which is *one* linear problem on the current
+   * applied in small steps, each of which is *one* linear problem on the current
    * geometry x = X + u,
-   * @f[ \int B^T C B\,da\;\Delta u = f(t_{n+1}) - \int B^T \sigma_n\,da, @f]
-   * with the stress carried along as the initial stress of eq. (9) and the
-   * stiffness (7) without a geometric part. After the step
+   * @f[ \int B^T C B\,da\;\Delta u = f(t_{n+1}) - \int B^T \sigma_n\,da. @f]
+   * The stress is carried along as the initial stress of eq. (9), and the
+   * stiffness (7) has no geometric part. After the step
    * @f[ \sigma_{n+1} = R\,(\sigma_n + C:\Delta\varepsilon)\,R^T, \quad
    *     x \leftarrow x + \Delta u, @f]
-   * R being the rotation in I + grad(du) (polar decomposition), as a rotated
-   * block must rotate its stress.
+   * where R is the rotation in I + grad(du) (polar decomposition), because the stress of a
+   * block rotates with the block.
    *
-   * Geometry: gradients on x are those on X times F^-1, areas those on X times
+   * Geometry: gradients on x are those on X times F^-1, and areas are those on X times
    * det F, at the quadrature points of the reference configuration, which is cut
    * once. Displacement conditions and ties are Nitsche's terms on the current
-   * geometry; what a step misses of them is made up for in the next.
+   * geometry; the amount by which a step violates them is corrected in the next step.
    *
-   * What it costs: the displacement of a step is a straight line, so that a block
-   * turned by theta in n steps grows by the factor (1 + theta^2/n^2)^(n/2), and the
-   * error is of first order in the step. FiniteElasticity has neither. The
-   * law is linear between the rate of stress and strain, whatever the material's
-   * law; for small strains that agrees with St. Venant-Kirchhoff.
+   * Errors: the points of a rotating block move on straight lines in each step, so that a block
+   * rotated by theta in n steps grows by the factor (1 + theta^2/n^2)^(n/2), and the
+   * error is of first order in the step. FiniteElasticity has neither error. The relation between
+   * the rates of stress and strain is linear, whatever the material's
+   * law; for small strains this agrees with St. Venant-Kirchhoff.
    *
    * Lifetime: all arguments of the constructor must outlive this object.
    */
   class IncrementalElasticity
   {
   public:
+    /// Distributed vector of displacements [m], velocities [m/s] or forces [N/m].
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
-    /// @throws InputError and NumericalFailure as StaticElasticity; of a block that
-    /// floats freely not if it @p may_float (dynamics).
+    /// @throws InputError as StaticElasticity.
+    /// @throws NumericalFailure for a block whose supports permit a rigid motion, unless
+    /// @p may_float (dynamics).
     IncrementalElasticity(const CoverSystem                       &covers,
                           const QuadratureCollection              &quadrature,
                           const dealii::AffineConstraints<double> &constraints,
@@ -56,7 +58,7 @@ namespace NMM
     ~IncrementalElasticity();
 
     /**
-     * One step, to the loads and prescribed displacements times
+     * Take one step to the loads and prescribed displacements times
      * @p load_factor. Follower pressure acts on the geometry at the
      * beginning of the step. Returns the largest displacement of a cover in
      * the step [m].
@@ -66,18 +68,21 @@ namespace NMM
     double
     step(double load_factor);
 
+    /// Result of a step that was tried.
     struct StepResult
     {
-      /// Largest displacement of a cover [m].
+      /// Largest displacement of a cover in the step, whether it was taken or not [m].
       double largest_displacement = 0.;
-      bool   is_taken             = false;
+      /// Whether the state is now that at the end of the step.
+      bool is_taken = false;
     };
 
+    /// Distributed sparse matrix of the unknowns.
     using Matrix = dealii::TrilinosWrappers::SparseMatrix;
 
-    /// The same with equations of the caller's: @p solve is handed stiffness
-    /// and r = internal forces - loads at the beginning of the step and finds minus
-    /// the displacement of the step (dynamics adds inertia to both).
+    /// Take one step whose linear system the caller solves. @p solve gets the stiffness [N/m^2]
+    /// and r = internal forces - loads at the beginning of the step [N/m], and computes minus
+    /// the displacement of the step [m] (dynamics adds inertia to both).
     double
     step(double                                         load_factor,
          const std::function<void(const Matrix &stiffness,
@@ -85,9 +90,9 @@ namespace NMM
                                   Vector       &correction)> &solve);
 
     /**
-     * The same, unless a cover would move by more than @p max_displacement [m]:
-     * then nothing changes, and a smaller step is to be tried. Without @p solve
-     * the static step.
+     * Take one step, unless a cover would move by more than @p max_displacement [m]:
+     * then nothing changes, and the caller should try a smaller step. If @p solve is empty, the
+     * step is the static one.
      */
     [[nodiscard]] StepResult
     try_step(double                                         load_factor,
@@ -96,20 +101,26 @@ namespace NMM
                                       const Vector &residual,
                                       Vector       &correction)> &solve = {});
 
-    /// All that steps change.
+    /// Everything that a step changes.
     struct State
     {
-      /// Owned unknowns [m].
+      /// Displacements of owned unknowns [m].
       Vector solution;
-      /// Stresses at quadrature points, and at points of displacement conditions and ties [Pa].
+      /// @{
+      /// Cauchy stresses of this rank: at the quadrature points of elements, and at those of
+      /// displacement conditions and ties (two entries per point, one for each side) [Pa].
       std::vector<dealii::SymmetricTensor<2, 2>> stress, weak_stress;
-      double                                     work_of_loads = 0.;
+      /// @}
+      /// See IncrementalElasticity::work_of_loads() [J/m].
+      double work_of_loads = 0.;
     };
 
+    /// A copy of the current state.
     State
     state() const;
 
-    /// Continue from @p state, one of this object or of an equal one.
+    /// Continue from @p state, which must be one of this object or of an equal one.
+    /// @throws InputError if it is of another problem.
     void
     restore(const State &state);
 
@@ -118,17 +129,17 @@ namespace NMM
     double
     strain_energy() const;
 
-    /// Done in all steps by loads that keep their direction, gravity, body force,
-    /// tractions and point forces [J/m].
+    /// Work done in all steps by loads that keep their direction: gravity, body force,
+    /// tractions, pressures of that kind and point forces [J/m].
     double
     work_of_loads() const;
 
-    /// Sum of all steps [m], locally relevant.
+    /// Displacements, the sum of all steps, on locally relevant unknowns [m].
     const Vector &
     solution() const;
 
     /// Cauchy stress at the quadrature points of owned elements, one element
-    /// after the other in the order of the rules' points [Pa].
+    /// after the other in the order of the points of the rules [Pa].
     const std::vector<dealii::SymmetricTensor<2, 2>> &
     stresses() const;
 

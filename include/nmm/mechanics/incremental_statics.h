@@ -10,10 +10,11 @@
 
 namespace NMM
 {
+  /// Load steps with a bound on the displacement of a step.
   struct IncrementalSteps : public LoadSteps
   {
-    /// No cover moves by more in a step [m]; the paper's control of the error of
-    /// a step, which grows with the square of its rotation.
+    /// Largest displacement of a cover in a step [m]. It controls the error of
+    /// a step, which grows with the square of its rotation, as in the paper.
     double max_displacement = std::numeric_limits<double>::infinity();
 
     /// @throws InputError naming the value.
@@ -33,23 +34,26 @@ namespace NMM
   /**
    * Static equilibrium in the step-by-step kinematics of the paper under growing load,
    * with a bound on the displacement of a step. A step that would move a cover
-   * further is not taken but made smaller; the next one is chosen so that it
-   * reaches nine tenths of the bound, at most up to the next load factor asked
-   * for. Cost: a linear problem for each step tried.
+   * further is not taken but made smaller. The next step is chosen so that it
+   * reaches nine tenths of the bound, but is at most twice as long and ends at the next requested
+   * load factor at the latest. Cost: a linear problem for each step tried.
    *
    * Lifetime: the elasticity must outlive this object.
    */
   class IncrementalStatics
   {
   public:
+    /// See IncrementalElasticity::Vector.
     using Vector = IncrementalElasticity::Vector;
 
+    /// @p elasticity must be in its unloaded state.
     explicit IncrementalStatics(IncrementalElasticity &elasticity);
 
     /**
-     * From the unloaded state, or from the last step of an earlier call if its load
-     * factor is below the first one asked for. @p after_step is called with each
-     * step and the displacements after it.
+     * Take the given steps from the unloaded state, or from the last step of an earlier call;
+     * load factors that are reached already are skipped. @p after_step, if given, is called with
+     * each step and the displacements after it. Returns all steps taken.
+     * @throws InputError if the last load factor is reached already.
      * @throws NumericalFailure if a step would be smaller than allowed, or from
      * IncrementalElasticity::step(); the state is then that of the last step.
      */
@@ -58,6 +62,7 @@ namespace NMM
         const std::function<void(const IncrementalStep &, const Vector &)>
           &after_step = {});
 
+    /// Load factor of the last step taken; 0 in the unloaded state [-].
     double
     load_factor() const;
 

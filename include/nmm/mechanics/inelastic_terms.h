@@ -10,9 +10,9 @@
 namespace NMM
 {
   /**
-   * What inelastic materials add to the linear equations of small displacements. In these
-   * regions the equations K u - f know Hooke's law without initial stress only; this adds, for
-   * the stress sigma of InelasticLaw,
+   * The terms that inelastic materials add to the linear equations of small displacements. In
+   * inelastic regions the equations K u - f contain Hooke's law without initial stress only. For
+   * the stress sigma of InelasticLaw, this class adds
    * @f[ r(v) = \int_\Omega (\sigma - C\varepsilon(u)):\varepsilon(v)
    *     - \int_\Gamma \{(\sigma - C\varepsilon(u))N\}\cdot Bv, \qquad
    *     K = \frac{dr}{du}, @f]
@@ -20,11 +20,11 @@ namespace NMM
    * same law; the term that makes them symmetric keeps Hooke's law. K is not symmetric in
    * general. Elements that have never yielded and have no initial stress add nothing.
    *
-   * The material's states are those of the step accepted last; assembling changes nothing, and
-   * accept() makes those at the end of a step the accepted ones.
+   * Material states are those of the last accepted step. Assembling does not change them;
+   * accept() replaces them by those at the end of a step.
    *
-   * Cost: one evaluation of the law per quadrature point, and three sweeps over the matrix where
-   * something yields. Memory: two states (80 bytes) per point of
+   * Cost: one evaluation of the law per quadrature point, and three passes over the matrix if
+   * any point yields. Memory: two states (80 bytes) per point of
    * inelastic regions.
    *
    * Lifetime: the elasticity must outlive this object.
@@ -32,41 +32,45 @@ namespace NMM
   class InelasticTerms
   {
   public:
+    /// See FiniteElasticity::Vector.
     using Vector = FiniteElasticity::Vector;
+    /// Distributed sparse matrix of the unknowns.
     using Matrix = dealii::TrilinosWrappers::SparseMatrix;
 
-    /// @p elasticity has an inelastic region, see FiniteElasticity::is_inelastic().
+    /// @p elasticity must have an inelastic region, see FiniteElasticity::is_inelastic().
     explicit InelasticTerms(const FiniteElasticity &elasticity);
     ~InelasticTerms();
 
-    /// r at @p u (locally relevant, [m]) and, if @p with_tangent, K. With @c inverted, the law has
-    /// no stress somewhere and nothing of it may be used. The same result on all ranks.
+    /// Assemble r at @p u (locally relevant, [m]) and, if @p with_tangent, K. The result
+    /// Deformation::inverted means that a law has no stress at some point, and that no result of
+    /// the assembly may be used. Returns the same on all ranks.
     Deformation
     assemble(const Vector &u, bool with_tangent);
 
-    /// r of the last assembly [N/m]; owned unknowns, 0 for constrained ones.
+    /// r of the last assembly on owned unknowns, 0 for constrained ones [N/m].
     const Vector &
     residual() const;
 
-    /// The sum of @p elastic_stiffness and K of the last assembly with tangent.
+    /// The sum of @p elastic_stiffness and K of the last assembly, which must have been one with
+    /// tangent. If no point yields, this is @p elastic_stiffness itself.
     const Matrix &
     add_to(const Matrix &elastic_stiffness);
 
     /// Sums over an assembly and all ranks.
     struct Totals
     {
-      /// InelasticLaw::Response::energy less the energy of Hooke's law without initial stress
-      /// [J/m].
+      /// Stored energy (InelasticLaw::Response::energy) minus the energy of Hooke's law without
+      /// initial stress [J/m].
       double energy = 0.;
-      /// sigma : Delta epsilon^p since the last accepted state, sigma being that at the end of
-      /// the step, as the law has it; never negative [J/m].
+      /// Dissipation sigma : Delta epsilon^p since the last accepted state, where sigma is the
+      /// stress at the end of the step, as computed by the law; never negative [J/m].
       double dissipated = 0.;
       /// Area with plastic strain [m^2].
       double yielded_area = 0.;
-      /// Quadrature points in the volume that yield.
+      /// Number of quadrature points of elements that yield in the step.
       unsigned int n_yielding = 0;
-      /// Root of the sum over inelastic elements of the squares of internal forces. The
-      /// material's strength bounds it, whatever the displacements [N/m].
+      /// Root of the sum over inelastic elements of the squares of internal forces [N/m]. It is
+      /// bounded by the strength of the material, however large the displacements are.
       double force_scale = 0.;
     };
 
@@ -74,38 +78,43 @@ namespace NMM
     const Totals &
     totals() const;
 
-    /// The step to @p u, where the law has been evaluated before, is accepted: the states there
-    /// are the accepted ones. Assembles; totals() are those of the step.
+    /// Accept the step to @p u, at which an assembly has succeeded before: the states at @p u
+    /// become the accepted ones. This assembles again, so that totals() are those of the step.
     void
     accept(const Vector &u);
 
-    /// Accepted states of all ranks, and back again; on any number of ranks.
+    /// Accepted states of all ranks as bytes; the same on all ranks.
     std::vector<char>
     internal_state() const;
 
+    /// Restore what internal_state() returned for the same problem, on any number of ranks.
+    /// @throws InputError for another number of points.
     void
     restore_internal_state(const std::vector<char> &state);
 
-    /// As in the undeformed state; for another search from the beginning.
+    /// Reset all states to those of the undeformed material, to start again from the beginning.
     void
     forget_states();
 
-    /// Laws anew, those of @p materials in the order of ElasticityProblem::materials; elastic
-    /// constants and initial stress must be the same. For a search for the factor of safety.
+    /// Replace the laws by those of @p materials, in the order of ElasticityProblem::materials, as
+    /// a search for the factor of safety does. Elastic constants and initial stress must be the
+    /// same.
     void
     set_materials(const std::vector<Material> &materials);
 
-    /// Stress at an element's quadrature points, in the plane and across it [Pa], and the
-    /// equivalent plastic strain [-].
+    /// Stresses and plastic strain at a quadrature point.
     struct PointValues
     {
+      /// In-plane stress [Pa]; the component 00 is NaN if the law has no stress.
       dealii::SymmetricTensor<2, 2> stress;
-      double                        stress_zz                 = 0.;
-      double                        equivalent_plastic_strain = 0.;
+      /// Out-of-plane normal stress [Pa].
+      double stress_zz = 0.;
+      /// Equivalent plastic strain [-].
+      double equivalent_plastic_strain = 0.;
     };
 
-    /// Values of an element's points at the displacements of the last assembly; empty if its material
-    /// is elastic.
+    /// Values at the quadrature points of an element for the displacements of the last assembly;
+    /// empty if its material is elastic.
     std::vector<PointValues>
     values(unsigned int element) const;
 

@@ -8,9 +8,10 @@
 namespace NMM
 {
   /**
-   * Evaluate body force and boundary conditions where the equations will.
-   * @throws InputError that names the expression and the place if a value is not
-   * finite. Collective, all ranks throw.
+   * Check that body force and boundary conditions have finite values at the quadrature points, at
+   * which the equations evaluate them.
+   * @throws InputError on all ranks, naming the expression and the point, if a value is not
+   * finite. Collective.
    */
   void
   check_load_values(const CoverSystem          &covers,

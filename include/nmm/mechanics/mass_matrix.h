@@ -12,15 +12,14 @@
 namespace NMM
 {
   /**
-   * The consistent mass matrix (8),
+   * Assemble the consistent mass matrix (8),
    * @f[ M_{ij} = \int \rho\,w_i w_j\,dA\;I @f]
    * [kg per unit thickness], two unknowns per cover, with the density of each
-   * region's material. Covers with little support are treated as in the
+   * region's material. Covers with a small support are treated as in the
    * stiffness matrix: constrained unknowns are eliminated (their rows keep a
    * diagonal entry), and @p ghost_penalty, if not null, adds
-   * gamma rho int (u_E - u_F) . (v_E - v_F). Otherwise the matrix would be as
-   * ill-conditioned as slivers are thin, and explicit or implicit steps alike
-   * would divide by the masses of slivers.
+   * gamma rho int (u_E - u_F) . (v_E - v_F). Otherwise thin slivers would make the matrix
+   * ill-conditioned, and both explicit and implicit steps would divide by their small masses.
    *
    * @p quadrature must be exact for degree 2p.
    */

@@ -11,46 +11,48 @@
 namespace NMM
 {
   /**
-   * How NonlinearStatics finds equilibrium in a step: by Newton's method for the system alone,
-   * or with contact (ContactStatics).
+   * The interface by which NonlinearStatics finds equilibrium in a step: by Newton's method for
+   * the system alone, or with contact (ContactStatics). Order of calls: find(), then accept() or
+   * reject().
    */
   class EquilibriumSearch
   {
   public:
+    /// See NonlinearSystem::Vector.
     using Vector = NonlinearSystem::Vector;
 
     virtual ~EquilibriumSearch() = default;
 
     /**
-     * From @p u to the equilibrium at the load factor of @p step, with the iterations into
-     * @p step. @p change: how @p u was extrapolated, or null. Returns why there is none; empty:
-     * it was found.
+     * Find the equilibrium at the load factor of @p step, starting from @p u, and report the
+     * iterations in @p step. @p change, or null, is the change by which @p u was extrapolated from
+     * the last solution. Returns the reason why no equilibrium was found; empty if it was.
      */
     virtual std::string
     find(LoadStep &step, Vector &u, const Vector *change) = 0;
 
-    /// The equilibrium at @p u is accepted.
+    /// Accept the equilibrium at @p u.
     virtual void
     accept(const Vector & /*u*/)
     {
     }
 
-    /// The equilibrium that was found, or was not, is given up.
+    /// Give up the result of the last find(), whether it found an equilibrium or not.
     virtual void
     reject()
     {
     }
 
-    /// What the user can do if there is no equilibrium.
+    /// Advice to the user if there is no equilibrium, as part of a message.
     virtual std::string
     remedy() const = 0;
   };
 
 
   /**
-   * Static equilibrium under growing load, step by step (take_load_steps()). A solution whose
-   * displacement conditions or ties are missed by a good part of an element
-   * (LoadSteps::max_jump) is none. Between steps, states of the material are accepted and
+   * Static equilibrium under growing load, step by step (take_load_steps()). A solution that
+   * violates displacement conditions or ties by a considerable part of the size of an element
+   * (LoadSteps::max_jump) is rejected. Between steps, material states are accepted and
    * penalties adapted, see FiniteElasticity::adapt_penalties().
    *
    * Lifetime: the arguments must outlive this object.
@@ -58,26 +60,28 @@ namespace NMM
   class NonlinearStatics
   {
   public:
+    /// See NonlinearSystem::Vector.
     using Vector = NonlinearSystem::Vector;
 
-    /// Statics of a body in finite kinematics.
+    /// Statics of @p elasticity in finite kinematics, by Newton's method.
     explicit NonlinearStatics(FiniteElasticity       &elasticity,
                               const NewtonParameters &parameters = {});
 
-    /// Statics of @p elasticity, in small or finite kinematics.
+    /// Statics of @p elasticity in small or finite kinematics, by Newton's method.
     explicit NonlinearStatics(ElasticSystem          &elasticity,
                               const NewtonParameters &parameters = {});
 
-    /// Statics of @p elasticity, whose equilibria @p search finds.
+    /// Statics of @p elasticity, with equilibria found by @p search.
     NonlinearStatics(ElasticSystem &elasticity, EquilibriumSearch &search);
     ~NonlinearStatics();
 
     /**
-     * From the unloaded state (or the last solution of an earlier call, if
-     * its load factor is below the first one asked for). @p after_step is called with
-     * each converged step and its solution.
+     * Take the given steps from the unloaded state, or from the last solution of an earlier call
+     * if its load factor is below the first one requested. With an EquilibriumSearch of the
+     * caller's, always continue from the last solution. @p after_step, if given, is called with
+     * each converged step and its solution. Returns all converged steps.
      * @throws NumericalFailure if a step would be smaller than allowed, with
-     * the load factor, the reason and the history of the last iteration; the solution
+     * the load factor, the reason and the residuals of the last iterations; the solution
      * is then the last converged one.
      */
     std::vector<LoadStep>
@@ -85,24 +89,25 @@ namespace NMM
         const std::function<void(const LoadStep &, const Vector &)>
           &after_step = {});
 
-    /// Displacements [m], locally relevant.
+    /// Displacements of the last converged step on locally relevant unknowns [m].
     const Vector &
     solution() const;
 
+    /// Load factor of solution(); 0 before the first step [-].
     double
     load_factor() const;
 
-    /// The step that was tried last: after a failure, how often it was cut and
-    /// the iterations lost.
+    /// The step that was tried last. After a failure it tells how often the step was cut and
+    /// the number of iterations lost.
     const LoadStep &
     last_attempt() const;
 
-    /// Where the search for the last equilibrium that was not found ended [m], locally relevant:
-    /// what moved furthest on the way there gives way.
+    /// Displacements at which the last rejected step ended, on locally relevant unknowns [m].
+    /// The parts that have moved furthest from solution() are those that fail.
     const Vector &
     last_iterate() const;
 
-    /// Dissipated by the material in the step accepted last [J/m].
+    /// Energy dissipated by inelastic materials in the last accepted step [J/m].
     double
     dissipated() const;
 

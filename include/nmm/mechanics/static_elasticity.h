@@ -22,26 +22,30 @@ namespace NMM
    * Displacement conditions are imposed weakly by Nitsche's method,
    * @f[ -\int_\Gamma (B\sigma(u)n)\cdot v -\int_\Gamma (B\sigma(v)n)\cdot(u-g)
    *     +\int_\Gamma \frac{\gamma}{h}\,B(u-g)\cdot v @f]
-   * with B the projection onto the prescribed component(s) or n n^T: consistent,
-   * hence of full order. sigma includes the initial stress where it stands for
-   * the traction. The penalty gamma / h is four times the bound that a discrete
-   * trace inequality, solved on each element, gives: no number to choose, and
-   * coercive however the element is cut. Material interfaces and closed joints
-   * are tied the same way, with averages weighted by stiffness and size. Open
-   * joints and boundaries shared by two domains carry nothing.
+   * with B the projection onto the prescribed component(s) or n n^T. The method is consistent
+   * and hence of full order. sigma includes the initial stress where it stands for
+   * the traction. The penalty gamma / h is four times the constant of a discrete
+   * trace inequality, which is computed for each element. So there is no parameter to choose, and
+   * the form is coercive however the element is cut. Material interfaces and closed joints
+   * are tied in the same way, with averages weighted by stiffness and size. No forces act across
+   * open joints and boundaries shared by two domains.
    *
-   * A condition on a curve holds on all elements along it; where boundaries of two
-   * domains coincide, that is both sides.
+   * A condition on a curve holds on all elements along it that belong to the domain it bounds. If
+   * the boundaries of two domains coincide, each has conditions of its own
+   * (PhysicalMesh::is_face_of()).
    *
    * All terms are per unit thickness. Constrained unknowns (aggregated covers)
-   * are eliminated; their rows keep a diagonal entry. With a ghost penalty its
+   * are eliminated; their rows keep a diagonal entry. If there is a ghost penalty, its
    * terms are added.
+   *
+   * Order of calls: assemble(), solve(), solution().
    *
    * Lifetime: all arguments of the constructor must outlive this object.
    */
   class StaticElasticity
   {
   public:
+    /// @p ghost_penalty may be null.
     /// @throws InputError if the problem does not fit the mesh, see
     /// ElasticityProblem::check(), or a point lies outside the solid.
     StaticElasticity(const CoverSystem                       &covers,
@@ -51,26 +55,29 @@ namespace NMM
                      const GhostPenalty *ghost_penalty = nullptr);
 
     /**
-     * Sparsity, matrix and right-hand side. With @p timer, in sections
-     * "sparsity", "assembly" and "to Trilinos".
-     * @throws NumericalFailure for a block that floats freely, naming it: one
-     * whose displacement conditions and fixed points leave a rigid motion.
+     * Make the sparsity pattern and assemble matrix and right-hand side. @p timer, if not null,
+     * records the sections "sparsity", "assembly" and "to Trilinos".
+     * @throws NumericalFailure, naming the block, for a block whose displacement conditions and
+     * fixed points permit a rigid motion.
      */
     void
     assemble(dealii::TimerOutput *timer = nullptr);
 
-    /// @throws NumericalFailure for a singular system or when the iteration does
+    /// Solve the assembled system.
+    /// @throws NumericalFailure for a singular system or if the iteration does
     /// not converge.
     LinearSolverReport
     solve(const LinearSolverParameters &parameters);
 
-    /// Displacements of covers [m], locally relevant, constraints distributed.
+    /// Displacements of covers on locally relevant unknowns, with constraints distributed [m].
     const dealii::TrilinosWrappers::MPI::Vector &
     solution() const;
 
+    /// The assembled matrix [N/m^2], with constraints eliminated.
     const dealii::TrilinosWrappers::SparseMatrix &
     system_matrix() const;
 
+    /// The assembled right-hand side on owned unknowns [N/m], with constraints eliminated.
     const dealii::TrilinosWrappers::MPI::Vector &
     system_rhs() const;
 

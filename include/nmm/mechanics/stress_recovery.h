@@ -11,31 +11,32 @@
 namespace NMM
 {
   /**
-   * Recovered stress by polynomial preserving recovery (Zhang & Naga, SIAM J.
-   * Sci. Comput. 26 (2005) 1192), made for covers: around each physical cover k
+   * Stress recovered by polynomial preserving recovery (Zhang & Naga, SIAM J.
+   * Sci. Comput. 26 (2005) 1192), adapted to covers. Around each physical cover k
    * of a corner node a polynomial pi_k of degree p + 1 is fitted in the
    * least-squares sense to the displacement at the nodes of whole elements near
-   * it and, in cut elements, at the ends and middles of their edges; nodes
-   * outside the solid, where the displacement is only continued, are left out.
+   * it and, in cut elements, at the ends and midpoints of their edges. Nodes
+   * outside of the solid, where the displacement is only extended, are left out.
    * The recovered gradient blends the fits with the linear weight functions
    * @f[ G(x) = \sum_{k=1}^3 \lambda_k(x)\,\nabla\pi_k(x) @f]
    * on each manifold element, and stress is sigma_0 + C : sym G. It is
    * continuous within a region, exact for displacements of degree p, and of
    * degree p + 1 where the patch's elements are whole.
    *
-   * A patch starts with the cover's elements and takes further rings, at most
-   * three, until the fit is well-conditioned. Nothing is averaged across a joint
-   * or interface: covers, and hence patches, never cross one. A cover whose
-   * support holds both sides of a crack (around its tip), or for which no good
-   * patch exists (a body of few elements), keeps the direct stress.
+   * A patch starts with the cover's elements and is extended by up to
+   * three further rings of elements until the fit is well-conditioned. Nothing is averaged across
+   * a joint or interface, because covers, and hence patches, never cross one. A cover whose
+   * support contains both sides of a crack (around its tip), or for which no well-conditioned
+   * patch exists (in a body of few elements), keeps the direct stress.
    *
    * Cost: some 2 microseconds per corner cover. On the thick ring the largest
-   * error of the hoop stress falls by 3 to 15 against the direct stress.
+   * error of the hoop stress is 3 to 15 times smaller than that of the direct stress.
    */
   class StressRecovery
   {
   public:
-    /// Both arguments' cover system and @p field must outlive this object.
+    /// Fit the polynomials. The cover system of both arguments, and @p field, must outlive this
+    /// object.
     StressRecovery(const DisplacementField &field,
                    const Aggregation       &aggregation);
 
@@ -44,11 +45,11 @@ namespace NMM
     dealii::Tensor<2, 2>
     gradient(unsigned int element, const dealii::Point<2> &xi) const;
 
-    /// Recovered stress there [Pa].
+    /// Recovered stress at reference coordinates @p xi of an owned element's cell [Pa].
     dealii::SymmetricTensor<2, 2>
     stress(unsigned int element, const dealii::Point<2> &xi) const;
 
-    /// Corner covers that keep the direct stress.
+    /// Number of corner covers that keep the direct stress.
     unsigned int
     n_direct() const;
 

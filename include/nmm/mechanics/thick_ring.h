@@ -11,7 +11,7 @@ namespace NMM
 {
   /**
    * Lamé's solution of a ring under inner pressure: inner radius a, outer
-   * radius b [m], pressure p >= 0 on the inside [Pa], the outside free. With
+   * radius b [m], pressure p on the inner boundary [Pa], no traction on the outer one. With
    * s = p a^2 / (b^2 - a^2),
    * @f[ \sigma_r = s\,(1 - b^2/r^2), \quad
    *     \sigma_\theta = s\,(1 + b^2/r^2), \quad
@@ -23,7 +23,8 @@ namespace NMM
   class ThickRing
   {
   public:
-    /// @throws InputError unless 0 < a < b, and for a bad material.
+    /// @throws InputError unless 0 < a < b, for a pressure that is not finite, and for an invalid
+    /// material.
     ThickRing(double                  inner_radius,
               double                  outer_radius,
               double                  pressure,
@@ -31,28 +32,31 @@ namespace NMM
               PlaneState              plane_state,
               const dealii::Point<2> &center = dealii::Point<2>());
 
+    /// Inner radius a [m].
     double
     inner_radius() const;
 
+    /// Outer radius b [m].
     double
     outer_radius() const;
 
+    /// Centre of the ring [m].
     const dealii::Point<2> &
     center() const;
 
-    /// sigma_r(r) [Pa].
+    /// Radial stress sigma_r at the radius @p r [Pa].
     double
     radial_stress(double r) const;
 
-    /// sigma_theta(r) [Pa].
+    /// Hoop stress sigma_theta at the radius @p r [Pa].
     double
     hoop_stress(double r) const;
 
-    /// u_r(r) [m].
+    /// Radial displacement u_r at the radius @p r [m].
     double
     radial_displacement(double r) const;
 
-    /// u at @p x [m].
+    /// Displacement u at the point @p x, which must not be the centre [m].
     dealii::Tensor<1, 2>
     displacement(const dealii::Point<2> &x) const;
 

@@ -12,56 +12,68 @@
 
 namespace NMM
 {
-  /// A contact point, for files and pictures.
+  /// A contact point, as it is written to files and pictures.
   struct ContactSample
   {
-    /// Place on the undeformed slave and where that is now [m].
-    dealii::Point<2> reference, x;
-    /// Unit normal of the master, out of its body.
+    dealii::Point<2>
+      /// Position on the undeformed slave [m].
+      reference,
+      /// Current position [m].
+      x;
+    /// Unit normal of the master, out of its body [-].
     dealii::Tensor<1, 2> normal;
-    /// Edges of the surface, and parameter on the slave.
-    unsigned int slave = invalid_index, master = invalid_index;
-    double       s = 0.;
-    /// [m]; positive: open.
+    unsigned int
+      /// Index of the edge of the ContactSurface that carries the point.
+      slave = invalid_index,
+      /// Index of the edge of the ContactSurface on the other side.
+      master = invalid_index;
+    /// Parameter of the point on the slave edge, in [0, 1].
+    double s = 0.;
+    /// Distance of the faces [m]; negative for a penetration.
     double gap = 0.;
-    /// Per reference length [Pa].
-    double pressure = 0., shear = 0.;
-    /// Reference length that the point stands for [m].
-    double       weight    = 0.;
-    ContactState state     = ContactState::open;
-    bool         is_bonded = false;
+    double
+      /// Normal traction per reference length, pressure positive [Pa].
+      pressure = 0.,
+      /// Shear traction per reference length [Pa]; traction() defines its sign.
+      shear = 0.;
+    /// Reference length that the point represents [m]; 0 for an open point.
+    double weight = 0.;
+    /// Whether the point is open, sticks or slips.
+    ContactState state = ContactState::open;
+    /// Whether the faces are bonded at this point.
+    bool is_bonded = false;
 
-    /// Force on the slave per reference length [Pa]: p n - shear t, t being n turned
-    /// by a right angle counter-clockwise.
+    /// Traction on the slave per reference length [Pa], pressure * n - shear * t, where t is the
+    /// normal n turned by a right angle counter-clockwise.
     dealii::Tensor<1, 2>
     traction() const;
   };
 
-  /// "open", "stick" or "slip".
+  /// The name of a state in files: "open", "stick" or "slip".
   const std::string &
   to_string(ContactState state);
 
-  /// Those of @p points, of all ranks, that have a weight and a master within reach,
-  /// in the order of the surface, whatever the number of ranks; on rank 0 only.
-  /// Collective.
+  /// Gathers on rank 0 the @p points of all ranks that have a weight and a master within reach.
+  /// They are in the order of the surface, for any number of ranks. The result is empty on other
+  /// ranks. Collective.
   std::vector<ContactSample>
   gather_contact_points(const ContactSurface            &surface,
                         const std::vector<ContactPoint> &points);
 
-  /// Force that the solid exerts on each obstacle, per unit thickness [N/m].
-  /// Collective.
+  /// Force that the solid exerts on each obstacle, per unit thickness [N/m], in the order of the
+  /// obstacles of @p surface. Collective.
   std::vector<dealii::Tensor<1, 2>>
   obstacle_forces(const ContactSurface            &surface,
                   const std::vector<ContactPoint> &points);
 
-  /// Largest pressure of all ranks' points per reference length [Pa].
-  /// Collective.
+  /// Largest pressure per reference length over the closed points of all ranks [Pa]; 0 if there is
+  /// none. Collective.
   double
   largest_pressure(const ContactSurface            &surface,
                    const std::vector<ContactPoint> &points);
 
-  /// Add obstacles and contact points, which gather_contact_points() returned, to a
-  /// picture, if their traction is larger than @p least [Pa].
+  /// Adds the obstacles to a picture, and those closed @p points whose traction is at least
+  /// @p least [Pa]. The points come from gather_contact_points().
   void
   add_contact(const ContactSurface             &surface,
               const std::vector<ContactSample> &points,
@@ -70,39 +82,41 @@ namespace NMM
 
 
   /**
-   * Contact points of states of a run: contacts.csv, to which rows are added, and
-   * points for ParaView, contacts-NNNN.vtp, which contacts.pvd lists. On one rank
-   * only.
+   * Writes the contact points of a series of states: rows of the table contacts.csv, and
+   * files contacts-NNNN.vtp for ParaView with their list contacts.pvd. For use on one rank.
    *
    * Lifetime: the arguments of the constructor must outlive this object.
    */
   class ContactSeries
   {
   public:
-    /// @p value_name heads the first column: time or load factor.
+    /// @p value_name is the head of the first column, which holds the time or the load factor.
+    /// @p with_table and @p with_fields say whether the table and the files for ParaView are
+    /// written.
     ContactSeries(const ContactSurface  &surface,
                   const OutputDirectory &directory,
                   std::string            value_name,
                   bool                   with_table,
                   bool                   with_fields);
 
-    /// States that follow are those of another surface, which must outlive this object.
+    /// Uses @p surface for all further states. It must outlive this object.
     void
     follow(const ContactSurface &surface);
 
-    /// Keep what an earlier run wrote of states up to @p last, but for its end.
+    /// Continues an earlier run: its states up to @p last are kept, except its final state.
     /// @throws InputError if its table has other columns.
     void
     resume(double last);
 
-    /// The state @p value; @p base is the file's name without extension.
+    /// Writes the state at the time or load factor @p value. @p base is the name of the file
+    /// without extension.
     void
     write(double                            value,
           const std::string                &base,
           const std::vector<ContactSample> &points);
 
-    /// The same for the last state, called contacts.vtp; it may have been written
-    /// already.
+    /// Writes the final state to contacts.vtp. In the table and the list it is added unless it
+    /// has been written already.
     void
     finish(double value, const std::vector<ContactSample> &points);
 
@@ -122,9 +136,9 @@ namespace NMM
     std::string            value_name;
     bool                   with_table, with_fields;
     FileSeries             files;
-    /// The table contacts.csv, once there is a first state.
+    /// The table contacts.csv, which is made with the first state.
     std::optional<CsvSeries> table;
-    /// Values of states in the table.
+    /// Times or load factors of the states in the table.
     std::vector<double> written;
   };
 } // namespace NMM

@@ -8,45 +8,46 @@
 
 namespace NMM
 {
-  /// A word as a cell of a CSV file: between quotation marks where it has a comma or such a
-  /// mark, which is doubled.
+  /// @p text as a cell of a CSV file. It is put between quotation marks if it contains a comma or
+  /// a quotation mark; the latter is doubled.
   std::string
   quoted(const std::string &text);
 
 
   /**
-   * A CSV file that grows by rows while a run goes on; it is complete after each of
-   * them. A run that continues an earlier one takes away the rows after its start.
+   * A CSV file to which rows are appended while a run goes on; it is valid after each of
+   * them. A run that continues an earlier one removes the rows after its start.
    * For use on one rank.
    */
   class CsvSeries
   {
   public:
     /**
-     * A new file that begins with the lines of @p head. If @p is_kept is given, the
-     * rows of an earlier file for which it is true follow, but for one that was cut off
-     * by a kill; the file is replaced in one go.
-     * @throws OutputFailure, or InputError if the earlier file has another head.
+     * Makes a file that begins with the lines of @p head. If @p is_kept is given, those
+     * rows of an earlier file follow for which it returns true. An incomplete last row, from a
+     * run that was killed, is dropped. The earlier file is replaced in a single operation.
+     * @throws OutputFailure if the file cannot be written.
+     * @throws InputError if the earlier file has another head.
      */
     CsvSeries(std::string                                     file_name,
               const std::string                              &head,
               const std::function<bool(const std::string &)> &is_kept = {});
 
     /**
-     * With the columns time, step and @p columns, below a line @p comment. Of an
-     * earlier file the rows up to step @p continue_after are kept; negative: there
-     * is none.
+     * Makes a file with the line @p comment and the columns time, step and @p columns. The rows
+     * of an earlier file up to the step @p continue_after are kept; a negative number stands
+     * for no earlier file.
      */
     CsvSeries(std::string                     file_name,
               const std::string              &comment,
               const std::vector<std::string> &columns,
               int                             continue_after);
 
-    /// Append whole lines. @throws OutputFailure.
+    /// Appends complete lines. @throws OutputFailure if they cannot be written.
     void
     append(const std::string &rows);
 
-    /// Append a row of numbers with 17 digits, so that equal bits are equal text.
+    /// Appends a row. Numbers have 17 digits, so that different numbers have different texts.
     void
     append(double time, unsigned int step, const std::vector<double> &values);
 

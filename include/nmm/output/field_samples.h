@@ -12,25 +12,32 @@
 
 namespace NMM
 {
-  /// The solution at one point; stresses tension positive [Pa].
+  /// The solution at one point. Stresses are Cauchy stresses, tension positive.
   struct FieldSample
   {
+    /// Displacement u [m].
     dealii::Tensor<1, 2> displacement;
-    /// 0 where nothing moves [m/s].
+    /// Velocity [m/s]; 0 in an analysis without motion.
     dealii::Tensor<1, 2> velocity;
 
     /// In-plane stress and sigma_zz.
     struct Stress
     {
+      /// In-plane components [Pa].
       dealii::SymmetricTensor<2, 2> in_plane;
-      double                        zz = 0.;
+      /// sigma_zz [Pa]; 0 in plane stress.
+      double zz = 0.;
     };
-    Stress direct, recovered;
-    /// Equivalent plastic strain; 0 where nothing yields [-].
+    Stress
+      /// Stress from the gradient of the displacement; it jumps between elements.
+      direct,
+      /// Stress from the gradient that StressRecovery has smoothed within each region.
+      recovered;
+    /// Equivalent plastic strain [-]; 0 if no material yields.
     double plastic_strain = 0.;
   };
 
-  /// sqrt(3/2 s : s) of the three-dimensional deviator s [Pa].
+  /// Von Mises stress sqrt(3/2 s : s) of the three-dimensional stress deviator s [Pa].
   double
   von_mises_stress(const FieldSample::Stress &stress);
 
@@ -39,27 +46,29 @@ namespace NMM
   principal_stresses(const FieldSample::Stress &stress);
 
   /**
-   * Evaluates displacement and stresses at points of this rank's elements.
-   * Lifetime: the arguments of the constructor must outlive it.
+   * Evaluates displacement, stresses, velocity and plastic strain at points of this rank's
+   * elements.
+   *
+   * Lifetime: the arguments of the constructor must outlive this object.
    */
   class FieldEvaluator
   {
   public:
     /**
-     * Cauchy stress [Pa] at reference coordinates xi of an element's cell where
-     * the displacement gradient du_i/dX_j [-] is given.
+     * Gives the Cauchy stress [Pa] at the reference coordinates xi of an element's cell, for
+     * the displacement gradient du_i/dX_j [-].
      */
     using StressLaw =
       std::function<FieldSample::Stress(unsigned int                element,
                                         const dealii::Point<2>     &xi,
                                         const dealii::Tensor<2, 2> &gradient)>;
 
-    /// A number at reference coordinates xi of an element's cell.
+    /// Gives a number at the reference coordinates xi of an element's cell.
     using ScalarField =
       std::function<double(unsigned int element, const dealii::Point<2> &xi)>;
 
-    /// With @p law instead of the linear one, if it is given, and with the
-    /// velocities of the covers [m/s] as a field @p velocity, if it is given.
+    /// @p law gives the stress; if it is empty, stress follows from Hooke's law. @p velocity is the
+    /// velocity [m/s] as a field on the covers; if it is null, samples have none.
     FieldEvaluator(const DisplacementField &field,
                    const StressRecovery    &recovery,
                    const ElasticityProblem &problem,
@@ -70,24 +79,28 @@ namespace NMM
     FieldSample
     operator()(unsigned int element, const dealii::Point<2> &x) const;
 
+    /// Whether samples have a velocity.
     bool
     has_velocity() const;
 
-    /// From now on samples have the plastic strain @p strain.
+    /// Sets the equivalent plastic strain [-] of all further samples.
     void
     set_plastic_strain(ScalarField strain);
 
+    /// Whether samples have a plastic strain.
     bool
     has_plastic_strain() const;
 
-    /// Blocks that have left are in no output.
+    /// Leaves the given blocks out of output, since they have left the scene; replaces the blocks
+    /// of an earlier call.
     void
     hide_blocks(const std::vector<unsigned int> &blocks);
 
+    /// Whether the block of @p element is part of output, see hide_blocks().
     bool
     shows(unsigned int element) const;
 
-    /// Displacement alone [m].
+    /// Displacement at @p x [m] of @p element, without stresses [m].
     dealii::Tensor<1, 2>
     displacement(unsigned int element, const dealii::Point<2> &x) const;
 
@@ -99,7 +112,7 @@ namespace NMM
     StressLaw                 law;
     const DisplacementField  *velocity;
     ScalarField               plastic_strain;
-    /// For each block, whether it is left out; empty: none is.
+    /// For each block, whether it is left out of output; empty if none is.
     std::vector<bool> is_hidden;
 
     double
@@ -108,47 +121,62 @@ namespace NMM
 
 
   /**
-   * This rank's manifold elements as quadratic triangles, for output. Nodes of
-   * neighbouring triangles are not shared, because direct stresses jump between
-   * elements and displacements jump across joints.
+   * This rank's manifold elements as quadratic triangles, for output. Neighbouring triangles
+   * share no nodes, because direct stresses jump between elements and displacements jump across
+   * joints.
    */
   struct FieldTriangles
   {
-    std::vector<QuadraticTriangle>          nodes;
-    std::vector<unsigned int>               elements;
+    /// The six nodes of each triangle in the reference configuration [m].
+    std::vector<QuadraticTriangle> nodes;
+    /// The manifold element to which each triangle belongs.
+    std::vector<unsigned int> elements;
+    /// The solution at the six nodes of each triangle.
     std::vector<std::array<FieldSample, 6>> samples;
-    bool                                    has_velocity       = false;
-    bool                                    has_plastic_strain = false;
+    /// Whether samples have a velocity.
+    bool has_velocity = false;
+    /// Whether samples have a plastic strain.
+    bool has_plastic_strain = false;
 
-    /// Without a solution (@p evaluator null) all samples are zero.
+    /// Divides all elements that @p evaluator shows and evaluates the solution at the nodes. If
+    /// @p evaluator is null, there is no solution, and all samples are zero.
     FieldTriangles(const CoverSystem &covers, const FieldEvaluator *evaluator);
 
-    /// Largest displacement on any rank [m].
+    /// Largest displacement on any rank [m]. Collective.
     double
     max_displacement(MPI_Comm communicator) const;
 
-    /// Which result is not finite, and where; empty: all are. Collective.
+    /// A message that names a result that is not finite and its position; empty if all are
+    /// finite. Collective.
     std::string
     find_not_finite(MPI_Comm communicator) const;
   };
 
 
-  /// Which result at @p x is not finite, and where; empty: all are.
+  /// A message that names a result of @p sample that is not finite and its position @p x [m];
+  /// empty if all are finite.
   std::string
   find_not_finite(const FieldSample &sample, const dealii::Point<2> &x);
 
 
-  /// Indices of a manifold element's block, region and material (0 if the
-  /// region has none).
+  /// The numbers of a manifold element that are written to files.
   struct ElementIds
   {
-    unsigned int block, region, material;
+    unsigned int
+      /// Index of the block.
+      block,
+      /// Index of the region of the physical mesh.
+      region,
+      /// Index of the material of the region; 0 if the region names none.
+      material;
   };
 
+  /// The indices of the block, region and material of @p element.
   ElementIds
   element_ids(const ManifoldMesh &mesh, unsigned int element);
 
-  /// The number a picture is coloured by, at @p x [m] of an element.
+  /// Value of the @p quantity that colours a picture, at @p x [m] of an element with the indices
+  /// @p ids. @p parameters choose direct or recovered stress and the centre of polar coordinates.
   double
   quantity_value(const FieldSample       &sample,
                  const ElementIds        &ids,

@@ -9,7 +9,7 @@
 
 /**
  * @file
- * The room `output`: results become files. It knows fields, contact and tables, but
+ * The room `output`: it writes results to files. It knows fields, contact and tables, but
  * no scene.
  *
  * What comes in: a DisplacementField and its StressRecovery, the Contact, rows of
@@ -18,8 +18,8 @@
  * (picture.h, animation.h), and messages (progress.h).
  *
  * Order of calls: clear the folder (OutputDirectory); evaluate the fields at the nodes
- * of triangles once (FieldEvaluator, FieldTriangles); give these to the writers. Each
- * file appears under its name when it is complete; a file that cannot be written is an
+ * of triangles once (FieldEvaluator, FieldTriangles); pass these to the writers. Each
+ * file appears under its name only when it is complete. A file that cannot be written leads to an
  * OutputFailure.
  *
  * @code

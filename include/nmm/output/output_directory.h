@@ -10,37 +10,45 @@
 namespace NMM
 {
   /**
-   * The folder results are written to. Each file is written under a temporary
-   * name and renamed when it is complete, so that whatever happens no file is
-   * half written or older than its neighbours.
+   * The folder to which results are written. Each file is written under a temporary
+   * name and renamed when it is complete, so that no file is ever incomplete, and none is left
+   * from an earlier run.
    */
   class OutputDirectory
   {
   public:
+    /// Only keeps @p path; nothing is made or checked yet.
     explicit OutputDirectory(std::filesystem::path path);
 
+    /// The path that was given to the constructor.
     const std::filesystem::path &
     path() const;
 
-    /// @throws InputError if the folder cannot be made or written to, or folders
-    /// have names of results. What is made to find out is removed again.
+    /// Checks whether the folder can be made and written to; files and folders that are made for
+    /// that are removed again. @throws InputError if it cannot, or if a folder in it has the name
+    /// of a file of results.
     void
     check() const;
 
-    /// Make the folder and remove the results of an earlier run.
+    /// Makes the folder, if it does not exist, and removes the results of an earlier run.
+    /// @throws InputError as check().
     void
     create() const;
 
-    /// Make the folder if need be, to continue an earlier run: remove only what
-    /// that wrote at its end, not histories, series and checkpoint.
+    /// Prepares the folder for the continuation of an earlier run: only the results that are
+    /// written at the end of a run are removed, but not histories, series and the checkpoint.
+    /// @throws InputError as check().
     void
     resume() const;
 
-    /// @p write gets the temporary file's name. @throws OutputFailure.
+    /// Calls @p write with the name of a temporary file, and renames that to @p name.
+    /// @throws OutputFailure if it cannot be renamed.
     void
     write_file(const std::string                              &name,
                const std::function<void(const std::string &)> &write) const;
 
+    /// Calls @p write with a stream, whose text becomes the file @p name.
+    /// @throws OutputFailure if the file cannot be written.
     void
     write_text(const std::string                         &name,
                const std::function<void(std::ostream &)> &write) const;
@@ -49,12 +57,12 @@ namespace NMM
     void
     remove_results(bool of_end_only) const;
 
-    /// Name of a folder where a file of results belongs; empty: none.
+    /// A folder that has the name of a file of results; empty if there is none.
     std::string
     folder_in_the_way() const;
 
-    /// Make the folder and a file in it, and remove both; the system's reason if
-    /// that cannot be done.
+    /// Makes the folder and a file in it, and removes both. Returns the system's reason if
+    /// that fails, else an empty string.
     std::string
     try_to_write() const;
 
@@ -66,19 +74,20 @@ namespace NMM
   class Summary
   {
   public:
-    /// A row of that name that there is already is replaced.
+    /// Adds a row, or replaces the row with the same name. @p unit "-" stands for a number without
+    /// unit.
     void
     add(const std::string &name, double value, const std::string &unit = "-");
 
-    /// "name,value,unit" and a line per row, numbers with 12 digits.
+    /// Writes the head "name,value,unit" and a line per row, with numbers of 12 digits.
     void
     write(std::ostream &out) const;
 
-    /// Which value is not finite; empty: all are.
+    /// A message that names a value that is not finite; empty if all are finite.
     std::string
     find_not_finite() const;
 
-    /// The value called @p name; it must exist.
+    /// The value of the row @p name, which must exist.
     double
     value(const std::string &name) const;
 

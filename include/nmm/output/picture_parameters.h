@@ -8,7 +8,7 @@
 
 namespace NMM
 {
-  /// What a picture can be coloured by.
+  /// The quantities by which a picture can be coloured.
   enum class Quantity
   {
     von_mises,
@@ -30,15 +30,15 @@ namespace NMM
     material
   };
 
-  /// All of them.
+  /// All quantities, in the order of the enumeration.
   const std::vector<Quantity> &
   all_quantities();
 
-  /// Its name, e.g. "von Mises stress".
+  /// The name of a quantity in scenes and pictures, e.g. "von Mises stress".
   std::string
   to_string(Quantity quantity);
 
-  /// Is it a component of the velocity, or its length?
+  /// Whether the quantity is a component of the velocity, or its length.
   bool
   is_velocity(Quantity quantity);
 
@@ -46,21 +46,32 @@ namespace NMM
   /// How pictures and animations show the fields.
   struct PictureParameters
   {
+    /// The quantity that colours the triangles.
     Quantity quantity = Quantity::von_mises;
-    /// What an animation can be coloured by beside `quantity`, by choice.
+    /// Further quantities among which the reader of an animation can choose.
     std::vector<Quantity> animation_quantities;
-    /// Colour by the recovered instead of the direct stress.
+    /// Whether stresses are recovered ones instead of direct ones, see FieldSample.
     bool recovered = true;
     /// Centre of the polar coordinates of radial and hoop stress [m].
     dealii::Point<2> center;
     /// Factor on displacements in the picture [-]; negative: chosen so that the
     /// largest displacement is 5 % of the solid's size.
     double deformation_scale = -1.;
-    /// Values at the ends of the colour bar; equal: those of the solution.
-    double       range_min = 0., range_max = 0.;
-    bool         mesh_lines    = true;
+    double
+      /// Value at the lower end of the colour bar, in the unit of the quantity.
+      range_min = 0.,
+      /// Value at the upper end of the colour bar; if it equals range_min, the bar spans the
+      /// values of the solution.
+      range_max = 0.;
+    /// Whether the edges of the mathematical mesh are drawn.
+    bool mesh_lines = true;
+    /// Width of the picture [pixels]; the height follows from the shape of the solid.
     unsigned int picture_width = 1600;
-    std::string  length_unit = "m", stress_unit = "Pa";
+    std::string
+      /// Word for the unit of length in pictures and files; numbers are not converted.
+      length_unit = "m",
+      /// Word for the unit of stress in pictures and files; numbers are not converted.
+      stress_unit = "Pa";
   };
 } // namespace NMM
 

@@ -13,35 +13,38 @@
 namespace NMM
 {
   /**
-   * Says which stage a program is in and how long stages took. On a terminal
-   * the running stage is shown and its line completed when it ends; otherwise
-   * there is one plain line per stage. Only rank 0 prints. Times are wall-clock
+   * Prints the stages of a program and their times. On a terminal
+   * the running stage is shown and its line is completed when it ends; otherwise
+   * one plain line is printed per stage. Only rank 0 prints. Times are wall-clock
    * times of this rank, which waits for the others at the end of each stage.
    */
   class Progress
   {
   public:
+    /// Prints to @p out, which must outlive this object. @p is_terminal says whether lines can be
+    /// overwritten. Stages are collective on @p communicator.
     Progress(std::ostream &out, bool is_terminal, MPI_Comm communicator);
 
-    /// One stage, from construction to destruction. A stage within another one is a
-    /// part of that: it has no line and no time of its own.
+    /// A stage, which lasts from construction to destruction. A stage within another one is
+    /// part of the latter: it has no line and no time of its own.
     class Stage
     {
     public:
+      /// Begins a stage of @p progress, which must outlive it.
       Stage(Progress &progress, std::string name);
       ~Stage();
       Stage(const Stage &) = delete;
       Stage &
       operator=(const Stage &) = delete;
 
-      /// A few words shown beside the time.
+      /// Sets a few words that are printed beside the time when the stage ends.
       void
       remark(const std::string &text);
 
-      /// How far long work has come: on a terminal beside the stage's name, a
-      /// few times a second; else a line every ten seconds. @p text makes
-      /// the words when they are shown, from the seconds since the start. The
-      /// line is cut to the terminal's width, 80 characters without one.
+      /// Shows the progress of long work. On a terminal it is shown beside the name of the stage,
+      /// a few times a second; otherwise a line is printed every ten seconds. @p text is called
+      /// only when a line is shown; it makes the words from the time since the start [s]. The
+      /// line is cut to the width of the terminal, or to 80 characters.
       void
       update(const std::function<std::string(double seconds)> &text);
 
@@ -53,11 +56,11 @@ namespace NMM
       int                                   n_exceptions;
     };
 
-    /// A line of its own, from rank 0.
+    /// Prints a line of its own on rank 0.
     void
     message(const std::string &text);
 
-    /// Completed stages with their times [s], in order.
+    /// Completed stages with their times [s], in the order in which they ended.
     const std::vector<std::pair<std::string, double>> &
     times() const;
 
@@ -70,15 +73,16 @@ namespace NMM
     std::vector<std::pair<std::string, double>> stage_times;
   };
 
-  /// Keep only the first one of @p notices that differ in numbers, with their count.
+  /// Merges notices that differ only in numbers, or in quoted names that contain a digit: the
+  /// first one is kept, with the number of the others.
   std::vector<std::string>
   merge_alike(const std::vector<std::string> &notices);
 
-  /// @p text, if need be cut to @p width characters.
+  /// @p text, cut to @p width characters with " ..." at its end if it is longer.
   std::string
   cut_to_width(const std::string &text, std::size_t width);
 
-  /// Greatest memory this process has used [MB], summed over ranks.
+  /// Largest memory that this process has used so far [MB], summed over ranks. Collective.
   double
   peak_memory(MPI_Comm communicator);
 } // namespace NMM

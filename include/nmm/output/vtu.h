@@ -11,17 +11,16 @@
 namespace NMM
 {
   /**
-   * Write @p base .vtu, in parallel one .RANK.vtu each and .pvtu: manifold
-   * elements as triangles with six nodes (VTK's quadratic
-   * triangle) with displacement, direct and recovered stress, von
-   * Mises and principal stresses (of the recovered stress), block, region and
-   * material numbers and the rank. Numbers are single precision. ParaView's "Warp
+   * Writes the fields of a state to @p base .vtu, or in parallel to a file .RANK.vtu of each rank
+   * and .pvtu. Manifold elements are written as VTK's quadratic triangles with six nodes. The
+   * fields are displacement, direct and recovered stress, von Mises and principal stresses
+   * (of the recovered stress), the numbers of block, region and material, the rank, and velocity
+   * and plastic strain if there are any. Numbers have single precision. ParaView's "Warp
    * by vector" of the displacement shows the deformed shape. Returns the name of
-   * the file, for FileSeries; collective, but does not wait for other ranks'
-   * files.
+   * the file, for FileSeries. Collective, but does not wait for the files of other ranks.
    *
-   * Arrays are stored without compression: zlib's fastest level makes less than a third
-   * of the size, but takes longer than a linear time step. Cost: 0.14 kB per node.
+   * Arrays are stored without compression. zlib's fastest level would reduce the size to less than
+   * a third, but takes longer than a linear time step. Cost: 0.14 kB per node.
    */
   std::string
   write_fields_of_state(const CoverSystem     &covers,
@@ -31,29 +30,31 @@ namespace NMM
 
 
   /**
-   * Files of states of a run, and the list of them for ParaView, @p base .pvd, which
-   * at any time names those that are there. For use on one rank.
+   * The list of the files of a series of states for ParaView, a file .pvd. It always names
+   * the files that exist at the time. For use on one rank.
    *
    * Lifetime: the directory must outlive this object.
    */
   class FileSeries
   {
   public:
+    /// An empty list, which is written to `base`.pvd in @p directory when a state is added.
     FileSeries(const OutputDirectory &directory, std::string base);
 
-    /// Keep what an earlier run listed of files "base-..." of states up to @p last.
+    /// Takes over the files "base-..." that the list of an earlier run has for states up to the
+    /// time or load factor @p last.
     void
     resume(double last);
 
-    /// The state @p value (time or load factor) is in @p file.
+    /// Adds the state at the time or load factor @p value, which is in @p file.
     void
     add(double value, const std::string &file);
 
-    /// The same for the last state, unless it is listed already.
+    /// Adds the final state, unless a file of it is listed already.
     void
     finish(double value, const std::string &file);
 
-    /// Is a file of the state @p value listed, but for rounding?
+    /// Whether a file of the state @p value is listed, up to rounding errors of the value.
     bool
     has(double value) const;
 

@@ -11,15 +11,41 @@
 #include <utility>
 #include <vector>
 
+/**
+ * @file
+ * The room `quadrature`: rules on manifold elements and on the pieces of their boundaries.
+ *
+ * What comes in: the edges of a manifold element, which ManifoldMesh::edges() gives, and the
+ * affine map of its cell. What goes out: points inside the element, positive weights, and unit
+ * normals on edges.
+ *
+ * Order of calls: make a QuadratureCollection of a ManifoldMesh once, and ask it for the rule of
+ * each element in assembly. Single elements and edges have make_element_rule() and
+ * make_edge_rule(), which need no mesh; ElementRuleBuilder is the algorithm behind the former.
+ *
+ * @code
+ *   const MathematicalMesh    &cells = mesh.mathematical_mesh();
+ *   const QuadratureCollection rules(mesh, 4, 4, {0, mesh.n_elements()});
+ *   for (unsigned int element = 0; element < mesh.n_elements(); ++element)
+ *     {
+ *       const ElementRule rule        = rules.rule(element);
+ *       const double      determinant = 2. * cells.cell_area(mesh.cell(element));
+ *       for (unsigned int q = 0; q < rule.size(); ++q)
+ *         integral += f(rule.point(q)) * rule.weight(q) * determinant;
+ *     }
+ * @endcode
+ */
 namespace NMM
 {
   /**
-   * A triangle's affine frame: x = origin + J xi. What the quadrature needs to
-   * know of the cell, so that rules can be made without a triangulation.
+   * The affine map x = origin + J xi of a triangular cell. Quadrature needs no more of
+   * the cell, so that rules can be made without a triangulation.
    */
   struct CellFrame
   {
-    dealii::Point<2>     origin;
+    /// Image of the reference vertex (0, 0) [m].
+    dealii::Point<2> origin;
+    /// J = dx/dxi [m].
     dealii::Tensor<2, 2> jacobian;
   };
 
@@ -30,65 +56,74 @@ namespace NMM
   /**
    * A quadrature rule on one manifold element E of the cell with @p frame.
    * @f[ \int_E q\,dA = |\det J| \sum_k w_k\,q(x_k) \quad\forall q\in P_m @f]
-   * with all w_k > 0, all x_k in E and at most dim P_m = (m+1)(m+2)/2 points.
-   * Points are in reference-cell coordinates [-], weights sum to the area of E
-   * over |det J| (twice the cell's area) [-], as deal.II's FEValues expects.
-   * An element whose area rounds to zero gets a rule with no points.
+   * with m = @p degree, all w_k > 0, all x_k in E and at most dim P_m = (m+1)(m+2)/2 points.
+   * Points are in reference-cell coordinates [-]. Weights sum to the area of E
+   * over |det J| (twice the area of the cell) [-], as deal.II's FEValues expects.
+   * An element whose area rounds to zero gets a rule without points.
+   * @throws InputError if @p degree exceeds ElementRuleBuilder::max_degree.
    */
   dealii::Quadrature<2>
   make_element_rule(dealii::ArrayView<const ElementEdge> edges,
                     const CellFrame                     &frame,
                     unsigned int                         degree);
 
-  /**
-   * Gauss rule on one boundary piece; @p degree as above for the product of
-   * traction and weight function, on straight edges; arcs get enough extra
-   * points to be exact to round-off for that degree. Normals are unit vectors in *real* space pointing
-   * out of the element; weights are lengths [m] in real space; points in reference coordinates [-].
-   */
+  /// A quadrature rule on one edge of a manifold element. All arrays have an entry per point.
   struct EdgeRule
   {
-    std::vector<dealii::Point<2>>     points;
+    /// Points in reference coordinates of the cell [-].
+    std::vector<dealii::Point<2>> points;
+    /// Unit normals in *real* space that point out of the element [-].
     std::vector<dealii::Tensor<1, 2>> normals;
-    std::vector<double>               weights;
+    /// Weights, which sum to the length of the edge in real space [m].
+    std::vector<double> weights;
   };
 
+  /**
+   * A Gauss rule on the edge @p edge of a manifold element, for integrals of a traction times a
+   * weight function. On a straight edge it is exact for polynomials of degree @p degree; on an
+   * arc it has enough extra points to be exact to round-off for that degree. An edge without
+   * length gets a rule without points.
+   */
   EdgeRule
   make_edge_rule(const ElementEdge &edge,
                  const CellFrame   &frame,
                  unsigned int       degree);
 
-  /// The same as deal.II's type, normals and weights in reference space, for
-  /// use with NonMatching tools.
+  /// The rule of make_edge_rule() as deal.II's type, for use with its NonMatching tools. Normals
+  /// and weights are those of reference space.
   dealii::NonMatching::ImmersedSurfaceQuadrature<2>
   make_surface_rule(const ElementEdge &edge,
                     const CellFrame   &frame,
                     unsigned int       degree);
 
   /**
-   * deal.II's rule of fewest points on the whole reference triangle that is
-   * exact for P_degree and has positive weights and points inside: 1, 3, 4, 6,
-   * 7, 12, 15, 16 points for degrees 1 to 8.
+   * A rule on the whole reference triangle that is exact for polynomials of degree @p degree. Of
+   * deal.II's rules with positive weights and points inside it is the one with the fewest points:
+   * 1, 3, 4, 6, 7, 12, 15, 16 points for degrees 1 to 8.
    * @throws InputError if degree > 14.
    */
   dealii::Quadrature<2>
   make_triangle_rule(unsigned int degree);
 
   /**
-   * The rule of one element, see make_element_rule(): points in reference-cell
-   * coordinates [-] and weights [-] as of a dealii::Quadrature<2>, into which it converts.
-   * Either points that its collection keeps, or those of an ordinary rule in one or two
-   * triangles, made when they are asked for. The collection must outlive it.
+   * The rule of one element, see make_element_rule(), with points in reference-cell
+   * coordinates [-] and weights [-]. It converts to a dealii::Quadrature<2>.
+   * It refers either to points that its collection stores, or to a rule of the reference
+   * triangle that is mapped to one or two triangles when a point is asked for.
+   *
+   * Lifetime: the collection must outlive this object.
    */
   class ElementRule
   {
   public:
+    /// Number of points; 0 for an element whose area rounds to zero.
     unsigned int
     size() const
     {
       return n_triangles == 0 ? n_points : n_triangles * n_points;
     }
 
+    /// Point @p q in reference coordinates of the cell [-].
     dealii::Point<2>
     point(const unsigned int q) const
     {
@@ -101,6 +136,7 @@ namespace NMM
              xi[1] * triangle.sides[1];
     }
 
+    /// Weight of point @p q [-], > 0, to be multiplied by |det J| of the cell.
     double
     weight(const unsigned int q) const
     {
@@ -111,18 +147,24 @@ namespace NMM
                : triangles[1].twice_the_area * weights[q - n_points];
     }
 
+    /// A copy of all points in reference coordinates of the cell [-].
     std::vector<dealii::Point<2>>
     get_points() const;
 
+    /// A copy of all weights [-].
     std::vector<double>
     get_weights() const;
 
+    /// Copies points and weights into deal.II's type.
     operator dealii::Quadrature<2>() const;
 
-    /// What the points of an ordinary rule are mapped to.
+    /// A triangle in the reference cell to which a rule of the reference triangle is mapped, by
+    /// origin + xi_0 sides[0] + xi_1 sides[1].
     struct Triangle
     {
-      dealii::Point<2>                    origin;
+      /// First corner in reference coordinates of the cell [-].
+      dealii::Point<2> origin;
+      /// Vectors from the first corner to the second and the third one [-].
       std::array<dealii::Tensor<1, 2>, 2> sides;
       /// Twice the area in coordinates of the reference cell [-].
       double twice_the_area;
@@ -139,10 +181,11 @@ namespace NMM
 
 
   /**
-   * The rules of a manifold mesh, made on as many threads as deal.II may use
-   * (dealii::MultithreadInfo). Whole elements share an ordinary rule; well-shaped
-   * triangles and quadrilaterals share another one, in one or two triangles each, of which
-   * nothing is kept but which they are; all other cut elements have rules of their own.
+   * The rules of all elements of a manifold mesh, made on as many threads as deal.II may use
+   * (dealii::MultithreadInfo). Elements that are whole cells share one rule of the reference
+   * triangle. Cut elements that are well-shaped triangles or convex quadrilaterals share another
+   * one, which is mapped to one or two triangles each; only the kind of division is stored for
+   * them. All other cut elements have rules of their own.
    *
    * Lifetime: the mesh must outlive this object.
    */
@@ -150,15 +193,18 @@ namespace NMM
   {
   public:
     /**
-     * @p degree_whole for whole triangles, @p degree_cut for cut ones (both
-     * polynomial degrees to be integrated exactly). Only elements in
-     * [first, last) are made.
+     * Makes the rules of the elements in [elements.first, elements.second).
+     * Rules are exact for polynomials of degree @p degree_whole on elements that are whole
+     * cells, and of degree @p degree_cut on cut ones.
+     * @throws InputError if a degree is larger than make_triangle_rule() or ElementRuleBuilder
+     * allow.
      */
     QuadratureCollection(const ManifoldMesh                   &mesh,
                          unsigned int                          degree_whole,
                          unsigned int                          degree_cut,
                          std::pair<unsigned int, unsigned int> elements);
 
+    /// The rule of @p element, which must be in the range given to the constructor.
     ElementRule
     rule(unsigned int element) const;
 
@@ -166,26 +212,27 @@ namespace NMM
     double
     area_fraction(unsigned int element) const;
 
-    /// Elements whose rule has more points than dim P_m or a lower degree than asked for
-    /// because no positive rule was found: a fallback that costs accuracy. 0 expected.
+    /// Number of elements for which no positive rule of the degree asked for was found, see
+    /// ElementRuleBuilder::last_was_fallback(). Their integrals are less accurate; 0 is expected.
     unsigned int
     n_fallbacks() const;
 
   private:
-    /// Finds which elements take the ordinary rule in triangles.
+    /// Finds the elements with indices first_element + [begin, end) that are one or two
+    /// well-shaped triangles.
     void
     divide(unsigned int degree, unsigned int begin, unsigned int end);
 
-    /// The rules of all others.
+    /// Makes the rules of all other cut elements.
     void
     make_own_rules(unsigned int degree);
 
     const ManifoldMesh   *mesh;
     dealii::Quadrature<2> whole_rule, triangle_rule;
-    /// For each element from first_element on, how it is divided, or the number of the
-    /// rule, or invalid_index if it is whole.
+    /// For each element from first_element on: the index of its own rule, or the kind of its
+    /// division into triangles, or invalid_index if it is a whole cell.
     std::vector<unsigned int> element_to_rule;
-    /// Points of rule i: from first_point[i] on.
+    /// Index of the first point of each own rule, and the number of all points at the end.
     std::vector<unsigned int>     first_point;
     std::vector<dealii::Point<2>> own_points;
     std::vector<double>           own_weights;

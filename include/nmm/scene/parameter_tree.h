@@ -9,36 +9,37 @@
 namespace NMM
 {
   /**
-   * A value given for a parameter outside a .prm file: by `--set` or by a JSON
+   * A value that is given to a parameter outside a .prm file: by `--set` or by a JSON
    * scene.
    */
   struct ParameterAssignment
   {
-    /// Sections and, last, the key.
+    /// The names of the sections and, last, the key.
     std::vector<std::string> path;
-    std::string              value;
-    /// Where it was given, for messages.
+    /// The value as text, as in a .prm file.
+    std::string value;
+    /// The place where it was given, for messages.
     std::string source;
   };
 
-  /// Split "Section/Key=value". @throws InputError if there is no key or no '='.
+  /// Splits "Section/Key=value". @throws InputError if there is no key or no '='.
   ParameterAssignment
   parse_assignment(const std::string &text);
 
   /**
-   * Those of @p candidates that @p word may be a misspelling of, nearest first
-   * (edit distance, case ignored, about a third of the letters at most); all of them
-   * if none is near.
+   * The words among @p candidates of which @p word may be a misspelling, nearest first. The
+   * measure is the edit distance without regard to case, at most about a third of the letters.
+   * If none is near, all candidates are returned.
    */
   std::vector<std::string>
   near_matches(const std::string              &word,
                const std::vector<std::string> &candidates);
 
   /**
-   * Read a .prm or (by its extension) .json file into @p prm, then apply
-   * @p assignments. With @p skip_undefined entries that are not declared are
-   * passed over.
-   * @throws InputError that names the file and line (a .prm file), the section
+   * Reads a .prm file, or by its extension a .json file, into @p prm, and then applies
+   * @p assignments. If @p skip_undefined is true, entries that are not declared are
+   * ignored; otherwise they are errors.
+   * @throws InputError that names the file and line (of a .prm file), the section
    * and key and its near matches, or the value and what it should be.
    */
   void

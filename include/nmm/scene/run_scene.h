@@ -9,27 +9,28 @@
 
 namespace NMM
 {
+  /// What a run does beside what the scene says.
   struct SceneRunOptions
   {
-    /// Folder for the results; made if it does not exist.
+    /// Folder for the results; it is made if it does not exist.
     std::string output;
-    /// Checkpoint that a dynamic analysis continues from; empty: it starts anew.
+    /// File of the checkpoint from which a dynamic analysis continues; if empty, it starts at 0 s.
     std::string restart;
-    /// Read, cut and report, but do not solve, and write nothing.
+    /// Whether the scene is only read, cut and reported, without solving and without files.
     bool check_only = false;
   };
 
   /**
-   * Solves the problem that a scene describes: chooses the analysis, builds the model, reports
+   * Solves the problem that a scene describes: it chooses the analysis, builds the model, reports
    * what was built, solves, and writes tables, fields and a picture to the folder for results.
    * Messages go to @p progress. Collective.
    *
-   * @p has_output becomes true as soon as results begin to be written; it is what
-   * explain_exception() has to know.
+   * @p has_output becomes true as soon as results begin to be written; pass it to
+   * explain_exception() if this function throws.
    *
-   * @throws InputError if the scene cannot be built, or if there is no analysis that the
-   * checkpoint belongs to; nothing has been written then.
-   * @throws NumericalFailure if there is no solution; what is known has been written.
+   * @throws InputError if the scene cannot be built, or if its analysis cannot continue from a
+   * checkpoint; nothing has been written then.
+   * @throws NumericalFailure if there is no solution; the results so far have been written.
    * @throws OutputFailure if results cannot be written.
    */
   void

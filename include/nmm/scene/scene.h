@@ -15,19 +15,19 @@
 
 /**
  * @file
- * The room `scene`: a scene file becomes an analysis, and that its results.
+ * The room `scene`: it makes an analysis of a scene file, runs it, and writes its results.
  *
- * What comes in: a scene file and single values that take the place of its own. What
+ * What comes in: a scene file, and values that replace single values of the file. What
  * goes out: files of results, by the room `output`, and messages to a Progress.
  *
  * Order of calls, as in run_scene():
- * 1. Scene reads the file into SceneParameters. Each struct of these lists the entries
- *    of its section once, which declares and parses them, and checks what patterns
- *    cannot express. What is wrong is an InputError.
- * 2. Scene makes what the parameters describe: Geometry, MathematicalMesh,
+ * 1. Scene reads the file into SceneParameters. Each of their structs lists the entries
+ *    of its section once, in a function `list_entries` that declares and parses them, and has a
+ *    function `check` for what patterns cannot express. Errors are InputErrors.
+ * 2. Scene makes the objects that the parameters describe: Geometry, MathematicalMesh,
  *    ElasticityProblem, Loading, ContactParameters.
- * 3. A SceneAnalysis (static, with load steps, dynamic, safety factor) puts them
- *    together, solves, and writes.
+ * 3. A SceneAnalysis (static, with load steps, dynamic, safety factor) combines them,
+ *    solves, and writes the results.
  *
  * @code
  *   const Scene scene("beam.prm", {"Mathematical mesh/Cell size=0.1"});
@@ -40,22 +40,24 @@
  */
 namespace NMM
 {
-  /// What moves and takes away the obstacles of a scene.
+  /// The control of the obstacles of a scene: their releases, and a switch that holds them.
   struct ObstacleSwitches
   {
+    /// The obstacles that are removed at some time.
     std::vector<ObstacleRelease> releases;
-    /// While true, obstacles are where they are at t = 0, whatever the time.
+    /// While true, obstacles are at their positions of t = 0 for any time.
     std::shared_ptr<bool> is_frozen;
   };
 
 
   /**
-   * A scene as read: its parameters, and the objects of the other modules they
+   * A scene that was read from a file: its parameters, and functions that make the objects they
    * describe. The file format is in doc/scene-format.md.
    */
   class Scene
   {
   public:
+    /// Formats in which parameters are printed.
     enum class Format
     {
       prm,
@@ -64,77 +66,86 @@ namespace NMM
     };
 
     /**
-     * Read @p file_name in two passes, the first for the names of lists only,
-     * and apply @p overrides ("Section/Key=value") to both.
-     * @throws InputError for anything wrong with file or overrides.
+     * Reads the scene @p file_name and applies @p overrides ("Section/Key=value"). There are two
+     * passes: the first one reads the names of lists only, which decide what entries there are.
+     * @throws InputError for any error in the file or the overrides.
      */
     explicit Scene(const std::string              &file_name,
                    const std::vector<std::string> &overrides = {});
 
+    /// All parameters of the scene, which have been checked.
     const SceneParameters &
     parameters() const;
 
-    /// The scene with all values, defaults included.
+    /// Prints the scene with all values, defaults included.
     void
     print(std::ostream &out, Format format) const;
 
-    /// All parameters there are, with an example name in each list.
+    /// Prints a small scene that can be run, with all defaults; in the format markdown, a
+    /// reference of all parameters with an example name in each list.
     static void
     print_defaults(std::ostream &out, Format format);
 
-    /// Title, or the file's name without folder and extension.
+    /// The title of the scene, or if it has none, the name of its file without folder and
+    /// extension.
     std::string
     title() const;
 
     /// The geometry before cleaning, with traces, regions and joint sets. @throws
-    /// InputError for files that cannot be read, sets that are wrong.
+    /// InputError for files that cannot be read and for joint sets that are wrong.
     Geometry
     make_geometry() const;
 
-    /// Limits of the scene: blocks that leave all of them are dropped. Empty: no block is.
+    /// The limits of the scene; blocks that lie outside of all of them are removed. If it is
+    /// empty, no block is removed.
     std::vector<Curve>
     make_limits() const;
 
-    /// The mathematical mesh; the ranks of @p communicator share it if the scene says so.
-    /// @throws InputError for a curve that does not exist, an unreadable file.
+    /// The mathematical mesh, which is distributed among the ranks of @p communicator if the
+    /// scene says so. @throws InputError for a curve that does not exist, for a file that cannot
+    /// be read, and if the memory does not suffice.
     MathematicalMesh
     make_mathematical_mesh(const PhysicalMesh &physical_mesh,
                            MPI_Comm communicator = MPI_COMM_WORLD) const;
 
-    /// What an analysis of this scene uses for each cell [bytes], measured.
+    /// Estimate of the memory that an analysis of this scene needs per cell [bytes], from
+    /// measurements.
     double
     memory_per_cell() const;
 
-    /// Which mathematical mesh each region is on. @throws InputError for a block
-    /// that does not exist.
+    /// For each region of @p physical_mesh, the mathematical mesh on which it is. @throws
+    /// InputError for a block that does not exist.
     std::vector<RegionMesh>
     make_region_meshes(const PhysicalMesh &physical_mesh) const;
 
-    /// @throws InputError for an expression that cannot be parsed.
+    /// The materials, loads and supports. @throws InputError for an expression that cannot be
+    /// parsed.
     ElasticityProblem
     make_problem() const;
 
-    /// How the problem's loads and conditions change in time. @throws InputError
+    /// The dependence of the problem's loads and conditions on time. Its functions throw
+    /// NumericalFailure where an expression has no value. @throws InputError
     /// for an expression that cannot be parsed or has no value at the start or
-    /// the end, or a file that cannot be read. Its functions throw
-    /// NumericalFailure where an expression has no value.
+    /// the end, and for a file that cannot be read.
     Loading
     make_loading() const;
 
-    /// Rigid bodies that the solid touches, restraints last. @p switches: null if
-    /// none is ever released. @throws InputError for a shape or an expression that
-    /// cannot be parsed, a name that a curve of @p physical_mesh has.
+    /// The rigid bodies that the solid can touch, with restraints last. @p switches receives their
+    /// releases and may be null if none is ever released. @throws InputError for a shape or an
+    /// expression that cannot be parsed, and for a name that a curve of @p physical_mesh has.
     std::vector<RigidObstacle>
     make_obstacles(const PhysicalMesh &physical_mesh,
                    ObstacleSwitches   *switches = nullptr) const;
 
     /**
-     * How the faces of @p surface act on each other. What the scene leaves open, E
-     * being that of the softest block and h contact_cell_size(): the normal
-     * stiffness is 10 E/h (30 in a static analysis by penalty); the shear
-     * stiffness E/h (in dynamics 10), but not more than the normal one; the
-     * penetration tolerance of augmented Lagrangian 1e-5 h. Of two blocks the
-     * softer one carries the contact points.
+     * The contact laws between the faces of @p surface. Values that the scene leaves open are
+     * chosen as follows, where E is Young's modulus of the softest block and h is
+     * contact_cell_size(). The normal stiffness is 10 E/h (30 E/h in a static analysis by penalty);
+     * the shear stiffness is E/h (10 E/h in dynamics), but not more than the normal one; the
+     * penetration tolerance of the augmented Lagrangian is 1e-5 h. For springs at points h is 1 m.
+     * If the mesh is graded towards crack tips, h is at least 0.003 of the smallest free radius of
+     * a tip, and the shear stiffness is the normal one. Of two blocks, the
+     * softer one is the slave, which carries the contact points.
      * @throws InputError for a law between faces that do not exist.
      */
     ContactParameters
@@ -142,14 +153,14 @@ namespace NMM
                             const ElasticityProblem &problem) const;
 
     /**
-     * Damping of the motion. What the scene leaves open is 0, but for conserving steps of
-     * blocks that rub on each other (@p has_friction): an elastic block that nothing damps
+     * The damping of the motion. Coefficients that the scene leaves open are 0, except for the
+     * energy-conserving scheme with friction (@p has_friction): without damping, an elastic block
      * flutters on a face with friction, and creeps where it must stick. A block of height H
-     * that a face holds has its lowest vibration at @f$\omega = \pi c/(2H)@f$,
+     * that is held by a face has its lowest vibration at @f$\omega = \pi c/(2H)@f$,
      * @f$c^2 = E/\rho@f$, whose critical damping by the stiffness is
-     * @f[ b = 2/\omega = \frac{4H}{\pi c}, @f]
-     * taken with @f$H@f$ the root of the area, and of blocks the (lower) median: what is
-     * slower is damped less, motion as a rigid body not at all.
+     * @f[ b = 2/\omega = \frac{4H}{\pi c}. @f]
+     * Here @f$H@f$ is the root of the block's area, and the (lower) median of b over all blocks
+     * is taken. Slower motions are damped less, and rigid-body motion is not damped.
      */
     RayleighDamping
     make_damping(const PhysicalMesh      &mesh,
@@ -167,31 +178,31 @@ namespace NMM
 
     using TimeVector = std::function<dealii::Tensor<1, 2>(double)>;
 
-    /// Two functions of time, separated by a semicolon; null if @p text is empty.
+    /// A vector of two functions of time, which are separated by a semicolon in @p text; null if
+    /// @p text is empty.
     TimeVector
     make_vector_function(const std::string &text,
                          const std::string &parameter) const;
 
-    /// What the section `Contact` says of joints.
+    /// Makes joints open or tied as the section `Contact` says.
     void
     set_joint_states(Geometry &geometry) const;
 
     Curve
     make_region(const RegionParameters &parameters) const;
 
-    /// As places, and the holes they make.
+    /// Adds the regions to @p geometry, and a hole for each one that takes out a part of the solid.
     void
     add_regions(Geometry &geometry) const;
 
-    /// @throws InputError unless a law's names are faces that touch.
+    /// Checks that the names in contact laws are names of faces. @throws InputError otherwise.
     void
     check_law_names(const ContactSurface &surface) const;
   };
 
 
-  /// Edge length of the cells at faces, that of the smaller ones: one in ten edges
-  /// belongs to a smaller cell [m]. Slivers (PhysicalMesh::Region::is_sliver) have no
-  /// part in it.
+  /// Edge length of the smaller cells at faces [m]: a tenth of the edges belong to cells that are
+  /// smaller. Slivers (PhysicalMesh::Region::is_sliver) are left out.
   double
   contact_cell_size(const ContactSurface &surface);
 } // namespace NMM

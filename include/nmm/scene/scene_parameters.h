@@ -28,10 +28,11 @@ namespace NMM
     class Entries;
   }
 
-  /// Where a graded mathematical mesh is to be fine.
+  /// A local size of a graded mathematical mesh: a subsection of `Mathematical mesh`.
   struct LocalSizeParameters
   {
-    /// @throws InputError if what the type needs is missing.
+    /// Declares or reads the entries of @p local_size. @throws InputError if an entry that its type
+    /// needs is missing.
     static void
     list_entries(internal::Entries &entries,
                  LocalSize         &local_size,
@@ -39,114 +40,162 @@ namespace NMM
   };
 
 
+  /// The section `Mathematical mesh`.
   struct MathematicalMeshParameters
   {
+    /// The ways to make the cells.
     enum class Type
     {
+      /// Equal triangles over the bounding box of the solid.
       regular,
+      /// Triangles whose size follows the local sizes.
       graded,
+      /// Triangles from a file of Gmsh.
       gmsh
     };
 
-    Type                  type = Type::regular;
+    /// The way to make the cells.
+    Type type = Type::regular;
+    /// Parameters of a regular mesh; its cell size holds for a graded mesh, too.
     RegularMeshParameters regular;
-    GradedMeshParameters  graded;
-    unsigned int          degree = 2;
-    std::string           gmsh_file;
+    /// Parameters of a graded mesh.
+    GradedMeshParameters graded;
+    /// Polynomial degree of the weight functions: 1, or 2 for the second-order method.
+    unsigned int degree = 2;
+    /// File of a mesh from Gmsh, relative to the scene file; empty for the other types.
+    std::string gmsh_file;
 
+    /// Declares or reads the entries of the section, with a subsection for each of
+    /// @p local_size_names.
     void
     list_entries(internal::Entries              &entries,
                  const std::vector<std::string> &local_size_names);
-    /// @p may_choose_size: a regular mesh need have no cell size.
+    /// Checks all values. A regular mesh needs no cell size if @p may_choose_size. @throws
+    /// InputError for a value that is missing or not used.
     void
     check(bool may_choose_size) const;
   };
 
 
+  /// A material: a subsection of `Materials`.
   struct MaterialParameters
   {
+    /// Declares or reads the entries of @p material, and makes its law. @throws InputError for a
+    /// parameter of the law that is out of range.
     static void
     list_entries(internal::Entries &entries, Material &material);
   };
 
 
-  /// How the deformation is described.
+  /// The description of the deformation.
   enum class Kinematics
   {
-    /// Small displacements: one linear problem, StaticElasticity or SmallModel.
+    /// Displacements are small: one linear problem, StaticElasticity or SmallModel.
     small,
-    /// Total Lagrangian, exact under rotation: FiniteElasticity.
+    /// Displacements and rotations are of any size, in total Lagrangian form: FiniteElasticity.
     finite,
-    /// One linear problem per load step: IncrementalElasticity.
+    /// Each load step is a linear problem, and geometry and stress are carried along:
+    /// IncrementalElasticity.
     incremental
   };
 
-  /// Its name in scene files.
+  /// The name of the kinematics in scene files.
   const std::string &
   to_string(Kinematics kinematics);
 
 
+  /// The section `Model`.
   struct ModelParameters
   {
-    Kinematics           kinematics  = Kinematics::small;
-    PlaneState           plane_state = PlaneState::plane_stress;
-    double               thickness   = 1.;
+    /// The description of the deformation.
+    Kinematics kinematics = Kinematics::small;
+    /// The assumption about the direction across the plane.
+    PlaneState plane_state = PlaneState::plane_stress;
+    /// Thickness of the plate or slice [m], > 0.
+    double thickness = 1.;
+    /// Acceleration of gravity [m/s^2].
     dealii::Tensor<1, 2> gravity;
-    /// "fx; fy", expressions of x and y; empty: none.
+    /// Force per volume beside gravity, "fx; fy" [N/m^3], expressions of x and y; empty for none.
     std::string body_force;
-    Analysis    analysis = Analysis::statics;
-    /// See TimeDependence::amplitude.
-    std::string gravity_amplitude, body_force_amplitude;
-    /// "ax; ay", each as an amplitude [m/s^2]; empty: none.
+    /// The kind of analysis.
+    Analysis analysis = Analysis::statics;
+    std::string
+      /// Factor on gravity over time, see TimeDependence::amplitude.
+      gravity_amplitude,
+      /// Factor on the body force over time, see TimeDependence::amplitude.
+      body_force_amplitude;
+    /// Acceleration of the ground "ax; ay" [m/s^2], each an amplitude; empty for none.
     std::string base_acceleration;
 
+    /// Declares or reads the entries of the section. @throws InputError for a thickness of 0.
     void
     list_entries(internal::Entries &entries);
   };
 
 
+  /// A load or support on boundaries: a subsection of `Boundary conditions`.
   struct BoundaryConditionParameters
   {
+    /// Name of the subsection.
     std::string name;
-    /// Curves of the geometry.
+    /// Names of the boundary and hole curves of the geometry on which the condition holds.
     std::vector<std::string> boundaries;
-    BoundaryCondition::Type  type = BoundaryCondition::Type::traction;
-    /// Expressions of x and y, separated by semicolons.
-    std::string         value;
+    /// The kind of load or support.
+    BoundaryCondition::Type type = BoundaryCondition::Type::traction;
+    /// Traction or pressure [Pa] or displacement [m], as expressions of x and y that are separated
+    /// by semicolons; empty for 0.
+    std::string value;
+    /// Which components of a displacement are prescribed.
     std::array<bool, 2> components = {{true, true}};
-    TimeDependence      time;
+    /// The amplitude, and the release of a displacement.
+    TimeDependence time;
 
+    /// Declares or reads the entries of the subsection.
     void
     list_entries(internal::Entries &entries);
+    /// Checks that there is a boundary, and components for displacements only. @throws InputError
+    /// otherwise.
     void
     check() const;
   };
 
 
+  /// A force at a point: a subsection of `Point forces`.
   struct PointForceParameters
   {
-    std::string    name;
-    PointForce     force;
+    /// Name of the subsection.
+    std::string name;
+    /// The point and the force.
+    PointForce force;
+    /// The amplitude of the force.
     TimeDependence time;
 
+    /// Declares or reads the entries of the subsection.
     void
     list_entries(internal::Entries &entries);
   };
 
 
+  /// A point that is held by a spring: a subsection of `Fixed points`.
   struct FixedPointParameters
   {
-    std::string    name;
-    FixedPoint     point;
+    /// Name of the subsection.
+    std::string name;
+    /// The point, its displacement and the stiffness of the spring.
+    FixedPoint point;
+    /// The amplitude of the displacement, and the release.
     TimeDependence time;
 
+    /// Declares or reads the entries of the subsection.
     void
     list_entries(internal::Entries &entries);
   };
 
 
+  /// The section `Solver`.
   struct SolverParameters
   {
+    /// Declares or reads the entries of the section. @throws InputError for a tolerance of 0.
     static void
     list_entries(internal::Entries      &entries,
                  LinearSolverParameters &parameters);
@@ -156,21 +205,26 @@ namespace NMM
   /// The section `Load steps`: load factors at which results are computed.
   struct LoadStepParameters
   {
-    unsigned int n_steps  = default_n_steps;
-    double       min_step = LoadSteps().min_step;
-    /// Incremental kinematics: bound on the displacement of a step [m]; 0: none.
+    /// Number of equal load steps up to the load factor 1; not used if `load_factors` is given.
+    unsigned int n_steps = default_n_steps;
+    /// Smallest step over the last load factor [-], > 0; a step that fails is divided down to it.
+    double min_step = LoadSteps().min_step;
+    /// Bound on the displacement of a step in incremental kinematics [m]; 0 stands for none.
     double max_displacement = 0.;
-    /// Load factors [-]; empty: n_steps equal steps up to 1.
+    /// Ascending load factors [-]; if empty, there are n_steps equal steps up to 1.
     std::vector<double> load_factors;
 
+    /// Number of steps if the scene gives none.
     static constexpr unsigned int default_n_steps = 10;
 
+    /// Declares or reads the entries of the section.
     void
     list_entries(internal::Entries &entries);
-    /// @throws InputError for a value that is not used.
+    /// Checks all values. @throws InputError for a value that is out of range or not used.
     void
     check(Kinematics kinematics, Analysis analysis, bool is_nonlinear) const;
 
+    /// The load factors and the smallest step, without the bound on displacements.
     LoadSteps
     load_steps() const;
   };
@@ -179,135 +233,208 @@ namespace NMM
   /// The section `Newton`.
   struct NewtonSectionParameters
   {
+    /// The parameters of Newton's method.
     NewtonParameters newton;
 
+    /// Declares or reads the entries of the section.
     void
     list_entries(internal::Entries &entries);
-    /// @throws InputError for a value that is not used.
+    /// Checks all values. @throws InputError for a value that is out of range or not used.
     void
     check(Kinematics kinematics, Analysis analysis, bool is_nonlinear) const;
   };
 
 
-  /// Which files are written, and how pictures look.
+  /// The section `Output`: which files are written, and how pictures look.
   struct OutputParameters : PictureParameters
   {
+    /// Whether the fields are written for ParaView.
     bool fields = true;
-    /// Fields and pictures of every so many steps too; 0: of the last one alone.
+    /// Number of steps after which fields and pictures are written; 0 if only those of the last
+    /// step are.
     unsigned int fields_every = 0;
-    /// contacts.csv.
+    /// Whether contacts.csv is written.
     bool contacts = true;
-    /// A checkpoint after every so many steps; 0: none.
+    /// Number of steps after which a checkpoint is written; 0 for no checkpoints.
     unsigned int checkpoint_every = 0;
-    /// With a series of pictures: animation.html as well.
-    bool        animation = true;
-    bool        picture   = true;
+    /// Whether animation.html is written if there is a series of pictures.
+    bool animation = true;
+    /// Whether picture.png is written.
+    bool picture = true;
+    /// Title of pictures; if empty, the name of the scene file.
     std::string title;
 
+    /// Declares or reads the entries of the section. A quantity for animations that is given twice,
+    /// or that is the picture's, is dropped.
     void
     list_entries(internal::Entries &entries);
+    /// Checks the range, the units and the steps. @throws InputError naming the value.
     void
     check() const;
   };
 
 
+  /// A probe: a subsection of `Probes`.
   struct ProbeParameters
   {
-    /// @throws InputError for a line without length.
+    /// Declares or reads the entries of @p probe. @throws InputError for a line without length.
     static void
     list_entries(internal::Entries &entries, Probe &probe);
   };
 
 
   /**
-   * The exact solution the results are compared with. The thick ring takes its
+   * The exact solution with which the results are compared. The thick ring takes its
    * centre and radii from the two named curves, its pressures from the
-   * conditions on them and its moduli from the material, so that nothing is
-   * said twice.
+   * conditions on them and its moduli from the material, so that the scene gives nothing
+   * twice.
    */
   struct ExactSolutionParameters
   {
+    /// The exact solutions that are known.
     enum class Type
     {
+      /// There is no comparison.
       none,
+      /// Lame's solution of a circular ring under inner pressure.
       thick_ring
     };
 
-    Type        type = Type::none;
-    std::string inner_boundary, outer_boundary;
+    /// The exact solution.
+    Type type = Type::none;
+    std::string
+      /// Name of the curve that is the inner circle of the ring, or a part of it.
+      inner_boundary,
+      /// Name of the curve that is the outer circle of the ring, or a part of it.
+      outer_boundary;
 
+    /// Declares or reads the entries of the section.
     void
     list_entries(internal::Entries &entries);
+    /// Checks that the boundaries of the ring are named. @throws InputError otherwise.
     void
     check() const;
   };
 
 
-  /// The names in a scene's lists: what decides which subsections exist.
+  /// The names in the lists of a scene, which decide what subsections there are.
   struct SceneNames
   {
-    std::vector<std::string> traces, joint_sets, regions, local_sizes,
-      block_meshes, materials, boundary_conditions, point_forces, fixed_points,
-      contact_laws, obstacles, initial_velocities, probes;
+    std::vector<std::string>
+      /// Names of the files with joints in `Traces`.
+      traces,
+      /// Names of the sets in `Joint sets`.
+      joint_sets,
+      /// Names of the places in `Regions`.
+      regions,
+      /// Names of the local sizes in `Mathematical mesh`.
+      local_sizes,
+      /// Names of the block meshes in `Covers`.
+      block_meshes,
+      /// Names in `Materials`.
+      materials,
+      /// Names in `Boundary conditions`.
+      boundary_conditions,
+      /// Names in `Point forces`.
+      point_forces,
+      /// Names in `Fixed points`.
+      fixed_points,
+      /// Names of the laws in `Contact`.
+      contact_laws,
+      /// Names in `Obstacles`.
+      obstacles,
+      /// Names in `Initial velocities`.
+      initial_velocities,
+      /// Names in `Probes`.
+      probes;
 
-    /// One name each, for the parameter reference.
+    /// An example name in each list, for the parameter reference.
     static SceneNames
     examples();
 
-    /// Declare the entries `Names` only.
+    /// Declares only the entries `Names`.
     static void
     declare(dealii::ParameterHandler &prm);
 
-    /// @throws InputError for a name given twice or with a slash in it.
+    /// Reads the entries `Names`. @throws InputError for a name that is given twice or contains a
+    /// slash or an equals sign.
     void
     parse(dealii::ParameterHandler &prm);
   };
 
 
-  /// A whole scene file.
+  /// The parameters of a scene: a member for each section of the file.
   struct SceneParameters
   {
-    GeometryParameters                       geometry;
-    std::vector<TraceParameters>             traces;
-    std::vector<JointSet>                    joint_sets;
-    std::vector<RegionParameters>            regions;
-    MathematicalMeshParameters               mathematical_mesh;
-    CoverParameters                          covers;
-    std::vector<Material>                    materials;
-    ModelParameters                          model;
+    /// The section `Geometry`.
+    GeometryParameters geometry;
+    /// The subsections of `Traces`.
+    std::vector<TraceParameters> traces;
+    /// The subsections of `Joint sets`.
+    std::vector<JointSet> joint_sets;
+    /// The subsections of `Regions`.
+    std::vector<RegionParameters> regions;
+    /// The section `Mathematical mesh`.
+    MathematicalMeshParameters mathematical_mesh;
+    /// The section `Covers`.
+    CoverParameters covers;
+    /// The subsections of `Materials`.
+    std::vector<Material> materials;
+    /// The section `Model`.
+    ModelParameters model;
+    /// The subsections of `Boundary conditions`.
     std::vector<BoundaryConditionParameters> boundary_conditions;
-    std::vector<PointForceParameters>        point_forces;
-    std::vector<FixedPointParameters>        fixed_points;
-    ContactSectionParameters                 contact;
-    std::vector<ObstacleParameters>          obstacles;
-    TimeParameters                           time;
-    RelaxationSectionParameters              relaxation;
-    SafetyFactorSectionParameters            safety_factor;
-    std::vector<InitialVelocityParameters>   initial_velocities;
-    LinearSolverParameters                   solver;
-    LoadStepParameters                       load_steps;
-    NewtonSectionParameters                  newton;
-    OutputParameters                         output;
-    std::vector<Probe>                       probes;
-    ExactSolutionParameters                  exact_solution;
-    FractureParameters                       fracture;
+    /// The subsections of `Point forces`.
+    std::vector<PointForceParameters> point_forces;
+    /// The subsections of `Fixed points`.
+    std::vector<FixedPointParameters> fixed_points;
+    /// The section `Contact`.
+    ContactSectionParameters contact;
+    /// The subsections of `Obstacles`.
+    std::vector<ObstacleParameters> obstacles;
+    /// The section `Time`.
+    TimeParameters time;
+    /// The section `Relaxation`.
+    RelaxationSectionParameters relaxation;
+    /// The section `Safety factor`.
+    SafetyFactorSectionParameters safety_factor;
+    /// The subsections of `Initial velocities`.
+    std::vector<InitialVelocityParameters> initial_velocities;
+    /// The section `Solver`.
+    LinearSolverParameters solver;
+    /// The section `Load steps`.
+    LoadStepParameters load_steps;
+    /// The section `Newton`.
+    NewtonSectionParameters newton;
+    /// The section `Output`.
+    OutputParameters output;
+    /// The subsections of `Probes`.
+    std::vector<Probe> probes;
+    /// The section `Exact solution`.
+    ExactSolutionParameters exact_solution;
+    /// The section `Fracture`.
+    FractureParameters fracture;
 
-    /// All parameters, with their defaults.
+    /// Declares all parameters with their defaults, with a subsection for each of @p names.
     static void
     declare(dealii::ParameterHandler &prm, const SceneNames &names);
 
+    /// Reads all parameters, which must have been declared with the same @p names.
+    /// @throws InputError for a value that its section refuses.
     void
     parse(dealii::ParameterHandler &prm, const SceneNames &names);
 
-    /// @throws InputError naming the parameter and its value.
+    /// Checks all parameters, each and in combination. @throws InputError naming the parameter and
+    /// its value.
     void
     check() const;
 
+    /// Whether any material of the scene can yield.
     bool
     has_inelastic_material() const;
 
-    /// Whether small displacements make no linear problem: with contact, or a material that
-    /// yields.
+    /// Whether the problem is nonlinear even for small displacements: with contact, or with a
+    /// material that yields.
     bool
     is_nonlinear() const;
 
@@ -315,7 +442,8 @@ namespace NMM
     void
     list_entries(internal::Entries &entries, const SceneNames &names);
 
-    /// What cannot be had together with kinematics and analysis.
+    /// The following functions check that parameters are available together, and that each one is
+    /// used. @throws InputError otherwise.
     void
     check_kinematics() const;
     void
@@ -335,7 +463,7 @@ namespace NMM
     void
     check_fracture() const;
 
-    /// Is a mesh that is distributed among ranks one that may be?
+    /// Checks that the scene allows a mathematical mesh that is distributed among ranks.
     void
     check_distribution() const;
   };

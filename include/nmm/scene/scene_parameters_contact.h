@@ -20,38 +20,43 @@ namespace NMM
   enum class Analysis;
   enum class Kinematics;
 
-  /// How faces are kept from passing through each other.
+  /// The method that keeps faces from penetrating each other.
   enum class Enforcement
   {
     /// There is no contact.
     none,
+    /// Springs between faces; penetrations are proportional to pressures.
     penalty,
+    /// Springs and multipliers, which are iterated until penetrations are below a tolerance.
     augmented_lagrangian
   };
 
 
-  /// How two faces act on each other: entries of `Contact` and of its laws.
+  /// A contact law between two faces: entries of the section `Contact` and of its subsections.
   struct ContactLawParameters
   {
     /// Name of the law's subsection; empty for the section `Contact` itself.
     std::string name;
-    /// Names of faces, "any" for all. Laws only.
+    /// Names of the two faces; an empty name stands for any face. The section `Contact` itself has
+    /// none.
     std::array<std::string, 2> between;
     /// Name of the law in contact_laws().
     std::string law_name;
-    /// What the scene gives, by key: of all laws.
+    /// Values of the parameters of all laws by their keys, in the units of scenes.
     std::map<std::string, double> values;
-    bool                          is_bonded = false;
+    /// Whether faces that touch at the start are bonded.
+    bool is_bonded = false;
 
+    /// Declares or reads the entries of the law. @throws InputError if there are not two faces.
     void
     list_entries(internal::Entries &entries);
 
-    /// @throws InputError naming the parameter and its value. @p may_be_damped: do
-    /// time steps know dashpots?
+    /// Checks all values. @p may_be_damped says whether the time scheme has dashpots between
+    /// faces. @throws InputError naming the parameter and its value.
     void
     check(bool may_be_damped) const;
 
-    /// Stiffnesses that the scene leaves open are those of @p springs.
+    /// Makes the law; stiffnesses that the scene leaves open are those of @p springs.
     std::shared_ptr<const ContactLaw>
     make_law(const ContactLaw &springs) const;
 
@@ -60,7 +65,7 @@ namespace NMM
     std::unique_ptr<ContactLaw>
     parsed_law() const;
 
-    /// "parameter 'Contact/.../key'".
+    /// The place of an entry in messages, "parameter 'Contact/.../key'".
     std::string
     place(const std::string &key) const;
   };
@@ -69,34 +74,44 @@ namespace NMM
   /// The section `Contact`.
   struct ContactSectionParameters
   {
+    /// The method; Enforcement::none for a scene without contact.
     Enforcement enforcement = Enforcement::none;
-    /// For faces that no law names.
+    /// The law between faces for which none of `laws` fits.
     ContactLawParameters law;
-    /// The first one that fits holds.
+    /// Laws between certain faces; of several laws that fit, the first one is used.
     std::vector<ContactLawParameters> laws;
-    /// Augmented Lagrangian [m]; 0: chosen.
+    /// Mean penetration that the augmented Lagrangian allows [m]; 0 stands for
+    /// Scene::make_contact_parameters().
     double penetration_tolerance = 0.;
-    /// [m]; 0: chosen.
+    /// Distance within which faces are searched [m]; 0 stands for a tenth of the longest edge of an
+    /// element.
     double reach = 0.;
-    /// Above which a step fails [m]; 0: the cell size at faces.
-    double             max_penetration = 0.;
-    unsigned int       n_points        = 4;
-    ContactIntegration integration     = ContactIntegration::length;
-    /// Joints that are faces in contact, or tied, whatever the geometry says.
-    std::vector<std::string> open_joints, tied_joints;
+    /// Penetration above which a step fails [m]; 0 stands for the cell size at faces.
+    double max_penetration = 0.;
+    /// Number of Gauss-Lobatto contact points on each piece of an edge.
+    unsigned int n_points = 4;
+    /// Whether springs are distributed along faces or concentrated at vertices.
+    ContactIntegration integration = ContactIntegration::length;
+    std::vector<std::string>
+      /// Joints whose faces are in contact, even if the geometry says that they are tied.
+      open_joints,
+      /// Joints that are tied, even if the geometry says that they are open.
+      tied_joints;
 
+    /// Whether the scene has contact.
     bool
     is_present() const
     {
       return enforcement != Enforcement::none;
     }
 
+    /// Declares or reads the entries of the section, with a subsection for each of @p law_names.
     void
     list_entries(internal::Entries              &entries,
                  const std::vector<std::string> &law_names);
 
-    /// @throws InputError naming the parameter that is wrong, or would not be
-    /// used.
+    /// Checks all values; @p may_be_damped is as in ContactLawParameters::check(). @throws
+    /// InputError naming the parameter that is wrong, or that would not be used.
     void
     check(Analysis analysis, Kinematics kinematics, bool may_be_damped) const;
   };
@@ -105,16 +120,24 @@ namespace NMM
   /// A rigid body: a subsection of `Obstacles`.
   struct ObstacleParameters
   {
+    /// Name of the subsection, by which contact laws refer to the obstacle.
     std::string name;
-    /// Geometry file relative to the scene file, or a shape of one.
-    std::string file, shape;
-    /// "ux; uy", each as an amplitude [m]; empty: at rest.
+    std::string
+      /// Geometry file with the shape, relative to the scene file; empty if `shape` is given.
+      file,
+      /// Shape as a record of a geometry file; empty if `file` is given.
+      shape;
+    /// Displacement "ux; uy" [m], each an amplitude as in TimeDependence; empty for an obstacle at
+    /// rest.
     std::string displacement;
-    /// It is gone from this time on [s]; negative: never.
+    /// Time from which on the obstacle is removed [s]; a negative time stands for never.
     double release_time = -1.;
 
+    /// Declares or reads the entries of the obstacle.
     void
     list_entries(internal::Entries &entries);
+    /// Checks that there is one shape, and that all values are used by the analysis.
+    /// @throws InputError naming the parameter and its value.
     void
     check(Analysis analysis) const;
   };

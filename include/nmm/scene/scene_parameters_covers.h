@@ -19,11 +19,14 @@ namespace NMM
   /// The mathematical mesh of one block: a subsection of `Covers`.
   struct BlockMeshParameters
   {
+    /// Name of the subsection, for messages.
     std::string name;
-    /// A point inside of the block [m].
+    /// A point inside the block [m].
     dealii::Point<2> block;
-    RegionMesh       mesh = {RegionMesh::Kind::automatic, 0};
+    /// Whether the block has a mathematical mesh of its own, and the number of cells across it.
+    RegionMesh mesh = {RegionMesh::Kind::automatic, 0};
 
+    /// Declares or reads the entries of the subsection. @throws InputError without a point.
     void
     list_entries(internal::Entries &entries);
   };
@@ -32,25 +35,29 @@ namespace NMM
   /// The section `Covers`.
   struct CoverParameters
   {
+    /// The treatment of physical covers with little support.
     Stabilization stabilization = Stabilization::aggregation;
-    /// Least element_support() that makes an element good [-].
+    /// Least element_support() of a well-supported element [-].
     double threshold = default_aggregation_threshold;
     /// The mesh of all regions that `blocks` does not name, see make_own_meshes().
-    RegionMesh                       mesh;
+    RegionMesh mesh;
+    /// The meshes of single blocks.
     std::vector<BlockMeshParameters> blocks;
-    /// Does each rank hold a part of the mathematical mesh only, see
-    /// make_distributed_mesh()?
+    /// Whether each rank stores only a part of the mathematical mesh, see
+    /// make_distributed_mesh().
     bool is_distributed = false;
 
+    /// Declares or reads the entries of the section, with a subsection for each of @p block_names.
     void
     list_entries(internal::Entries              &entries,
                  const std::vector<std::string> &block_names);
-    /// @throws InputError for a number of elements that is missing or not used.
+    /// Checks the numbers of elements across blocks. @throws InputError for a number that is
+    /// missing or not used.
     void
     check() const;
 
-    /// Is the size of the main mesh's cells of no consequence, so that it need not
-    /// be given?
+    /// Whether the cell size of the main mesh need not be given, since all blocks choose theirs by
+    /// the number of cells across them.
     bool
     may_choose_cell_size() const;
   };

@@ -20,38 +20,39 @@ namespace NMM
 
   enum class Kinematics;
 
-  /// What is asked about the solid.
+  /// The kind of analysis.
   enum class Analysis
   {
-    /// Equilibrium.
+    /// The equilibrium is computed.
     statics,
-    /// Motion in time.
+    /// The motion in time is computed.
     dynamics,
-    /// Equilibrium, found by motion with kinetic damping.
+    /// The equilibrium is found by motion with kinetic damping.
     relaxation,
-    /// Find the number by which strength can be divided before blocks move.
+    /// The number is found by which strength can be divided before blocks move.
     safety_factor
   };
 
-  /// Its name in scene files.
+  /// The name of an analysis in scene files.
   const std::string &
   to_string(Analysis analysis);
 
 
-  /// How a load or condition changes in time.
+  /// The dependence of a load or condition on time.
   struct TimeDependence
   {
-    /// Name of the load's section entry, for messages.
+    /// Name of the load's subsection, for messages.
     std::string name;
-    /// Expression of t or "file: name"; empty: 1.
+    /// Factor on the load [-]: an expression of the time t, or "file: name"; empty for 1.
     std::string amplitude;
-    /// [s]; negative: never.
+    /// Time from which on a condition no longer holds [s]; a negative time stands for never.
     double release_time = -1.;
 
+    /// Declares or reads the entries; there is a release time only if @p may_be_released.
     void
     list_entries(internal::Entries &entries, bool may_be_released);
-    /// @throws InputError, if something is set, that @p by makes no use of it.
-    /// @p section is that of the load.
+    /// Checks that nothing is set, for an analysis that does not use it; @p section is that of
+    /// the load. @throws InputError saying that @p by makes no use of the value.
     void
     expect_default(const std::string &section, const std::string &by) const;
   };
@@ -60,10 +61,11 @@ namespace NMM
   /// The section `Time`.
   struct TimeParameters
   {
+    /// The time scheme, see TimeScheme.
     enum class Scheme
     {
-      /// energy_momentum, newmark and constant_acceleration for finite, small and
-      /// incremental kinematics; with contact energy_momentum.
+      /// The scheme is constant_acceleration for incremental kinematics, relaxation and safety
+      /// factors; else energy_momentum for finite kinematics and with contact; else newmark.
       automatic,
       newmark,
       generalized_alpha,
@@ -71,40 +73,62 @@ namespace NMM
       energy_momentum
     };
 
-    /// What a dynamic analysis starts from.
+    /// The state from which a dynamic analysis starts.
     enum class Start
     {
-      /// No displacements.
+      /// The analysis starts without displacements.
       undeformed,
-      /// Equilibrium of the loads and supports at t = 0, before any release, by
-      /// load steps and Newton's method.
+      /// The analysis starts from the equilibrium of the loads and supports at t = 0, before any
+      /// release. It is found by load steps and Newton's method.
       equilibrium,
-      /// The same by motion with kinetic damping.
+      /// The analysis starts from the same equilibrium, found by motion with kinetic damping.
       relaxation
     };
 
-    Start  start    = Start::undeformed;
+    /// The state at t = 0.
+    Start start = Start::undeformed;
+    /// Time at which a dynamic analysis ends [s], > 0; it starts at 0.
     double end_time = 0.;
-    /// StepControlParameters.
-    double initial_step = 0., min_step = 0., max_step = 0.,
-           max_displacement = 0., max_error = 0.;
+    double
+      /// First time step [s], > 0; all steps are equal if no other bound is given.
+      initial_step = 0.,
+      /// Smallest step [s]; 0 stands for a millionth of the first.
+      min_step = 0.,
+      /// Largest step [s]; 0 stands for the first.
+      max_step = 0.,
+      /// Largest displacement of a cover in a step [m]; 0 stands for no bound.
+      max_displacement = 0.,
+      /// Largest estimated error of a step's displacement [m]; 0 stands for no bound.
+      max_error = 0.;
+    /// The time scheme.
     Scheme scheme = Scheme::automatic;
-    double beta = 0.25, gamma = 0.5, spectral_radius = 0.8;
-    /// Stiffness below 0: chosen, see Scene::make_damping().
+    double
+      /// Coefficient beta of Newmark's scheme [-], > 0.
+      beta = 0.25,
+      /// Coefficient gamma of Newmark's scheme [-], >= 1/2; more than 1/2 damps.
+      gamma = 0.5,
+      /// Factor per step on the amplitude of the highest frequencies with generalized alpha [-], in
+      /// [0, 1].
+      spectral_radius = 0.8;
+    /// Coefficients of Rayleigh damping. A negative coefficient of the stiffness stands for
+    /// Scene::make_damping().
     RayleighDamping damping = {0., -1.};
-    /// With a speed of 0 no block sleeps.
+    /// Conditions for blocks to sleep; no block sleeps if the speed is 0.
     SleepParameters sleep = {0., 0.25, 1.};
 
+    /// Declares or reads the entries of the section.
     void
     list_entries(internal::Entries &entries);
-    /// @throws InputError naming the parameter that is wrong or would not be
-    /// used.
+    /// Checks all values. @throws InputError naming the parameter that is wrong, or that would not
+    /// be used.
     void
     check(Analysis analysis, Kinematics kinematics, bool has_contact) const;
 
+    /// The steps and their bounds, for StepControl.
     StepControlParameters
     step_control() const;
 
+    /// The time scheme; Scheme::automatic is resolved by the arguments.
     TimeScheme
     time_scheme(Analysis   analysis,
                 Kinematics kinematics,
@@ -123,11 +147,13 @@ namespace NMM
   /// The section `Relaxation`.
   struct RelaxationSectionParameters
   {
+    /// The parameters of relax().
     RelaxationParameters relaxation;
 
+    /// Declares or reads the entries of the section.
     void
     list_entries(internal::Entries &entries);
-    /// @throws InputError as TimeParameters::check().
+    /// Checks all values. @throws InputError as TimeParameters::check().
     void
     check(Analysis analysis) const;
   };
@@ -136,40 +162,49 @@ namespace NMM
   /// The section `Safety factor`.
   struct SafetyFactorSectionParameters
   {
-    /// What each trial begins with.
+    /// The state from which each trial starts.
     enum class Start
     {
-      /// No displacements: blocks are put together under reduced strength.
+      /// A trial starts without displacements, so that loads act under reduced strength from the
+      /// beginning.
       unstressed,
-      /// Equilibrium under full strength, with places of sticking.
+      /// A trial starts from the equilibrium under full strength, with its anchors of the stick
+      /// state.
       settled
     };
 
+    /// The parameters of find_safety_factor().
     SafetyFactorParameters search;
-    /// Further than this [m] is motion.
+    /// Displacement above which a trial counts as moving [m], > 0.
     double max_displacement = 0.;
-    Start  start            = Start::unstressed;
+    /// The state from which each trial starts.
+    Start start = Start::unstressed;
 
+    /// Declares or reads the entries of the section.
     void
     list_entries(internal::Entries &entries);
-    /// @throws InputError as TimeParameters::check().
+    /// Checks all values. @throws InputError as TimeParameters::check().
     void
     check(Analysis analysis) const;
   };
 
 
-  /// Rigid motion that a block, or the whole solid, starts with.
+  /// Initial rigid-body velocity of a block, or of the whole solid: a subsection of
+  /// `Initial velocities`. Velocities of the same block add up.
   struct InitialVelocityParameters
   {
+    /// Name of the subsection, for messages.
     std::string name;
-    /// Empty: the whole solid, else the block with this point [m].
+    /// A point inside the block that moves [m]; if not given, the whole solid moves.
     std::optional<dealii::Point<2>> block;
-    /// [m/s], [rad/s].
+    /// Velocity of the centre of rotation [m/s].
     dealii::Tensor<1, 2> translation;
-    double               angular_velocity = 0.;
-    /// [m]; empty: the centroid of what moves.
+    /// Angular velocity, counter-clockwise [rad/s].
+    double angular_velocity = 0.;
+    /// Centre of rotation [m]; if not given, the centroid of what moves.
     std::optional<dealii::Point<2>> center;
 
+    /// Declares or reads the entries of the subsection.
     void
     list_entries(internal::Entries &entries);
   };

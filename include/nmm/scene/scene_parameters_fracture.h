@@ -13,41 +13,44 @@ namespace NMM
   /// The section `Fracture`.
   struct FractureParameters
   {
-    /// What is done at crack tips.
+    /// The treatment of the mathematical mesh at crack tips.
     enum class Tips
     {
-      /// The mesh is graded towards them if intensity factors are asked for.
+      /// The mesh is graded towards crack tips if intensity factors are computed.
       automatic,
-      /// Cells become small towards them, see grade_towards().
+      /// The mesh is graded towards crack tips, see grade_towards().
       graded,
-      /// Nothing: they lie in the cells of the mesh as it is.
+      /// The mesh does not depend on crack tips.
       as_meshed
     };
 
-    /// Are the intensity factors of all tips computed?
+    /// Whether the intensity factors of all tips are computed.
     bool intensity_factors = false;
-    Tips tips              = Tips::automatic;
-    /// See grade_towards() [-].
+    /// The treatment of the mesh at crack tips.
+    Tips tips = Tips::automatic;
+    /// Cell size over the distance from the tip, at the tip's free radius, see grade_towards() [-].
     double grading = 0.25;
     /// Radius of the disks about the tips [m]; 0 stands for 0.9 times each tip's free radius.
     double radius = 0.;
 
-    /// How often cracks grow; 0: they do not.
+    /// Number of increments by which cracks grow; 0 if they do not grow.
     unsigned int n_increments = 0;
-    /// Length by which a crack grows each time [m].
+    /// Length of each increment [m].
     double increment = 0.;
-    /// See growth_criteria(); empty: the first one.
+    /// Name of the criterion in growth_criteria(); empty for the first one.
     std::string criterion;
-    /// A tip grows with the one that is driven most if its drive is less by this at
-    /// most [-].
+    /// A tip grows together with the tip of the largest K_eq / K_c if its own K_eq / K_c is at
+    /// least 1 - tolerance times that [-].
     double tolerance = 0.01;
 
+    /// Whether the mesh is graded towards crack tips.
     bool
     grades_mesh() const;
 
+    /// Declares or reads the entries of the section.
     void
     list_entries(internal::Entries &entries);
-    /// @throws InputError for a number that is out of range or not used.
+    /// Checks all values. @throws InputError for a number that is out of range or not used.
     void
     check() const;
   };

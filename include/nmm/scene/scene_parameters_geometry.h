@@ -14,31 +14,33 @@ namespace NMM
   }
 
   /**
-   * The sections of a scene file. Every struct lists the entries of its
-   * own section, which declares and parses them, and checks what patterns cannot
-   * express. Units are any consistent set; the help texts name SI ones.
+   * The sections of a scene file. In each struct the function `list_entries` declares or reads the
+   * entries of its section, and `check` checks what patterns cannot
+   * express. Any consistent set of units can be used; the help texts name SI units.
    *
-   * Sections that hold a list have an entry `Names`; each name has a
+   * Sections that hold a list have an entry `Names`. Each name has a
    * subsection of its own, so the list must be known before the entries can be
-   * declared: see SceneNames.
+   * declared; see SceneNames.
    */
 
   /// The section `Geometry`.
   struct GeometryParameters
   {
-    /// WKT geometry file, relative to the scene file; empty: `text` is used.
+    /// WKT geometry file, relative to the scene file; empty if `text` is used.
     std::string file;
-    /// Geometry records separated by semicolons.
+    /// Geometry records separated by semicolons; empty if `file` is used.
     std::string text;
-    /// Tolerance of the cleaning step [m]; 0: off.
+    /// Tolerance of the cleaning step [m]; 0 if there is no cleaning.
     double cleaning_tolerance = 0.;
-    /// Joints lose what bounds no block.
+    /// Whether the parts of joints that bound no block are removed.
     bool drops_ends = false;
-    /// Blocks with a smaller area are reported [m^2]; 0: none are.
+    /// Area below which blocks are reported [m^2]; 0 if none is reported.
     double small_block = 0.;
 
+    /// Declares or reads the entries of the section.
     void
     list_entries(internal::Entries &entries);
+    /// Checks that there is one geometry. @throws InputError otherwise.
     void
     check() const;
   };
@@ -47,7 +49,7 @@ namespace NMM
   /// A set of joints: a subsection of `Joint sets`. See JointSet.
   struct JointSetParameters
   {
-    /// @throws InputError for a value that is wrong.
+    /// Declares or reads the entries of @p set. @throws InputError for a value that is wrong.
     static void
     list_entries(internal::Entries &entries, JointSet &set);
   };
@@ -56,21 +58,29 @@ namespace NMM
   /// Joints from a file of their own: a subsection of `Traces`.
   struct TraceParameters
   {
+    /// Name of the subsection, for messages.
     std::string name;
     /// DXF drawing (.dxf) or geometry file, relative to the scene file.
     std::string file;
-    /// Layers of a drawing that are read; empty: all of them.
+    /// Layers of a drawing that are read; if empty, all are read.
     std::vector<std::string> layers;
-    /// What all are called; empty: after their layers, or as in the file.
+    /// Name of all joints from this file; if empty, joints are called after their layers in a
+    /// drawing, or as the geometry file says.
     std::string label;
-    JointState  state = JointState::open;
+    /// Whether the joints are open or closed.
+    JointState state = JointState::open;
+    /// Name of the region, or of the boundary of a domain, to which joints are cut; empty for all
+    /// of the solid.
     std::string within;
 
+    /// Whether the file is a DXF drawing, by its extension.
     bool
     is_drawing() const;
 
+    /// Declares or reads the entries of the subsection.
     void
     list_entries(internal::Entries &entries);
+    /// Checks that there is a file, and layers for a drawing only. @throws InputError otherwise.
     void
     check() const;
   };
@@ -79,29 +89,37 @@ namespace NMM
   /// A place in the scene: a subsection of `Regions`.
   struct RegionParameters
   {
+    /// The effect of a region.
     enum class Use
     {
-      /// For materials and joint sets only.
+      /// The region can have a material, and joint sets and traces can refer to it.
       place,
-      /// What is inside is taken out of the solid.
+      /// The part of the solid inside the region is removed.
       excavation,
-      /// The same, and a rigid body is in its place until it is released.
+      /// The part inside is removed, and a rigid body takes its place until it is released.
       restraint,
-      /// Blocks that leave it are dropped.
+      /// Blocks that lie outside of all regions with this use are removed.
       limit
     };
 
+    /// Name of the subsection, by which joint sets and traces refer to the region.
     std::string name;
-    /// A closed shape, or a geometry file with one.
-    std::string shape, file;
-    Use         use = Use::place;
-    /// Material of the blocks inside; empty: it does not change.
+    std::string
+      /// Closed shape as a record of a geometry file; empty if `file` is given.
+      shape,
+      /// Geometry file with a closed shape, relative to the scene file; empty if `shape` is given.
+      file;
+    /// The effect of the region.
+    Use use = Use::place;
+    /// Material of the blocks whose middle is inside; if empty, they keep theirs.
     std::string material;
-    /// Restraint [s]; negative: never.
+    /// Time from which on a restraint is removed [s]; a negative time stands for never.
     double release_time = -1.;
 
+    /// Declares or reads the entries of the subsection.
     void
     list_entries(internal::Entries &entries);
+    /// Checks that there is one shape, and that all values are used. @throws InputError otherwise.
     void
     check() const;
   };

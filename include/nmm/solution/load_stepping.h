@@ -9,24 +9,26 @@
 
 namespace NMM
 {
+  /// The load factors to reach, and bounds on the steps towards them; see take_load_steps().
   struct LoadSteps
   {
-    /// Load factors at which an answer is wanted, ascending from above 0 [-].
+    /// Load factors at which a solution is requested, positive and ascending [-].
     std::vector<double> load_factors = {1.};
-    /// No step is smaller than this part of the last load factor [-].
+    /// Smallest step as a fraction of the last load factor [-].
     double min_step = 1e-4;
-    /// Solutions whose displacement conditions are missed by more are refused, and the step is
-    /// divided; in the measure of the system that is solved [-].
+    /// Largest violation of displacement conditions and ties that is accepted, in the measure of
+    /// the system that is solved (for example FiniteElasticity::largest_jump()) [-]. A solution
+    /// with a larger one is rejected, and the step is divided.
     double max_jump = 0.5;
     /**
-     * Degree of the polynomial through previous solutions that a step starts
-     * from; 0: the last solution. With NewtonParameters::use_increment
-     * 0 is best (20 iterations instead of 23 or more in step-nmm-2), without
-     * it 2 (27 instead of 31).
+     * Degree of the polynomial through previous solutions whose extrapolation is the initial
+     * guess of a step; 0: the last solution. Degree 0 needs fewest iterations with
+     * NewtonParameters::use_increment (20 instead of 23 or more in step-nmm-2), degree 2
+     * without it (27 instead of 31).
      */
     unsigned int extrapolation_degree = 0;
 
-    /// @p n equal steps up to @p last.
+    /// @p n equal steps up to the load factor @p last.
     static LoadSteps
     equal(unsigned int n, double last = 1.);
 
@@ -39,40 +41,49 @@ namespace NMM
   /// A load step that is tried, or was accepted.
   struct LoadStep
   {
+    /// Load factor at the end of the step [-].
     double load_factor = 0.;
-    /// Whether an answer is wanted here; otherwise the step was put in between.
+    /// Whether load_factor is one of LoadSteps::load_factors. Other steps are intermediate ones,
+    /// made because a longer step failed.
     bool is_asked = false;
-    /// Steps tried and given up before this one, and their iterations.
+    /// @{
+    /// Steps that were tried and given up since the last accepted one, and their iterations.
     unsigned int n_cuts = 0, n_lost_iterations = 0;
-    /// Iterations of Newton's method in this step, and the residual that they left [-].
-    unsigned int n_iterations      = 0;
-    double       relative_residual = 0.;
+    /// @}
+    /// Iterations of Newton's method in this step.
+    unsigned int n_iterations = 0;
+    /// Residual over the force scale after the last iteration [-].
+    double relative_residual = 0.;
     /// Report on the last system that was solved in the step.
     NewtonReport newton;
   };
 
 
-  /// What became of a step that was tried.
+  /// Result of a step that was tried.
   struct StepVerdict
   {
+    /// Whether the step is accepted, so that the next one starts at its end.
     bool is_accepted = false;
+    /// @{
     /// For a step that was not accepted: why, as part of a message, and what the user can do.
     std::string reason, remedy;
-    /// Length of the next step over that of this one, where the attempt knows it; 0: a half if
-    /// the step was not accepted, twice if it was.
+    /// @}
+    /// Length of the next step divided by the length of this one, if the attempt can tell. 0: half
+    /// the length after a rejected step, at least twice the length after an accepted one.
     double ratio = 0.;
   };
 
 
   /**
-   * The one loop that goes through load steps: from @p begin to each load factor that is wanted.
-   * The first step goes as far as is asked for. A step that @p attempt does not accept is
-   * divided, and after an accepted one the next may be longer; steps in between divide what is
-   * left up to the next factor wanted equally.
+   * The one loop over load steps: from @p begin to each of the requested load factors. The first
+   * step tries to reach the first of them. A step that @p attempt rejects is divided, and after an
+   * accepted step the next one may be longer. Intermediate steps divide the remaining way to the
+   * next requested load factor into equal parts.
    *
-   * @p attempt gets the step with its load factor, fills in what it knows of it, and keeps the
-   * new state if it accepts it.
+   * @p attempt is called with a step whose load factor and cuts are set. It computes the solution
+   * there, fills in the rest of the step, and keeps the new state if it accepts the step.
    *
+   * @throws InputError if the last load factor is not above @p begin.
    * @throws NumericalFailure if a step would be shorter than allowed, with the load factor and
    * the last reason; @p step is then the last one that was tried.
    */

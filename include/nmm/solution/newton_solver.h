@@ -13,37 +13,72 @@
 #include <string>
 #include <vector>
 
+/**
+ * @defgroup solution Solution
+ *
+ * Newton's method and load stepping for an abstract system of equations. This module does not
+ * know mechanics or contact.
+ *
+ * **In**: a NonlinearSystem, which assembles residual and tangent and tells which blocks its
+ * unknowns belong to. **Out**: the solution, and a NewtonReport; expected failures are results.
+ *
+ * | file (those without a folder: source/solution) | job |
+ * |---|---|
+ * | nmm/solution/newton_solver.h | interface of systems, and Newton's method |
+ * | newton_groups.h | groups of blocks that Newton's method solves separately |
+ * | line_search.h | step length of a correction |
+ * | nmm/solution/load_stepping.h | the loop over load steps, with cuts and growth |
+ *
+ * Order of calls:
+ * @code
+ * NewtonSolver solver;                                  // once
+ * const auto attempt = [&](LoadStep &step) {
+ *   system.set_load_factor(step.load_factor);
+ *   step.newton = solver.solve(system, constraints, u);
+ *   StepVerdict verdict;
+ *   verdict.is_accepted = step.newton.converged;        // then keep u, otherwise restore it
+ *   verdict.reason      = step.newton.reason;
+ *   return verdict;
+ * };
+ * LoadStep step;
+ * take_load_steps(LoadSteps::equal(10), 0., attempt, step);
+ * @endcode
+ */
+
 namespace NMM
 {
-  /// Equations r(u) = 0 as NewtonSolver sees them; statics at one load factor,
-  /// or a time step.
+  /// The interface of equations r(u) = 0 that NewtonSolver solves: static equilibrium at one load
+  /// factor, or a time step.
   class NonlinearSystem
   {
   public:
+    /// Distributed vector of the unknowns [m] or of forces [N/m].
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
 
     virtual ~NonlinearSystem() = default;
 
     /**
-     * Residual r(u) and K(u) = dr/du as @p tangent asks. @p u has the locally
-     * relevant unknowns. @p increment, if given, is the change of u in the last
+     * Assemble the residual r(u) and, unless @p tangent is Tangent::none, K(u) = dr/du. @p u has
+     * the locally relevant unknowns. @p increment, if given, is the change of u in the last
      * iteration: the tangent may use it to converge faster, as long as it is
      * dr/du where the increment vanishes.
      */
     virtual Deformation
     assemble(const Vector &u, Tangent tangent, const Vector *increment) = 0;
 
-    /// r(u) on owned unknowns, 0 for constrained ones.
+    /// r(u) of the last assembly on owned unknowns, 0 for constrained ones [N/m].
     virtual const Vector &
     residual() const = 0;
 
+    /// K(u) = dr/du of the last assembly with a tangent [N/m^2].
     virtual const dealii::TrilinosWrappers::SparseMatrix &
     tangent() const = 0;
 
+    /// Whether tangent() is symmetric, so that a symmetric factorization may be used.
     virtual bool
     tangent_is_symmetric() const = 0;
 
-    /// Size of the forces that are in balance, what |r| is compared with [N/m].
+    /// Magnitude of the forces that balance each other, to which |r| is compared [N/m].
     virtual double
     force_scale() const = 0;
 
@@ -55,27 +90,29 @@ namespace NMM
       return 0;
     }
 
-    /// @name Blocks, which forces couple only where they touch
+    /// @name Blocks, which are coupled by forces only where they touch
     /// @{
 
-    /// Block of each owned unknown, from 0 on; of a constrained unknown any block of those that
-    /// it follows. Empty if all unknowns are solved for together, as on several ranks.
+    /// Block of each owned unknown, numbered from 0. A constrained unknown may have the block of
+    /// any of the unknowns it depends on. Empty if all unknowns are solved together, as on several
+    /// ranks.
     virtual const std::vector<unsigned int> &
     blocks_of_unknowns() const;
 
-    /// Blocks that do not move, whatever acts on them; empty: none.
+    /// For each block, whether it is held: it does not move, whatever acts on it. Empty: no block
+    /// is held.
     virtual const std::vector<bool> &
     held_blocks() const;
 
-    /// From now on assemble() needs to be right in the rows of these blocks only (empty: all);
-    /// rows of inactive blocks and force_scale() are undefined, but tangent() stays regular.
+    /// From now on assemble() need be correct in the rows of these blocks only (empty: all).
+    /// Rows of inactive blocks and force_scale() are undefined, but tangent() stays regular.
     virtual void
     set_active_blocks(const std::vector<bool> & /*is_active*/)
     {
     }
 
-    /// Blocks that are neither active nor held and on which an active one has
-    /// pressed since the last call.
+    /// Blocks that are neither active nor held, and that have been in contact with an active one
+    /// since the last call of this function.
     virtual std::vector<unsigned int>
     take_touched_blocks()
     {
@@ -83,14 +120,15 @@ namespace NMM
     }
 
     /// Pairs of blocks that the last assembly of tangent() has coupled in rows of active blocks;
-    /// a pair may occur several times. Null: values other than zero tell which they are.
+    /// a pair may occur several times. Null: unknown; the nonzero entries of tangent() tell.
     virtual const std::vector<BlockPair> *
     coupled_blocks() const
     {
       return nullptr;
     }
 
-    /// The next tangents belong to another state: rows assembled before need not be kept.
+    /// Tell the system that the next tangents belong to another state, so that rows assembled
+    /// before need not be kept.
     virtual void
     forget_tangent()
     {
@@ -107,53 +145,64 @@ namespace NMM
   };
 
 
+  /// Tolerances and strategy of NewtonSolver.
   struct NewtonParameters
   {
-    /// |r| <= residual_tolerance * force_scale() ...
+    /// Convergence requires |r| <= residual_tolerance * force_scale() [-].
     double residual_tolerance = 1e-9;
-    /// ... and |r . du| <= energy_tolerance * the largest |r . du| so far, du
-    /// being the last correction.
-    double       energy_tolerance = 1e-12;
-    unsigned int max_iterations   = 12;
-    /// Least step length that the line search tries [-].
+    /// Convergence also requires |r . du| <= energy_tolerance * the largest |r . du| of all
+    /// iterations so far, du being the last correction [-].
+    double energy_tolerance = 1e-12;
+    /// Number of iterations after which the solution is given up.
+    unsigned int max_iterations = 12;
+    /// Smallest step length that the line search tries [-].
     double min_line_search = 1. / 64.;
-    /// Search from the first iteration on, for what is stiff on one side only, such as
-    /// contact; otherwise from the fifth, when r . du grows.
+    /// Whether to search from the first iteration on, for forces that are stiff on one side only,
+    /// such as contact. Otherwise the search begins with the fifth iteration, if |r . du| grows.
     bool always_search = false;
-    /// Pass the last increment to NonlinearSystem::assemble(): 20 instead of
-    /// 31 (follower load: 34) iterations for five steps of step-nmm-2.
+    /// Whether the last increment is passed to NonlinearSystem::assemble(). Five steps of
+    /// step-nmm-2 then take 20 iterations instead of 31 (34 with a follower load).
     bool use_increment = true;
-    /// Iterations that take Tangent::robust.
+    /// Number of iterations at the beginning whose tangent is Tangent::robust.
     unsigned int n_robust_iterations = 3;
-    /// Corrections with the last factorization after convergence: what is left
-    /// comes down to rounding for the price of a residual and a substitution.
+    /// Number of corrections with the last factorization after convergence. Each reduces the
+    /// residual, down to rounding, for the cost of a residual and a substitution.
     unsigned int n_refinements = 0;
   };
 
 
+  /// Result and history of a solution by NewtonSolver.
   struct NewtonReport
   {
+    /// An entry of the history.
     struct Iteration
     {
       /// |r| / force_scale() of the active unknowns before the correction [-].
       double relative_residual = 0.;
-      /// |r . du| before the correction du [J/m].
+      /// Sum over all active groups of |r . du|, r being the residual before the correction du
+      /// [J/m].
       double energy = 0.;
-      /// Step length of the correction, the least of all groups [-].
+      /// Step length of the correction, the smallest one of all groups [-].
       double line_search = 1.;
-      /// Part of the unknowns that was corrected [-].
+      /// Number of unknowns that were corrected divided by that of all unknowns [-].
       double active_share = 1.;
     };
 
+    /// Whether both tolerances were met.
     bool converged = false;
-    /// Why it did not converge, as part of a message.
-    std::string            reason;
+    /// Why the solution did not converge, as part of a message.
+    std::string reason;
+    /// One entry per iteration; a failed one is the last.
     std::vector<Iteration> iterations;
-    /// |r| / force_scale() in the end.
-    double       relative_residual  = 0.;
+    /// |r| / force_scale() after the last iteration [-].
+    double relative_residual = 0.;
+    /// Step lengths that line searches tried and did not take, of all iterations and groups.
     unsigned int n_line_search_cuts = 0;
-    /// Wall times [s]; assembly includes residuals alone.
+    /// @{
+    /// Wall times [s] of all assemblies (also those of residuals alone), of factorizations and
+    /// of substitutions.
     double assembly_time = 0., factorization_time = 0., substitution_time = 0.;
+    /// @}
   };
 
 
@@ -162,57 +211,61 @@ namespace NMM
    * factorization and one correction
    * @f[ K\,\delta = r(u), \qquad u \leftarrow u - \eta\,\delta. @f]
    *
-   * A full step (eta = 1) that bends a thin body raises |r| and the energy by
-   * orders of magnitude, because it stretches what it turns, and is still the
-   * best one; a test for decrease would forbid it. So eta is cut where
-   * the deformation is not admissible, and otherwise only once
-   * |r . delta| has begun to rise late in the iteration: then by halves until
-   * |r(u - eta delta) . delta| has decreased (Crisfield, Non-linear Finite Element
-   * Analysis 1, section 9.4), for which no potential is needed. From then on the tangent
-   * is the plain one.
+   * A full step (eta = 1) that bends a thin body raises |r| and the energy by orders of magnitude,
+   * because linearized rotations stretch the body, and yet the full step is the best one; a test
+   * for decrease would forbid it. So eta is reduced where the deformation is not admissible, and
+   * otherwise only once |r . delta| has begun to rise late in the iteration. Then eta is halved
+   * until |r(u - eta delta) . delta| has decreased (Crisfield, Non-linear Finite Element
+   * Analysis 1, section 9.4), which needs no potential. From then on the last increment is no
+   * longer passed to the assembly of the tangent.
    *
    * The state of a contact point may alternate between stick and slip, or between open and closed,
-   * so that the iteration cycles and never converges. Once three iterations in a row have not brought
-   * |r| below 0.7 of what it was before (not within the first six), eta is halved
-   * until |r| goes down by a quarter of eta and more, or the best of five is taken:
-   * where r is linear piece by piece, that follows the path on which |r| falls
-   * from piece to piece (Katzenelson, Bell Syst. Tech. J. 44 (1965) 1605). The first
-   * 0.3 s of the slide of step-nmm-4 take 36 steps and one cut, and took 92 and 23.
+   * so that the iteration cycles and never converges. A group counts as cycling if |r| is the same
+   * as two or three iterations ago, or if three iterations in a row (not within the first six)
+   * have not brought |r| below 0.7 of its smallest value before. From then on eta is halved until
+   * |r| decreases by at least the fraction eta / 4, or the best of five step lengths is taken.
+   * Where r is piecewise linear, this follows the path along which |r| falls from piece to piece
+   * (Katzenelson, Bell Syst. Tech. J. 44 (1965) 1605). It reduces the first 0.3 s of the slide of
+   * step-nmm-4 from 92 steps and 23 cuts to 36 steps and one cut.
    *
    * Groups of blocks that do not touch each other are separate systems. Each group has its own
-   * eta and converges by itself; its part of both tolerances is its part of the unknowns, so that
-   * all groups together are below them. A group that has converged is neither assembled nor
-   * factorized until an active one presses on it. In the end everything is assembled once more to
-   * verify the solution. So the cost of many blocks does not depend on the block that needs most
-   * iterations.
+   * eta and converges by itself. Its share of both tolerances is its share of the unknowns, so
+   * that all groups together meet them. A group that has converged is neither assembled nor
+   * factorized until an active block presses on it. Finally everything is assembled once more to
+   * verify the solution. So a block that needs many iterations does not add to the cost of the
+   * others.
    *
-   * In a large group few blocks, such as one that begins to slip, delay convergence. An iteration
-   * corrects the blocks whose |r| is above a tenth of their part of the tolerance, and two rings
-   * of neighbours around them. Blocks further away stay where they are, and are corrected in the
-   * next iteration if their |r| has grown (nonlinear elimination: Lanzkron, Rose & Wilkes, SIAM J.
-   * Sci. Comput. 17 (1996) 538). Corrections that reach further than neighbours, as in a tower at
-   * rest, would need many such iterations. So the number of rings doubles where the |r| just
-   * outside exceeds a tenth of the |r| before, and in each iteration of a group that cycles. In a
-   * heap of 2,000 blocks a block takes part in 5.8 of 13.6 iterations of a step.
+   * In a large group a few blocks, such as one that begins to slip, delay convergence. An
+   * iteration corrects the blocks whose |r| is above a tenth of their share of the tolerance, and
+   * two rings of neighbours around them. Blocks further away stay where they are, and are
+   * corrected in the next iteration if their |r| has grown (nonlinear elimination: Lanzkron,
+   * Rose & Wilkes, SIAM J. Sci. Comput. 17 (1996) 538). Corrections that reach further than
+   * neighbours, as in a tower at rest, would need many such iterations. So the number of rings
+   * doubles where the |r| of the blocks just outside exceeds a tenth of the previous |r| of the
+   * group, and in each iteration of a group that cycles. In a heap of 2,000 blocks a block is
+   * corrected in 5.8 of the 13.6 iterations of a step, on average.
    *
-   * Expected failures (no convergence, inadmissible, singular) are results, with
-   * a reason; who calls cuts the step. The direct solver analyses the
-   * pattern once per object.
+   * Expected failures (no convergence, an inadmissible deformation, a singular tangent) are
+   * results with a reason; the caller decides whether to try a smaller step. The direct solver
+   * analyses the sparsity pattern anew only if size, symmetry or pattern have changed.
+   *
+   * Usage: solve() may be called any number of times, also for different systems.
    */
   class NewtonSolver
   {
   public:
+    /// See NonlinearSystem::Vector.
     using Vector = NonlinearSystem::Vector;
 
+    /// The parameters are the same for all solutions by this object.
     explicit NewtonSolver(const NewtonParameters &parameters = {});
     ~NewtonSolver();
 
     /**
-     * From @p u, which has the locally relevant unknowns and satisfies the
-     * constraints, to the solution; without convergence u is undefined.
-     * Constraints of increments are those of @p constraints without
-     * inhomogeneities. @p increment is what the last assembly of the tangent
-     * may be told about how u was reached, or null.
+     * Solve r(u) = 0, starting from @p u, which has the locally relevant unknowns and satisfies
+     * the constraints. Without convergence u is undefined. Corrections satisfy @p constraints
+     * without their inhomogeneities. @p increment, or null, is the change by which the initial u
+     * was extrapolated; it is passed to the first assembly of the tangent.
      */
     NewtonReport
     solve(NonlinearSystem                         &system,

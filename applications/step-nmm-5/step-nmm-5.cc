@@ -262,10 +262,10 @@ namespace StepNMM5
   // length grows is the toughness over the equivalent intensity factor under a load of 1; only its
   // ratio to the first one is printed, for which the toughness does not matter. A criterion gives the direction.
   //
-  // Local symmetry asks that $K_{II}$ vanishes at the tip of the increment, which is known only
-  // when the increment has been made: it is made, looked at, and turned. For small angles a turn by
-  // $\alpha$ changes $K_{II}/K_I$ by $\alpha/2$ (see NMM::kink_factors()), so each turn leaves a
-  // small part of what there was.
+  // Along a path of local symmetry $K_{II}$ vanishes. An increment is straight, so its direction should
+  // be the mean of those that the path has at its two ends; the second one is known only when the
+  // increment has been made. It is made, looked at, and turned: a turn of the increment by a small angle turns what the crack
+  // wants to do at its end back by about the same angle, so the residual falls by twice the turn.
   CrackPath
   grow_crack(const Parameters           &parameters,
              const std::string          &name,
@@ -282,7 +282,7 @@ namespace StepNMM5
       return std::make_unique<CrackedSolid>(with_crack,
                                             problem,
                                             parameters.beam_cell_size,
-                                            0.25);
+                                            parameters.beam_grading);
     };
     std::unique_ptr<CrackedSolid> beam = solve(geometry);
     path.points.push_back(beam->tips().front().point);
@@ -290,9 +290,11 @@ namespace StepNMM5
     constexpr unsigned int most_increments = 1000, most_turns = 8;
     for (unsigned int i = 0; i < most_increments && path.end.empty(); ++i)
     {
-      const NMM::CrackTip           tip     = beam->tips().front();
-      const NMM::IntensityFactors   k       = beam->factors(tip);
-      NMM::GrowthCriterion::Verdict verdict = criterion.judge(k.K_I, k.K_II);
+      const NMM::CrackTip                 tip = beam->tips().front();
+      const NMM::IntensityFactors         k   = beam->factors(tip);
+      const NMM::GrowthCriterion::Verdict verdict =
+        criterion.judge(k.K_I, k.K_II);
+      double angle = verdict.angle;
       if (i == 0)
         first_intensity = verdict.equivalent_intensity;
       path.loads.push_back(first_intensity / verdict.equivalent_intensity);
@@ -304,7 +306,7 @@ namespace StepNMM5
         const NMM::CrackExtension extension =
           NMM::extend_crack(geometry,
                             tip.point,
-                            turned(tip.direction, verdict.angle),
+                            turned(tip.direction, angle),
                             increment,
                             "crack");
         path.end = extension.met;
@@ -318,9 +320,12 @@ namespace StepNMM5
           break;
         const NMM::IntensityFactors at_end =
           beam->factors(beam->tips().front());
-        if (std::abs(at_end.K_II) < 1e-3 * at_end.K_I)
+        const double turn_at_end =
+          criterion.judge(at_end.K_I, at_end.K_II).angle;
+        const double residual = turn_at_end - (angle - verdict.angle);
+        if (std::abs(residual) < 1e-4)
           break;
-        verdict.angle -= 2. * at_end.K_II / at_end.K_I;
+        angle += 0.5 * residual;
       }
     }
     beam->draw("A crack by " + name + ", increments of " +
@@ -389,6 +394,7 @@ main(int argc, char **argv)
       const std::vector<Measurement> measurements = run_study(parameters);
       const std::vector<CrackPath>   paths        = run_beam(parameters);
       write_results(parameters, measurements, paths);
-      run_flaw(parameters);
+      if (parameters.n_wing_increments > 0)
+        run_flaw(parameters);
     });
 }

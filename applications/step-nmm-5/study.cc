@@ -41,10 +41,15 @@ namespace StepNMM5
                       "0.5",
                       Patterns::Double(0.),
                       "Size of the beam's cells [in].");
-    prm.declare_entry("Wing increments",
-                      "6",
-                      Patterns::Integer(1),
-                      "Number of the wings' increments.");
+    prm.declare_entry("Beam grading",
+                      "0.25",
+                      Patterns::Double(0.),
+                      "Like Gradings, for the beam [-].");
+    prm.declare_entry(
+      "Wing increments",
+      "6",
+      Patterns::Integer(0),
+      "Number of the wings' increments; 0: this part is left out.");
     prm.declare_entry("Wing increment",
                       "0.05",
                       Patterns::Double(0.),
@@ -56,6 +61,7 @@ namespace StepNMM5
     parameters.cell_sizes        = Tutorial::get_numbers(prm, "Cell sizes");
     parameters.increments        = Tutorial::get_numbers(prm, "Increments");
     parameters.beam_cell_size    = prm.get_double("Beam cell size");
+    parameters.beam_grading      = prm.get_double("Beam grading");
     parameters.n_wing_increments = prm.get_integer("Wing increments");
     parameters.wing_increment    = prm.get_double("Wing increment");
     parameters.output_directory  = output_directory;

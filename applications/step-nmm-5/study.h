@@ -15,16 +15,20 @@
 
 namespace StepNMM5
 {
+  /// Parameters of the program.
   struct Parameters
   {
     /// Sizes of cells at the free radius of the tip over that radius [-].
     std::vector<double> gradings;
     /// Sizes of cells of uniform meshes [m].
     std::vector<double> cell_sizes;
-    /// Length of the increments in the beam [in], and size of its cells [in].
+    /// Lengths of the increments in the beam [in].
     std::vector<double> increments;
-    double              beam_cell_size = 0.5;
-    /// Number of the wings' increments, and their length [m].
+    /// Size of its cells [in].
+    double beam_cell_size = 0.5;
+    /// Like gradings, for the beam [-].
+    double beam_grading = 0.25;
+    /// Number of the wings' increments, 0 to leave that part out, and their length [m].
     unsigned int n_wing_increments = 6;
     double       wing_increment    = 0.05;
     std::string  output_directory;

@@ -277,8 +277,15 @@ namespace NMM
                            "set ContactParameters::law"));
     law->check(where);
     for (const ContactPair &pair : pairs)
-      pair.law->check(where + " of \"" + pair.first + "\" and \"" +
-                      pair.second + "\"");
+    {
+      const std::string of_pair =
+        where + " of \"" + pair.first + "\" and \"" + pair.second + "\"";
+      AssertThrow(pair.law != nullptr,
+                  InputError("there is no law",
+                             of_pair,
+                             "set ContactPair::law"));
+      pair.law->check(of_pair);
+    }
     check_value(penetration_tolerance >= 0.,
                 "the penetration that is allowed",
                 penetration_tolerance,

@@ -13,7 +13,7 @@ namespace NMM
        "in the direction of the largest hoop stress",
        std::make_shared<HoopStressCriterion>()},
       {"local symmetry",
-       "so that there is no shear at the new tip, for which each increment is "
+       "so that there is no shear along the path, for which each increment is "
        "turned",
        std::make_shared<LocalSymmetryCriterion>()},
       {"energy release",

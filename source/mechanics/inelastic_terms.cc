@@ -311,6 +311,7 @@ namespace NMM
                  with_tangent,
                  excess,
                  response);
+        totals.n_yielding += !response.is_elastic;
         const double               weight = -point.weight * side.share;
         const dealii::Tensor<1, 2> force =
           weight * (point.projection * (excess.stress * N));

@@ -133,7 +133,8 @@ namespace NMM
         candidate.drive =
           candidate.verdict.equivalent_intensity /
           problem.materials[region_to_material[candidate.tip.region]].toughness;
-        most_driven = std::max(most_driven, candidate.drive);
+        candidate.angle = candidate.verdict.angle;
+        most_driven     = std::max(most_driven, candidate.drive);
         growing_tips.push_back(std::move(candidate));
       }
       const double least =
@@ -220,12 +221,11 @@ namespace NMM
       }
       if (!end_reason.empty())
         progress.message("  crack growth ended: " + end_reason);
-      if (n_with_shear > 0)
-        progress.message(
-          "  warning: there is shear of more than a thousandth of "
-          "K_I at the ends of " +
-          std::to_string(n_with_shear) +
-          " increment(s), which turning did not take away");
+      if (n_unturned > 0)
+        progress.message("  warning: the direction of " +
+                         std::to_string(n_unturned) +
+                         " increment(s) is off local symmetry by more than "
+                         "0.001 rad, after as many turns as are made");
       for (const std::string &line : crack_tips->description())
         progress.message("  " + line);
       is_solved = true;
@@ -246,7 +246,7 @@ namespace NMM
       const unsigned int      n_blocks = physical_mesh->n_blocks();
       try
       {
-        // Each turn reduces the shear by a factor of five and more.
+        // Each turn reduces the residual by a factor of five and more.
         constexpr unsigned int most_turns = 8;
         bool                   turns      = true;
         for (unsigned int i = 0; turns && i < most_turns; ++i)
@@ -255,7 +255,7 @@ namespace NMM
           try_increments(tips);
           turns = criterion().is_implicit() && turn_increments(tips);
         }
-        n_with_shear += turns;
+        n_unturned += turns;
       }
       catch (const NumericalFailure &)
       {
@@ -307,8 +307,7 @@ namespace NMM
     {
       for (GrowingTip &growing : tips)
       {
-        const double c        = std::cos(growing.verdict.angle),
-                     s        = std::sin(growing.verdict.angle);
+        const double c = std::cos(growing.angle), s = std::sin(growing.angle);
         const Tensor<1, 2> &e = growing.tip.direction;
         const Point<2>      direction(c * e[0] - s * e[1], s * e[0] + c * e[1]);
         growing.extension =
@@ -326,29 +325,33 @@ namespace NMM
     bool
     CrackGrowthAnalysis::turn_increments(std::vector<GrowingTip> &tips) const
     {
-      constexpr double no_shear = 1e-3;
-      bool             turns    = false;
+      constexpr double tolerance = 1e-3;
+      bool             turns     = false;
       for (GrowingTip &growing : tips)
         for (unsigned int i = 0; i < crack_tips->all_tips().size(); ++i)
           if (crack_tips->all_tips()[i].point == growing.extension.end)
           {
             const IntensityFactors &k = crack_tips->all_factors()[i];
-            if (k.K_I <= 0. || std::abs(k.K_II) <= no_shear * k.K_I)
+            if (k.K_I <= 0.)
               continue;
-            // For small angles K_II' changes by K_I' / 2 per angle. From the second trial on, the
-            // two last trials give the rate.
-            const double angle = growing.verdict.angle, shear = k.K_II / k.K_I;
-            double       slope = 0.5;
+            const double residual = criterion().judge(k.K_I, k.K_II).angle -
+                                    (growing.angle - growing.verdict.angle);
+            if (std::abs(residual) <= tolerance)
+              continue;
+            // A chord that is turned by a small angle turns what the crack does at its end back
+            // by about the same angle; two trials show by how much it does here.
+            double slope = -2.;
             if (growing.last_trial)
             {
-              const auto [last_angle, last_shear] = *growing.last_trial;
-              const double secant = (shear - last_shear) / (angle - last_angle);
-              if (secant > 0.1 && secant < 5.)
+              const auto [last_angle, last_residual] = *growing.last_trial;
+              const double secant =
+                (residual - last_residual) / (growing.angle - last_angle);
+              if (secant > -6. && secant < -1.2)
                 slope = secant;
             }
-            growing.last_trial    = {angle, shear};
-            growing.verdict.angle = angle - shear / slope;
-            turns                 = true;
+            growing.last_trial = {growing.angle, residual};
+            growing.angle -= residual / slope;
+            turns = true;
           }
       return turns;
     }
@@ -406,16 +409,15 @@ namespace NMM
           {
             const GrowingTip &tip = row.tip;
             out << row.step << ',' << row.load_factor;
-            for (const double value :
-                 {tip.tip.point[0],
-                  tip.tip.point[1],
-                  tip.factors.K_I,
-                  tip.factors.K_II,
-                  tip.factors.T,
-                  tip.factors.spread,
-                  tip.verdict.angle * 180. / dealii::numbers::PI,
-                  tip.extension.end[0],
-                  tip.extension.end[1]})
+            for (const double value : {tip.tip.point[0],
+                                       tip.tip.point[1],
+                                       tip.factors.K_I,
+                                       tip.factors.K_II,
+                                       tip.factors.T,
+                                       tip.factors.spread,
+                                       tip.angle * 180. / dealii::numbers::PI,
+                                       tip.extension.end[0],
+                                       tip.extension.end[1]})
               out << ',' << value;
             out << ',' << quoted(tip.extension.met) << '\n';
           }

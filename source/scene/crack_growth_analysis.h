@@ -57,9 +57,13 @@ namespace NMM
         IntensityFactors         factors;
         GrowthCriterion::Verdict verdict;
         /// K_eq / K_c [-].
-        double         drive = 0.;
+        double drive = 0.;
+        /// Of the increment, from the tip's direction [rad]; with an implicit criterion it is
+        /// turned after each trial.
+        double         angle = 0.;
         CrackExtension extension;
-        /// Angle of the previous trial [rad] and K_II / K_I at its end [-], if there was one.
+        /// Angle of the previous trial [rad] and its residual [rad], see turn_increments(), if
+        /// there was one.
         std::optional<std::pair<double, double>> last_trial;
       };
 
@@ -89,8 +93,8 @@ namespace NMM
       double grown_length = 0.;
       /// Why growth came to an end; empty if it did not.
       std::string end_reason;
-      /// Number of increments that still have shear at their tips after turning.
-      unsigned int n_with_shear = 0;
+      /// Number of increments whose direction was not found.
+      unsigned int n_unturned = 0;
 
       const GrowthCriterion &
       criterion() const;
@@ -135,7 +139,19 @@ namespace NMM
       void
       restore(const Geometry &before);
 
-      /// Turns the increments that have shear at their tips. Returns false if there is none.
+      /**
+       * Turns increments that are not chords of a path of local symmetry yet; false if there is
+       * none. Along such a path K_II vanishes. An increment is straight, so its direction is the
+       * mean of the path's directions at both of its ends (the trapezoidal rule): that in which the
+       * crack leaves its tip before, at the angle alpha_0, and that in which it would go on at the
+       * end of the increment, turned by delta from it,
+       * @f[ \alpha = \tfrac12(\alpha_0 + \alpha + \delta(\alpha))
+           \quad\Leftrightarrow\quad \delta(\alpha) - (\alpha-\alpha_0) = 0. @f]
+       * If K_II vanished at the end of each increment, their directions would be those of their
+       * ends, and the path would converge with order one, as it does with explicit
+       * criteria. This one has the order 3/2: a chord shifts the faces near the tip by the
+       * square of its length, to which the T-stress adds shear in proportion to the power 3/2.
+       */
       bool
       turn_increments(std::vector<GrowingTip> &tips) const;
 

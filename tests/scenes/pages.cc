@@ -3,7 +3,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
-#include <regex>
+#include <sstream>
 #include <string>
 
 // The scenes on README and on the pages of doc/guide run as they stand there.
@@ -56,5 +56,39 @@ namespace
       ++n_pages;
     }
     EXPECT_GE(n_pages, 7u);
+  }
+
+
+  // Tables hold values: no cell has more than 30 words. README fits on two screens.
+  TEST(Pages, CellsAndReadmeAreShort)
+  {
+    unsigned int n_cells = 0;
+    for (const fs::directory_entry &page :
+         fs::recursive_directory_iterator(NMM_SOURCE_DIR "/doc"))
+    {
+      if (page.path().extension() != ".md")
+        continue;
+      std::ifstream in(page.path());
+      for (std::string line; std::getline(in, line);)
+      {
+        if (line.empty() || line.front() != '|')
+          continue;
+        std::istringstream cells(line);
+        for (std::string cell; std::getline(cells, cell, '|'); ++n_cells)
+        {
+          std::istringstream words(cell);
+          const auto         n_words =
+            std::distance(std::istream_iterator<std::string>(words), {});
+          EXPECT_LE(n_words, 30) << page.path() << ": " << cell;
+        }
+      }
+    }
+    EXPECT_GT(n_cells, 1000u);
+
+    std::ifstream readme(NMM_SOURCE_DIR "/README.md");
+    unsigned int  n_lines = 0;
+    for (std::string line; std::getline(readme, line);)
+      ++n_lines;
+    EXPECT_LE(n_lines, 120u);
   }
 } // namespace

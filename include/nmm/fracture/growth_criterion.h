@@ -32,7 +32,8 @@ namespace NMM
     virtual Verdict
     judge(double K_I, double K_II) const = 0;
 
-    /// Whether the increment must be turned until K_II vanishes at its own tip.
+    /// Whether the increment must be turned until its direction is the mean of the verdicts at both
+    /// of its ends.
     virtual bool
     is_implicit() const
     {

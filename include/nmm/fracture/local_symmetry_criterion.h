@@ -6,11 +6,10 @@
 namespace NMM
 {
   /**
-   * The criterion of local symmetry: a crack grows so that its new tip has K_II' = 0, and K_I'
-   * of the new tip is compared with the toughness. The angle that follows from kink_factors() is
-   * only the first guess. Since is_implicit() is true, the increment is then turned until K_II
-   * vanishes at the tip of the increment, whose length is finite. The path therefore converges
-   * with the length of increments and does not zigzag.
+   * The criterion of local symmetry: a crack grows along a path on which K_II vanishes, and K_I
+   * is compared with the toughness. The angle is the one at which a short kink has K_II' = 0, see
+   * kink_factors(). Since is_implicit() is true, a straight increment of finite length is then turned
+   * until it is the chord of such a path.
    * Source: R. Goldstein, R. Salganik, Int. J. Fract. 10 (1974), 507-523.
    */
   class LocalSymmetryCriterion : public GrowthCriterion

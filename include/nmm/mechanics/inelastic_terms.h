@@ -67,7 +67,8 @@ namespace NMM
       double dissipated = 0.;
       /// Area with plastic strain [m^2].
       double yielded_area = 0.;
-      /// Number of quadrature points of elements that yield in the step.
+      /// Number of quadrature points, of elements and of sides of conditions and ties, that yield in
+      /// the step.
       unsigned int n_yielding = 0;
       /// Root of the sum over inelastic elements of the squares of internal forces [N/m]. It is
       /// bounded by the strength of the material, however large the displacements are.

@@ -105,13 +105,8 @@ namespace NMM
              << text_of(own.quadrature) << " s against " << text_of(theirs.mesh)
              << " s and " << text_of(theirs.covers) << " s; "
              << text_of(own.cut_elements) << " of " << text_of(own.elements)
-             << " elements are cut; the arrangement of the curves, "
-             << text_of(own.geometry)
-             << " s, is not in it. Both are for displacements; for a scalar on "
-                "both sides "
-             << text_of(scalar.total / their_scalar.total) << " ("
-             << text_of(scalar.total) << " s against "
-             << text_of(their_scalar.total) << " s)";
+             << " elements cut; for a scalar "
+             << text_of(scalar.total / their_scalar.total);
         bars.push_back(
           {"1: cutting, covers and quadrature over deal.II's "
            "Triangulation and DoFHandler, time, " +
@@ -121,10 +116,8 @@ namespace NMM
            false,
            time.str(),
            cost_of_cut_elements(own, whole, theirs)});
-        memory << "what is kept: " << text_of(own.live_memory) << " MB against "
-               << text_of(theirs.live_memory) << " MB; "
-               << bytes_of_cut_elements(own, whole, theirs)
-               << "; peaks above the process's size before "
+        memory << "kept: " << text_of(own.live_memory) << " MB against "
+               << text_of(theirs.live_memory) << " MB; at the peak "
                << text_of(own.own_peak_memory) << " and "
                << text_of(theirs.own_peak_memory) << " MB";
         bars.push_back({"1: the same, memory",

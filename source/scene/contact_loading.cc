@@ -56,7 +56,7 @@ namespace NMM
         if (!given.load_factors.empty() ||
             given.n_steps != LoadStepParameters::default_n_steps)
           steps = given.load_steps();
-        const double scale = load_factor / steps.load_factors.back();
+        const double scale = load_factor / steps.largest();
         for (double &factor : steps.load_factors)
           factor *= scale;
       }

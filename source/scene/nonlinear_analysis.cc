@@ -186,7 +186,7 @@ namespace NMM
       const Mechanism mechanism =
         find_mechanism(statics,
                        *system,
-                       last_value(),
+                       reached_load_factor(),
                        *covers,
                        problem,
                        *quadrature,
@@ -339,7 +339,7 @@ namespace NMM
         std::ostringstream description;
         description << "load factor " << row.load_factor;
         series->write(history.size() / every,
-                      row.load_factor,
+                      last_value(),
                       description.str(),
                       *evaluator);
       }
@@ -387,7 +387,7 @@ namespace NMM
       summary.add("load_steps", history.size());
       summary.add("newton_iterations", finite ? n_iterations : 0);
       summary.add("cuts", n_cuts);
-      summary.add("load_factor", last_value());
+      summary.add("load_factor", reached_load_factor());
       if (history.empty())
         return;
       if (finite)
@@ -425,9 +425,19 @@ namespace NMM
 
 
     double
-    NonlinearAnalysis::last_value() const
+    NonlinearAnalysis::reached_load_factor() const
     {
       return history.empty() ? 0. : history.back().load_factor;
+    }
+
+
+    double
+    NonlinearAnalysis::last_value() const
+    {
+      // programs that show a series want values that ascend
+      return scene.parameters().load_steps.load_steps().are_ascending()
+               ? reached_load_factor()
+               : history.size();
     }
 
 
@@ -438,7 +448,7 @@ namespace NMM
       if (history.empty())
         note << "not solved";
       else
-        note << "solved up to load factor " << last_value();
+        note << "solved up to load factor " << reached_load_factor();
       return note.str();
     }
 

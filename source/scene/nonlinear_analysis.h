@@ -124,6 +124,11 @@ namespace NMM
       void
       show();
 
+      /// Load factor of the last state; 0 if there is none [-].
+      double
+      reached_load_factor() const;
+
+      /// That load factor or, if loads are also taken away, the number of steps.
       double
       last_value() const override;
 

@@ -208,9 +208,9 @@ namespace NMM
                            "parameter '" + name + "'",
                            "give two, separated by a semicolon"));
     const bool is_static = scene_parameters.model.analysis == Analysis::statics;
-    const double end =
-      is_static ? scene_parameters.load_steps.load_steps().load_factors.back()
-                : scene_parameters.time.end_time;
+    const double end     = is_static
+                             ? scene_parameters.load_steps.load_steps().largest()
+                             : scene_parameters.time.end_time;
     TimeFunction components[2];
     for (unsigned int c = 0; c < 2; ++c)
     {

@@ -427,6 +427,12 @@ namespace NMM
           "remove it, or choose an elastic material");
     if (fracture.n_increments == 0)
       return;
+    AssertThrow(load_steps.load_steps().are_ascending(),
+                InputError("cracks grow under loads that ascend, but a load "
+                           "factor is smaller than the one before it",
+                           "parameter 'Load steps/Load factors'",
+                           "give factors that ascend, or remove "
+                           "'Fracture/Increments'"));
     for (const Material &material : materials)
     {
       const std::string where = "parameter 'Materials/" + material.name;

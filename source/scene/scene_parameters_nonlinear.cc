@@ -40,7 +40,8 @@ namespace NMM
       load_factors,
       Patterns::List(Patterns::Double(0), 0),
       "Instead of equal steps: the factors on loads and prescribed "
-      "displacements, ascending from above 0 [-]. The last may be any.");
+      "displacements, one after the other [-]. Where they descend, loads are "
+      "taken away; the first is above 0.");
   }
 
 
@@ -103,11 +104,12 @@ namespace NMM
     double last = 0.;
     for (const double factor : load_factors)
     {
-      AssertThrow(factor > last,
+      AssertThrow(factor != last,
                   InputError("the load factor " + to_text(factor) +
                                " follows " + to_text(last),
                              "parameter 'Load steps/Load factors'",
-                             "give factors that ascend from above 0"));
+                             "give each factor another value than that of the "
+                             "one before it, which is 0 at first"));
       last = factor;
     }
   }

@@ -81,9 +81,11 @@ namespace NMM
         contact_series = std::make_unique<ContactSeries>(
           contact->contact().surface(),
           directory,
-          parameters.fracture.n_increments > 0             ? "step"
-          : parameters.model.analysis == Analysis::statics ? "load_factor"
-                                                           : "time",
+          parameters.model.analysis != Analysis::statics ? "time"
+          : parameters.fracture.n_increments > 0 ||
+              !parameters.load_steps.load_steps().are_ascending()
+            ? "step"
+            : "load_factor",
           parameters.output.contacts,
           parameters.output.fields);
     }

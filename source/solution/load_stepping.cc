@@ -18,6 +18,20 @@ namespace NMM
   }
 
 
+  double
+  LoadSteps::largest() const
+  {
+    return *std::max_element(load_factors.begin(), load_factors.end());
+  }
+
+
+  bool
+  LoadSteps::are_ascending() const
+  {
+    return std::is_sorted(load_factors.begin(), load_factors.end());
+  }
+
+
   void
   LoadSteps::check() const
   {
@@ -28,11 +42,12 @@ namespace NMM
     double last = 0.;
     for (const double factor : load_factors)
     {
-      AssertThrow(std::isfinite(factor) && factor > last,
+      AssertThrow(std::isfinite(factor) && factor >= 0. && factor != last,
                   InputError("The load factor " + std::to_string(factor) +
                                " follows " + std::to_string(last),
                              "the load steps",
-                             "give factors that ascend from above 0"));
+                             "give factors that are not negative, each another "
+                             "one than that before it, which is 0 at first"));
       last = factor;
     }
     AssertThrow(min_step > 0. && min_step <= 1.,
@@ -49,30 +64,35 @@ namespace NMM
                   LoadStep                                     &step)
   {
     steps.check();
-    AssertThrow(steps.load_factors.back() > begin,
-                InputError("The load factor " +
-                             std::to_string(steps.load_factors.back()) +
+    const double largest = steps.largest();
+    const auto   first =
+      std::find_if(steps.load_factors.begin(),
+                   steps.load_factors.end(),
+                   [&](const double factor) { return factor > begin; });
+    AssertThrow(first != steps.load_factors.end(),
+                InputError("The load factor " + std::to_string(largest) +
                              " is not above " + std::to_string(begin) +
                              ", which is reached already",
                            "the load steps",
                            "go on with larger load factors"));
-    const double least   = steps.min_step * steps.load_factors.back();
-    double       length  = steps.load_factors.back() - begin;
+    const double least   = steps.min_step * largest;
+    double       length  = largest;
     double       reached = begin;
     unsigned int n_cuts = 0, n_lost_iterations = 0;
-    for (const double wanted : steps.load_factors)
-      while (reached < wanted)
+    for (auto wanted = first; wanted != steps.load_factors.end(); ++wanted)
+      while (reached != *wanted)
       {
+        // negative where loads are taken away
+        const double way = *wanted - reached;
         const double n_parts =
-          std::ceil((wanted - reached) / length * (1. - 1e-9));
-        step          = LoadStep();
-        step.is_asked = n_parts <= 1.;
-        step.load_factor =
-          step.is_asked ? wanted : reached + (wanted - reached) / n_parts;
-        step.n_cuts               = n_cuts;
+          std::max(1., std::ceil(std::abs(way) / length * (1. - 1e-9)));
+        step             = LoadStep();
+        step.is_asked    = n_parts <= 1.;
+        step.load_factor = step.is_asked ? *wanted : reached + way / n_parts;
+        step.n_cuts      = n_cuts;
         step.n_lost_iterations    = n_lost_iterations;
         const StepVerdict verdict = attempt(step);
-        const double      taken   = step.load_factor - reached;
+        const double      taken   = std::abs(step.load_factor - reached);
         if (verdict.is_accepted)
         {
           length  = verdict.ratio > 0. ? std::max(least, verdict.ratio * taken)

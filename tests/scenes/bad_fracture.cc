@@ -65,6 +65,10 @@ namespace
             {"initial stress", "Initial stress"});
     rejects("Fracture/Intensity factors=false",
             {"intensity factors", "Fracture/Intensity factors = true"});
+    expect_rejected_with(
+      growing + std::vector<std::string>{"Contact/Enforcement=penalty"},
+      "Load steps/Load factors=1, 0.5",
+      {"load factor", "Load steps/Load factors", "ascend"});
     expect_rejected_with(cracked,
                          "Fracture/Increment=0.1",
                          {"'Increment'", "Increments"});

@@ -214,8 +214,8 @@ namespace
                            "Load steps/Number of steps=0",
                            {"Load steps/Number of steps", "0"});
       expect_rejected_with(kinematics,
-                           "Load steps/Load factors=1, 0.5",
-                           {"Load steps/Load factors", "0.5 follows 1"});
+                           "Load steps/Load factors=1, 1",
+                           {"Load steps/Load factors", "1 follows 1"});
       expect_rejected_with(kinematics,
                            "Load steps/Load factors=0, 1",
                            {"Load steps/Load factors", "0 follows 0"});

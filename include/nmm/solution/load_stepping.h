@@ -12,9 +12,11 @@ namespace NMM
   /// The load factors to reach, and bounds on the steps towards them; see take_load_steps().
   struct LoadSteps
   {
-    /// Load factors at which a solution is requested, positive and ascending [-].
+    /// Load factors at which a solution is requested, in this order, none below 0; the first one is
+    /// positive, and none is the same as the one before [-]. Where they descend, loads are taken
+    /// away.
     std::vector<double> load_factors = {1.};
-    /// Smallest step as a fraction of the last load factor [-].
+    /// Smallest step as a fraction of the largest load factor [-].
     double min_step = 1e-4;
     /// Largest violation of displacement conditions and ties that is accepted, in the measure of
     /// the system that is solved (for example FiniteElasticity::largest_jump()) [-]. A solution
@@ -31,6 +33,14 @@ namespace NMM
     /// @p n equal steps up to the load factor @p last.
     static LoadSteps
     equal(unsigned int n, double last = 1.);
+
+    /// The largest of load_factors [-].
+    double
+    largest() const;
+
+    /// Whether load_factors only ascend.
+    bool
+    are_ascending() const;
 
     /// @throws InputError naming the value.
     void
@@ -75,15 +85,15 @@ namespace NMM
 
 
   /**
-   * The one loop over load steps: from @p begin to each of the requested load factors. The first
-   * step tries to reach the first of them. A step that @p attempt rejects is divided, and after an
+   * The one loop over load steps: from @p begin to each of the requested load factors in turn, from
+   * the first one above @p begin on. The first step tries to reach that. A step that @p attempt rejects is divided, and after an
    * accepted step the next one may be longer. Intermediate steps divide the remaining way to the
    * next requested load factor into equal parts.
    *
    * @p attempt is called with a step whose load factor and cuts are set. It computes the solution
    * there, fills in the rest of the step, and keeps the new state if it accepts the step.
    *
-   * @throws InputError if the last load factor is not above @p begin.
+   * @throws InputError if no load factor is above @p begin.
    * @throws NumericalFailure if a step would be shorter than allowed, with the load factor and
    * the last reason; @p step is then the last one that was tried.
    */

@@ -245,7 +245,7 @@ namespace NMM
                                " cells cannot be shared out among " +
                                std::to_string(boxes.size()) + " ranks",
                              "Mathematical mesh/Cell size",
-                             "choose smaller cells or less ranks"));
+                             "choose smaller cells or fewer ranks"));
       for (const auto &corners : local.cells)
         result->is_near.push_back(std::any_of(corners.begin(),
                                               corners.end(),

@@ -25,6 +25,22 @@
  * | program.h | MPI, exit codes and messages of programs |
  * | step_fault.h | why the result of a step is refused |
  * | compat.h | differences between versions of deal.II |
+ *
+ * The body of main() in a program that keeps the exit codes of the driver:
+ * @code
+ * try
+ *   {
+ *     const MPISession mpi(argv[0]);
+ *     run();
+ *   }
+ * catch (...)
+ *   {
+ *     const ProgramEnd end = explain_exception(false);      // nothing has been written yet
+ *     std::cerr << end.message << std::endl;
+ *     return static_cast<int>(end.code);
+ *   }
+ * return static_cast<int>(ExitCode::success);
+ * @endcode
  */
 namespace NMM
 {

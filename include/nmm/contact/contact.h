@@ -210,7 +210,19 @@ namespace NMM
    * faces have moved far; accept() at the solution. Time steps: detect() and begin_step() at the
    * beginning of the step, then assemble_between() (schemes that conserve energy) or assemble() in
    * each iteration; at the end of the step assemble() and accept(), or begin_step() again if the
-   * step is repeated.
+   * step is repeated. ContactStatics and ContactModel make these calls:
+   * @code
+   * ContactSurface surface(covers);
+   * CoulombLaw     law;
+   * law.normal_stiffness = 1e11;
+   * law.shear_stiffness  = 1e11;
+   * law.friction         = std::tan(0.5);
+   * ContactParameters parameters;
+   * parameters.law = std::make_shared<CoulombLaw>(law);
+   * Contact        contact(surface, constraints, parameters);
+   * ContactStatics statics(system, contact);
+   * statics.run(LoadSteps::equal(10));
+   * @endcode
    *
    * Lifetime: the surface and the constraints must outlive this object.
    */

@@ -51,6 +51,15 @@ namespace NMM
    * the constructor of ManifoldMesh, or by make_own_meshes() if regions may be smaller than cells;
    * number the unknowns by a CoverSystem; treat covers with little support by aggregate() or
    * make_ghost_penalty().
+   * @code
+   * RegularMeshParameters parameters;
+   * parameters.cell_size = 0.1;
+   * const MathematicalMesh triangles = make_regular_mesh(solid, parameters, 2);
+   * const ManifoldMesh     elements(triangles, solid);
+   * CoverSystem            covers(elements, MPI_COMM_WORLD);
+   * const Aggregation      aggregation = aggregate(covers);
+   * const auto             constraints = make_constraints(covers, aggregation, 2);
+   * @endcode
    */
   class MathematicalMesh
   {

@@ -19,6 +19,17 @@ namespace NMM
    * Order of calls: add() and the other functions that add, or read_geometry(); then clean() if
    * end points do not coincide; then the constructor of PhysicalMesh, which checks the description
    * and finds regions and blocks.
+   *
+   * A square with a hole and a joint through both:
+   * @code
+   * Geometry geometry;
+   * geometry.add_polygon({Point<2>(0., 0.), Point<2>(1., 0.), Point<2>(1., 1.), Point<2>(0., 1.)},
+   *                      "outline");
+   * geometry.add_circle(Point<2>(0.5, 0.5), 0.2, "bore", CurveRole::hole);
+   * geometry.add_polyline({Point<2>(-1., 0.5), Point<2>(2., 0.5)}, "joint", CurveRole::joint);
+   * const PhysicalMesh solid(std::move(geometry));
+   * std::cout << solid.n_blocks() << " blocks" << std::endl;
+   * @endcode
    */
   class Geometry
   {

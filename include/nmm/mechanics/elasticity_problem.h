@@ -39,7 +39,8 @@
  * elasticity.assemble();
  * elasticity.solve(LinearSolverParameters());
  * DisplacementField field(covers, problem, elasticity.solution());
- *
+ * @endcode
+ * @code
  * FiniteElasticity elasticity(covers, quadrature, constraints, problem);
  * NonlinearStatics statics(elasticity);
  * statics.run(LoadSteps::equal(10));

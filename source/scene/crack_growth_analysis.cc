@@ -284,7 +284,11 @@ namespace NMM
       }
       for (GrowingTip &tip : tips)
       {
-        grown_length += tip.tip.point.distance(tip.extension.end);
+        const Tensor<1, 2> &e = tip.tip.direction,
+                           d  = tip.extension.end - tip.tip.point;
+        grown_length += d.norm();
+        // that of the last trial, after which it may have been turned once more
+        tip.angle = std::atan2(e[0] * d[1] - e[1] * d[0], e * d);
         increments.push_back({static_cast<unsigned int>(states.size()),
                               states.back().load_factor,
                               tip});

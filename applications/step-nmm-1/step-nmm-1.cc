@@ -211,8 +211,6 @@ namespace StepNMM1
     const NMM::StressRecovery recovery(field, aggregation);
     clock.lap("recovery");
 
-
-
     // Covers with too little support are expressed through others: they have
     // rows in the matrix, but are no unknowns.
     result.n_constrained = 2 * aggregation.cover_to_root.size();

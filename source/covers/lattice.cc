@@ -90,7 +90,6 @@ namespace NMM
     }
 
 
-
     namespace
     {
       enum class ParallelogramState : unsigned char

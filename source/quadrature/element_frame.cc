@@ -46,7 +46,6 @@ namespace NMM
     } // namespace
 
 
-
     std::array<double, 2>
     ElementFrame::real_to_scaled(const dealii::Point<2> &x) const
     {
@@ -55,7 +54,6 @@ namespace NMM
       return {{apply_row(real_to_scaled_matrix[0], d).hi,
                apply_row(real_to_scaled_matrix[1], d).hi}};
     }
-
 
 
     void
@@ -92,7 +90,6 @@ namespace NMM
       else
         axis = dealii::Tensor<1, 2>();
     }
-
 
 
     std::array<std::array<double, 2>, 2>
@@ -149,7 +146,6 @@ namespace NMM
     }
 
 
-
     void
     ElementFrame::set_cell(const CellFrame &cell)
     {
@@ -188,7 +184,6 @@ namespace NMM
     }
 
 
-
     void
     ElementFrame::set_resolution(
       const dealii::ArrayView<const ElementEdge> &edges,
@@ -217,7 +212,6 @@ namespace NMM
         2. * (std::abs(to_reference[0][0]) + std::abs(to_reference[1][0]));
       resolution = 2. * std::max(real, epsilon * length * area_ratio);
     }
-
 
 
     bool

@@ -24,7 +24,6 @@ namespace NMM
   }
 
 
-
   CellFrame
   cell_frame(const MathematicalMesh &mesh, const unsigned int cell)
   {
@@ -93,7 +92,6 @@ namespace NMM
     }
     return rule;
   }
-
 
 
   dealii::NonMatching::ImmersedSurfaceQuadrature<2>

@@ -20,7 +20,6 @@ namespace NMM
   } // namespace
 
 
-
   struct ElementRuleBuilder::Data
   {
     explicit Data(const unsigned int degree)
@@ -62,7 +61,6 @@ namespace NMM
   };
 
 
-
   ElementRuleBuilder::ElementRuleBuilder(const unsigned int degree)
     : data(std::make_unique<Data>(degree))
   {
@@ -73,12 +71,10 @@ namespace NMM
   }
 
 
-
   ElementRuleBuilder::~ElementRuleBuilder() = default;
 
   ElementRuleBuilder::ElementRuleBuilder(ElementRuleBuilder &&) noexcept =
     default;
-
 
 
   bool
@@ -88,13 +84,11 @@ namespace NMM
   }
 
 
-
   unsigned int
   ElementRuleBuilder::n_attempts() const
   {
     return data->n_attempts;
   }
-
 
 
   bool
@@ -127,7 +121,6 @@ namespace NMM
   }
 
 
-
   void
   ElementRuleBuilder::Data::keep_if_best(const double error)
   {
@@ -145,7 +138,6 @@ namespace NMM
   }
 
 
-
   dealii::Quadrature<2>
   ElementRuleBuilder::Data::result() const
   {
@@ -153,7 +145,6 @@ namespace NMM
              ? dealii::Quadrature<2>()
              : dealii::Quadrature<2>(best_points, best_weights);
   }
-
 
 
   dealii::Quadrature<2>

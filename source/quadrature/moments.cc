@@ -21,7 +21,6 @@ namespace NMM
     }
 
 
-
     void
     LegendreBasis::evaluate(const std::vector<double> &s1,
                             const std::vector<double> &s2,
@@ -63,7 +62,6 @@ namespace NMM
     }
 
 
-
     void
     LegendreBasis::add_boundary_point(const double         s1,
                                       const double         s2,
@@ -87,7 +85,6 @@ namespace NMM
         for (unsigned int j = 0; j <= total; ++j)
           *moment++ += antiderivative[total - j] * p2[j];
     }
-
 
 
     double
@@ -135,7 +132,6 @@ namespace NMM
         }
       return scale;
     }
-
 
 
     // The numbers were found by comparison with many more points, for products of Legendre

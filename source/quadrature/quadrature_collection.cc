@@ -35,7 +35,6 @@ namespace NMM
   }
 
 
-
   std::vector<dealii::Point<2>>
   ElementRule::get_points() const
   {
@@ -44,7 +43,6 @@ namespace NMM
       result[q] = point(q);
     return result;
   }
-
 
 
   std::vector<double>
@@ -57,13 +55,11 @@ namespace NMM
   }
 
 
-
   ElementRule::operator dealii::Quadrature<2>() const
   {
     return size() == 0 ? dealii::Quadrature<2>()
                        : dealii::Quadrature<2>(get_points(), get_weights());
   }
-
 
 
   namespace
@@ -88,7 +84,6 @@ namespace NMM
         dealii::parallel::apply_to_subranges(0U, n, action, grain);
     }
   } // namespace
-
 
 
   QuadratureCollection::QuadratureCollection(
@@ -117,7 +112,6 @@ namespace NMM
   }
 
 
-
   void
   QuadratureCollection::divide(const unsigned int degree,
                                const unsigned int begin,
@@ -141,7 +135,6 @@ namespace NMM
                              : divided + static_cast<unsigned int>(kind);
     }
   }
-
 
 
   void
@@ -187,7 +180,6 @@ namespace NMM
   }
 
 
-
   ElementRule
   QuadratureCollection::rule(const unsigned int element) const
   {
@@ -216,7 +208,6 @@ namespace NMM
   }
 
 
-
   double
   QuadratureCollection::area_fraction(const unsigned int element) const
   {
@@ -230,7 +221,6 @@ namespace NMM
       area += element_rule.weight(q);
     return std::min(2. * area, 1.);
   }
-
 
 
   unsigned int

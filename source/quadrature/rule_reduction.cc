@@ -26,7 +26,6 @@ namespace NMM
     } // namespace
 
 
-
     void
     RuleReduction::make_tableau(const std::vector<double> &values,
                                 const std::vector<double> &weights,
@@ -81,7 +80,6 @@ namespace NMM
     }
 
 
-
     // The smallest (delta_B, delta_N) with delta_B + T delta_N = b is
     // delta_B = y, delta_N = T^T y, where (I + T T^T) y = b. This matrix is positive
     // definite with eigenvalues >= 1 for any points.
@@ -133,7 +131,6 @@ namespace NMM
     }
 
 
-
     void
     RuleReduction::pivot(const std::size_t i, const std::size_t column)
     {
@@ -150,7 +147,6 @@ namespace NMM
       columns[i] = columns[column];
       u[i]       = u[column];
     }
-
 
 
     void
@@ -194,7 +190,6 @@ namespace NMM
     }
 
 
-
     double
     RuleReduction::residual_of(const std::vector<double> &values,
                                const std::vector<double> &moments,
@@ -214,7 +209,6 @@ namespace NMM
       }
       return largest;
     }
-
 
 
     bool
@@ -290,7 +284,6 @@ namespace NMM
     }
 
 
-
     // There are as many equations as unknowns, or a few more. They are solved by Gauss elimination
     // with pivoting over rows if the pivots are good, else by least squares without the
     // directions that only round-off determines.
@@ -359,7 +352,6 @@ namespace NMM
         Eigen::Map<const Eigen::VectorXd>(residual.data(), n));
       solution.assign(x.data(), x.data() + p);
     }
-
 
 
     double

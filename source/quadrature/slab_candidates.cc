@@ -43,7 +43,6 @@ namespace NMM
     } // namespace
 
 
-
     const GaussTable::Rule &
     GaussTable::rule(const unsigned int n_points)
     {
@@ -61,7 +60,6 @@ namespace NMM
       }
       return rule;
     }
-
 
 
     // The root t = tan(tau/2) of s_1(tau) = s is that of the quadratic
@@ -90,7 +88,6 @@ namespace NMM
     }
 
 
-
     double
     SlabCandidates::Piece::height(const double s) const
     {
@@ -103,7 +100,6 @@ namespace NMM
     }
 
 
-
     double
     SlabCandidates::Piece::arc_speed(const double s) const
     {
@@ -112,7 +108,6 @@ namespace NMM
       return std::abs(edge->sine_axis[0] * ((1. - t * t) * inverse) -
                       edge->cosine_axis[0] * (2. * t * inverse));
     }
-
 
 
     void
@@ -127,7 +122,6 @@ namespace NMM
       pieces.push_back(
         {&edge, left, right, is_bottom, t_min, t_max, slope_sign});
     }
-
 
 
     void
@@ -199,7 +193,6 @@ namespace NMM
     }
 
 
-
     bool
     SlabCandidates::add_point(const ElementFrame          &frame,
                               const Piece                 &bottom,
@@ -238,7 +231,6 @@ namespace NMM
       }
       return false;
     }
-
 
 
     void
@@ -287,7 +279,6 @@ namespace NMM
     }
 
 
-
     void
     SlabCandidates::fill_slab(const ElementFrame &frame,
                               const double        left,
@@ -329,7 +320,6 @@ namespace NMM
                          gauss);
       }
     }
-
 
 
     void

@@ -57,7 +57,6 @@ namespace NMM
   }
 
 
-
   void
   TimeDependence::list_entries(Entries &entries, const bool may_be_released)
   {

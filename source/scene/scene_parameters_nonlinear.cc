@@ -15,7 +15,6 @@ namespace NMM
   using namespace internal;
 
 
-
   void
   LoadStepParameters::list_entries(Entries &entries)
   {

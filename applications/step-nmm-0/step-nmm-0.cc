@@ -1,8 +1,9 @@
 // step-nmm-0: a plate with a hole, with the weak form in sight.
 //
 // Who knows deal.II's step-8 finds the same program here: linear elasticity, assembled by
-// hand with FEValues. What differs is marked by the word "cut": the triangles know nothing
-// of the hole, the curves of the plate cut them, and the loop runs over what is left.
+// hand with FEValues. Two things differ: the triangles know nothing of the hole, so that the
+// loop runs over what the curves of the plate leave of them; and no node lies on a side, so
+// that displacements are prescribed in the weak form.
 
 // @sect3{Include files}
 
@@ -197,9 +198,8 @@ namespace StepNMM0
     Vector<double>       right_hand_side(n_unknowns), solution(n_unknowns);
 
     // The loop over the elements. FEValues is made anew for each, with its rule, and works on the
-    // whole cell as ever. Sides of the plate are edges of an element that lie on a curve.
-    const UpdateFlags flags = update_values | update_gradients |
-                              update_quadrature_points | update_JxW_values;
+    // whole cell as ever. Sides of the plate are edges of an element that lie on a curve; the hole
+    // is free of traction, and adds nothing.
     FullMatrix<double> cell_matrix(fe.n_dofs_per_cell(), fe.n_dofs_per_cell());
     Vector<double>     cell_rhs(fe.n_dofs_per_cell());
     for (unsigned int element = 0; element < elements.n_elements(); ++element)
@@ -210,7 +210,7 @@ namespace StepNMM0
       FEValues<2> fe_values(triangles.mapping(),
                             fe,
                             quadrature.rule(element),
-                            flags);
+                            update_gradients | update_JxW_values);
       fe_values.reinit(cell);
       add_volume_terms(fe_values, cell_matrix);
 
@@ -221,7 +221,7 @@ namespace StepNMM0
         const unsigned int piece = elements.curve_set(edge.curve_set)[0];
         const std::string &name =
           plate.curves()[plate.piece_to_curve()[piece]].name;
-        if (name == "bore")
+        if (name != "left" && name != "other")
           continue;
         const NMM::EdgeRule rule =
           NMM::make_edge_rule(edge,
@@ -231,7 +231,8 @@ namespace StepNMM0
         FEValues<2> side_values(triangles.mapping(),
                                 fe,
                                 Quadrature<2>(rule.points),
-                                flags);
+                                update_values | update_gradients |
+                                  update_quadrature_points);
         side_values.reinit(cell);
         add_side_terms(
           side_values, rule, name == "left", cell_matrix, cell_rhs);

@@ -1,8 +1,8 @@
 // step-nmm-5: crack tips, intensity factors, and cracks that grow.
 //
-// A crack is an open joint that ends inside a block. The mesh knows nothing of it, so a crack
-// that grows needs no new mesh around it but only a longer joint: the loop that lets it grow is
-// a few lines, and it is on this page.
+// A crack is an open joint that ends inside a block. The mesh does not follow its faces, and becomes
+// fine towards its tip by itself. So a crack that grows is a longer joint, and the loop that lets it
+// grow is a few lines, on this page.
 
 // @sect3{Include files}
 

@@ -204,15 +204,20 @@ namespace StepNMM0
     Vector<double>     cell_rhs(fe.n_dofs_per_cell());
     for (unsigned int element = 0; element < elements.n_elements(); ++element)
     {
-      cell_matrix      = 0.;
-      cell_rhs         = 0.;
-      const auto  cell = triangles.cell_iterator(elements.cell(element));
-      FEValues<2> fe_values(triangles.mapping(),
-                            fe,
-                            quadrature.rule(element),
-                            update_gradients | update_JxW_values);
-      fe_values.reinit(cell);
-      add_volume_terms(fe_values, cell_matrix);
+      cell_matrix     = 0.;
+      cell_rhs        = 0.;
+      const auto cell = triangles.cell_iterator(elements.cell(element));
+      // an element whose area rounds to zero has no points
+      const Quadrature<2> element_rule = quadrature.rule(element);
+      if (element_rule.size() > 0)
+      {
+        FEValues<2> fe_values(triangles.mapping(),
+                              fe,
+                              element_rule,
+                              update_gradients | update_JxW_values);
+        fe_values.reinit(cell);
+        add_volume_terms(fe_values, cell_matrix);
+      }
 
       for (const NMM::ElementEdge &edge : elements.edges(element))
       {
@@ -228,6 +233,8 @@ namespace StepNMM0
                               NMM::cell_frame(triangles,
                                               elements.cell(element)),
                               /* degree = */ 6);
+        if (rule.points.empty())
+          continue;
         FEValues<2> side_values(triangles.mapping(),
                                 fe,
                                 Quadrature<2>(rule.points),

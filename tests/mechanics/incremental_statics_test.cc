@@ -147,7 +147,7 @@ TEST(IncrementalStatics, FailsWithAReason)
   steps.max_displacement = 0.;
   EXPECT_THROW(statics.run(steps), InputError);
   steps              = {};
-  steps.load_factors = {1., 0.5};
+  steps.load_factors = {1., 1.};
   EXPECT_THROW(statics.run(steps), InputError);
   steps.load_factors = {0.01};
   statics.run(steps);

@@ -72,14 +72,13 @@ namespace NMM
     class InteractionIntegrals
     {
     public:
-      InteractionIntegrals(const CoverSystem               &covers,
-                           const ElasticityProblem         &problem,
-                           const CrackTip                  &tip,
-                           const std::vector<double>       &radii,
-                           const ElementDisplacement       &displacement,
-                           const ElementGradient           &gradient,
-                           const FaceTraction              &face_traction,
-                           const std::vector<ContactForce> &contact_forces)
+      InteractionIntegrals(const CoverSystem         &covers,
+                           const ElasticityProblem   &problem,
+                           const CrackTip            &tip,
+                           const std::vector<double> &radii,
+                           const ElementDisplacement &displacement,
+                           const ElementGradient     &gradient,
+                           const TipLoading          &loading)
         : covers(covers)
         , mesh(covers.manifold_mesh())
         , problem(problem)
@@ -89,8 +88,7 @@ namespace NMM
         , largest_radius(*std::max_element(radii.begin(), radii.end()))
         , displacement(displacement)
         , gradient(gradient)
-        , face_traction(face_traction)
-        , contact_forces(contact_forces)
+        , loading(loading)
         , material(problem.materials[problem.region_to_material(
             mesh.physical_mesh())[tip.region]])
         , elasticity(material.plane_elasticity(problem.plane_state))
@@ -120,8 +118,9 @@ namespace NMM
       {
         if (is_bent)
           find_displacement_of_tip();
-        const bool  has_faces = face_traction || !pressures.empty() || is_bent;
-        const auto &cells     = mesh.mathematical_mesh();
+        const bool has_faces =
+          loading.face_traction || !pressures.empty() || is_bent;
+        const auto &cells        = mesh.mathematical_mesh();
         const auto [first, last] = covers.locally_owned_elements();
         for (unsigned int element = first; element < last; ++element)
         {
@@ -149,18 +148,17 @@ namespace NMM
       /// The fields are those of opening, of sliding, and of the point force.
       static constexpr unsigned int n_fields = 3;
 
-      const CoverSystem               &covers;
-      const ManifoldMesh              &mesh;
-      const ElasticityProblem         &problem;
-      const CrackTip                  &tip;
-      const std::vector<double>       &radii;
-      const double                     smallest_radius, largest_radius;
-      const ElementDisplacement       &displacement;
-      const ElementGradient           &gradient;
-      const FaceTraction              &face_traction;
-      const std::vector<ContactForce> &contact_forces;
-      const Material                  &material;
-      const PlaneElasticity            elasticity;
+      const CoverSystem         &covers;
+      const ManifoldMesh        &mesh;
+      const ElasticityProblem   &problem;
+      const CrackTip            &tip;
+      const std::vector<double> &radii;
+      const double               smallest_radius, largest_radius;
+      const ElementDisplacement &displacement;
+      const ElementGradient     &gradient;
+      const TipLoading          &loading;
+      const Material            &material;
+      const PlaneElasticity      elasticity;
       /// Matrix whose columns are the axes of the tip's frame.
       const Tensor<2, 2>                   frame;
       const SymmetricTensor<2, 2>          initial_stress;
@@ -199,8 +197,8 @@ namespace NMM
                   const std::vector<unsigned int> &on) const
       {
         Tensor<1, 2> traction;
-        if (face_traction)
-          traction = face_traction(x, normal);
+        if (loading.face_traction)
+          traction = loading.face_traction(x, normal);
         for (const auto &[curve, condition] : pressures)
           if (std::find(on.begin(), on.end(), curve) != on.end())
             traction -= condition->value->value(x) * normal;
@@ -262,7 +260,7 @@ namespace NMM
                         return cells.vertices()[v].distance(tip.point) <
                                plateau * smallest_radius;
                       });
-        if (is_on_plateau && !problem.body_force)
+        if (is_on_plateau && !problem.body_force && !loading.acceleration)
           return;
 
         const double          determinant = 2. * cells.cell_area(cell);
@@ -278,14 +276,32 @@ namespace NMM
           if (r < largest_radius && r > 0.)
             add_area_point(x,
                            in_frame(gradient(element, rule.point(p))),
+                           varying_force(element, rule.point(p), x),
                            determinant * rule.weight(p));
         }
+      }
+
+
+      /// Body force without that at the tip, and with inertia [N/m^3], in the tip's frame.
+      Tensor<1, 2>
+      varying_force(const unsigned int element,
+                    const Point<2>    &xi,
+                    const Point<2>    &x) const
+      {
+        Tensor<1, 2> force;
+        if (problem.body_force)
+          force = body_force(x) - force_at_tip;
+        if (loading.acceleration)
+          force -=
+            material.density * in_frame(loading.acceleration(element, xi));
+        return force;
       }
 
 
       void
       add_area_point(const Point<2>     &x,
                      const Tensor<2, 2> &du,
+                     const Tensor<1, 2> &varying_force,
                      const double        weight)
       {
         const Tensor<1, 2>          ray = in_frame(x - tip.point);
@@ -293,9 +309,6 @@ namespace NMM
         const Tensor<1, 2>          du_1({du[0][0], du[1][0]});
         const SymmetricTensor<2, 2> stress =
           elasticity.stress(du) + initial_stress;
-        Tensor<1, 2> varying_force;
-        if (problem.body_force)
-          varying_force = body_force(x) - force_at_tip;
         const auto fields_here = fields_at(x);
         for (unsigned int f = 0; f < n_fields; ++f)
         {
@@ -403,7 +416,7 @@ namespace NMM
       void
       add_contact_forces()
       {
-        if (contact_forces.empty())
+        if (loading.contact_forces.empty())
           return;
         const Tensor<1, 2> upwards =
           Point<2>(-tip.direction[1], tip.direction[0]);
@@ -415,7 +428,7 @@ namespace NMM
                                  tip.point.distance(tip.path.front().end)));
         // This is the force on the lower face, whose normal points upwards.
         std::vector<Tensor<1, 2>> near_force(radii.size());
-        for (const ContactForce &contact : contact_forces)
+        for (const ContactForce &contact : loading.contact_forces)
         {
           const double r = contact.x.distance(tip.point);
           if (r >= largest_radius || r == 0.)
@@ -517,14 +530,13 @@ namespace NMM
 
 
   std::vector<IntensityFactors>
-  interaction_integrals(const CoverSystem               &covers,
-                        const ElasticityProblem         &problem,
-                        const CrackTip                  &tip,
-                        const std::vector<double>       &radii,
-                        const ElementDisplacement       &displacement,
-                        const ElementGradient           &gradient,
-                        const FaceTraction              &face_traction,
-                        const std::vector<ContactForce> &contact_forces)
+  interaction_integrals(const CoverSystem         &covers,
+                        const ElasticityProblem   &problem,
+                        const CrackTip            &tip,
+                        const std::vector<double> &radii,
+                        const ElementDisplacement &displacement,
+                        const ElementGradient     &gradient,
+                        const TipLoading          &loading)
   {
     for (const double radius : radii)
       AssertThrow(radius > 0. && radius <= tip.free_radius,
@@ -535,24 +547,18 @@ namespace NMM
                                std::to_string(tip.free_radius) +
                                " m, where something else than the crack "
                                "begins"));
-    return InteractionIntegrals(covers,
-                                problem,
-                                tip,
-                                radii,
-                                displacement,
-                                gradient,
-                                face_traction,
-                                contact_forces)
+    return InteractionIntegrals(
+             covers, problem, tip, radii, displacement, gradient, loading)
       .evaluate();
   }
 
 
   IntensityFactors
-  compute_intensity_factors(const DisplacementField         &field,
-                            const ElasticityProblem         &problem,
-                            const CrackTip                  &tip,
-                            const double                     largest_radius,
-                            const std::vector<ContactForce> &contact_forces)
+  compute_intensity_factors(const DisplacementField &field,
+                            const ElasticityProblem &problem,
+                            const CrackTip          &tip,
+                            const double             largest_radius,
+                            const TipLoading        &loading)
   {
     const double largest =
       largest_radius > 0. ? largest_radius : 0.9 * tip.free_radius;
@@ -570,8 +576,7 @@ namespace NMM
       [&](const unsigned int element, const Point<2> &xi) {
         return field.gradient(element, xi);
       },
-      {},
-      contact_forces);
+      loading);
     IntensityFactors result = of_disks.front();
     for (const IntensityFactors &other : of_disks)
       result.spread = std::max({result.spread,

@@ -55,9 +55,9 @@ namespace NMM
 
 
     void
-    CrackTips::compute(const DisplacementField         &field,
-                       const ElasticityProblem         &problem,
-                       const std::vector<ContactForce> &contact_forces)
+    CrackTips::compute(const DisplacementField &field,
+                       const ElasticityProblem &problem,
+                       const TipLoading        &loading)
     {
       factors.clear();
       for (const CrackTip &tip : tips)
@@ -67,7 +67,7 @@ namespace NMM
           problem,
           tip,
           std::min(scene.parameters().fracture.radius, tip.free_radius),
-          contact_forces));
+          loading));
     }
 
 

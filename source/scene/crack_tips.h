@@ -35,12 +35,11 @@ namespace NMM
       const std::vector<IntensityFactors> &
       all_factors() const;
 
-      /// Computes the intensity factors of all tips from the solution. @p contact_forces is as in
-      /// interaction_integrals(). Collective.
+      /// Computes the intensity factors of all tips from the solution. Collective.
       void
-      compute(const DisplacementField         &field,
-              const ElasticityProblem         &problem,
-              const std::vector<ContactForce> &contact_forces = {});
+      compute(const DisplacementField &field,
+              const ElasticityProblem &problem,
+              const TipLoading        &loading = {});
 
       /// Lines for the report with the intensity factors of the first few tips.
       std::vector<std::string>

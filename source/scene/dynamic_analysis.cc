@@ -49,18 +49,16 @@ namespace NMM
     {
       const SceneParameters &parameters = scene.parameters();
       const Kinematics       kinematics = parameters.model.kinematics;
-      Loading                loading    = scene.make_loading();
+      loading                           = scene.make_loading();
 
       elasticity = std::make_unique<FiniteElasticity>(
         *covers, *quadrature, constraints, problem, /* may_float = */ true);
       if (kinematics == Kinematics::finite)
-        model = std::make_unique<FiniteModel>(*elasticity,
-                                              *mass_quadrature,
-                                              std::move(loading));
+        model =
+          std::make_unique<FiniteModel>(*elasticity, *mass_quadrature, loading);
       else
-        model = std::make_unique<SmallModel>(*elasticity,
-                                             *mass_quadrature,
-                                             std::move(loading));
+        model =
+          std::make_unique<SmallModel>(*elasticity, *mass_quadrature, loading);
 
       if (contact)
         contact_model =
@@ -279,6 +277,9 @@ namespace NMM
         Stage recovery_stage(progress, "stress recovery");
         show();
       }
+      if (crack_tips)
+        for (const std::string &line : crack_tips->description())
+          progress.message("  " + line);
       is_solved = true;
     }
 

@@ -46,6 +46,8 @@ namespace NMM
 
       // Each object refers to those above it.
       std::unique_ptr<QuadratureCollection> mass_quadrature;
+      /// Loads and supports as functions of time.
+      Loading loading;
       /// The objects for small and finite kinematics; null for incremental kinematics.
       std::unique_ptr<FiniteElasticity>      elasticity;
       std::unique_ptr<ElasticModel>          model;
@@ -112,6 +114,16 @@ namespace NMM
 
       void
       open_departures(int continue_after);
+
+      /// The problem with its loads at the present time, and with the inertia force of a moving
+      /// base as a part of gravity.
+      ElasticityProblem
+      problem_now() const;
+
+      /// Computes the intensity factors of all crack tips in the present state, if the scene asks
+      /// for them. Collective.
+      void
+      compute_tips_in_motion();
 
       /// Names of the columns of history.csv after time and step. history_values() are their values
       /// in the state at the end of the step @p record.

@@ -41,7 +41,7 @@ namespace NMM
               "origin [kg m/s]; time and size [s], displacement [m], area [m^2]"
             : "# per unit thickness: energies [J/m], linear momentum [kg/s], "
               "angular momentum about the origin [kg m/s]; time and size [s], "
-              "displacement and error [m]",
+              "displacement and error [m], intensity factors [Pa m^0.5]",
           history_columns(),
           continue_after);
         open_departures(continue_after);
@@ -140,6 +140,9 @@ namespace NMM
         columns.insert(columns.end(), {"blocks_left", "left_energy"});
       if (scene.parameters().time.sleep.speed > 0.)
         columns.push_back("blocks_asleep");
+      if (crack_tips)
+        for (const std::string &column : crack_tips->columns())
+          columns.push_back(column);
       return columns;
     }
 
@@ -183,6 +186,9 @@ namespace NMM
                        account.left});
       if (scene.parameters().time.sleep.speed > 0.)
         values.push_back(integrator->n_asleep());
+      if (crack_tips)
+        for (const double value : crack_tips->numbers())
+          values.push_back(value);
       return values;
     }
 
@@ -190,6 +196,7 @@ namespace NMM
     void
     DynamicAnalysis::write_rows(const StepRecord &record)
     {
+      compute_tips_in_motion();
       const std::vector<double> row = history_values(record);
       std::vector<double>       probe_values;
       if (!probe_history->is_empty())
@@ -327,6 +334,8 @@ namespace NMM
                     length + "^2");
       if (contact)
         contact->add_to_summary(summary);
+      if (crack_tips)
+        crack_tips->add_to(summary);
       if (leaving)
         summary.add("blocks_left", integrator->state().left_blocks.size());
       if (scene.parameters().time.sleep.speed > 0.)

@@ -346,11 +346,11 @@ namespace NMM
     {
       if (!crack_tips)
         return;
-      Stage stage(progress, "intensity factors");
-      crack_tips->compute(*field,
-                          problem,
-                          contact ? contact->forces_on_faces()
-                                  : std::vector<ContactForce>());
+      Stage      stage(progress, "intensity factors");
+      TipLoading loading;
+      if (contact)
+        loading.contact_forces = contact->forces_on_faces();
+      crack_tips->compute(*field, problem, loading);
     }
 
 

@@ -413,14 +413,20 @@ namespace NMM
     if (!fracture.intensity_factors)
       return;
     check(model.kinematics == Kinematics::small &&
-            model.analysis == Analysis::statics,
-          "intensity factors belong to small displacements in equilibrium, not "
-          "to " +
+            (model.analysis == Analysis::statics ||
+             model.analysis == Analysis::dynamics),
+          "intensity factors belong to small displacements in equilibrium or "
+          "motion, not to " +
             to_string(model.kinematics) + " kinematics in a " +
             to_string(model.analysis) + " analysis",
           "Intensity factors",
-          "set 'Model/Kinematics = small' and 'Model/Analysis = static', or "
-          "remove it");
+          "set 'Model/Kinematics = small' and 'Model/Analysis' to static or "
+          "dynamic, or remove it");
+    check(fracture.n_increments == 0 || model.analysis == Analysis::statics,
+          "cracks grow in equilibrium only, not in a " +
+            to_string(model.analysis) + " analysis",
+          "Increments",
+          "remove it, or set 'Model/Analysis = static'");
     check(!has_inelastic_material(),
           "intensity factors are not computed in materials that yield",
           "Intensity factors",

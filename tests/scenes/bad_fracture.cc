@@ -28,7 +28,7 @@ namespace
       cracked + std::vector<std::string>{"Relaxation/Step=0.1",
                                          "Materials/rock/Density=1"},
       "Model/Analysis=relaxation",
-      {"intensity factors", "relaxation", "Model/Analysis = static"});
+      {"intensity factors", "relaxation", "to static or dynamic"});
     expect_rejected_with(
       cracked + std::vector<std::string>{"Model/Plane state=plane strain",
                                          "Materials/rock/Cohesion=1"},
@@ -65,6 +65,12 @@ namespace
             {"initial stress", "Initial stress"});
     rejects("Fracture/Intensity factors=false",
             {"intensity factors", "Fracture/Intensity factors = true"});
+    expect_rejected_with(growing +
+                           std::vector<std::string>{"Time/End time=1",
+                                                    "Time/Initial step=0.1",
+                                                    "Materials/rock/Density=1"},
+                         "Model/Analysis=dynamic",
+                         {"cracks grow", "dynamic", "Fracture/Increments"});
     expect_rejected_with(
       growing + std::vector<std::string>{"Contact/Enforcement=penalty"},
       "Load steps/Load factors=1, 0.5",

@@ -65,6 +65,19 @@ namespace NMM
     std::function<dealii::Tensor<2, 2>(unsigned int, const dealii::Point<2> &)>;
 
 
+  /// What acts on a crack beside the loads of the problem; all of it may be left out.
+  struct TipLoading
+  {
+    /// Traction on the faces, besides the pressures of the problem.
+    FaceTraction face_traction = {};
+    /// Forces where the faces touch; each rank gives its own.
+    std::vector<ContactForce> contact_forces = {};
+    /// Acceleration d^2u/dt^2 [m/s^2] of a solid in motion, a function of the element and of
+    /// reference coordinates in its cell.
+    ElementDisplacement acceleration = {};
+  };
+
+
   /**
    * Intensity factors of a crack tip by interaction integrals in domain form, for each of several
    * disks about the tip. The displacement can be any function.
@@ -109,42 +122,41 @@ namespace NMM
    * times the traction. It is applied at r = (3/8)^2 rho, where a single force has the same
    * integral of w r^(-1/2).
    *
+   * In motion the inertia -rho d^2u/dt^2 is a part of the body force; at the tip it is left in the
+   * part that varies. The factors are those of the crack as it stands still.
+   *
    * Limits: displacements are small, and initial stress is uniform in the region. Within the disk
-   * there is no inertia and no inelastic strain, and no curve but this crack
+   * there is no inelastic strain, no viscous stress, and no curve but this crack
    * (CrackTip::free_radius).
    *
    * Sources: M. Stern, E. Becker, R. Dunham, Int. J. Fract. 12 (1976), 359-368; J. Yau, S. Wang, H.
    * Corten, J. Appl. Mech. 47 (1980), 335-341; the form for bent cracks is derived here.
    *
-   * @p radii are the radii of the disks [m]. @p face_traction acts on the faces in addition to the
-   * pressures of the problem; if it is empty, there is none. Each rank passes its own part of
-   * @p contact_forces. Returns the factors of each disk, with a spread of 0. Collective.
+   * @p radii are the radii of the disks [m]. Returns the factors of each disk, with a spread of 0.
+   * Collective.
    * @throws InputError for a radius larger than the tip's free radius.
    */
   std::vector<IntensityFactors>
-  interaction_integrals(const CoverSystem               &covers,
-                        const ElasticityProblem         &problem,
-                        const CrackTip                  &tip,
-                        const std::vector<double>       &radii,
-                        const ElementDisplacement       &displacement,
-                        const ElementGradient           &gradient,
-                        const FaceTraction              &face_traction  = {},
-                        const std::vector<ContactForce> &contact_forces = {});
+  interaction_integrals(const CoverSystem         &covers,
+                        const ElasticityProblem   &problem,
+                        const CrackTip            &tip,
+                        const std::vector<double> &radii,
+                        const ElementDisplacement &displacement,
+                        const ElementGradient     &gradient,
+                        const TipLoading          &loading = {});
 
 
   /**
    * Intensity factors of a tip from five disks. The factors are those of the largest disk, and
    * IntensityFactors::spread compares all of them. @p largest_radius is the radius of that disk
-   * [m]; 0 stands for 0.9 times the tip's free radius.
-   * @p contact_forces is as in interaction_integrals(). Collective.
+   * [m]; 0 stands for 0.9 times the tip's free radius. Collective.
    */
   IntensityFactors
-  compute_intensity_factors(
-    const DisplacementField         &field,
-    const ElasticityProblem         &problem,
-    const CrackTip                  &tip,
-    double                           largest_radius = 0.,
-    const std::vector<ContactForce> &contact_forces = {});
+  compute_intensity_factors(const DisplacementField &field,
+                            const ElasticityProblem &problem,
+                            const CrackTip          &tip,
+                            double                   largest_radius = 0.,
+                            const TipLoading        &loading        = {});
 } // namespace NMM
 
 #endif

@@ -292,10 +292,10 @@ namespace StepNMM3
 
     // Of two bodies the softer one carries the contact points: the stiff one's
     // boundary bends less from edge to edge.
-    setup.contact.body_ranks.assign(physical_mesh->n_blocks(), 0);
+    setup.contact.slave_priority.assign(physical_mesh->n_blocks(), 0);
     for (const auto &region : physical_mesh->regions())
       if (physical_mesh->material_names()[region.material] == "plate")
-        setup.contact.body_ranks[region.block] = 1;
+        setup.contact.slave_priority[region.block] = 1;
     contact =
       std::make_unique<NMM::Contact>(*surface, constraints, setup.contact);
     statics = std::make_unique<NMM::ContactStatics>(*system, *contact);

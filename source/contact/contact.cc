@@ -66,7 +66,7 @@ namespace NMM
     , parameters(parameters_in)
     , communicator(surface.cover_system().communicator())
     , search(surface,
-             parameters_in.body_ranks,
+             parameters_in.slave_priority,
              parameters_in.integration == ContactIntegration::points)
     , laws((parameters.check(), surface), parameters)
     , has_friction(parameters.has_friction())

@@ -74,7 +74,7 @@ namespace NMM
     {
       // The step went further than the reach of the search.
       ContactSearch further(*surface,
-                            parameters.body_ranks,
+                            parameters.slave_priority,
                             parameters.integration ==
                               ContactIntegration::points);
       surface->set_displacements(&step.nodal_begin);

@@ -66,10 +66,10 @@ namespace NMM
 
 
     ContactSearch::ContactSearch(const ContactSurface     &surface,
-                                 std::vector<unsigned int> body_ranks,
+                                 std::vector<unsigned int> slave_priority,
                                  const bool                only_vertices)
       : surface(&surface)
-      , ranks(std::move(body_ranks))
+      , ranks(std::move(slave_priority))
       , only_vertices(only_vertices)
       , masters_begin(1, 0)
     {

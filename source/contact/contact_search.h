@@ -106,10 +106,9 @@ namespace NMM
     class ContactSearch
     {
     public:
-      /// @p body_ranks: rank of each body, see ContactParameters; if it is empty, the number of the
-      /// body. @p only_vertices: whether only corners are slaves, the ends of arcs among them.
+      /// @p slave_priority: see ContactParameters. @p only_vertices: whether only corners are slaves, the ends of arcs among them.
       ContactSearch(const ContactSurface     &surface,
-                    std::vector<unsigned int> body_ranks,
+                    std::vector<unsigned int> slave_priority,
                     bool                      only_vertices = false);
       ~ContactSearch();
 

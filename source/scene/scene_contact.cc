@@ -240,10 +240,10 @@ namespace NMM
       parameters.penetration_tolerance = section.penetration_tolerance > 0.
                                            ? section.penetration_tolerance
                                            : 1e-5 * size;
-    parameters.reach       = section.reach;
-    parameters.n_points    = section.n_points;
-    parameters.integration = section.integration;
-    parameters.body_ranks  = ranks(moduli);
+    parameters.reach          = section.reach;
+    parameters.n_points       = section.n_points;
+    parameters.integration    = section.integration;
+    parameters.slave_priority = ranks(moduli);
     return parameters;
   }
 

@@ -46,15 +46,15 @@ namespace
     ContactParameters parameters = contact_parameters(10. * young / 0.3);
     if (c.augmented)
       parameters.penetration_tolerance = 1e-13;
-    parameters.body_ranks.resize(bodies.physical_mesh.n_blocks());
-    std::vector<double> heights(parameters.body_ranks.size(), 0.);
+    parameters.slave_priority.resize(bodies.physical_mesh.n_blocks());
+    std::vector<double> heights(parameters.slave_priority.size(), 0.);
     // ranks by height
     for (unsigned int e = 0; e < bodies.mesh.n_elements(); ++e)
       heights[bodies.mesh.block(e)] =
         std::max(heights[bodies.mesh.block(e)], bodies.inner_point(e)[1]);
     for (unsigned int b = 0; b < heights.size(); ++b)
       for (unsigned int a = 0; a < heights.size(); ++a)
-        parameters.body_ranks[b] +=
+        parameters.slave_priority[b] +=
           c.upper_is_slave ? heights[a] > heights[b] : heights[a] < heights[b];
     return parameters;
   }

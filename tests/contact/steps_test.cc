@@ -508,8 +508,8 @@ namespace
                            is_standing = block_at(standing + 0.5 * along(65.)),
                            is_leaning  = block_at(leaning + 0.2 * along(140.));
         ContactParameters parameters   = contact_parameters(stiffness, reach);
-        parameters.body_ranks.assign(3, 1);
-        parameters.body_ranks[is_below] = rank_below;
+        parameters.slave_priority.assign(3, 1);
+        parameters.slave_priority[is_below] = rank_below;
         bodies.start(parameters);
         const auto sunk_by = [&](const double way, const bool is_there) {
           return bodies.interpolate(

@@ -477,7 +477,7 @@ namespace
         const double       k,
         const double       c,
         const double       f,
-        const bool         are_told_apart)
+        const bool         knows_blocks)
       : k(k)
       , c(c)
       , f(f)
@@ -487,7 +487,7 @@ namespace
       {
         for (unsigned int j = i == 0 ? 0 : i - 1; j < std::min(n, i + 2); ++j)
           pattern.add(i, j);
-        if (are_told_apart)
+        if (knows_blocks)
           blocks.push_back(i);
       }
       const dealii::IndexSet all = dealii::complete_index_set(n);
@@ -573,11 +573,11 @@ namespace
   RowResult
   solve_row(const double k,
             const double c,
-            const bool   are_told_apart,
+            const bool   knows_blocks,
             const double residual_tolerance = 1e-9)
   {
     constexpr unsigned int  n = 64;
-    Row                     system(n, k, c, 1010., are_told_apart);
+    Row                     system(n, k, c, 1010., knows_blocks);
     NonlinearSystem::Vector u(dealii::complete_index_set(n), MPI_COMM_SELF);
     dealii::AffineConstraints<double> constraints;
     constraints.close();
@@ -618,7 +618,7 @@ namespace
 
 
   // Forces are small enough from the begin, but not what they would do.
-  TEST(Newton, WhatIsQuietIsCorrectedUntilItsEnergyIs)
+  TEST(Newton, InactiveBlocksAreCorrectedUntilTheirEnergyConverges)
   {
     const RowResult loose = solve_row(300., 10., true, 1e6);
     ASSERT_TRUE(loose.report.converged) << loose.report.reason;

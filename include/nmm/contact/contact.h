@@ -51,10 +51,10 @@ namespace NMM
     unsigned int n_points = 4;
     /// Whether springs act per length of a face or at vertices only.
     ContactIntegration integration = ContactIntegration::length;
-    /// Rank of each block: of two blocks the one with the lower rank is the slave, which carries
-    /// the contact points. The softer or finer block is the better slave. If this is empty, the
-    /// number of a block is its rank.
-    std::vector<unsigned int> body_ranks;
+    /// Priority of each block as the slave: of two blocks the one with the lower number is the slave,
+    /// which carries the contact points. The softer or finer block is the better slave. If this is
+    /// empty, it is the number of the block.
+    std::vector<unsigned int> slave_priority;
     /// Whether assemblies of a time step skip points that cannot touch anything within it.
     /// This saves time and changes no result.
     bool skip_clear_points = true;

@@ -106,7 +106,8 @@ namespace NMM
     class ContactSearch
     {
     public:
-      /// @p slave_priority: see ContactParameters. @p only_vertices: whether only corners are slaves, the ends of arcs among them.
+      /// @p slave_priority: see ContactParameters. @p only_vertices: whether only corners are slaves,
+      /// the ends of arcs among them.
       ContactSearch(const ContactSurface     &surface,
                     std::vector<unsigned int> slave_priority,
                     bool                      only_vertices = false);

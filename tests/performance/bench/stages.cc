@@ -194,9 +194,9 @@ namespace NMM
              "as on one, and its memory is there as many times as there are "
              "ranks.\n\n"
              "| | ranks | total [s] | made by every rank [s] | quadrature | "
-             "sparsity | assembly | "
+             "sparsity | assembly | ordering | "
              "factorization | solution | peak MB, all ranks |\n"
-             "|---|---|---|---|---|---|---|---|---|---|\n";
+             "|---|---|---|---|---|---|---|---|---|---|---|\n";
       for (const Row &row : members)
         out << "| " << row.solver << ", " << text_of(row.unknowns)
             << " unknowns | " << text_of(row.ranks) << " | "

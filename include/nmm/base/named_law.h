@@ -28,10 +28,10 @@ namespace NMM
     /// Whether the value is the number in the scene or its tangent.
     Kind kind;
     /// Help text of the entry, with its unit.
-    std::string documentation,
-      /// Advice in the message if a scene gives a number that is negative, not finite, or an
-      /// angle of 90 degrees or more.
-      remedy;
+    std::string documentation;
+    /// Advice in the message if a scene gives a number that is negative, not finite, or an
+    /// angle of 90 degrees or more.
+    std::string remedy;
   };
 
 
@@ -40,9 +40,9 @@ namespace NMM
   struct NamedLaw
   {
     /// The word in scenes that chooses this law.
-    std::string name,
-      /// Part of the help text that says what the law does.
-      documentation;
+    std::string name;
+    /// Part of the help text that says what the law does.
+    std::string documentation;
     /// The law with default parameters; never null.
     std::shared_ptr<const Law> law;
   };

@@ -79,10 +79,9 @@ namespace NMM
     /// Residual friction angle phi_r [degrees], from 0 up to below 70.
     double residual_angle = 0.;
     /// Length L_0 of the samples [m].
-    double
-      sample_length = 0.1,
-      /// Length L_n of the joint [m]; if it equals L_0 there is no scale correction.
-      joint_length = 0.1;
+    double sample_length = 0.1;
+    /// Length L_n of the joint [m]; if it equals L_0 there is no scale correction.
+    double joint_length = 0.1;
     /// Largest closure d_m of the hyperbola [m]; 0 selects a linear spring.
     double largest_closure = 0.;
     /// Number by which the strength is divided [-], see reduce_strength().

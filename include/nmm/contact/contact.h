@@ -24,9 +24,9 @@ namespace NMM
   struct ContactPair
   {
     /// Name of a curve or obstacle on one side; empty stands for any.
-    std::string first,
-      /// Name of a curve or obstacle on the other side; empty stands for any.
-      second;
+    std::string first;
+    /// Name of a curve or obstacle on the other side; empty stands for any.
+    std::string second;
     /// Law of this pair; must not be null.
     std::shared_ptr<const ContactLaw> law;
   };
@@ -103,11 +103,10 @@ namespace NMM
     /// Gap at which the pressure vanishes, where dilation has opened the faces [m].
     double opening = 0.;
     /// Normal force per reference length of the slave, positive for compression [Pa].
-    double
-      pressure = 0.,
-      /// Tangential force per reference length of the slave [Pa], positive if it pushes the
-      /// master in the direction of increasing t.
-      shear = 0.;
+    double pressure = 0.;
+    /// Tangential force per reference length of the slave [Pa], positive if it pushes the
+    /// master in the direction of increasing t.
+    double shear = 0.;
     /// State in the last assembly.
     ContactState state = ContactState::open;
     /// Shear that the spring would exert if its strength were not limited [Pa].
@@ -134,14 +133,13 @@ namespace NMM
   struct ContactReport
   {
     /// Number of contact points.
-    unsigned int
-      n_points = 0,
-      /// Number of points that are open.
-      n_open = 0,
-      /// Number of points that stick.
-      n_stick = 0,
-      /// Number of points that slip; all closed ones if there is no friction.
-      n_slip = 0;
+    unsigned int n_points = 0;
+    /// Number of points that are open.
+    unsigned int n_open = 0;
+    /// Number of points that stick.
+    unsigned int n_stick = 0;
+    /// Number of points that slip; all closed ones if there is no friction.
+    unsigned int n_slip = 0;
     /// Number of states that differ from those of the previous assembly.
     unsigned int n_changes = 0;
     /// Number of points that stick because their bond holds.

@@ -51,10 +51,9 @@ namespace NMM
     struct PairEnergy
     {
       /// Number of the body with the lower number.
-      unsigned int
-        first = 0,
-        /// Number of the other body; equal to the first one for contact within a body.
-        second = 0;
+      unsigned int first = 0;
+      /// Number of the other body; equal to the first one for contact within a body.
+      unsigned int second = 0;
       /// Energies of the normal springs and of the shear springs [J/m].
       std::array<double, 2> energies = {{0., 0.}};
 
@@ -88,9 +87,9 @@ namespace NMM
     /// Displacements of covers at the last search for candidates [m]; empty before the first one.
     std::vector<double> searched_displacements;
     /// Time of the last search for candidates [s].
-    double searched_time = 0.,
-           /// Reach of the last search for candidates [m].
-      searched_reach = 0.;
+    double searched_time = 0.;
+    /// Reach of the last search for candidates [m].
+    double searched_reach = 0.;
     /// Anchors of all contact points that have a master and a law with friction.
     std::vector<Stick> sticks;
     /// Corners (places) that are in contact, and the edge through which they came in.

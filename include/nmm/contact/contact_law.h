@@ -44,21 +44,20 @@ namespace NMM
     struct Response
     {
       /// Pressure [Pa].
-      double value = 0.,
-             /// Derivative of the pressure by the penetration [Pa/m].
-        derivative = 0.;
+      double value = 0.;
+      /// Derivative of the pressure by the penetration [Pa/m].
+      double derivative = 0.;
     };
 
     /// Shear strength as a function of pressure and slip.
     struct Strength
     {
       /// Strength S [Pa].
-      double
-        value = 0.,
-        /// Derivative of the strength by the pressure [-].
-        by_pressure = 0.,
-        /// Derivative of the strength by the slip [Pa/m]; negative for weakening.
-        by_slip = 0.;
+      double value = 0.;
+      /// Derivative of the strength by the pressure [-].
+      double by_pressure = 0.;
+      /// Derivative of the strength by the slip [Pa/m]; negative for weakening.
+      double by_slip = 0.;
     };
 
     /// A number of the law that scenes give.
@@ -167,10 +166,9 @@ namespace NMM
      * Dashpots act only in time steps that conserve energy, and never exert tension. For faces of
      * the mass m per area the constant of the damping ratio xi is @f$ 2\xi\sqrt{\epsilon m} @f$.
      */
-    double
-      normal_damping = 0.,
-      /// Dashpot constant of the shear direction: shear over the rate of elastic slip [Pa s/m].
-      shear_damping = 0.;
+    double normal_damping = 0.;
+    /// Dashpot constant of the shear direction: shear over the rate of elastic slip [Pa s/m].
+    double shear_damping = 0.;
     /**
      * Whether the faces of the joint are bonded where they touch when the computation begins.
      * The bond bears tension up to the tensile strength and shear up to bond_strength(). Where one
@@ -180,10 +178,9 @@ namespace NMM
     /// Tension at which a bond breaks [Pa]; 0 for faces that are not bonded.
     double tensile_strength = 0.;
     /// Tangent of the dilation angle psi [-].
-    double
-      dilation = 0.,
-      /// Slip kappa_max beyond which the opening no longer grows [m]; 0 stands for no limit.
-      dilation_limit = 0.;
+    double dilation = 0.;
+    /// Slip kappa_max beyond which the opening no longer grows [m]; 0 stands for no limit.
+    double dilation_limit = 0.;
   };
 
 

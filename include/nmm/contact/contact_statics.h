@@ -61,9 +61,9 @@ namespace NMM
     /// Report of the contact at the end of the step.
     ContactReport contact;
     /// Energy dissipated in the step by friction and breaking bonds [J/m].
-    double dissipated = 0.,
-           /// Energy dissipated in the step by inelastic materials [J/m].
-      dissipated_by_material = 0.;
+    double dissipated = 0.;
+    /// Energy dissipated in the step by inelastic materials [J/m].
+    double dissipated_by_material = 0.;
   };
 
 

@@ -69,9 +69,9 @@ namespace NMM
     struct alignas(64) Edge
     {
       /// First point, see ElementEdge [m].
-      dealii::Point<2> start,
-        /// Last point [m].
-        end;
+      dealii::Point<2> start;
+      /// Last point [m].
+      dealii::Point<2> end;
       /// Signed radius of an arc, 0 for straight edges, see ElementEdge [m].
       double radius = 0.;
       /// Manifold element, invalid_index for obstacles.
@@ -79,13 +79,13 @@ namespace NMM
       /// Block; for obstacle i the number of blocks + i.
       unsigned int body = invalid_index;
       /// Edge before this one along the boundary, or invalid_index.
-      unsigned int previous = invalid_index,
-                   /// Edge after this one along the boundary, or invalid_index.
-        next = invalid_index;
+      unsigned int previous = invalid_index;
+      /// Edge after this one along the boundary, or invalid_index.
+      unsigned int next = invalid_index;
       /// Corner between the previous edge and this one.
-      Corner at_start = Corner::end,
-             /// Corner between this edge and the next one.
-        at_end = Corner::end;
+      Corner at_start = Corner::end;
+      /// Corner between this edge and the next one.
+      Corner at_end = Corner::end;
       /// Origin of the map xi = inverse (X - origin) to the reference coordinates of the element's
       /// cell [m].
       dealii::Point<2> origin;
@@ -98,10 +98,9 @@ namespace NMM
       /// Centre of an arc [m].
       dealii::Point<2> center;
       /// Polar angle of the start of an arc about its centre [rad].
-      double
-        first_angle = 0.,
-        /// Polar angle of its end [rad]; less than first_angle if the arc runs clockwise.
-        last_angle = 0.;
+      double first_angle = 0.;
+      /// Polar angle of its end [rad]; less than first_angle if the arc runs clockwise.
+      double last_angle = 0.;
     };
 
     /// A place on an edge.
@@ -110,9 +109,9 @@ namespace NMM
       /// Position [m].
       dealii::Point<2> x;
       /// First derivative of the position by t [m], tangent to the edge.
-      dealii::Tensor<1, 2> a,
-        /// Second derivative of the position by t [m].
-        b;
+      dealii::Tensor<1, 2> a;
+      /// Second derivative of the position by t [m].
+      dealii::Tensor<1, 2> b;
 
       /// Unit normal, pointing out of the body [-].
       dealii::Tensor<1, 2>

@@ -17,9 +17,9 @@ namespace NMM
     /// Number of the block.
     unsigned int block = invalid_index;
     /// Name of the curve or obstacle on which the block lies.
-    std::string along,
-      /// Name of the curve or obstacle into which the corner would slide.
-      ahead;
+    std::string along;
+    /// Name of the curve or obstacle into which the corner would slide.
+    std::string ahead;
   };
 
 

@@ -25,10 +25,9 @@ namespace NMM
     /// Unit tangent of the crack at its tip, pointing out of the crack [-].
     dealii::Tensor<1, 2> direction;
     /// Region of the physical mesh in which the tip lies.
-    unsigned int
-      region = invalid_index,
-      /// Curve that ends at the tip, an index for PhysicalMesh::curves().
-      curve = invalid_index;
+    unsigned int region = invalid_index;
+    /// Curve that ends at the tip, an index for PhysicalMesh::curves().
+    unsigned int curve = invalid_index;
     /// The crack from the tip to its other end or to the first point where another
     /// curve arrives; the start of each edge is nearer to the tip along the crack than its end.
     std::vector<ElementEdge> path;

@@ -37,9 +37,9 @@ namespace NMM
     /// Position of a point [m].
     dealii::Point<2> point;
     /// Lower left corner of a box [m].
-    dealii::Point<2> lower,
-      /// Upper right corner of a box [m].
-      upper;
+    dealii::Point<2> lower;
+    /// Upper right corner of a box [m].
+    dealii::Point<2> upper;
     /// Name of the curves.
     std::string curve;
 
@@ -50,10 +50,9 @@ namespace NMM
     double growth = 0.2;
     /// Exponent of the distance [-], in (0, 1]. With an exponent less than 1 cells grow faster near
     /// the place and slower towards `length`.
-    double
-      exponent = 1.,
-      /// Distance beyond which the edge length grows linearly [m]; no effect if the exponent is 1.
-      length = 1.;
+    double exponent = 1.;
+    /// Distance beyond which the edge length grows linearly [m]; no effect if the exponent is 1.
+    double length = 1.;
   };
 
 

@@ -30,9 +30,9 @@ namespace NMM
   struct ElementEdge
   {
     /// First point in the reference configuration [m].
-    dealii::Point<2> start,
-      /// Last point [m].
-      end;
+    dealii::Point<2> start;
+    /// Last point [m].
+    dealii::Point<2> end;
     /// Centre of an arc [m].
     dealii::Point<2> center;
     /// Signed radius of an arc [m]: positive if the edge runs counter-clockwise about the centre,
@@ -242,9 +242,9 @@ namespace NMM
       /// The other element.
       unsigned int neighbor;
       /// Local edge of the element's cell, 0 to 2, see MathematicalMesh::cell_edges().
-      unsigned char edge_here,
-        /// Local edge of the neighbour's cell, 0 to 2.
-        edge_there;
+      unsigned char edge_here;
+      /// Local edge of the neighbour's cell, 0 to 2.
+      unsigned char edge_there;
     };
 
     /**

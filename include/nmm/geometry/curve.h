@@ -57,9 +57,9 @@ namespace NMM
     Kind kind = Kind::segment;
 
     /// First point [m]; for a circle center + (radius, 0).
-    dealii::Point<2> start,
-      /// Last point [m]; for a circle the same as the first one.
-      end;
+    dealii::Point<2> start;
+    /// Last point [m]; for a circle the same as the first one.
+    dealii::Point<2> end;
 
     /// A point of the arc between start and end [m]; arcs only.
     dealii::Point<2> through;

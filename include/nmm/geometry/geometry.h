@@ -146,9 +146,9 @@ namespace NMM
     /// Name of the curve that was changed.
     std::string curve;
     /// Position of the end point before the change [m]; start of a removed piece.
-    dealii::Point<2> from,
-      /// Position of the end point after the change [m]; end of a removed piece.
-      to;
+    dealii::Point<2> from;
+    /// Position of the end point after the change [m]; end of a removed piece.
+    dealii::Point<2> to;
     /// Distance by which the end point was moved [m]; length of a removed piece.
     double distance;
 

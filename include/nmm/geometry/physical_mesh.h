@@ -66,14 +66,13 @@ namespace NMM
     {
       /// Number of crack tips that are kept: points inside the solid where one piece of a joint
       /// ends.
-      unsigned int
-        n_kept = 0,
-        /// Number of crack tips that are removed, see Curve::drops_ends.
-        n_dropped = 0;
+      unsigned int n_kept = 0;
+      /// Number of crack tips that are removed, see Curve::drops_ends.
+      unsigned int n_dropped = 0;
       /// Length of the parts that are kept [m].
-      double length_kept = 0.,
-             /// Length of the parts that are removed [m].
-        length_dropped = 0.;
+      double length_kept = 0.;
+      /// Length of the parts that are removed [m].
+      double length_dropped = 0.;
       /// Positions of the crack tips that are kept [m].
       std::vector<dealii::Point<2>> tips;
     };

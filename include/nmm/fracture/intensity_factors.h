@@ -14,13 +14,12 @@ namespace NMM
   /// The parameters of the stress field at a crack tip.
   struct IntensityFactors
   {
-    double
-      /// Stress intensity factor of the opening mode [Pa m^(1/2)]: ahead of the tip
-      /// sigma_22 = K_I (2 pi r)^(-1/2) in the tip's frame.
-      K_I = 0.,
-      /// Stress intensity factor of the sliding mode [Pa m^(1/2)]: ahead of the tip
-      /// sigma_12 = K_II (2 pi r)^(-1/2) in the tip's frame.
-      K_II = 0.;
+    /// Stress intensity factor of the opening mode [Pa m^(1/2)]: ahead of the tip
+    /// sigma_22 = K_I (2 pi r)^(-1/2) in the tip's frame.
+    double K_I = 0.;
+    /// Stress intensity factor of the sliding mode [Pa m^(1/2)]: ahead of the tip
+    /// sigma_12 = K_II (2 pi r)^(-1/2) in the tip's frame.
+    double K_II = 0.;
     /// T-stress [Pa]: the part of sigma_11 at the tip that is not singular.
     double T = 0.;
     /// Energy that the crack releases per area if it grows straight on [J/m^2]:

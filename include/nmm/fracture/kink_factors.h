@@ -10,15 +10,14 @@ namespace NMM
    */
   struct KinkFactors
   {
-    double
-      /// Factor on K_I in K_I' [-].
-      F_11,
-      /// Factor on K_II in K_I' [-].
-      F_12,
-      /// Factor on K_I in K_II' [-].
-      F_21,
-      /// Factor on K_II in K_II' [-].
-      F_22;
+    /// Factor on K_I in K_I' [-].
+    double F_11;
+    /// Factor on K_II in K_I' [-].
+    double F_12;
+    /// Factor on K_I in K_II' [-].
+    double F_21;
+    /// Factor on K_II in K_II' [-].
+    double F_22;
   };
 
   /**

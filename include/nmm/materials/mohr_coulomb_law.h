@@ -37,8 +37,8 @@ namespace NMM
     std::vector<Parameter>
     parameters() override;
 
-    /// @throws InputError naming a parameter and its value; also in plane stress, for which the
-    /// return to the yield surface is not implemented.
+    /// @throws InputError naming a parameter and its value. The law is one of plane strain; plane
+    /// stress is refused.
     void
     check(const std::string &where, PlaneState plane_state) const override;
 

@@ -70,11 +70,10 @@ namespace NMM
     /// Size of the smallest hole [m], which displacements must not close when their scale is
     /// chosen; infinity if there is none.
     double smallest_hole = std::numeric_limits<double>::infinity();
-    std::string
-      /// Name of the variable in the label of a frame, "t = 0.25 s".
-      time_name = "t",
-      /// Unit of this variable; empty if it has none.
-      time_unit = "s";
+    /// Name of the variable in the label of a frame, "t = 0.25 s".
+    std::string time_name = "t";
+    /// Unit of this variable; empty if it has none.
+    std::string time_unit = "s";
     /// Part of the plane that all frames show, lower and upper corner [m]; if not given, the
     /// smallest box that contains all frames.
     std::optional<std::pair<dealii::Point<2>, dealii::Point<2>>> view;

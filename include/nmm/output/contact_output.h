@@ -15,27 +15,24 @@ namespace NMM
   /// A contact point, as it is written to files and pictures.
   struct ContactSample
   {
-    dealii::Point<2>
-      /// Position on the undeformed slave [m].
-      reference,
-      /// Current position [m].
-      x;
+    /// Position on the undeformed slave [m].
+    dealii::Point<2> reference;
+    /// Current position [m].
+    dealii::Point<2> x;
     /// Unit normal of the master, out of its body [-].
     dealii::Tensor<1, 2> normal;
-    unsigned int
-      /// Index of the edge of the ContactSurface that carries the point.
-      slave = invalid_index,
-      /// Index of the edge of the ContactSurface on the other side.
-      master = invalid_index;
+    /// Index of the edge of the ContactSurface that carries the point.
+    unsigned int slave = invalid_index;
+    /// Index of the edge of the ContactSurface on the other side.
+    unsigned int master = invalid_index;
     /// Parameter of the point on the slave edge, in [0, 1].
     double s = 0.;
     /// Distance of the faces [m]; negative for a penetration.
     double gap = 0.;
-    double
-      /// Normal traction per reference length, pressure positive [Pa].
-      pressure = 0.,
-      /// Shear traction per reference length [Pa]; traction() defines its sign.
-      shear = 0.;
+    /// Normal traction per reference length, pressure positive [Pa].
+    double pressure = 0.;
+    /// Shear traction per reference length [Pa]; traction() defines its sign.
+    double shear = 0.;
     /// Reference length that the point represents [m]; 0 for an open point.
     double weight = 0.;
     /// Whether the point is open, sticks or slips.

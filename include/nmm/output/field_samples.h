@@ -28,11 +28,10 @@ namespace NMM
       /// sigma_zz [Pa]; 0 in plane stress.
       double zz = 0.;
     };
-    Stress
-      /// Stress from the gradient of the displacement; it jumps between elements.
-      direct,
-      /// Stress from the gradient that StressRecovery has smoothed within each region.
-      recovered;
+    /// Stress from the gradient of the displacement; it jumps between elements.
+    Stress direct;
+    /// Stress from the gradient that StressRecovery has smoothed within each region.
+    Stress recovered;
     /// Equivalent plastic strain [-]; 0 if no material yields.
     double plastic_strain = 0.;
   };
@@ -162,13 +161,12 @@ namespace NMM
   /// The numbers of a manifold element that are written to files.
   struct ElementIds
   {
-    unsigned int
-      /// Index of the block.
-      block,
-      /// Index of the region of the physical mesh.
-      region,
-      /// Index of the material of the region; 0 if the region names none.
-      material;
+    /// Index of the block.
+    unsigned int block;
+    /// Index of the region of the physical mesh.
+    unsigned int region;
+    /// Index of the material of the region; 0 if the region names none.
+    unsigned int material;
   };
 
   /// The indices of the block, region and material of @p element.

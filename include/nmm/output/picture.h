@@ -93,15 +93,14 @@ namespace NMM
 
     /// The coloured triangles.
     std::vector<Triangle> triangles;
-    std::vector<Polyline>
-      /// Boundaries and joints.
-      outlines,
-      /// Interfaces between materials.
-      interfaces,
-      /// Edges of the mathematical mesh.
-      mesh_lines,
-      /// Faces of rigid obstacles, which are on the left of the lines.
-      obstacles;
+    /// Boundaries and joints.
+    std::vector<Polyline> outlines;
+    /// Interfaces between materials.
+    std::vector<Polyline> interfaces;
+    /// Edges of the mathematical mesh.
+    std::vector<Polyline> mesh_lines;
+    /// Faces of rigid obstacles, which are on the left of the lines.
+    std::vector<Polyline> obstacles;
     /// Contact tractions.
     std::vector<Bar> contacts;
 

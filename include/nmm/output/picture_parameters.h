@@ -57,21 +57,19 @@ namespace NMM
     /// Factor on displacements in the picture [-]; negative: chosen so that the
     /// largest displacement is 5 % of the solid's size.
     double deformation_scale = -1.;
-    double
-      /// Value at the lower end of the colour bar, in the unit of the quantity.
-      range_min = 0.,
-      /// Value at the upper end of the colour bar; if it equals range_min, the bar spans the
-      /// values of the solution.
-      range_max = 0.;
+    /// Value at the lower end of the colour bar, in the unit of the quantity.
+    double range_min = 0.;
+    /// Value at the upper end of the colour bar; if it equals range_min, the bar spans the
+    /// values of the solution.
+    double range_max = 0.;
     /// Whether the edges of the mathematical mesh are drawn.
     bool mesh_lines = true;
     /// Width of the picture [pixels]; the height follows from the shape of the solid.
     unsigned int picture_width = 1600;
-    std::string
-      /// Word for the unit of length in pictures and files; numbers are not converted.
-      length_unit = "m",
-      /// Word for the unit of stress in pictures and files; numbers are not converted.
-      stress_unit = "Pa";
+    /// Word for the unit of length in pictures and files; numbers are not converted.
+    std::string length_unit = "m";
+    /// Word for the unit of stress in pictures and files; numbers are not converted.
+    std::string stress_unit = "Pa";
   };
 } // namespace NMM
 

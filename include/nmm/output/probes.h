@@ -17,13 +17,12 @@ namespace NMM
     std::string name;
     /// Whether the probe is a line instead of a point.
     bool is_line = false;
-    dealii::Point<2>
-      /// The point in the reference configuration [m]; not used by a line.
-      point,
-      /// Start of the line [m].
-      from,
-      /// End of the line [m].
-      to;
+    /// The point in the reference configuration [m]; not used by a line.
+    dealii::Point<2> point;
+    /// Start of the line [m].
+    dealii::Point<2> from;
+    /// End of the line [m].
+    dealii::Point<2> to;
     /// Number of points on the line, ends included; they are at equal distances.
     unsigned int n_points = 101;
   };

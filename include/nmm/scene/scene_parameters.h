@@ -119,11 +119,10 @@ namespace NMM
     std::string body_force;
     /// The kind of analysis.
     Analysis analysis = Analysis::statics;
-    std::string
-      /// Factor on gravity over time, see TimeDependence::amplitude.
-      gravity_amplitude,
-      /// Factor on the body force over time, see TimeDependence::amplitude.
-      body_force_amplitude;
+    /// Factor on gravity over time, see TimeDependence::amplitude.
+    std::string gravity_amplitude;
+    /// Factor on the body force over time, see TimeDependence::amplitude.
+    std::string body_force_amplitude;
     /// Acceleration of the ground "ax; ay" [m/s^2], each an amplitude; empty for none.
     std::string base_acceleration;
 
@@ -302,11 +301,10 @@ namespace NMM
 
     /// The exact solution.
     Type type = Type::none;
-    std::string
-      /// Name of the curve that is the inner circle of the ring, or a part of it.
-      inner_boundary,
-      /// Name of the curve that is the outer circle of the ring, or a part of it.
-      outer_boundary;
+    /// Name of the curve that is the inner circle of the ring, or a part of it.
+    std::string inner_boundary;
+    /// Name of the curve that is the outer circle of the ring, or a part of it.
+    std::string outer_boundary;
 
     /// Declares or reads the entries of the section.
     void
@@ -320,33 +318,32 @@ namespace NMM
   /// The names in the lists of a scene, which decide what subsections there are.
   struct SceneNames
   {
-    std::vector<std::string>
-      /// Names of the files with joints in `Traces`.
-      traces,
-      /// Names of the sets in `Joint sets`.
-      joint_sets,
-      /// Names of the places in `Regions`.
-      regions,
-      /// Names of the local sizes in `Mathematical mesh`.
-      local_sizes,
-      /// Names of the block meshes in `Covers`.
-      block_meshes,
-      /// Names in `Materials`.
-      materials,
-      /// Names in `Boundary conditions`.
-      boundary_conditions,
-      /// Names in `Point forces`.
-      point_forces,
-      /// Names in `Fixed points`.
-      fixed_points,
-      /// Names of the laws in `Contact`.
-      contact_laws,
-      /// Names in `Obstacles`.
-      obstacles,
-      /// Names in `Initial velocities`.
-      initial_velocities,
-      /// Names in `Probes`.
-      probes;
+    /// Names of the files with joints in `Traces`.
+    std::vector<std::string> traces;
+    /// Names of the sets in `Joint sets`.
+    std::vector<std::string> joint_sets;
+    /// Names of the places in `Regions`.
+    std::vector<std::string> regions;
+    /// Names of the local sizes in `Mathematical mesh`.
+    std::vector<std::string> local_sizes;
+    /// Names of the block meshes in `Covers`.
+    std::vector<std::string> block_meshes;
+    /// Names in `Materials`.
+    std::vector<std::string> materials;
+    /// Names in `Boundary conditions`.
+    std::vector<std::string> boundary_conditions;
+    /// Names in `Point forces`.
+    std::vector<std::string> point_forces;
+    /// Names in `Fixed points`.
+    std::vector<std::string> fixed_points;
+    /// Names of the laws in `Contact`.
+    std::vector<std::string> contact_laws;
+    /// Names in `Obstacles`.
+    std::vector<std::string> obstacles;
+    /// Names in `Initial velocities`.
+    std::vector<std::string> initial_velocities;
+    /// Names in `Probes`.
+    std::vector<std::string> probes;
 
     /// An example name in each list, for the parameter reference.
     static SceneNames

@@ -92,11 +92,10 @@ namespace NMM
     unsigned int n_points = 4;
     /// Whether springs are distributed along faces or concentrated at vertices.
     ContactIntegration integration = ContactIntegration::length;
-    std::vector<std::string>
-      /// Joints whose faces are in contact, even if the geometry says that they are tied.
-      open_joints,
-      /// Joints that are tied, even if the geometry says that they are open.
-      tied_joints;
+    /// Joints whose faces are in contact, even if the geometry says that they are tied.
+    std::vector<std::string> open_joints;
+    /// Joints that are tied, even if the geometry says that they are open.
+    std::vector<std::string> tied_joints;
 
     /// Whether the scene has contact.
     bool
@@ -122,11 +121,10 @@ namespace NMM
   {
     /// Name of the subsection, by which contact laws refer to the obstacle.
     std::string name;
-    std::string
-      /// Geometry file with the shape, relative to the scene file; empty if `shape` is given.
-      file,
-      /// Shape as a record of a geometry file; empty if `file` is given.
-      shape;
+    /// Geometry file with the shape, relative to the scene file; empty if `shape` is given.
+    std::string file;
+    /// Shape as a record of a geometry file; empty if `file` is given.
+    std::string shape;
     /// Displacement "ux; uy" [m], each an amplitude as in TimeDependence; empty for an obstacle at
     /// rest.
     std::string displacement;

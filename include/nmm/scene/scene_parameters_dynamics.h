@@ -89,27 +89,25 @@ namespace NMM
     Start start = Start::undeformed;
     /// Time at which a dynamic analysis ends [s], > 0; it starts at 0.
     double end_time = 0.;
-    double
-      /// First time step [s], > 0; all steps are equal if no other bound is given.
-      initial_step = 0.,
-      /// Smallest step [s]; 0 stands for a millionth of the first.
-      min_step = 0.,
-      /// Largest step [s]; 0 stands for the first.
-      max_step = 0.,
-      /// Largest displacement of a cover in a step [m]; 0 stands for no bound.
-      max_displacement = 0.,
-      /// Largest estimated error of a step's displacement [m]; 0 stands for no bound.
-      max_error = 0.;
+    /// First time step [s], > 0; all steps are equal if no other bound is given.
+    double initial_step = 0.;
+    /// Smallest step [s]; 0 stands for a millionth of the first.
+    double min_step = 0.;
+    /// Largest step [s]; 0 stands for the first.
+    double max_step = 0.;
+    /// Largest displacement of a cover in a step [m]; 0 stands for no bound.
+    double max_displacement = 0.;
+    /// Largest estimated error of a step's displacement [m]; 0 stands for no bound.
+    double max_error = 0.;
     /// The time scheme.
     Scheme scheme = Scheme::automatic;
-    double
-      /// Coefficient beta of Newmark's scheme [-], > 0.
-      beta = 0.25,
-      /// Coefficient gamma of Newmark's scheme [-], >= 1/2; more than 1/2 damps.
-      gamma = 0.5,
-      /// Factor per step on the amplitude of the highest frequencies with generalized alpha [-], in
-      /// [0, 1].
-      spectral_radius = 0.8;
+    /// Coefficient beta of Newmark's scheme [-], > 0.
+    double beta = 0.25;
+    /// Coefficient gamma of Newmark's scheme [-], >= 1/2; more than 1/2 damps.
+    double gamma = 0.5;
+    /// Factor per step on the amplitude of the highest frequencies with generalized alpha [-], in
+    /// [0, 1].
+    double spectral_radius = 0.8;
     /// Coefficients of Rayleigh damping. A negative coefficient of the stiffness stands for
     /// Scene::make_damping().
     RayleighDamping damping = {0., -1.};

@@ -104,11 +104,10 @@ namespace NMM
 
     /// Name of the subsection, by which joint sets and traces refer to the region.
     std::string name;
-    std::string
-      /// Closed shape as a record of a geometry file; empty if `file` is given.
-      shape,
-      /// Geometry file with a closed shape, relative to the scene file; empty if `shape` is given.
-      file;
+    /// Closed shape as a record of a geometry file; empty if `file` is given.
+    std::string shape;
+    /// Geometry file with a closed shape, relative to the scene file; empty if `shape` is given.
+    std::string file;
     /// The effect of the region.
     Use use = Use::place;
     /// Material of the blocks whose middle is inside; if empty, they keep theirs.

@@ -196,11 +196,11 @@ namespace StepNMM5
   {
     /// PREFIX stands for the path and the beginning of the files' names.
     const char *const figures_script = R"(set datafile separator ','
-set terminal pngcairo size 1000,1000 font 'DejaVu Sans,13'
+set terminal pngcairo size 1250,750 font 'DejaVu Sans,13'
 set grid
 set logscale xy
 set format '%.0e'
-set key outside bottom center maxcols 1
+set key outside right top
 set output 'PREFIXerrors.png'
 set title 'A crack tip anywhere in the mesh: error against time, one core'
 set xlabel 'seconds'

@@ -1,7 +1,9 @@
 #include <deal.II/base/function.h>
 
+#include <functional>
 #include <memory>
 #include <scene/dynamic_analysis.h>
+#include <vector>
 
 namespace NMM
 {
@@ -10,36 +12,21 @@ namespace NMM
     // Intensity factors of a solid in motion.
     namespace
     {
-      /// A function times a number.
-      class ScaledFunction : public dealii::Function<2>
-      {
-      public:
-        ScaledFunction(std::shared_ptr<const dealii::Function<2>> function,
-                       const double                               factor)
-          : dealii::Function<2>(function->n_components)
-          , function(std::move(function))
-          , factor(factor)
-        {
-        }
-
-        double
-        value(const dealii::Point<2> &x, const unsigned int c) const override
-        {
-          return factor * function->value(x, c);
-        }
-
-      private:
-        std::shared_ptr<const dealii::Function<2>> function;
-        double                                     factor;
-      };
-
-
+      /// Multiplies a function by a number; null stays null.
       void
       scale(std::shared_ptr<const dealii::Function<2>> &function,
             const double                                factor)
       {
-        if (function && factor != 1.)
-          function = std::make_shared<ScaledFunction>(function, factor);
+        if (!function || factor == 1.)
+          return;
+        std::vector<std::function<double(const dealii::Point<2> &)>> components;
+        for (unsigned int c = 0; c < function->n_components; ++c)
+          components.emplace_back(
+            [function, factor, c](const dealii::Point<2> &x) {
+              return factor * function->value(x, c);
+            });
+        function =
+          std::make_shared<dealii::FunctionFromFunctionObjects<2>>(components);
       }
     } // namespace
 

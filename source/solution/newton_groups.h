@@ -289,9 +289,7 @@ namespace NMM
 
       DisjointSets              joined;
       std::vector<unsigned int> block_of, root_of, all_roots, all_active_roots,
-        active_blocks;
-      std::vector<unsigned int> block_of, root_of, all_roots, all_active_roots,
-        affected_blocks;
+        active_blocks, affected_blocks;
       std::vector<Group> groups;
       std::vector<State> states;
       std::vector<Block> all_blocks;

@@ -265,9 +265,36 @@ namespace NMM
                        rounding / (scheme.beta * h * h) * mass_of_displacement);
     mix(v_1, scheme.alpha_f, state.v);
     add_damping(1., scratch, forces);
+    const double t = state.time + (1. - scheme.alpha_f) * h;
+    subtract_closing(scheme.is_conserving
+                       ? state.closing.mean_share(state.time, state.time + h)
+                       : state.closing.share(t));
     if (model->constraints().n_constraints() > 0)
       model->constraints().set_zero(forces);
     return Deformation::admissible;
+  }
+
+
+  void
+  TimeIntegrator::Data::subtract_closing(const double share)
+  {
+    if (share == 0.)
+      return;
+    const auto to   = forces.begin();
+    const auto from = std::as_const(state.closing.forces).begin();
+    active_rows.for_each(forces.locally_owned_size(),
+                         [&](const unsigned int i) {
+                           to[i] -= share * from[i];
+                         });
+  }
+
+
+  void
+  TimeIntegrator::Data::set_static_forces()
+  {
+    forces = model->residual();
+    add_damping(1., state.v, forces);
+    subtract_closing(state.closing.share(state.time));
   }
 
 
@@ -367,8 +394,7 @@ namespace NMM
       mass_solver = std::make_unique<DirectSolver>();
       mass_solver->factorize(model->mass());
     }
-    forces = model->residual();
-    add_damping(1., state.v, forces);
+    set_static_forces();
     forces *= -1.;
     model->constraints().set_zero(forces);
     if (sleeping)
@@ -385,8 +411,7 @@ namespace NMM
     account.strain                           = energies.strain;
     account.conditions                       = energies.conditions;
 
-    forces = model->residual();
-    add_damping(1., state.v, forces);
+    set_static_forces();
     model->constraints().set_zero(forces);
     const double norm = forces.l2_norm();
     account.imbalance = norm > 0. ? norm / model->force_scale() : 0.;
@@ -416,8 +441,11 @@ namespace NMM
     account.external_work = state.sums.external_work;
     account.dissipated    = state.sums.dissipated;
     account.left          = state.sums.left;
+    account.fracture      = state.sums.fracture;
+    account.cuts          = state.sums.cuts;
     account.balance = account.kinetic + stored_energy() + account.dissipated +
-                      account.left - account.external_work - state.sums.initial;
+                      account.left + account.fracture - account.cuts -
+                      account.external_work - state.sums.initial;
   }
 
 
@@ -449,6 +477,7 @@ namespace NMM
         (supports->work_of_supports(u_begin, state.time, state.time, t_1) +
          supports->work_of_supports(u_end, t_1, state.time, t_1));
     }
+    add_fracture_work(change);
     if (damping.mass > 0. || damps_by_stiffness())
     {
       loads = 0.;
@@ -456,6 +485,19 @@ namespace NMM
       model->constraints().set_zero(loads);
       state.sums.dissipated += loads * change;
     }
+  }
+
+
+  void
+  TimeIntegrator::Data::add_fracture_work(const Vector &change)
+  {
+    const ClosingForces &closing = state.closing;
+    const double         t_0 = state.time, t_1 = t_0 + h;
+    const double         share = scheme.is_conserving
+                                   ? closing.mean_share(t_0, t_1)
+                                   : 0.5 * (closing.share(t_0) + closing.share(t_1));
+    if (share > 0.)
+      state.sums.fracture -= share * (closing.forces * change);
   }
 
 
@@ -487,6 +529,7 @@ namespace NMM
     model->mass().vmult(scratch, state.v);
     model->constraints().set_zero(scratch);
     forces = model->residual();
+    subtract_closing(state.closing.share(state.time));
     // check once more which blocks wake, with the forces of the accepted state
     const bool is_any_awake = sleeping->wake(forces, state.u, state.rest);
     if (!sleeping->let_sleep(

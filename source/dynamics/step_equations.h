@@ -137,6 +137,15 @@ namespace NMM
     void
     add_damping(double factor, const Vector &in, Vector &out);
 
+    /// Subtract the closing forces, times @p share, from the forces in active rows.
+    void
+    subtract_closing(double share);
+
+    /// Set `forces` to C v + r - closing forces in the current state; the model's residual must be
+    /// that at u.
+    void
+    set_static_forces();
+
     void
     predict();
 
@@ -171,6 +180,10 @@ namespace NMM
 
     void
     add_work();
+
+    /// Add the work against closing forces in the step, with the displacements @p change.
+    void
+    add_fracture_work(const Vector &change);
 
     /// Solve the step by Newton's method, and repeat it whenever the result wakes a block.
     void

@@ -9,6 +9,31 @@ namespace NMM
 {
   using Vector = TimeIntegrator::Vector;
 
+  bool
+  ClosingForces::act_at(const double t) const
+  {
+    return forces.size() > 0 && t < end;
+  }
+
+
+  double
+  ClosingForces::share(const double t) const
+  {
+    return act_at(t) ? std::min(1., (end - t) / (end - begin)) : 0.;
+  }
+
+
+  double
+  ClosingForces::mean_share(const double t_0, const double t_1) const
+  {
+    if (!act_at(t_0) || t_1 <= t_0)
+      return share(t_0);
+    // The share is linear up to the end and zero afterwards.
+    const double last = std::min(t_1, end);
+    return 0.5 * (share(t_0) + share(last)) * (last - t_0) / (t_1 - t_0);
+  }
+
+
   NewtonParameters
   TimeIntegrator::default_newton_parameters()
   {
@@ -58,6 +83,7 @@ namespace NMM
     d.state.next_step     = 0.;
     d.state.events_passed = time;
     d.state.sums          = EnergySums();
+    d.state.closing       = ClosingForces();
     d.state.rest.clear();
     if (d.sleeping)
       d.sleeping->set_rest({});
@@ -105,6 +131,41 @@ namespace NMM
                 NumericalFailure("An element is turned inside out",
                                  "the state to continue from",
                                  "take another checkpoint"));
+    d.take_account();
+  }
+
+
+  void
+  TimeIntegrator::balance_accelerations()
+  {
+    Data &d   = *data;
+    d.u_begin = d.state.u;
+    AssertThrow(d.model->assemble(d.u_begin, d.state.time, Tangent::none) ==
+                  Deformation::admissible,
+                dealii::ExcInternalError());
+    d.set_accelerations();
+  }
+
+
+  void
+  TimeIntegrator::continue_after_cut(const DynamicState &state,
+                                     const double        energy,
+                                     const double        duration)
+  {
+    Assert(duration > 0., dealii::ExcMessage("The closing forces must fade."));
+    Data        &d   = *data;
+    DynamicState cut = state;
+    cut.closing      = ClosingForces();
+    for (Vector *vector : {&cut.u, &cut.v, &cut.a})
+      d.model->constraints().distribute(*vector);
+    restore(cut);
+    d.set_static_forces();
+    d.add_product(1., d.model->mass(), cut.a, d.forces);
+    d.model->constraints().set_zero(d.forces);
+    if (d.sleeping)
+      d.sleeping->set_zero(d.forces);
+    d.state.closing = {d.forces, state.time, state.time + duration};
+    d.state.sums.cuts += d.account.kinetic + d.stored_energy() - energy;
     d.take_account();
   }
 

@@ -78,7 +78,8 @@ namespace NMM
                            const std::vector<double> &radii,
                            const ElementDisplacement &displacement,
                            const ElementGradient     &gradient,
-                           const TipLoading          &loading)
+                           const TipLoading          &loading,
+                           DiskRules                 &rules)
         : covers(covers)
         , mesh(covers.manifold_mesh())
         , problem(problem)
@@ -103,8 +104,7 @@ namespace NMM
         // Whether the crack bends within the largest disk.
         , is_bent(tip.path.front().radius != 0. ||
                   tip.point.distance(tip.path.front().end) < largest_radius)
-        , whole_rule(make_triangle_rule(rule_degree))
-        , rules(rule_degree)
+        , rules(rules)
         , gauss(rule_degree)
         , sums(n_fields * radii.size(), 0.)
         , contact_stress(radii.size(), 0.)
@@ -164,12 +164,11 @@ namespace NMM
       const SymmetricTensor<2, 2>          initial_stress;
       const std::array<TipField, n_fields> fields;
       /// Body force at the tip [N/m^3], in the tip's frame.
-      const Tensor<1, 2>          force_at_tip;
-      const bool                  is_bent;
-      const dealii::Quadrature<2> whole_rule;
-      ElementRuleBuilder          rules;
-      const dealii::QGauss<1>     gauss;
-      Tensor<1, 2>                displacement_of_tip;
+      const Tensor<1, 2>      force_at_tip;
+      const bool              is_bent;
+      DiskRules              &rules;
+      const dealii::QGauss<1> gauss;
+      Tensor<1, 2>            displacement_of_tip;
       /// Curves with a pressure on their faces, each with the boundary condition.
       std::vector<std::pair<unsigned int, const BoundaryCondition *>> pressures;
       /// Integral I of field f and disk d, at [n_fields * d + f].
@@ -263,12 +262,8 @@ namespace NMM
         if (is_on_plateau && !problem.body_force && !loading.acceleration)
           return;
 
-        const double          determinant = 2. * cells.cell_area(cell);
-        dealii::Quadrature<2> own_rule;
-        if (!mesh.is_whole(element))
-          own_rule = rules.build(mesh.edges(element), cell_frame(cells, cell));
-        const dealii::Quadrature<2> &rule =
-          mesh.is_whole(element) ? whole_rule : own_rule;
+        const double                 determinant = 2. * cells.cell_area(cell);
+        const dealii::Quadrature<2> &rule        = rules.rule(mesh, element);
         for (unsigned int p = 0; p < rule.size(); ++p)
         {
           const Point<2> x = cells.reference_to_real(cell, rule.point(p));
@@ -339,7 +334,9 @@ namespace NMM
                      at_end   = tip.point.distance(edge.end);
         const double near     = std::min(at_start, at_end),
                      far      = std::max(at_start, at_end);
-        if (near >= largest_radius)
+        // An edge that is shorter than coordinates can tell has no direction.
+        const bool is_point = !edge.is_arc() && edge.start == edge.end;
+        if (near >= largest_radius || is_point)
           return;
         std::vector<unsigned int> curves;
         for (const unsigned int piece : mesh.curve_set(edge.curve_set))
@@ -529,6 +526,27 @@ namespace NMM
   } // namespace
 
 
+  DiskRules::DiskRules()
+    : whole_rule(make_triangle_rule(rule_degree))
+    , builder(rule_degree)
+  {
+  }
+
+
+  const dealii::Quadrature<2> &
+  DiskRules::rule(const ManifoldMesh &mesh, const unsigned int element)
+  {
+    if (mesh.is_whole(element))
+      return whole_rule;
+    const auto [entry, is_new] = rules.try_emplace(element);
+    if (is_new)
+      entry->second =
+        builder.build(mesh.edges(element),
+                      cell_frame(mesh.mathematical_mesh(), mesh.cell(element)));
+    return entry->second;
+  }
+
+
   std::vector<IntensityFactors>
   interaction_integrals(const CoverSystem         &covers,
                         const ElasticityProblem   &problem,
@@ -536,8 +554,10 @@ namespace NMM
                         const std::vector<double> &radii,
                         const ElementDisplacement &displacement,
                         const ElementGradient     &gradient,
-                        const TipLoading          &loading)
+                        const TipLoading          &loading,
+                        DiskRules                 *rules)
   {
+    DiskRules own_rules;
     for (const double radius : radii)
       AssertThrow(radius > 0. && radius <= tip.free_radius,
                   InputError("The interaction integral has a radius of " +
@@ -547,8 +567,14 @@ namespace NMM
                                std::to_string(tip.free_radius) +
                                " m, where something else than the crack "
                                "begins"));
-    return InteractionIntegrals(
-             covers, problem, tip, radii, displacement, gradient, loading)
+    return InteractionIntegrals(covers,
+                                problem,
+                                tip,
+                                radii,
+                                displacement,
+                                gradient,
+                                loading,
+                                rules != nullptr ? *rules : own_rules)
       .evaluate();
   }
 
@@ -558,7 +584,8 @@ namespace NMM
                             const ElasticityProblem &problem,
                             const CrackTip          &tip,
                             const double             largest_radius,
-                            const TipLoading        &loading)
+                            const TipLoading        &loading,
+                            DiskRules               *rules)
   {
     const double largest =
       largest_radius > 0. ? largest_radius : 0.9 * tip.free_radius;
@@ -576,7 +603,8 @@ namespace NMM
       [&](const unsigned int element, const Point<2> &xi) {
         return field.gradient(element, xi);
       },
-      loading);
+      loading,
+      rules);
     IntensityFactors result = of_disks.front();
     for (const IntensityFactors &other : of_disks)
       result.spread = std::max({result.spread,

@@ -329,6 +329,20 @@ namespace NMM
     }
 
 
+    const ContactSurface &
+    ContactAnalysis::faces() const
+    {
+      return *surface;
+    }
+
+
+    void
+    ContactAnalysis::continue_from(const ContactAnalysis &former)
+    {
+      largest_penetration = former.largest_penetration;
+    }
+
+
     void
     ContactAnalysis::take_state(const double work)
     {
@@ -556,6 +570,17 @@ namespace NMM
           state, /* allow_compression = */ false);
       work = saved_work;
       ContactModel::restore_internal_state(of_contact);
+    }
+
+
+    void
+    AccountedContactModel::restore(const double          friction_work,
+                                   const ContactHistory &history)
+    {
+      work = friction_work;
+      ContactModel::restore_internal_state(
+        dealii::Utilities::pack(std::make_pair(history, std::vector<char>()),
+                                /* allow_compression = */ false));
     }
 
 

@@ -50,6 +50,14 @@ namespace NMM
       bool
       all_are_touched(const ElasticityProblem &problem) const;
 
+      /// The faces that may touch.
+      const ContactSurface &
+      faces() const;
+
+      /// Takes over the largest penetration of @p former, whose solid was cut again since.
+      void
+      continue_from(const ContactAnalysis &former);
+
       /// A sentence on the faces and the parameters that were chosen, for the report.
       std::string
       description() const;
@@ -201,6 +209,11 @@ namespace NMM
 
       void
       restore_internal_state(const std::vector<char> &state) override;
+
+      /// Continues with the @p history of a solid that was cut again since; contact has
+      /// dissipated @p friction_work so far [J/m].
+      void
+      restore(double friction_work, const ContactHistory &history);
 
       /// Energy that friction, dashpots and breaking bonds have dissipated so far [J/m].
       double

@@ -1,5 +1,4 @@
 #include <nmm/base/exceptions.h>
-#include <nmm/output/csv_series.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +10,6 @@ namespace NMM
 {
   namespace internal
   {
-    using dealii::Point;
-    using dealii::Tensor;
     using Stage = Progress::Stage;
 
     void
@@ -105,38 +102,16 @@ namespace NMM
     }
 
 
-    const GrowthCriterion &
-    CrackGrowthAnalysis::criterion() const
-    {
-      for (const auto &named : growth_criteria())
-        if (named.name == scene.parameters().fracture.criterion)
-          return *named.law;
-      Assert(false, dealii::ExcInternalError());
-      return *growth_criteria().front().law;
-    }
-
-
     double
     CrackGrowthAnalysis::find_growing_tips()
     {
-      const std::vector<unsigned int> region_to_material =
-        problem.region_to_material(*physical_mesh);
-      growing_tips.clear();
+      growing_tips       = judge_tips(*crack_tips,
+                                scene.parameters().fracture,
+                                problem,
+                                *physical_mesh);
       double most_driven = 0.;
-      for (unsigned int i = 0; i < crack_tips->all_tips().size(); ++i)
-      {
-        GrowingTip candidate;
-        candidate.tip     = crack_tips->all_tips()[i];
-        candidate.factors = crack_tips->all_factors()[i];
-        candidate.verdict =
-          criterion().judge(candidate.factors.K_I, candidate.factors.K_II);
-        candidate.drive =
-          candidate.verdict.equivalent_intensity /
-          problem.materials[region_to_material[candidate.tip.region]].toughness;
-        candidate.angle = candidate.verdict.angle;
-        most_driven     = std::max(most_driven, candidate.drive);
-        growing_tips.push_back(std::move(candidate));
-      }
+      for (const GrowingTip &tip : growing_tips)
+        most_driven = std::max(most_driven, tip.drive);
       const double least =
         (1. - scene.parameters().fracture.tolerance) * most_driven;
       growing_tips.erase(std::remove_if(growing_tips.begin(),
@@ -163,7 +138,7 @@ namespace NMM
       const double scale = scale_of_fields();
       State        state;
       state.load_factor   = load_factor;
-      state.crack_length  = grown_length;
+      state.crack_length  = increments.grown_length();
       state.strain_energy = scale * scale * small_strain_energy();
       const auto samples  = probes->evaluate(*covers, *evaluator);
       for (unsigned int i = 0; i < samples.size(); ++i)
@@ -253,7 +228,8 @@ namespace NMM
         {
           geometry = before;
           try_increments(tips);
-          turns = criterion().is_implicit() && turn_increments(tips);
+          turns = growth_criterion(scene.parameters().fracture).is_implicit() &&
+                  turn_increments(tips);
         }
         n_unturned += turns;
       }
@@ -282,17 +258,8 @@ namespace NMM
                                      error.place(),
                                      "choose another 'Fracture/Increment'"));
       }
-      for (GrowingTip &tip : tips)
-      {
-        const Tensor<1, 2> &e = tip.tip.direction,
-                           d  = tip.extension.end - tip.tip.point;
-        grown_length += d.norm();
-        // that of the last trial, after which it may have been turned once more
-        tip.angle = std::atan2(e[0] * d[1] - e[1] * d[0], e * d);
-        increments.push_back({static_cast<unsigned int>(states.size()),
-                              states.back().load_factor,
-                              tip});
-      }
+      for (const GrowingTip &tip : tips)
+        increments.add(states.size(), states.back().load_factor, tip);
       return true;
     }
 
@@ -310,17 +277,7 @@ namespace NMM
     CrackGrowthAnalysis::try_increments(std::vector<GrowingTip> &tips)
     {
       for (GrowingTip &growing : tips)
-      {
-        const double c = std::cos(growing.angle), s = std::sin(growing.angle);
-        const Tensor<1, 2> &e = growing.tip.direction;
-        const Point<2>      direction(c * e[0] - s * e[1], s * e[0] + c * e[1]);
-        growing.extension =
-          extend_crack(geometry,
-                       growing.tip.point,
-                       direction,
-                       scene.parameters().fracture.increment,
-                       geometry.curves()[growing.tip.curve].name);
-      }
+        extend_by_increment(growing, scene.parameters().fracture, geometry);
       build(geometry);
       equilibrate();
     }
@@ -338,8 +295,11 @@ namespace NMM
             const IntensityFactors &k = crack_tips->all_factors()[i];
             if (k.K_I <= 0.)
               continue;
-            const double residual = criterion().judge(k.K_I, k.K_II).angle -
-                                    (growing.angle - growing.verdict.angle);
+            const double residual =
+              growth_criterion(scene.parameters().fracture)
+                .judge(k.K_I, k.K_II)
+                .angle -
+              (growing.angle - growing.verdict.angle);
             if (std::abs(residual) <= tolerance)
               continue;
             // A chord that is turned by a small angle turns what the crack does at its end back
@@ -367,7 +327,7 @@ namespace NMM
       StaticAnalysis::verify();
       summary.add("increments", states.size() - 1.);
       summary.add("grown_length",
-                  grown_length,
+                  increments.grown_length(),
                   scene.parameters().output.length_unit);
       double largest = 0.;
       for (const State &state : states)
@@ -405,27 +365,7 @@ namespace NMM
             out << '\n';
           }
         });
-        directory->write_text("growth.csv", [&](std::ostream &out) {
-          out << "step,load_factor,x,y,K_I,K_II,T,spread,angle,end_x,end_y,"
-                 "met\n";
-          out.precision(12);
-          for (const Increment &row : increments)
-          {
-            const GrowingTip &tip = row.tip;
-            out << row.step << ',' << row.load_factor;
-            for (const double value : {tip.tip.point[0],
-                                       tip.tip.point[1],
-                                       tip.factors.K_I,
-                                       tip.factors.K_II,
-                                       tip.factors.T,
-                                       tip.factors.spread,
-                                       tip.angle * 180. / dealii::numbers::PI,
-                                       tip.extension.end[0],
-                                       tip.extension.end[1]})
-              out << ',' << value;
-            out << ',' << quoted(tip.extension.met) << '\n';
-          }
-        });
+        increments.write(*directory);
       });
     }
   } // namespace internal

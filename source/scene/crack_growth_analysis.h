@@ -1,15 +1,11 @@
 #ifndef nmm_source_scene_crack_growth_analysis_h
 #define nmm_source_scene_crack_growth_analysis_h
 
-#include <nmm/fracture/growth_criterion.h>
-#include <nmm/geometry/crack_extension.h>
-
 #include <limits>
-#include <optional>
 #include <scene/contact_loading.h>
+#include <scene/crack_growth.h>
 #include <scene/static_analysis.h>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace NMM
@@ -50,23 +46,6 @@ namespace NMM
       void
       clear() override;
 
-      /// A tip that grows, with the reason and the result.
-      struct GrowingTip
-      {
-        CrackTip                 tip;
-        IntensityFactors         factors;
-        GrowthCriterion::Verdict verdict;
-        /// K_eq / K_c [-].
-        double drive = 0.;
-        /// Of the increment, from the tip's direction [rad]; with an implicit criterion it is
-        /// turned after each trial.
-        double         angle = 0.;
-        CrackExtension extension;
-        /// Angle of the previous trial [rad] and its residual [rad], see turn_increments(), if
-        /// there was one.
-        std::optional<std::pair<double, double>> last_trial;
-      };
-
       /// A state of equilibrium, at the load factor at which the next increment grows.
       struct State
       {
@@ -74,30 +53,18 @@ namespace NMM
         std::vector<double> probes;
       };
 
-      /// A row of growth.csv.
-      struct Increment
-      {
-        unsigned int step;
-        double       load_factor;
-        GrowingTip   tip;
-      };
-
       /// Null without contact.
       std::unique_ptr<ContactLoading> contact_loading;
       std::vector<State>              states;
-      std::vector<Increment>          increments;
+      GrowthTable                     increments{"load_factor"};
       /// The tips that grow next from the last state.
       std::vector<GrowingTip> growing_tips;
       /// Load factor at which they grow [-]; not a number if no load makes a tip grow.
-      double load_factor  = std::numeric_limits<double>::quiet_NaN();
-      double grown_length = 0.;
+      double load_factor = std::numeric_limits<double>::quiet_NaN();
       /// Why growth came to an end; empty if it did not.
       std::string end_reason;
       /// Number of increments whose direction was not found.
       unsigned int n_unturned = 0;
-
-      const GrowthCriterion &
-      criterion() const;
 
       /// Finds the equilibrium, the tips that grow next, and the load factor at which they do.
       void

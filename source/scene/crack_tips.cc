@@ -59,15 +59,24 @@ namespace NMM
                        const ElasticityProblem &problem,
                        const TipLoading        &loading)
     {
+      compute_each(
+        [&](const CrackTip &tip, const double radius, DiskRules &disk_rules) {
+          return compute_intensity_factors(
+            field, problem, tip, radius, loading, &disk_rules);
+        });
+    }
+
+
+    void
+    CrackTips::compute_each(const FactorsOfTip &factors_of)
+    {
       factors.clear();
       for (const CrackTip &tip : tips)
         // The free radius of a tip that has grown may be smaller than that at the start.
-        factors.push_back(compute_intensity_factors(
-          field,
-          problem,
+        factors.push_back(factors_of(
           tip,
           std::min(scene.parameters().fracture.radius, tip.free_radius),
-          loading));
+          rules));
     }
 
 

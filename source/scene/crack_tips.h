@@ -6,6 +6,7 @@
 #include <nmm/output/progress.h>
 #include <nmm/scene/scene.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,15 @@ namespace NMM
               const ElasticityProblem &problem,
               const TipLoading        &loading = {});
 
+      /// Intensity factors of a tip, a function of the tip, of the radius of its disk [m], and of
+      /// rules.
+      using FactorsOfTip =
+        std::function<IntensityFactors(const CrackTip &, double, DiskRules &)>;
+
+      /// Sets the factors of all tips to those that @p factors_of gives.
+      void
+      compute_each(const FactorsOfTip &factors_of);
+
       /// Lines for the report with the intensity factors of the first few tips.
       std::vector<std::string>
       description() const;
@@ -65,6 +75,8 @@ namespace NMM
       const Scene                  &scene;
       std::vector<CrackTip>         tips;
       std::vector<IntensityFactors> factors;
+      /// For all states of the solid.
+      DiskRules rules;
 
       /// Unit of intensity factors.
       std::string

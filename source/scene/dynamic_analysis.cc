@@ -28,6 +28,43 @@ namespace NMM
 
 
     void
+    DynamicAnalysis::check_problem()
+    {
+      AssertThrow(scene.parameters().fracture.n_increments == 0 ||
+                    dealii::Utilities::MPI::n_mpi_processes(communicator) == 1,
+                  InputError("cracks grow in motion on one rank only",
+                             "parameter 'Fracture/Increments'",
+                             "run the scene on one rank"));
+    }
+
+
+    void
+    DynamicAnalysis::clear()
+    {
+      clear_equations();
+      SceneAnalysis::clear();
+    }
+
+
+    void
+    DynamicAnalysis::clear_equations()
+    {
+      velocity_field.reset();
+      evaluator.reset();
+      recovery.reset();
+      field.reset();
+      leaving.reset();
+      integrator.reset();
+      contact_model.reset();
+      model.reset();
+      elasticity.reset();
+      incremental_dynamics.reset();
+      incremental.reset();
+      mass_quadrature.reset();
+    }
+
+
+    void
     DynamicAnalysis::make_system()
     {
       Stage              system_stage(progress, "masses");
@@ -38,9 +75,18 @@ namespace NMM
         make_incremental();
       else
         make_integrator();
-      probe_history = std::make_unique<ProbeHistory>(*covers,
-                                                     *probes,
-                                                     scene.parameters().probes);
+      if (probe_history)
+        probe_history->follow(*covers, *probes, scene.parameters().probes);
+      else
+        probe_history =
+          std::make_unique<ProbeHistory>(*covers,
+                                         *probes,
+                                         scene.parameters().probes);
+      // A solid that is cut again goes on from the state that it was in.
+      if (!growth && !incremental)
+        set_first_state();
+      if (!growth && scene.parameters().fracture.n_increments > 0)
+        growth = std::make_unique<GrowthInMotion>(scene.parameters().fracture);
     }
 
 
@@ -77,7 +123,13 @@ namespace NMM
       make_leaving();
       if (parameters.time.sleep.speed > 0.)
         integrator->let_blocks_sleep(parameters.time.sleep);
+    }
 
+
+    void
+    DynamicAnalysis::set_first_state()
+    {
+      const SceneParameters &parameters = scene.parameters();
       if (!restart.empty())
       {
         Checkpoint::read(restart, *integrator);
@@ -292,7 +344,7 @@ namespace NMM
       integrator->restore(last_good);
       // If the end of a step was being checked, the contact history is that of a refused state,
       // from which a run must not continue.
-      if (kind == Analysis::dynamics && !is_checking_state)
+      if (kind == Analysis::dynamics && !is_checking_state && !growth)
         write_checkpoint();
     }
 
@@ -311,10 +363,12 @@ namespace NMM
       note_energies();
       try
       {
+        grow();
         while (control.advance(*integrator, parameters.end_time, record))
         {
           count_lost();
           after_step(record);
+          grow();
         }
       }
       catch (const NumericalFailure &)

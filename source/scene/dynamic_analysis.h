@@ -1,6 +1,7 @@
 #ifndef nmm_source_scene_dynamic_analysis_h
 #define nmm_source_scene_dynamic_analysis_h
 
+#include <nmm/contact/contact_history.h>
 #include <nmm/dynamics/elastic_models.h>
 #include <nmm/dynamics/incremental_dynamics.h>
 #include <nmm/dynamics/leaving_blocks.h>
@@ -8,6 +9,7 @@
 #include <nmm/output/csv_series.h>
 
 #include <memory>
+#include <scene/growth_in_motion.h>
 #include <scene/probe_history.h>
 #include <scene/scene_analysis.h>
 #include <scene/static_start.h>
@@ -63,6 +65,9 @@ namespace NMM
       double                                 incremental_time = 0.;
       unsigned int                           incremental_step = 0;
 
+      /// Null if cracks do not grow.
+      std::unique_ptr<GrowthInMotion> growth;
+
       /// Velocity of the state that is shown [m/s].
       std::unique_ptr<DisplacementField> velocity_field;
 
@@ -86,11 +91,57 @@ namespace NMM
       double           largest_balance = 0., largest_energy = 0.;
       Progress::Stage *stage = nullptr;
 
+      /// @throws InputError for cracks that grow on several ranks.
+      void
+      check_problem() override;
+
       void
       make_system() override;
 
       void
+      clear() override;
+
+      /// Destroys the equations of motion; the solid and its contact remain.
+      void
+      clear_equations();
+
+      void
       make_integrator();
+
+      /// Lets the integrator start from the scene's initial state, or from a checkpoint.
+      void
+      set_first_state();
+
+      /// Lets cracks grow whose tips have reached the toughness in the present state.
+      void
+      grow();
+
+      /// The solid before it was cut again, and its state.
+      struct FormerSolid
+      {
+        DynamicState   state;
+        ContactHistory history;
+        /// Kinetic and stored energy [J/m].
+        double energy = 0.;
+        /// See AccountedContactModel::friction_work() [J/m].
+        double friction_work = 0.;
+        // Each object refers to those above it.
+        std::unique_ptr<PhysicalMesh>     physical_mesh;
+        std::unique_ptr<MathematicalMesh> mathematical_mesh;
+        std::unique_ptr<ManifoldMesh>     manifold_mesh;
+        std::unique_ptr<CoverSystem>      covers;
+        std::unique_ptr<ContactAnalysis>  contact;
+      };
+
+      /// Cuts the solid again, with the geometry @p grown, and goes on from the same state. Faces
+      /// that are new separate within @p duration [s]. @throws NumericalFailure if that is not
+      /// possible; the solid is then as before.
+      void
+      cut_anew(const Geometry &grown, double duration);
+
+      /// Takes over the state of a solid that has been cut again since.
+      void
+      carry_over(const FormerSolid &former, double duration);
 
       /// The terms of inelastic materials; null if all materials are elastic.
       InelasticTerms *
@@ -124,6 +175,15 @@ namespace NMM
       /// for them. Collective.
       void
       compute_tips_in_motion();
+
+      /// Rotation of the material about a crack tip, in finite kinematics.
+      dealii::Tensor<2, 2>
+      rotation_at(const CrackTip &tip, const DisplacementField &u) const;
+
+      /// The displacements that lead to rotation * (X + u) instead of X + u.
+      DisplacementField
+      turned(const DisplacementField    &u,
+             const dealii::Tensor<2, 2> &rotation) const;
 
       /// Names of the columns of history.csv after time and step. history_values() are their values
       /// in the state at the end of the step @p record.

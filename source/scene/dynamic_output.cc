@@ -140,7 +140,11 @@ namespace NMM
         columns.insert(columns.end(), {"blocks_left", "left_energy"});
       if (scene.parameters().time.sleep.speed > 0.)
         columns.push_back("blocks_asleep");
-      if (crack_tips)
+      // The number of tips changes when cracks grow; their factors are in growth.csv then.
+      if (growth)
+        columns.insert(columns.end(),
+                       {"increments", "grown_length", "fracture", "cuts"});
+      else if (crack_tips)
         for (const std::string &column : crack_tips->columns())
           columns.push_back(column);
       return columns;
@@ -186,7 +190,13 @@ namespace NMM
                        account.left});
       if (scene.parameters().time.sleep.speed > 0.)
         values.push_back(integrator->n_asleep());
-      if (crack_tips)
+      if (growth)
+        values.insert(values.end(),
+                      {double(growth->table().n_increments()),
+                       growth->table().grown_length(),
+                       account.fracture,
+                       account.cuts});
+      else if (crack_tips)
         for (const double value : crack_tips->numbers())
           values.push_back(value);
       return values;
@@ -336,6 +346,11 @@ namespace NMM
         contact->add_to_summary(summary);
       if (crack_tips)
         crack_tips->add_to(summary);
+      if (growth)
+      {
+        summary.add("increments", growth->table().n_increments());
+        summary.add("grown_length", growth->table().grown_length(), length);
+      }
       if (leaving)
         summary.add("blocks_left", integrator->state().left_blocks.size());
       if (scene.parameters().time.sleep.speed > 0.)

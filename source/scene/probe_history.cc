@@ -11,6 +11,17 @@ namespace NMM
                                const std::vector<Probe> &probes)
       : communicator(covers.communicator())
     {
+      follow(covers, points, probes);
+    }
+
+
+    void
+    ProbeHistory::follow(const CoverSystem        &covers,
+                         const ProbePoints        &points,
+                         const std::vector<Probe> &probes)
+    {
+      names.clear();
+      terms.clear();
       const ManifoldMesh     &mesh         = covers.manifold_mesh();
       const MathematicalMesh &mathematical = mesh.mathematical_mesh();
       for (const ProbePoints::Entry &entry : points.entries())

@@ -28,6 +28,13 @@ namespace NMM
                    const ProbePoints        &points,
                    const std::vector<Probe> &probes);
 
+      /// Uses the arguments from now on, after the solid was cut again; the table remains. Probes
+      /// must be the same.
+      void
+      follow(const CoverSystem        &covers,
+             const ProbePoints        &points,
+             const std::vector<Probe> &probes);
+
       /// Whether no probe is a point.
       bool
       is_empty() const;

@@ -288,8 +288,10 @@ namespace NMM
 
 
   MathematicalMesh
-  Scene::make_mathematical_mesh(const PhysicalMesh &physical_mesh,
-                                const MPI_Comm      communicator) const
+  Scene::make_mathematical_mesh(
+    const PhysicalMesh           &physical_mesh,
+    const MPI_Comm                communicator,
+    const std::vector<LocalSize> &further_sizes) const
   {
     const MathematicalMeshParameters &parameters =
       scene_parameters.mathematical_mesh;
@@ -304,6 +306,9 @@ namespace NMM
       graded.local_sizes.insert(graded.local_sizes.end(),
                                 at_tips.begin(),
                                 at_tips.end());
+      graded.local_sizes.insert(graded.local_sizes.end(),
+                                further_sizes.begin(),
+                                further_sizes.end());
       check_memory(scene_parameters, graded, physical_mesh, communicator);
       return make_graded_mesh(physical_mesh, graded, parameters.degree);
     }

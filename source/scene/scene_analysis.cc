@@ -73,8 +73,9 @@ namespace NMM
       }
       {
         Stage stage(progress, "mathematical mesh");
-        mathematical_mesh = std::make_unique<MathematicalMesh>(
-          scene.make_mathematical_mesh(*physical_mesh, communicator));
+        mathematical_mesh =
+          std::make_unique<MathematicalMesh>(scene.make_mathematical_mesh(
+            *physical_mesh, communicator, further_sizes));
       }
       {
         Stage stage(progress, "cutting");

@@ -82,6 +82,9 @@ namespace NMM
       /// The present geometry, if cracks grow.
       Geometry geometry;
 
+      /// Sizes of cells that a graded mesh has beside those of the scene and of the present tips.
+      std::vector<LocalSize> further_sizes;
+
       // Each object refers to those above it.
       std::vector<CleaningAction>       cleaning_actions;
       std::vector<std::string>          own_mesh_notices;

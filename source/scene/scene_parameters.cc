@@ -412,27 +412,33 @@ namespace NMM
       "'as meshed'");
     if (!fracture.intensity_factors)
       return;
-    check(model.kinematics == Kinematics::small &&
-            (model.analysis == Analysis::statics ||
-             model.analysis == Analysis::dynamics),
-          "intensity factors belong to small displacements in equilibrium or "
-          "motion, not to " +
+    const bool is_static  = model.analysis == Analysis::statics,
+               is_dynamic = model.analysis == Analysis::dynamics;
+    check((model.kinematics == Kinematics::small &&
+           (is_static || is_dynamic)) ||
+            (model.kinematics == Kinematics::finite && is_dynamic),
+          "intensity factors are those of small displacements in equilibrium, "
+          "or of motion with small or finite kinematics, not of " +
             to_string(model.kinematics) + " kinematics in a " +
             to_string(model.analysis) + " analysis",
           "Intensity factors",
           "set 'Model/Kinematics = small' and 'Model/Analysis' to static or "
           "dynamic, or remove it");
-    check(fracture.n_increments == 0 || model.analysis == Analysis::statics,
-          "cracks grow in equilibrium only, not in a " +
-            to_string(model.analysis) + " analysis",
-          "Increments",
-          "remove it, or set 'Model/Analysis = static'");
     check(!has_inelastic_material(),
           "intensity factors are not computed in materials that yield",
           "Intensity factors",
           "remove it, or choose an elastic material");
     if (fracture.n_increments == 0)
       return;
+    check(is_static || (output.checkpoint_every == 0 && time.sleep.speed == 0.),
+          "checkpoints and sleeping blocks are not available while cracks grow "
+          "in motion",
+          "Increments",
+          "remove 'Output/Checkpoint every' and 'Time/Sleep speed'");
+    check(is_dynamic || fracture.speed == 0.,
+          "the speed of cracks would not be used in equilibrium",
+          "Speed",
+          "remove it, or set 'Model/Analysis = dynamic'");
     AssertThrow(load_steps.load_steps().are_ascending(),
                 InputError("cracks grow under loads that ascend, but a load "
                            "factor is smaller than the one before it",
@@ -449,7 +455,7 @@ namespace NMM
                              where + "/Toughness'",
                              "give the material's, > 0"));
       // The load factor of growth is computed by proportion, which initial stress does not allow.
-      AssertThrow(material.initial_stress.norm() == 0.,
+      AssertThrow(is_dynamic || material.initial_stress.norm() == 0.,
                   InputError("cracks do not grow in a material with initial "
                              "stress, to which the load factor does not apply",
                              where + "/Initial stress'",

@@ -82,6 +82,11 @@ namespace NMM
                 "Tips grow together with the one that is driven most if the "
                 "ratio of their equivalent intensity factor to the toughness "
                 "is less by this at most [-].");
+    entries.add("Speed",
+                speed,
+                Patterns::Double(0),
+                "Largest speed of cracks in a dynamic analysis [m/s]; 0: half "
+                "of the speed of Rayleigh waves.");
   }
 
 
@@ -119,6 +124,12 @@ namespace NMM
                            "cracks that do not grow",
                            section,
                            "remove them, or set 'Increments'"));
+    AssertThrow(std::isfinite(speed) && (grows || speed == 0.),
+                InputError("'Speed' is " + to_text(speed) +
+                             " m/s and would not be used by cracks that do "
+                             "not grow",
+                           section,
+                           "remove it, or set 'Increments'"));
     AssertThrow(intensity_factors || radius == 0.,
                 InputError("'Radius' would not be used without intensity "
                            "factors",

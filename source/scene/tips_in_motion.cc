@@ -1,5 +1,6 @@
 #include <deal.II/base/function.h>
 
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <scene/dynamic_analysis.h>
@@ -10,6 +11,8 @@ namespace NMM
   namespace internal
   {
     // Intensity factors of a solid in motion.
+    using dealii::Tensor;
+
     namespace
     {
       /// Multiplies a function by a number; null stays null.
@@ -61,14 +64,80 @@ namespace NMM
       relevant = integrator->state().a;
       const DisplacementField u(*covers, problem, displacement()),
         acceleration(*covers, problem, relevant);
-      TipLoading tip_loading;
+      std::vector<ContactForce> forces;
       if (contact)
-        tip_loading.contact_forces = contact->forces_on_faces();
-      tip_loading.acceleration = [&](const unsigned int      element,
-                                     const dealii::Point<2> &xi) {
-        return acceleration.displacement(element, xi);
-      };
-      crack_tips->compute(u, problem_now(), tip_loading);
+        forces = contact->forces_on_faces();
+      const ElasticityProblem now = problem_now();
+      crack_tips->compute_each(
+        [&](const CrackTip &tip, const double radius, DiskRules &rules) {
+          const bool is_finite =
+            scene.parameters().model.kinematics == Kinematics::finite;
+          // Seen by an observer who turns with the material at the tip, displacements are small.
+          const Tensor<2, 2> to_tip = transpose(
+            is_finite ? rotation_at(tip, u)
+                      : Tensor<2, 2>(dealii::unit_symmetric_tensor<2>()));
+          TipLoading        tip_loading;
+          ElasticityProblem seen = now;
+          seen.gravity           = to_tip * now.gravity;
+          for (const ContactForce &force : forces)
+            tip_loading.contact_forces.push_back(
+              {force.x, to_tip * force.normal, to_tip * force.force});
+          tip_loading.acceleration = [&](const unsigned int      element,
+                                         const dealii::Point<2> &xi) {
+            return to_tip * acceleration.displacement(element, xi);
+          };
+          return NMM::compute_intensity_factors(is_finite ? turned(u, to_tip)
+                                                          : u,
+                                                seen,
+                                                tip,
+                                                radius,
+                                                tip_loading,
+                                                &rules);
+        });
+    }
+
+
+    Tensor<2, 2>
+    DynamicAnalysis::rotation_at(const CrackTip          &tip,
+                                 const DisplacementField &u) const
+    {
+      // The rotation of the mean deformation gradient, R = (F + cof F) / |F + cof F|. In two
+      // dimensions F + cof F is a rotation times a number.
+      const dealii::Point<2> middle(1. / 3., 1. / 3.);
+      const auto [first, last] = covers->locally_owned_elements();
+      Tensor<2, 2> local;
+      for (unsigned int element = first; element < last; ++element)
+        if (manifold_mesh->region(element) == tip.region &&
+            manifold_mesh->reference_point(element).distance(tip.point) <
+              tip.free_radius)
+          local +=
+            manifold_mesh->area(element) *
+            (dealii::unit_symmetric_tensor<2>() + u.gradient(element, middle));
+      const Tensor<2, 2> sum = dealii::Utilities::MPI::sum(local, communicator);
+      const double       c = sum[0][0] + sum[1][1], s = sum[1][0] - sum[0][1],
+                   norm     = std::hypot(c, s);
+      Tensor<2, 2> rotation = dealii::unit_symmetric_tensor<2>();
+      if (norm > 0.)
+      {
+        rotation[0][0] = rotation[1][1] = c / norm;
+        rotation[1][0]                  = s / norm;
+        rotation[0][1]                  = -s / norm;
+      }
+      return rotation;
+    }
+
+
+    DisplacementField
+    DynamicAnalysis::turned(const DisplacementField &u,
+                            const Tensor<2, 2>      &rotation) const
+    {
+      std::vector<Tensor<1, 2>> values(covers->n_covers());
+      for (unsigned int cover = 0; cover < values.size(); ++cover)
+      {
+        const dealii::Point<2> &x = covers->node(cover);
+        values[cover] = rotation * (x + u.nodal_value(cover)) - Tensor<1, 2>(x);
+      }
+      return DisplacementField(*covers, problem, values);
     }
   } // namespace internal
 } // namespace NMM

@@ -66,6 +66,43 @@ namespace NMM
     /// Kinetic energy + strain energy + energy of conditions of blocks that have left, at that
     /// time [J/m].
     double left = 0.;
+    /// Work that the faces of new cracks have done against their closing forces [J/m].
+    double fracture = 0.;
+    /// Change of the stored and the kinetic energy where the solid was cut again: errors of
+    /// interpolation, and the energy of displacement conditions, which depends on the cells
+    /// [J/m].
+    double cuts = 0.;
+  };
+
+
+  /**
+   * Forces by which the faces of new cracks still hold each other. A crack that grows within a
+   * time step leaves faces that exerted tractions on each other just before. These forces are the
+   * resultants of the tractions, and fade linearly from the beginning to the end,
+   * @f[ f(t) = s(t)\,f_0, \qquad s(t) = 1 - \frac{t-t_0}{t_1-t_0}, \quad t_0\le t\le t_1. @f]
+   * If the solid follows slowly, their work is the energy release rate times the new area: the
+   * faces open in proportion to the part of the forces that is gone.
+   * Source: J. Malluck, W. King, in: Crack Arrest Methodology and Applications, ASTM STP 711
+   * (1980), 38-53.
+   */
+  struct ClosingForces
+  {
+    /// The forces f_0 on owned unknowns, as loads [N/m]; of size 0 if there are none.
+    MechanicalModel::Vector forces;
+    /// Time at which they begin to fade, and time at which they are gone [s].
+    double begin = 0., end = 0.;
+
+    /// Whether any of them is left at the time @p t [s].
+    bool
+    act_at(double t) const;
+
+    /// The share s(t) at the time @p t [s]; 1 before the beginning and 0 after the end [-].
+    double
+    share(double t) const;
+
+    /// Mean of share() from @p t_0 to @p t_1 [s]; for t_1 = t_0 the share there [-].
+    double
+    mean_share(double t_0, double t_1) const;
   };
 
 
@@ -93,6 +130,8 @@ namespace NMM
     double kinetic = 0.;
     /// Sums of the energy account.
     EnergySums sums;
+    /// Forces between the faces of new cracks; none unless continue_after_cut() was called.
+    ClosingForces closing;
     /// Blocks that have left, in the order in which they did.
     std::vector<unsigned int> left_blocks;
     /// For each block the time that it has been at rest [s]. For a block that sleeps this is
@@ -127,13 +166,13 @@ namespace NMM
   {
     /// @{
     /// Kinetic energy, strain energy and energy of conditions (MechanicalModel::Energies) of the
-    /// state; external work, dissipated energy and energy of blocks that have left (EnergySums)
-    /// since the start [J/m].
+    /// state; external work, dissipated energy, energy of blocks that have left, work of closing
+    /// forces and changes by cuts (EnergySums) since the start [J/m].
     double kinetic = 0., strain = 0., conditions = 0., external_work = 0.,
-           dissipated = 0., left = 0.;
+           dissipated = 0., left = 0., fracture = 0., cuts = 0.;
     /// @}
-    /// kinetic + strain + conditions + dissipated + left - external_work - EnergySums::initial:
-    /// energy that the scheme adds (> 0) or removes (< 0) [J/m].
+    /// kinetic + strain + conditions + dissipated + left + fracture - cuts - external_work -
+    /// EnergySums::initial: energy that the scheme adds (> 0) or removes (< 0) [J/m].
     double balance = 0.;
     /// Linear momentum [kg/s].
     dealii::Tensor<1, 2> linear_momentum;
@@ -251,6 +290,26 @@ namespace NMM
      */
     void
     drop_blocks(const std::vector<unsigned int> &blocks);
+
+    /// Set the accelerations to those of M a = -C v - r(u, t). In conserving schemes the state has
+    /// the mean ones of the last step instead.
+    void
+    balance_accelerations();
+
+    /**
+     * Continue from the state of a solid that was cut further since: @p state has the u, v and
+     * a of that solid, with balance_accelerations(), as functions of this model's unknowns (see
+     * CarriedCovers); numbers of blocks are those of this model. The tractions that the faces of
+     * the cut exerted on each other are M a + C v + r(u, t), which vanishes at all unknowns that
+     * the cut does not concern. They become ClosingForces, which fade over @p duration [s], so that
+     * accelerations do not jump. Closing forces of an earlier cut are a part of these. @p energy
+     * is the kinetic and the stored energy before the cut [J/m].
+     * What the model remembers must have been restored before.
+     */
+    void
+    continue_after_cut(const DynamicState &state,
+                       double              energy,
+                       double              duration);
 
     /// Let blocks sleep from now on. All are awake unless the state says otherwise.
     /// @throws InputError for a model that does not distinguish blocks, as on several

@@ -5,8 +5,10 @@
 #include <nmm/covers/crack_tip.h>
 #include <nmm/mechanics/displacement_field.h>
 #include <nmm/mechanics/elasticity_problem.h>
+#include <nmm/quadrature/element_rule_builder.h>
 
 #include <functional>
+#include <unordered_map>
 #include <vector>
 
 namespace NMM
@@ -77,6 +79,25 @@ namespace NMM
   };
 
 
+  /// Rules on the elements that curves cut, of the degree that interaction integrals need. Whoever
+  /// computes intensity factors of several states of a solid keeps them, since they take longer
+  /// than the integrals.
+  class DiskRules
+  {
+  public:
+    DiskRules();
+
+    /// The rule of an element of @p mesh, which must be the same mesh in all calls.
+    const dealii::Quadrature<2> &
+    rule(const ManifoldMesh &mesh, unsigned int element);
+
+  private:
+    dealii::Quadrature<2>                                   whole_rule;
+    std::unordered_map<unsigned int, dealii::Quadrature<2>> rules;
+    ElementRuleBuilder                                      builder;
+  };
+
+
   /**
    * Intensity factors of a crack tip by interaction integrals in domain form, for each of several
    * disks about the tip. The displacement can be any function.
@@ -131,8 +152,8 @@ namespace NMM
    * Sources: M. Stern, E. Becker, R. Dunham, Int. J. Fract. 12 (1976), 359-368; J. Yau, S. Wang, H.
    * Corten, J. Appl. Mech. 47 (1980), 335-341; the form for bent cracks is derived here.
    *
-   * @p radii are the radii of the disks [m]. Returns the factors of each disk, with a spread of 0.
-   * Collective.
+   * @p radii are the radii of the disks [m]; @p rules may be null. Returns the factors of each
+   * disk, with a spread of 0. Collective.
    * @throws InputError for a radius larger than the tip's free radius.
    */
   std::vector<IntensityFactors>
@@ -142,20 +163,22 @@ namespace NMM
                         const std::vector<double> &radii,
                         const ElementDisplacement &displacement,
                         const ElementGradient     &gradient,
-                        const TipLoading          &loading = {});
+                        const TipLoading          &loading = {},
+                        DiskRules                 *rules   = nullptr);
 
 
   /**
    * Intensity factors of a tip from five disks. The factors are those of the largest disk, and
    * IntensityFactors::spread compares all of them. @p largest_radius is the radius of that disk
-   * [m]; 0 stands for 0.9 times the tip's free radius. Collective.
+   * [m]; 0 stands for 0.9 times the tip's free radius. @p rules may be null. Collective.
    */
   IntensityFactors
   compute_intensity_factors(const DisplacementField &field,
                             const ElasticityProblem &problem,
                             const CrackTip          &tip,
                             double                   largest_radius = 0.,
-                            const TipLoading        &loading        = {});
+                            const TipLoading        &loading        = {},
+                            DiskRules               *rules          = nullptr);
 } // namespace NMM
 
 #endif

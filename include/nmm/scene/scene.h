@@ -102,11 +102,14 @@ namespace NMM
     make_limits() const;
 
     /// The mathematical mesh, which is distributed among the ranks of @p communicator if the
-    /// scene says so. @throws InputError for a curve that does not exist, for a file that cannot
+    /// scene says so. If it is graded towards crack tips, its cells are not larger than
+    /// @p further_sizes. @throws InputError for a curve that does not exist, for a file that cannot
     /// be read, and if the memory does not suffice.
     MathematicalMesh
-    make_mathematical_mesh(const PhysicalMesh &physical_mesh,
-                           MPI_Comm communicator = MPI_COMM_WORLD) const;
+    make_mathematical_mesh(
+      const PhysicalMesh           &physical_mesh,
+      MPI_Comm                      communicator  = MPI_COMM_WORLD,
+      const std::vector<LocalSize> &further_sizes = {}) const;
 
     /// Estimate of the memory that an analysis of this scene needs per cell [bytes], from
     /// measurements.

@@ -42,6 +42,9 @@ namespace NMM
     /// A tip grows together with the tip of the largest K_eq / K_c if its own K_eq / K_c is at
     /// least 1 - tolerance times that [-].
     double tolerance = 0.01;
+    /// Largest speed of a crack that grows in motion [m/s]; 0 stands for half of the speed of
+    /// Rayleigh waves.
+    double speed = 0.;
 
     /// Whether the mesh is graded towards crack tips.
     bool

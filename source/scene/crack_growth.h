@@ -1,0 +1,92 @@
+#ifndef nmm_source_scene_crack_growth_h
+#define nmm_source_scene_crack_growth_h
+
+#include <nmm/fracture/growth_criterion.h>
+#include <nmm/geometry/crack_extension.h>
+#include <nmm/output/output_directory.h>
+
+#include <optional>
+#include <scene/crack_tips.h>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace NMM
+{
+  namespace internal
+  {
+    /// A tip that grows, with the reason and the result.
+    struct GrowingTip
+    {
+      CrackTip                 tip;
+      IntensityFactors         factors;
+      GrowthCriterion::Verdict verdict;
+      /// K_eq / K_c [-].
+      double drive = 0.;
+      /// Of the increment, from the tip's direction [rad]; with an implicit criterion it is
+      /// turned after each trial.
+      double         angle = 0.;
+      CrackExtension extension;
+      /// Angle of the previous trial [rad] and its residual [rad], see
+      /// CrackGrowthAnalysis::turn_increments(), if there was one.
+      std::optional<std::pair<double, double>> last_trial;
+    };
+
+
+    /// The criterion that the scene asks for.
+    const GrowthCriterion &
+    growth_criterion(const FractureParameters &parameters);
+
+    /// All tips of @p tips, which were computed, with what the scene's criterion says of them.
+    std::vector<GrowingTip>
+    judge_tips(const CrackTips          &tips,
+               const FractureParameters &parameters,
+               const ElasticityProblem  &problem,
+               const PhysicalMesh       &physical_mesh);
+
+    /// Extends the crack of a tip in @p geometry by one increment at the tip's angle.
+    void
+    extend_by_increment(GrowingTip               &growing,
+                        const FractureParameters &parameters,
+                        Geometry                 &geometry);
+
+
+    /// The increments by which cracks have grown, and growth.csv.
+    class GrowthTable
+    {
+    public:
+      /// @p value_name is the name of the column for the load factor or time.
+      explicit GrowthTable(std::string value_name);
+
+      /// Adds an increment that was made in the step @p step, at the load factor [-] or time [s]
+      /// @p value.
+      void
+      add(unsigned int step, double value, const GrowingTip &tip);
+
+      unsigned int
+      n_increments() const;
+
+      /// Sum of the lengths of all increments [m].
+      double
+      grown_length() const;
+
+      /// Writes growth.csv. For use on one rank.
+      void
+      write(const OutputDirectory &directory) const;
+
+    private:
+      struct Row
+      {
+        unsigned int step;
+        double       value;
+        GrowingTip   tip;
+      };
+
+      std::string      value_name;
+      std::vector<Row> rows;
+      double           length = 0.;
+    };
+  } // namespace internal
+} // namespace NMM
+
+#endif

@@ -1,0 +1,228 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/contact/carried_history.h>
+#include <nmm/fracture/tip_grading.h>
+#include <nmm/mechanics/carried_covers.h>
+
+#include <algorithm>
+#include <cmath>
+#include <scene/dynamic_analysis.h>
+#include <scene/growth_in_motion.h>
+
+namespace NMM
+{
+  namespace internal
+  {
+    double
+    rayleigh_speed(const Material &material)
+    {
+      const double nu          = material.poissons_ratio;
+      const double shear_speed = std::sqrt(material.youngs_modulus /
+                                           (2. * (1. + nu)) / material.density);
+      return (0.862 + 1.14 * nu) / (1. + nu) * shear_speed;
+    }
+
+
+    GrowthInMotion::GrowthInMotion(const FractureParameters &parameters)
+      : parameters(&parameters)
+      , increments("time")
+    {
+    }
+
+
+    double
+    GrowthInMotion::speed(const Material &material) const
+    {
+      return parameters->speed > 0. ? parameters->speed
+                                    : 0.5 * rayleigh_speed(material);
+    }
+
+
+    std::vector<GrowingTip>
+    GrowthInMotion::find_growing_tips(const CrackTips         &tips,
+                                      const ElasticityProblem &problem,
+                                      const PhysicalMesh      &physical_mesh,
+                                      const double             t) const
+    {
+      if (increments.n_increments() >= parameters->n_increments)
+        return {};
+      std::vector<GrowingTip> all =
+        judge_tips(tips, *parameters, problem, physical_mesh);
+      const auto is_on_its_way = [&](const dealii::Point<2> &point) {
+        return t < arrival &&
+               std::find(running_tips.begin(), running_tips.end(), point) !=
+                 running_tips.end();
+      };
+      all.erase(std::remove_if(all.begin(),
+                               all.end(),
+                               [&](const GrowingTip &tip) {
+                                 return !(tip.drive >= 1.) ||
+                                        is_on_its_way(tip.tip.point);
+                               }),
+                all.end());
+      return all;
+    }
+
+
+    double
+    GrowthInMotion::travel_time(const std::vector<GrowingTip> &tips,
+                                const ElasticityProblem       &problem,
+                                const PhysicalMesh &physical_mesh) const
+    {
+      const std::vector<unsigned int> region_to_material =
+        problem.region_to_material(physical_mesh);
+      double longest = 0.;
+      for (const GrowingTip &tip : tips)
+        longest =
+          std::max(longest,
+                   tip.tip.point.distance(tip.extension.end) /
+                     speed(
+                       problem.materials[region_to_material[tip.tip.region]]));
+      return longest;
+    }
+
+
+    void
+    GrowthInMotion::add(const unsigned int             step,
+                        const double                   t,
+                        const double                   duration,
+                        const std::vector<GrowingTip> &tips)
+    {
+      // Closing forces that have not faded yet are a part of the new ones, and fade with them.
+      if (t >= arrival)
+        running_tips.clear();
+      arrival = t + duration;
+      for (const GrowingTip &tip : tips)
+      {
+        increments.add(step, t, tip);
+        running_tips.push_back(tip.extension.end);
+      }
+    }
+
+
+    const GrowthTable &
+    GrowthInMotion::table() const
+    {
+      return increments;
+    }
+
+
+    void
+    DynamicAnalysis::grow()
+    {
+      if (!growth || !crack_tips)
+        return;
+      std::vector<GrowingTip> tips =
+        growth->find_growing_tips(*crack_tips, problem, *physical_mesh, time());
+      if (tips.empty())
+        return;
+      Geometry grown = geometry;
+      for (GrowingTip &tip : tips)
+        extend_by_increment(tip, scene.parameters().fracture, grown);
+      const double duration =
+        growth->travel_time(tips, problem, *physical_mesh);
+      // Cells must not become larger where a tip has been, see CarriedCovers.
+      const FractureParameters         &fracture = scene.parameters().fracture;
+      const MathematicalMeshParameters &mesh =
+        scene.parameters().mathematical_mesh;
+      if (fracture.grades_mesh())
+        for (const GrowingTip &tip : tips)
+          further_sizes.push_back(
+            grade_towards(tip.tip,
+                          fracture.grading,
+                          mesh.type == MathematicalMeshParameters::Type::graded
+                            ? mesh.graded.cell_size
+                            : mesh.regular.cell_size));
+      cut_anew(grown, duration);
+      growth->add(step_number(), time(), duration, tips);
+      on_first_rank([&]() { growth->table().write(*directory); });
+    }
+
+
+    void
+    DynamicAnalysis::cut_anew(const Geometry &grown, const double duration)
+    {
+      integrator->balance_accelerations();
+      FormerSolid former;
+      former.state  = integrator->state();
+      former.energy = integrator->account().kinetic +
+                      integrator->account().strain +
+                      integrator->account().conditions;
+      if (contact)
+      {
+        former.history       = contact->contact().history();
+        former.friction_work = contact_model->friction_work();
+      }
+      // The solid remains until its state is carried over; what else refers to it does not.
+      clear_equations();
+      former.physical_mesh     = std::move(physical_mesh);
+      former.mathematical_mesh = std::move(mathematical_mesh);
+      former.manifold_mesh     = std::move(manifold_mesh);
+      former.covers            = std::move(covers);
+      former.contact           = std::move(contact);
+
+      const Geometry before = geometry;
+      std::string    fault, place;
+      try
+      {
+        build(grown);
+        carry_over(former, duration);
+      }
+      catch (const InputError &error)
+      {
+        // The scene itself is valid, but the geometry with the extended crack is not.
+        fault = "A crack that grows makes a geometry that cannot be cut: " +
+                error.description();
+        place = error.place();
+      }
+      catch (const NumericalFailure &failure)
+      {
+        fault = failure.message();
+      }
+      if (fault.empty())
+        return;
+      build(before);
+      carry_over(former, duration);
+      AssertThrow(false,
+                  NumericalFailure(fault,
+                                   place,
+                                   "choose another 'Fracture/Increment'"));
+    }
+
+
+    void
+    DynamicAnalysis::carry_over(const FormerSolid &former,
+                                const double       duration)
+    {
+      const CarriedCovers carried(*former.covers, *covers, *quadrature);
+      DynamicState        state = former.state;
+      for (Vector *vector : {&state.u, &state.v, &state.a})
+        *vector = carried.carry(*vector);
+      state.left_blocks.clear();
+      const std::vector<unsigned int> &left = former.state.left_blocks;
+      for (unsigned int block = 0; block < physical_mesh->n_blocks(); ++block)
+        if (std::find(left.begin(), left.end(), carried.former_block(block)) !=
+            left.end())
+          state.left_blocks.push_back(block);
+      if (contact)
+      {
+        contact->continue_from(*former.contact);
+        contact_model->restore(former.friction_work,
+                               carry_history(former.history,
+                                             former.contact->faces(),
+                                             contact->faces()));
+      }
+      integrator->continue_after_cut(state, former.energy, duration);
+      // A few steps resolve the time in which the faces separate.
+      constexpr double steps_per_increment = 4.;
+      const double     usual               = state.next_step > 0.
+                                               ? state.next_step
+                                               : scene.parameters().time.initial_step;
+      integrator->set_next_step(
+        std::min(usual, duration / steps_per_increment));
+      if (contact)
+        take_contact();
+      note_energies();
+      last_good = integrator->state();
+    }
+  } // namespace internal
+} // namespace NMM

@@ -437,6 +437,11 @@ namespace NMM
     internal::PairEnergies
     factors_that_keep_energies(const internal::PairEnergies &found) const;
 
+    /// Distribute the energies of bodies that have been divided among the pairs of their parts, in
+    /// proportion to the energies @p found, see carry_history().
+    void
+    distribute_energies(const internal::PairEnergies &found);
+
     void
     keep_energies();
 

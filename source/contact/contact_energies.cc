@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <contact/contact_data.h>
+#include <initializer_list>
 
 namespace NMM
 {
@@ -101,12 +102,57 @@ namespace NMM
 
 
   void
+  Contact::Data::distribute_energies(const PairEnergies &found)
+  {
+    if (memory.former_bodies.empty())
+      return;
+    const auto former_pair =
+      [&](const std::pair<unsigned int, unsigned int> &pair) {
+        const std::pair<unsigned int, unsigned int> result =
+          std::minmax({memory.former_bodies[pair.first],
+                       memory.former_bodies[pair.second]});
+        return result;
+      };
+    PairEnergies before, now;
+    const auto   add = [&](const PairEnergies &from, PairEnergies &sums) {
+      for (const auto &[pair, energies] : from)
+        for (unsigned int i = 0; i < 2; ++i)
+          sums[former_pair(pair)][i] += energies[i];
+    };
+    add(memory.energies_of_pairs, before);
+    add(found, now);
+    PairEnergies result;
+    for (const PairEnergies *energies :
+         std::initializer_list<const PairEnergies *>{&found,
+                                                     &memory.energies_of_pairs})
+      for (const auto &[pair, ignored] : *energies)
+        for (unsigned int i = 0; i < 2; ++i)
+        {
+          const double sum   = now[former_pair(pair)][i];
+          const auto   known = memory.energies_of_pairs.find(pair);
+          const auto   other = found.find(pair);
+          if (sum > 0.)
+            result[pair][i] =
+              other == found.end()
+                ? 0.
+                : other->second[i] / sum * before[former_pair(pair)][i];
+          else
+            // Nothing is left of this energy, whichever pair had it.
+            result[pair][i] =
+              known == memory.energies_of_pairs.end() ? 0. : known->second[i];
+        }
+    memory.energies_of_pairs = std::move(result);
+  }
+
+
+  void
   Contact::Data::keep_energies()
   {
     step.detection_loss = 0.;
     if (!memory.has_accepted_state)
       return;
     const PairEnergies found = pair_energies();
+    distribute_energies(found);
     for (const auto &[pair, energies] : memory.energies_of_pairs)
     {
       const auto now = found.find(pair);

@@ -280,6 +280,7 @@ namespace NMM
            dealii::ExcMessage("There is no assembly that could be accepted."));
     d.memory.stick_places.clear();
     d.memory.entrances.clear();
+    d.memory.former_bodies.clear();
     for (unsigned int q = 0; q < d.points.size(); ++q)
       if (d.point_data[q].corner < PointKind::along &&
           d.points[q].state != ContactState::open)

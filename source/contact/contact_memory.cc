@@ -81,6 +81,7 @@ namespace NMM
       for (unsigned int edge = 0; edge < touching.size(); ++edge)
         for (const unsigned int other : touching[edge])
           history.touching.emplace_back(edge, other);
+      history.former_bodies = former_bodies;
       for (const auto &[pair, energies] : energies_of_pairs)
         history.pair_energies.push_back({pair.first, pair.second, energies});
     }
@@ -131,6 +132,7 @@ namespace NMM
       energies_of_pairs.clear();
       for (const ContactHistory::PairEnergy &pair : history.pair_energies)
         energies_of_pairs[{pair.first, pair.second}] = pair.energies;
+      former_bodies = history.former_bodies;
     }
   } // namespace internal
 } // namespace NMM

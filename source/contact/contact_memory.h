@@ -39,6 +39,8 @@ namespace NMM
       /// the same on all ranks.
       std::vector<std::vector<unsigned int>> touching;
       PairEnergies                           energies_of_pairs;
+      /// See ContactHistory::former_bodies.
+      std::vector<unsigned int> former_bodies;
       /// Displacements [m], time [s] and reach [m] of the last search for candidate pairs. A
       /// computation that continues from a checkpoint repeats this search to find the same pairs.
       std::vector<double> searched_nodal;

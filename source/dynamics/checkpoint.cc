@@ -23,7 +23,7 @@ namespace NMM
 
     constexpr char checkpoint_magic[8] =
       {'N', 'M', 'M', 'S', 'T', 'A', 'T', 'E'};
-    constexpr std::uint32_t version = 8;
+    constexpr std::uint32_t version = 9;
 
     std::uint64_t
     sum(const char *bytes, const std::size_t n)

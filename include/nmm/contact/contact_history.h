@@ -15,6 +15,7 @@ namespace NMM
    * The history of contact at the last accepted state, of all ranks. A computation that continues
    * from it gives the same results to the last bit, on any number of ranks. Contact::history()
    * makes it, Contact::restore_history() takes it over, and boost serializes it for checkpoints.
+   * carry_history() carries it to the surface of the solid after another cut.
    *
    * Edges are numbers of ContactSurface::edges(). A *place* is an edge along which contact points
    * lie, or a corner: edge + (kind + 1) * n_edges, see internal::place_key().
@@ -67,15 +68,13 @@ namespace NMM
     };
 
     /// Read or write all members.
-    /// Read or write all members.
-    /// Read or write all members.
     template <typename Archive>
     void
     serialize(Archive &archive, const unsigned int /*version*/)
     {
       archive &has_accepted_state &is_conserving &multipliers
         &searched_displacements &searched_time &searched_reach &sticks
-          &entrances &touching &pair_energies;
+          &entrances &touching &pair_energies &former_bodies;
     }
 
     /// Whether a state has been accepted yet. Faces that touch can become bonded only before that.
@@ -98,6 +97,10 @@ namespace NMM
     std::vector<std::pair<unsigned int, unsigned int>> touching;
     /// Energies of all pairs of bodies in contact.
     std::vector<PairEnergy> pair_energies;
+    /// For each body, the number of the body that it was a part of at the last accepted state;
+    /// invalid_index if that is not known. Of pairs whose bodies were the same, only the sum of
+    /// energies is known, see carry_history(). Empty if no body has been divided.
+    std::vector<unsigned int> former_bodies;
   };
 } // namespace NMM
 

@@ -28,6 +28,9 @@
 #include <deal.II/base/timer.h>
 #include <deal.II/base/utilities.h>
 
+// `study.cc` has the parameters, laps of time, samples of the hoop stress, tables and figures;
+// `fitted_ring.cc` solves the same ring on triangles of deal.II that fit it. They are apart from
+// this page since nothing of the method is in them.
 #include "fitted_ring.h"
 #include "study.h"
 #include "tutorial/tutorial.h"

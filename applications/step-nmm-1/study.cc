@@ -1,7 +1,5 @@
 #include "study.h"
 
-#include <nmm/base/exceptions.h>
-
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
@@ -9,12 +7,9 @@
 #include "tutorial/tutorial.h"
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
-#include <sstream>
 
 namespace StepNMM1
 {

@@ -28,6 +28,8 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
 
+// `study.cc` has the parameters, the reference values, tables and files of results, `figures.cc` the
+// figures. They are apart from this page since nothing of the method is in them.
 #include "study.h"
 #include "tutorial/tutorial.h"
 #include <cmath>
@@ -423,22 +425,22 @@ int
 main(int argc, char **argv)
 {
   using namespace StepNMM2;
-  return Tutorial::run(
-    argc,
-    argv,
-    [](const std::string &parameter_file, const std::string &output_directory) {
-      Tutorial::check_that_there_is_one_rank("step-nmm-2");
-      const Parameters parameters =
-        read_parameters(parameter_file, output_directory);
-      Tutorial::make_output_directory(output_directory);
+  return Tutorial::run(argc,
+                       argv,
+                       [](const std::string &parameter_file,
+                          const std::string &output_directory) {
+                         Tutorial::check_that_there_is_one_rank("step-nmm-2");
+                         const Parameters parameters =
+                           read_parameters(parameter_file, output_directory);
+                         Tutorial::make_output_directory(output_directory);
 
-      const std::vector<Measurement> study      = run_study(parameters);
-      const std::vector<Measurement> placements = run_placements(parameters);
-      print_placements(placements);
-      std::map<Load, Curves> curves;
-      for (const Load load : loads)
-        curves[load] = compute_curves(parameters, load);
-      write_results(parameters, study, placements, curves);
-      draw_figures(parameters);
-    });
+                         const std::vector<Measurement> study =
+                           run_study(parameters);
+                         print_placements(run_placements(parameters));
+                         std::map<Load, Curves> curves;
+                         for (const Load load : loads)
+                           curves[load] = compute_curves(parameters, load);
+                         write_results(parameters, study, curves);
+                         draw_figures(parameters);
+                       });
 }

@@ -10,7 +10,6 @@
 #include "tutorial/tutorial.h"
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
@@ -227,8 +226,7 @@ namespace StepNMM2
     {
       std::ofstream file(file_name);
       file << "load,kinematics,degree,mesh,cell_size_m,unknowns,elements,steps,"
-              "iterations,largest_error,total_s,iteration_s,linear_s,"
-              "w_over_L_by_K\n"
+              "iterations,largest_error,total_s,iteration_s,linear_s\n"
            << std::setprecision(7);
       for (const Measurement &m : measurements)
       {
@@ -236,10 +234,7 @@ namespace StepNMM2
              << m.mesh << ',' << m.cell_size << ',' << m.n_unknowns << ','
              << m.n_elements << ',' << m.n_steps << ',' << m.n_iterations << ','
              << m.largest_error << ',' << m.total_time << ','
-             << m.iteration_time << ',' << m.linear_time << ',';
-        for (const auto &[K, w] : m.deflection)
-          file << K << '=' << w << ' ';
-        file << '\n';
+             << m.iteration_time << ',' << m.linear_time << '\n';
       }
     }
   } // namespace
@@ -248,12 +243,10 @@ namespace StepNMM2
   void
   write_results(const Parameters               &parameters,
                 const std::vector<Measurement> &measurements,
-                const std::vector<Measurement> &placements,
                 const std::map<Load, Curves>   &curves)
   {
     const std::string prefix = parameters.output_directory + "/step-nmm-2-";
     write_measurements(prefix + "study.csv", measurements);
-    write_measurements(prefix + "placements.csv", placements);
     for (const auto &[load, curve] : curves)
     {
       std::ofstream tip(prefix + "tip-" + name(load) + ".csv");

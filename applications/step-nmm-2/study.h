@@ -129,7 +129,6 @@ namespace StepNMM2
   void
   write_results(const Parameters               &parameters,
                 const std::vector<Measurement> &measurements,
-                const std::vector<Measurement> &placements,
                 const std::map<Load, Curves>   &curves);
 
   /// PNG files by gnuplot; says so if it is not there.

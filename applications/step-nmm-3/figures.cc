@@ -59,8 +59,8 @@ set yrange [1e-5:1e-2]
 set format y '%.0e'
 set key top right
 c = 'PREFIXcompression.csv'
-plot c skip 1 using 20:(strcol(1) eq 'penalty' ? $21 : NaN) with linespoints pt 8 lc 'dark-red' title 'penalty', \
-     c skip 1 using 20:(strcol(1) eq 'augmented' ? $21 : NaN) with linespoints pt 7 lc 'blue' title 'augmented'
+plot c skip 1 using 11:(strcol(1) eq 'penalty' ? $12 : NaN) with linespoints pt 8 lc 'dark-red' title 'penalty', \
+     c skip 1 using 11:(strcol(1) eq 'augmented' ? $12 : NaN) with linespoints pt 7 lc 'blue' title 'augmented'
 unset multiplot
 unset logscale
 set format

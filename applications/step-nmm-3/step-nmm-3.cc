@@ -26,6 +26,9 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
 
+// `study.cc` has the parameters, Hertz's formulas, reference values of other programs, tables and
+// files of results, `figures.cc` the figures. They are apart from this page since nothing of the
+// method is in them.
 #include "study.h"
 #include "tutorial/tutorial.h"
 #include <algorithm>
@@ -720,9 +723,8 @@ main(int argc, char **argv)
         read_parameters(parameter_file, output_directory);
       Tutorial::make_output_directory(output_directory);
 
-      const std::vector<Measurement> hertz      = run_hertz_study(parameters);
-      const std::vector<Measurement> placements = run_placements(parameters);
-      print_placements(placements);
+      const std::vector<Measurement> hertz = run_hertz_study(parameters);
+      print_placements(run_placements(parameters));
       const std::vector<Measurement> compression =
         run_compression_study(parameters);
       std::vector<PressResult> press;
@@ -735,7 +737,7 @@ main(int argc, char **argv)
       }
       if (is_first)
       {
-        write_results(parameters, hertz, placements, compression, press);
+        write_results(parameters, hertz, compression, press);
         draw_figures(parameters);
       }
     });

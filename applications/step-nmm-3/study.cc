@@ -11,7 +11,6 @@
 #include "tutorial/tutorial.h"
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
@@ -409,27 +408,21 @@ namespace StepNMM3
   namespace
   {
     void
-    write_measurements(const std::string              &file_name,
-                       const std::vector<Measurement> &measurements)
+    write_compression(const std::string              &file_name,
+                      const std::vector<Measurement> &measurements)
     {
       std::ofstream file(file_name);
-      file
-        << "springs,half_width_m,contact_size_m,unknowns,elements,steps,cuts,"
-           "iterations,augmentations,force_error,peak_error,"
-           "half_width_error,last_point_error,pressure_error,ripple,"
-           "penetration_m,cutting_s,covers_s,solution_s,total_s,"
-           "force_error_from_0.2,force_error_below_0.2\n"
-        << std::setprecision(7);
+      file << "springs,contact_size_m,unknowns,elements,steps,cuts,iterations,"
+              "augmentations,penetration_m,solution_s,total_s,"
+              "force_error_from_0.2,force_error_below_0.2\n"
+           << std::setprecision(7);
       for (const Measurement &m : measurements)
-        file << name(m.enforcement) << ',' << m.half_width << ','
-             << m.contact_size << ',' << m.n_unknowns << ',' << m.n_elements
-             << ',' << m.n_steps << ',' << m.n_cuts << ',' << m.n_iterations
-             << ',' << m.n_augmentations << ',' << m.force_error << ','
-             << m.peak_error << ',' << m.half_width_error << ','
-             << m.last_point_error << ',' << m.pressure_error << ',' << m.ripple
-             << ',' << m.penetration << ',' << m.cutting_time << ','
-             << m.setup_time << ',' << m.solution_time << ',' << m.total_time
-             << ',' << m.converged_error << ',' << m.early_error << '\n';
+        file << name(m.enforcement) << ',' << m.contact_size << ','
+             << m.n_unknowns << ',' << m.n_elements << ',' << m.n_steps << ','
+             << m.n_cuts << ',' << m.n_iterations << ',' << m.n_augmentations
+             << ',' << m.penetration << ',' << m.solution_time << ','
+             << m.total_time << ',' << m.converged_error << ',' << m.early_error
+             << '\n';
     }
 
 
@@ -463,8 +456,7 @@ namespace StepNMM3
                 const std::string &prefix)
     {
       std::ofstream pressure(prefix + "stages.csv");
-      pressure << "x_m,pressure_Pa,hertz_Pa,approach_m\n"
-               << std::setprecision(7);
+      pressure << "x_m,pressure_Pa,approach_m\n" << std::setprecision(7);
       std::ofstream curves(prefix + "stages-hertz.csv");
       curves << "x_m,hertz_Pa,approach_m\n" << std::setprecision(7);
       unsigned int number = 0;
@@ -480,8 +472,8 @@ namespace StepNMM3
                     return a.x < b.x;
                   });
         for (const PressurePoint &point : points)
-          pressure << point.x << ',' << point.pressure << ','
-                   << hertz.pressure(point.x) << ',' << stage.approach << '\n';
+          pressure << point.x << ',' << point.pressure << ',' << stage.approach
+                   << '\n';
         pressure << "\n\n";
         constexpr unsigned int n = 100;
         for (unsigned int i = 0; i <= 2 * n; ++i)
@@ -544,14 +536,11 @@ namespace StepNMM3
   void
   write_results(const Parameters               &parameters,
                 const std::vector<Measurement> &hertz,
-                const std::vector<Measurement> &placements,
                 const std::vector<Measurement> &compression,
                 const std::vector<PressResult> &press)
   {
     const std::string prefix = parameters.output_directory + "/step-nmm-3-";
-    write_measurements(prefix + "hertz.csv", hertz);
-    write_measurements(prefix + "placements.csv", placements);
-    write_measurements(prefix + "compression.csv", compression);
+    write_compression(prefix + "compression.csv", compression);
 
     std::ofstream pressure(prefix + "pressure.csv");
     pressure << "x_over_b,p_over_p0,springs,half_width_m,size_over_b,"

@@ -169,7 +169,6 @@ namespace StepNMM3
   void
   write_results(const Parameters               &parameters,
                 const std::vector<Measurement> &hertz,
-                const std::vector<Measurement> &placements,
                 const std::vector<Measurement> &compression,
                 const std::vector<PressResult> &press);
 

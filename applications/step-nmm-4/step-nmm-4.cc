@@ -28,6 +28,8 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
 
+// `study.cc` has the parameters, the tables, the comparison of runs that begin the same, and the
+// pictures. It is apart from this page since nothing of the method is in it.
 #include "study.h"
 #include "tutorial/tutorial.h"
 #include <algorithm>

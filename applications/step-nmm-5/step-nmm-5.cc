@@ -18,6 +18,8 @@
 #include <deal.II/base/function.h>
 #include <deal.II/base/timer.h>
 
+// `study.cc` has the parameters, Westergaard's exact solution, tables and figures. It is apart from
+// this page since nothing of the method is in it.
 #include "study.h"
 #include "tutorial/tutorial.h"
 #include <cmath>
@@ -260,7 +262,8 @@ namespace StepNMM5
 
   // The loop. Everything is proportional to the load, so the load at which the crack of this
   // length grows is the toughness over the equivalent intensity factor under a load of 1; only its
-  // ratio to the first one is printed, for which the toughness does not matter. A criterion gives the direction.
+  // ratio to the first one is written (`paths.csv`), for which the toughness does not matter. A criterion
+  // gives the direction.
   //
   // Along a path of local symmetry $K_{II}$ vanishes. An increment is straight, so its direction should
   // be the mean of those that the path has at its two ends; the second one is known only when the

@@ -139,9 +139,7 @@ namespace NMM
                const std::string              &kind)
     {
       if (candidates.empty())
-        return "there are no " + kind +
-               " here; a list's subsections exist for the names in its entry "
-               "'Names' only";
+        return "there are no " + kind + " here";
       const std::vector<std::string> near = near_matches(word, candidates);
       if (near.size() < candidates.size() || near.size() == 1)
         return "did you mean '" + join(near, "' or '") + "'?";
@@ -167,13 +165,25 @@ namespace NMM
       std::vector<std::string> known;
       for (const std::string &name : path)
       {
-        const Tree *child = find_child(*section, name);
+        const Tree *child    = find_child(*section, name);
+        const bool  is_known = child != nullptr && !is_entry(*child);
+        const auto  others   = keys(*section, false);
         AssertThrow(
-          child != nullptr && !is_entry(*child),
-          InputError("there is no section '" + name + "' in " +
-                       section_name(known),
+          is_known || find_child(*section, "Names") == nullptr,
+          InputError("the section '" + name + "' is not listed in '" +
+                       join(known, "/") + "/Names'",
                      where,
-                     suggestion(name, keys(*section, false), "sections")));
+                     "add '" + name + "' to '" + join(known, "/") + "/Names'" +
+                       (others.empty()
+                          ? ""
+                          : ", or take a name that is listed there: '" +
+                              join(near_matches(name, others), "' or '") +
+                              "'")));
+        AssertThrow(is_known,
+                    InputError("there is no section '" + name + "' in " +
+                                 section_name(known),
+                               where,
+                               suggestion(name, others, "sections")));
         section = child;
         known.push_back(name);
       }

@@ -14,6 +14,31 @@ namespace NMM
   namespace Patterns = dealii::Patterns;
   using namespace internal;
 
+  namespace
+  {
+    /// What a message calls the analysis of a scene.
+    std::string
+    name_of(const Kinematics kinematics, const bool is_nonlinear)
+    {
+      return to_string(kinematics) + " kinematics" +
+             (kinematics == Kinematics::small && !is_nonlinear
+                ? " without contact and without a material that yields"
+                : "");
+    }
+
+
+    /// What makes an analysis nonlinear beside the kinematics. With incremental kinematics there is
+    /// neither.
+    std::string
+    alternatives(const Kinematics kinematics)
+    {
+      return kinematics == Kinematics::small
+               ? ", 'Contact/Enforcement = penalty' or a material's 'Law = "
+                 "Mohr-Coulomb'"
+               : "";
+    }
+  } // namespace
+
 
   void
   LoadStepParameters::list_entries(Entries &entries)
@@ -52,13 +77,15 @@ namespace NMM
     const std::string        section = "Load steps";
     const LoadStepParameters defaults;
     const bool               is_static = analysis == Analysis::statics;
-    const std::string by = is_static ? to_string(kinematics) + " kinematics"
+    const bool is_linear = kinematics == Kinematics::small && !is_nonlinear;
+    const std::string by = is_static ? name_of(kinematics, is_nonlinear)
                                      : "a " + to_string(analysis) + " analysis";
-    if ((kinematics == Kinematics::small && !is_nonlinear) || !is_static)
+    if (is_linear || !is_static)
     {
       const std::string remedy =
         is_static
-          ? "remove it, or set 'Model/Kinematics' to finite or incremental"
+          ? "remove it, or set 'Model/Kinematics' to finite or incremental" +
+              alternatives(kinematics)
           : "remove it, or set 'Model/Analysis = static'";
       expect_default(
         section, "Number of steps", n_steps, defaults.n_steps, by, remedy);
@@ -88,8 +115,10 @@ namespace NMM
                      min_step,
                      defaults.min_step,
                      by,
-                     is_static ? "remove it, or set 'Model/Kinematics = finite'"
-                               : "remove it, or set 'Model/Analysis = static'");
+                     is_static
+                       ? "remove it, or set 'Model/Kinematics = finite'" +
+                           alternatives(kinematics)
+                       : "remove it, or set 'Model/Analysis = static'");
     AssertThrow(min_step > 0.,
                 InputError("the smallest step is 0",
                            "parameter 'Load steps/Smallest step'",
@@ -155,8 +184,9 @@ namespace NMM
     if (kinematics != Kinematics::finite && !is_nonlinear)
       expect_defaults("Newton",
                       *this,
-                      to_string(kinematics) + " kinematics",
-                      "remove it, or set 'Model/Kinematics = finite'");
+                      name_of(kinematics, is_nonlinear),
+                      "remove it, or set 'Model/Kinematics = finite'" +
+                        alternatives(kinematics));
     // A time step starts so close to its solution that the energy of the first
     // correction is no scale for the tolerance.
     if (analysis != Analysis::statics)
@@ -208,8 +238,9 @@ namespace NMM
           "Fields every",
           output.fields_every,
           0,
-          kinematics,
-          "remove it, or set 'Model/Kinematics' to finite or incremental");
+          name_of(model.kinematics, is_nonlinear()),
+          "remove it, or set 'Model/Kinematics' to finite or incremental" +
+            alternatives(model.kinematics));
       return;
     }
 

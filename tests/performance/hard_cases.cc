@@ -9,6 +9,7 @@
 #include <cmath>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <support/hard_cases/hard_cases.h>
 #include <support/hard_cases/table.h>
 
@@ -104,39 +105,49 @@ namespace
   }
 
 
-  /// Rows of one solution each.
-  void
-  add_single(Report &report, const std::string &name, const Result &result)
+  const std::vector<Stabilization> with_stabilization =
+    {Stabilization::aggregation, Stabilization::ghost_penalty};
+
+
+  const std::vector<std::string> header_of_pairs = {
+    "case",
+    "condition",
+    "L2 u",
+    "energy norm",
+    "condition, ghost penalty",
+    "L2 u, ghost penalty",
+    "energy norm, ghost penalty"};
+
+
+  std::vector<std::string>
+  cells_of(const Result &result)
   {
-    report.csv(name, result);
     if (!result.failure.empty())
-    {
-      report.line({result.variant,
-                   to_string(result.stabilization),
-                   std::to_string(result.n_unknowns),
-                   "refused as singular to rounding",
-                   "",
-                   "",
-                   ""});
-      return;
-    }
-    report.line({result.variant,
-                 to_string(result.stabilization),
-                 std::to_string(result.n_unknowns),
-                 Report::number(result.stiffness_condition),
-                 Report::number(result.mass_condition),
-                 Report::number(result.displacement_error),
-                 Report::number(result.energy_error)});
+      return {"refused", "-", "-"};
+    return {Report::number(result.stiffness_condition),
+            Report::number(result.displacement_error),
+            Report::number(result.energy_error)};
   }
 
 
-  const std::vector<std::string> single_header = {"case",
-                                                  "stabilization",
-                                                  "unknowns",
-                                                  "condition",
-                                                  "mass matrix",
-                                                  "L2 u",
-                                                  "energy norm"};
+  /// Lines of a result each of @p results, and of the one at the same place among @p others.
+  void
+  add_pairs(Report                    &report,
+            const std::vector<Result> &results,
+            const std::vector<Result> &others)
+  {
+    for (std::size_t i = 0; i < results.size(); ++i)
+    {
+      std::vector<std::string> line   = {results[i].variant};
+      const auto               first  = cells_of(results[i]);
+      const auto               second = i < others.size()
+                                          ? cells_of(others[i])
+                                          : std::vector<std::string>(first.size(), "-");
+      line.insert(line.end(), first.begin(), first.end());
+      line.insert(line.end(), second.begin(), second.end());
+      report.line(line);
+    }
+  }
 
 
   void
@@ -145,27 +156,29 @@ namespace
     report.section(
       "3. Thin layers and sharp wedges",
       "A column between smooth walls with a layer of its own stiffness between "
-      "two closed joints, exact solution quadratic in each layer; and two "
-      "closed joints that cross at 1 degree, quadratic exact solution. A layer "
-      "thinner than a cell gets a mathematical mesh of its own, one stretched "
-      "row of "
-      "triangles. Errors are rounding times the condition number, which is "
-      "that of an ordinary mesh where softness makes up for thinness and "
-      "grows with contrast h / thickness beyond: a stiff thin layer is stiffer "
-      "across than along in that ratio, and nodal values on its two faces "
-      "hardly differ. From 1e14 on the program refuses.");
-    report.header(single_header);
-    for (const Stabilization stabilization :
-         {Stabilization::aggregation, Stabilization::ghost_penalty})
+      "two closed joints, and two closed joints that cross at 1 degree; "
+      "quadratic exact solutions. A layer thinner than a cell gets a "
+      "mathematical mesh of its own, one stretched row of triangles. Errors "
+      "are rounding times the condition number, which grows with contrast h / "
+      "thickness. From 1e14 on the program refuses.");
+    report.header(header_of_pairs);
+    std::map<Stabilization, std::vector<Result>> results;
+    for (const Stabilization stabilization : with_stabilization)
     {
+      const auto add = [&](const std::string &name, const Result &result) {
+        report.csv(name, result);
+        results[stabilization].push_back(result);
+      };
       for (const double thickness : {1e-3, 1e-6, 1e-9})
         for (const double contrast : {1e-6, 1e-3, 1., 1e6})
-          add_single(report,
-                     "layer",
-                     thin_layer(thickness, contrast, stabilization, Measure()));
+          add("layer",
+              thin_layer(thickness, contrast, stabilization, Measure()));
       for (const double h : {0.2, 0.1})
-        add_single(report, "wedge", sharp_wedges(h, stabilization, Measure()));
+        add("wedge", sharp_wedges(h, stabilization, Measure()));
     }
+    add_pairs(report,
+              results[Stabilization::aggregation],
+              results[Stabilization::ghost_penalty]);
   }
 
 
@@ -176,9 +189,9 @@ namespace
       "5. Blocks smaller than a cell",
       "A block of 1e-1 ... 1e-6 of a cell, alone (one side held, the others "
       "loaded) or tied into a frame; constant stress, and a rigid rotation, "
-      "for "
-      "which the energy norm is absolute (that of a strain of 1 would be about "
-      "the block's size). Each row is the worst over the sizes.");
+      "for which the energy norm is absolute (that of a strain of 1 would be "
+      "about the block's size). Each row is the worst over the sizes and over "
+      "a square, a triangle and a disk.");
     report.header({"case",
                    "stabilization",
                    "condition",
@@ -186,13 +199,12 @@ namespace
                    "L2 u",
                    "energy norm",
                    "failures"});
-    for (const Stabilization stabilization :
-         {Stabilization::aggregation, Stabilization::ghost_penalty})
+    for (const Stabilization stabilization : with_stabilization)
+    {
+      std::map<std::pair<bool, bool>, Worst> worst;
       for (const Shape shape : {Shape::square, Shape::triangle, Shape::disk})
         for (const bool in_frame : {false, true})
           for (const bool rigid : {false, true})
-          {
-            Worst worst;
             for (int exponent = 1; exponent <= 6; ++exponent)
             {
               const Result result = small_block(shape,
@@ -202,18 +214,19 @@ namespace
                                                 stabilization,
                                                 Measure());
               report.csv("small block", result);
-              worst.add(result);
+              worst[{in_frame, rigid}].add(result);
             }
-            report.line({to_string(shape) +
-                           (in_frame ? " in a frame" : " alone") +
-                           (rigid ? ", rotation" : ", constant stress"),
-                         to_string(stabilization),
-                         Report::number(worst.condition),
-                         Report::number(worst.mass_condition),
-                         Report::number(worst.displacement_error),
-                         Report::number(worst.energy_error),
-                         std::to_string(worst.n_failures)});
-          }
+      for (const auto &[key, one] : worst)
+        report.line(
+          {std::string(key.first ? "in a frame" : "alone") +
+             (key.second ? ", rotation" : ", constant stress"),
+           to_string(stabilization),
+           Report::number(one.condition),
+           Report::number(one.mass_condition),
+           Report::number(one.displacement_error),
+           Report::number(one.energy_error),
+           std::to_string(one.n_failures) + " of " + std::to_string(one.n)});
+    }
   }
 
 
@@ -225,31 +238,35 @@ namespace
       "The unit square with a joint exactly along mesh lines, along the "
       "triangles' hypotenuses, or through nodes at a slope, and the same joint "
       "1, 10 and 1000 floating point numbers higher. Largest change of "
-      "displacement or stress over their largest value, at 81 places. With "
-      "aggregation the change is rounding: a sliver that vanishes leaves "
-      "nothing "
-      "behind. The ghost penalty adds energy where slivers appear, so its "
-      "result jumps by a part of the discretization error.");
-    report.header({"joint", "state", "stabilization", "1", "10", "1000"});
-    for (const Stabilization stabilization :
-         {Stabilization::aggregation, Stabilization::ghost_penalty})
-      for (const Track track : {Track::along_mesh_lines,
-                                Track::along_diagonals,
-                                Track::through_nodes})
-        for (const JointState state : {JointState::closed, JointState::open})
+      "displacement or stress over their largest value, at 81 points. With "
+      "aggregation it is rounding; the ghost penalty adds energy where slivers "
+      "appear, so its result jumps by a part of the discretization error.");
+    report.header({"joint",
+                   "state",
+                   "1",
+                   "10",
+                   "1000",
+                   "1, ghost penalty",
+                   "10, ghost penalty",
+                   "1000, ghost penalty"});
+    for (const Track track : {Track::along_mesh_lines,
+                              Track::along_diagonals,
+                              Track::through_nodes})
+      for (const JointState state : {JointState::closed, JointState::open})
+      {
+        std::vector<std::string> cells = {to_string(track),
+                                          state == JointState::closed ? "closed"
+                                                                      : "open"};
+        for (const Stabilization stabilization : with_stabilization)
         {
           const Coincidence exact =
             joint_on_mesh(track, state, 0, stabilization);
-          std::vector<std::string> cells = {to_string(track),
-                                            state == JointState::closed
-                                              ? "closed"
-                                              : "open",
-                                            to_string(stabilization)};
           for (const unsigned int n_ulp : {1u, 10u, 1000u})
             cells.push_back(Report::number(difference(
               exact, joint_on_mesh(track, state, n_ulp, stabilization))));
-          report.line(cells);
         }
+        report.line(cells);
+      }
   }
 
 
@@ -258,19 +275,22 @@ namespace
   {
     report.section(
       "Bonded interfaces",
-      "A disk with a round inclusion of another stiffness, bonded; the "
-      "interface "
-      "runs through the cells and the strain jumps across it. Full order, 3 in "
-      "L2 and 2 in the energy norm, whatever the contrast. (The energy norm is "
-      "dominated by the stiffer part.)");
-    report.header(single_header);
-    for (const Stabilization stabilization :
-         {Stabilization::aggregation, Stabilization::ghost_penalty})
+      "A disk with a bonded round inclusion of another stiffness; the "
+      "interface runs through the cells. Full order, 3 in L2 and 2 in the "
+      "energy norm, whatever the contrast.");
+    report.header(header_of_pairs);
+    std::map<Stabilization, std::vector<Result>> results;
+    for (const Stabilization stabilization : with_stabilization)
       for (const double contrast : {1e-6, 1e-3, 1e3, 1e6})
         for (const double h : {0.2, 0.1, 0.05})
-          add_single(report,
-                     "inclusion",
-                     bonded_inclusion(contrast, h, stabilization, Measure()));
+        {
+          results[stabilization].push_back(
+            bonded_inclusion(contrast, h, stabilization, Measure()));
+          report.csv("inclusion", results[stabilization].back());
+        }
+    add_pairs(report,
+              results[Stabilization::aggregation],
+              results[Stabilization::ghost_penalty]);
   }
 
 
@@ -280,78 +300,66 @@ namespace
     report.section(
       "6. Nearly incompressible, slender",
       "The disk in plane strain with a divergence-free displacement, beside "
-      "the "
-      "hexagon that the triangles fit, and cantilevers of depth 1 under an end "
-      "load (exact cubic displacement). There is no special element: towards "
-      "nu "
-      "= 0.5 errors grow and orders show on finer meshes only, cut or fitted "
-      "alike; the condition number grows like 1 / (1 - 2 nu). That of a "
-      "slender "
-      "body grows like (length/depth)^4: it bends easily, which is physics, "
-      "and "
-      "costs digits, not order.");
-    report.header({"case", "unknowns", "condition", "L2 u", "energy norm"});
-    const auto add = [&](const Result &result) {
+      "the hexagon that the triangles fit, and cantilevers of depth 1 under an "
+      "end load (exact cubic displacement). Towards nu = 0.5 errors grow, cut "
+      "or fitted alike, and the condition number grows like 1 / (1 - 2 nu); "
+      "that of a slender body grows like (length/depth)^4.");
+    report.header({"case",
+                   "condition",
+                   "L2 u",
+                   "energy norm",
+                   "condition, fitted hexagon",
+                   "L2 u, fitted hexagon",
+                   "energy norm, fitted hexagon"});
+    std::vector<Result> results, fitted;
+    const auto add = [&](const Result &result, std::vector<Result> &all) {
       report.csv("limits", result);
-      report.line({result.variant,
-                   std::to_string(result.n_unknowns),
-                   Report::number(result.stiffness_condition),
-                   Report::number(result.displacement_error),
-                   Report::number(result.energy_error)});
+      all.push_back(result);
     };
     for (const double nu : {0.3, 0.49, 0.499, 0.49999})
       for (const double h : {0.2, 0.1, 0.05, 0.025})
         if (!quick || h > 0.06)
         {
-          add(nearly_incompressible(
-            nu, h, Stabilization::aggregation, Measure()));
-          add(fitted_hexagon(h, Measure(), nu, true));
+          add(
+            nearly_incompressible(nu, h, Stabilization::aggregation, Measure()),
+            results);
+          add(fitted_hexagon(h, Measure(), nu, true), fitted);
         }
     for (const double length : {10., 100.})
       for (const double h : {1., 0.5, 0.25})
         if (!quick || h > 0.3)
-          add(slender_beam(length, h, Stabilization::aggregation, Measure()));
+          add(slender_beam(length, h, Stabilization::aggregation, Measure()),
+              results);
+    add_pairs(report, results, fitted);
   }
 
 
   void
   networks(Report &report, const bool quick)
   {
-    const unsigned int n = quick ? 100 : 2000;
-    report.section("7. Random networks",
-                   "The unit square with up to 60 closed joints and interfaces "
-                   "whose ends lie "
-                   "on a grid of 33 x 33 points on which the nodes of the mesh "
-                   "lie as well; " +
-                     std::to_string(n) +
-                     " networks, seeds 1, 2, ... Quadratic exact solution.");
-    report.header({"stabilization",
-                   "networks",
-                   "regions",
-                   "failures",
-                   "largest error of the area",
-                   "largest error of u in the patch test"});
-    for (const Stabilization stabilization : {Stabilization::aggregation})
+    const unsigned int n          = quick ? 100 : 2000;
+    unsigned int       n_failures = 0, n_regions = 0;
+    double             area = 0., patch = 0.;
+    for (unsigned int seed = 1; seed <= n; ++seed)
     {
-      unsigned int n_failures = 0, n_regions = 0;
-      double       area = 0., patch = 0.;
-      for (unsigned int seed = 1; seed <= n; ++seed)
-      {
-        const Network network = random_network(seed, 60, stabilization);
-        if (!network.solved.failure.empty())
-          report.csv("network", network.solved);
-        n_failures += !network.solved.failure.empty();
-        n_regions += network.n_regions;
-        area  = std::max(area, network.area_error);
-        patch = std::max(patch, network.solved.displacement_error);
-      }
-      report.line({to_string(stabilization),
-                   std::to_string(n),
-                   std::to_string(n_regions),
-                   std::to_string(n_failures),
-                   Report::number(area),
-                   Report::number(patch)});
+      const Network network =
+        random_network(seed, 60, Stabilization::aggregation);
+      if (!network.solved.failure.empty())
+        report.csv("network", network.solved);
+      n_failures += !network.solved.failure.empty();
+      n_regions += network.n_regions;
+      area  = std::max(area, network.area_error);
+      patch = std::max(patch, network.solved.displacement_error);
     }
+    report.section(
+      "7. Random networks",
+      "The unit square with up to 60 closed joints and interfaces whose ends "
+      "lie on a grid of 33 x 33 points on which the nodes of the mesh lie as "
+      "well; aggregation, quadratic exact solution. " +
+        std::to_string(n) + " networks (seeds 1, 2, ...) with " +
+        std::to_string(n_regions) + " regions: " + std::to_string(n_failures) +
+        " failures, largest error of the area " + Report::number(area) +
+        ", of u in the patch test " + Report::number(patch) + ".");
   }
 
 
@@ -360,11 +368,10 @@ namespace
   {
     report.section(
       "Cost",
-      "The quarter ring of step-nmm-1. Aggregation: finding roots "
-      "and making constraints, over sparsity pattern, assembly and "
-      "hand-over to Trilinos, shortest of five runs each. "
-      "Iterations of conjugate gradients with ML to a relative "
-      "residual of 1e-11; \"fitted\" is a polar mesh.");
+      "The quarter ring of step-nmm-1. Aggregation: finding roots and making "
+      "constraints, over sparsity pattern and assembly, shortest of five runs "
+      "each. Iterations of conjugate gradients with ML to a relative residual "
+      "of 1e-11; \"fitted\" is a polar mesh.");
     report.header({"unknowns",
                    "aggregation / assembly",
                    "iterations, aggregation",

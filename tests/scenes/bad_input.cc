@@ -41,7 +41,23 @@ namespace
     expect_rejected_override("Solver/Tipe=direct", {"Tipe", "'Type'"});
     expect_rejected_override("Solver/Type=fast",
                              {"fast", "Solver/Type", "iterative"});
-    expect_rejected_override("Materials/rok/Density=1", {"rok", "'rock'"});
+    expect_rejected_override("Materials/rok/Density=1",
+                             {"the section 'rok' is not listed",
+                              "add 'rok' to 'Materials/Names'",
+                              "'rock'"});
+    for (const char *section : {"Joint sets",
+                                "Regions",
+                                "Covers",
+                                "Boundary conditions",
+                                "Point forces",
+                                "Contact",
+                                "Obstacles",
+                                "Initial velocities",
+                                "Probes"})
+      expect_rejected_override(std::string(section) + "/left out/Kind=0",
+                               {"the section 'left out' is not listed",
+                                std::string("add 'left out' to '") + section +
+                                  "/Names'"});
     expect_rejected_override("Materials/rock/Density=-1", {"-1", "Density"});
     expect_rejected_override("Materials/Names=rock, rock", {"rock", "twice"});
     expect_rejected_override("Materials/Names=a/b", {"a/b", "slash"});
@@ -63,7 +79,11 @@ namespace
     expect_rejected({write_scene("nested.prm",
                                  "subsection Materials\n  set Names = rock\n"
                                  "  subsection rok\n  end\nend\n")},
-                    {"nested.prm:3", "'rok'", "'rock'"});
+                    {"nested.prm:3", "'rok'", "'Materials/Names'", "'rock'"});
+    expect_rejected({write_scene("unlisted.prm",
+                                 "subsection Materials\n"
+                                 "  subsection rock\n  end\nend\n")},
+                    {"unlisted.prm:2", "add 'rock' to 'Materials/Names'"});
     expect_rejected({write_scene("syntax.prm",
                                  "subsection Model\n  Thickness = 1\nend\n")},
                     {"syntax.prm:2"});
@@ -137,9 +157,17 @@ namespace
     expect_rejected_override("Load steps/Number of steps=20",
                              {"Load steps/Number of steps", "20", "small"});
     expect_rejected_override("Load steps/Smallest step=0.25",
-                             {"Load steps/Smallest step", "0.25", "small"});
+                             {"Load steps/Smallest step",
+                              "0.25",
+                              "without contact",
+                              "Contact/Enforcement = penalty"});
     expect_rejected_override("Load steps/Load factors=0.5, 1",
-                             {"Load steps/Load factors", "0.5", "small"});
+                             {"Load steps/Load factors",
+                              "0.5",
+                              "small",
+                              "without contact",
+                              "Contact/Enforcement = penalty",
+                              "Mohr-Coulomb"});
     expect_rejected_override("Newton/Residual tolerance=1e-6",
                              {"Newton/Residual tolerance", "1e-06", "small"});
     expect_rejected_override("Newton/Energy tolerance=1e-6",

@@ -316,13 +316,11 @@ namespace NMM
       add_ranks(rows, bars);
       add_output(rows, bars);
       const bool is_full = rows.front().size == "full";
-      out << "## Requirements\n\n"
-          << "Ratios are of runs of the same session.";
+      out << "## Requirements\n\n";
       if (!is_full)
-        out << " These runs are smaller than what is asked for: `./setup.sh "
-               "bench full` "
-               "measures the sizes meant.";
-      out << "\n\n| | measured | at most (least) | | how "
+        out << "These runs are smaller than what is asked for: `./setup.sh "
+               "bench full` measures the sizes meant.\n\n";
+      out << "| | measured | at most (least) | | how "
              "|\n|---|---|---|---|---|\n";
       for (const Bar &bar : bars)
         out << "| " << bar.what << " | "

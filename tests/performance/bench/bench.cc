@@ -4,7 +4,6 @@
 //   nmm-bench counts <counts.csv> [<directory of callgrind's files of nmm-kernels>]
 //   nmm-bench report <table.csv> <directory>
 //
-// The report shows counts.csv if that lies beside the table.
 // On several ranks, `measure` adds the rows of what is shared out among ranks to a table
 // that is there.
 
@@ -106,11 +105,7 @@ namespace
                            "say measure smallest|quick|full <table.csv>, "
                            "counts <counts.csv>, or "
                            "report <table.csv> <directory>"));
-    const auto counts =
-      std::filesystem::path(arguments[1]).parent_path() / "counts.csv";
-    write_report(read_table(arguments[1]),
-                 read_counts(counts.string()),
-                 arguments[2]);
+    write_report(read_table(arguments[1]), arguments[2]);
   }
 } // namespace
 

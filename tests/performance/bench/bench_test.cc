@@ -168,7 +168,7 @@ namespace
                                 "### Thick ring",
                                 "## Where the time goes",
                                 "## Ranks",
-                                "## A part of the mesh on each rank",
+                                "distributed, CG + ML",
                                 "### Many ranks",
                                 "two ranks, times as fast"})
       EXPECT_NE(text.str().find(heading), std::string::npos) << heading;

@@ -246,54 +246,5 @@ namespace NMM
         out << c.kind << ';' << c.what << ';' << c.per << ';' << c.n << ';'
             << c.count << '\n';
     }
-
-
-    std::vector<Count>
-    read_counts(const std::string &file_name)
-    {
-      std::ifstream      in(file_name);
-      std::vector<Count> counts;
-      std::string        line;
-      std::getline(in, line);
-      while (std::getline(in, line))
-      {
-        std::istringstream cells(line);
-        std::string        n, count;
-        Count              c;
-        std::getline(cells, c.kind, ';');
-        std::getline(cells, c.what, ';');
-        std::getline(cells, c.per, ';');
-        std::getline(cells, n, ';');
-        std::getline(cells, count, ';');
-        AssertThrow(!n.empty() && !count.empty(),
-                    InputError("a row of the counts has too few cells",
-                               file_name + ": " + line,
-                               "let nmm-bench counts write it anew"));
-        c.n     = std::stod(n);
-        c.count = std::stod(count);
-        counts.push_back(c);
-      }
-      return counts;
-    }
-
-
-    void
-    report_counts(std::ostream &out, const std::vector<Count> &counts)
-    {
-      if (counts.empty())
-        return;
-      out
-        << "## Counts\n\nThey are the same on a busy machine. Allocations are "
-           "calls of `operator new` in `nmm-bench`, of all that the call does, "
-           "Trilinos' and solvers' own included; instructions are callgrind's, "
-           "of "
-           "`nmm-kernels`, which never calls CGAL "
-           "(`tests/performance/counts.csv`)."
-           "\n\n| | | for each | of |\n|---|---|---|---|\n";
-      for (const Count &c : counts)
-        out << "| " << c.what << " | " << text_of(c.count) << ' ' << c.kind
-            << " | " << c.per << " | " << text_of(c.n) << " |\n";
-      out << '\n';
-    }
   } // namespace Bench
 } // namespace NMM

@@ -40,14 +40,6 @@ namespace NMM
     void
     write_counts(const std::string        &file_name,
                  const std::vector<Count> &counts);
-
-    /// Empty if the file is not there.
-    std::vector<Count>
-    read_counts(const std::string &file_name);
-
-    /// A table of them.
-    void
-    report_counts(std::ostream &out, const std::vector<Count> &counts);
   } // namespace Bench
 } // namespace NMM
 

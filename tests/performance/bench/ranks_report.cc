@@ -147,8 +147,8 @@ namespace NMM
       {
         out << "| | ranks | unknowns | total [s] | mesh, cutting, covers [s] | "
                "assembly and sparsity [s] | solver [s] | elements held | of "
-               "them ghosts | ghost unknowns | messages | bytes | MB |\n"
-               "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+               "them ghosts | MB |\n"
+               "|---|---|---|---|---|---|---|---|---|---|\n";
         for (const Row &row : rows)
         {
           out << "| " << name_of(row);
@@ -160,9 +160,6 @@ namespace NMM
                                       solver_time(row),
                                       row.held_elements,
                                       row.ghost_elements,
-                                      row.ghost_unknowns,
-                                      row.messages,
-                                      row.message_bytes,
                                       row.rank_memory})
             out << " | " << text_of(number);
           out << " |\n";
@@ -189,35 +186,24 @@ namespace NMM
       }
 
 
-      /// What the rows of one and two ranks say of each other.
+      /// The speed on many ranks if what is shared out were shared out perfectly.
       void
-      write_ratios(std::ostream           &out,
-                   const std::vector<Row> &strong,
-                   const std::vector<Row> &weak)
+      write_bounds(std::ostream &out, const std::vector<Row> &rows)
       {
         for (const char *solver : {"MUMPS", "CG + ML"})
-          for (const char *method : {"manifold uniform", "distributed"})
+          if (const Row *row =
+                find(rows, "strong scaling", "manifold uniform", solver, 1.))
           {
-            const Row *one = find(strong, "strong scaling", method, solver, 1.),
-                      *two = find(strong, "strong scaling", method, solver, 2.),
-                      *small = find(weak, "weak scaling", method, solver, 1.),
-                      *large = find(weak, "weak scaling", method, solver, 2.);
-            if (one == nullptr || two == nullptr || small == nullptr ||
-                large == nullptr)
-              continue;
-            out << "- " << name_of(*one) << ": two ranks are "
-                << text_of(one->total / two->total, 2)
-                << " times as fast as one, with the solver left out "
-                << text_of((one->total - solver_time(*one)) /
-                             (two->total - solver_time(*two)),
-                           2)
-                << " times, and hold "
-                << text_of(two->held_elements / one->held_elements, 2)
-                << " of its elements each in "
-                << text_of(two->rank_memory / one->rank_memory, 2)
-                << " of its memory; with as many unknowns for each they take "
-                << text_of(large->total / small->total, 2)
-                << " times as long as one.\n";
+            const double serial =
+              row->geometry + row->mesh + row->cutting + row->covers +
+              (std::isnan(row->analysis) ? 0. : row->analysis);
+            out << "- " << name_of(*row)
+                << ": if what is shared out were shared out perfectly, n ranks "
+                   "would be 1 / ("
+                << text_of(serial / row->total, 2) << " + "
+                << text_of(1. - serial / row->total, 2)
+                << " / n) times as fast, never more than "
+                << text_of(row->total / serial, 2) << " times.\n";
           }
         out << '\n';
       }
@@ -232,40 +218,30 @@ namespace NMM
       {
         out
           << "### Many ranks\n\n"
-             "What follows is a model of the run with conjugate gradients on n "
-             "ranks, not a measurement. With the times of one rank, the ghosts "
-             "and bytes of two, and messages of latency l and bandwidth b:\n\n"
+             "A model of the distributed run with conjugate gradients, not a "
+             "measurement: times of one rank, ghosts and bytes of two, "
+             "messages "
+             "of latency l and bandwidth b.\n\n"
              "    T(n) = geometry + (mesh + cutting + covers + quadrature + "
              "sparsity + assembly) H(n)/E\n"
              "           + (making the preconditioner)/n + iterations t(n)\n"
              "    H(n) = E/n + 4 G/sqrt(n)\n"
              "    t(n) = (an iteration on one rank)/n + (5 + 6 L) 8 l + 9.5 * "
-             "4 "
-             "B/sqrt(n) / b + 3 log2(n) l\n\n"
+             "4 B/sqrt(n) / b + 3 log2(n) l\n\n"
              "E = "
           << text_of(one.elements)
           << " elements, G = " << text_of(two.ghost_elements)
-          << " ghost elements and B = " << text_of(two.message_bytes)
-          << " bytes of a message of each of two ranks, whose common side is "
-             "taken for as long as "
-             "the square root of the area: one of n has four of 1/sqrt(n) of "
-             "that, and up to eight neighbours. An iteration of "
+          << " ghost elements, B = " << text_of(two.message_bytes)
+          << " bytes of a message, L = " << text_of(model.n_levels())
+          << " levels of ML, " << text_of(one.iterations) << " iterations of "
           << text_of(1e3 * one.solution / one.iterations, 3)
-          << " ms exchanges values of second order with neighbours five times "
-             "(the direction, before and after smoothing, to and from first "
-             "order), and on each of L = "
-          << text_of(model.n_levels())
-          << " levels of ML, of which the first has half the boundary and each "
-             "other a third of the one before, six times (two sweeps of the "
-             "smoother before and after, the residual, to the next level), and "
-             "has three sums over all ranks. Iterations ("
-          << text_of(one.iterations)
-          << ") are taken to stay as they are, and parts to be of equal "
-             "size.\n\n| |";
-        for (double n = 2.; n <= 1024.; n *= 2.)
+          << " ms: each has 5 exchanges with up to 8 neighbours, 6 on each "
+             "level, and 3 sums over all ranks.\n\n| times as fast as one rank "
+             "|";
+        for (double n = 2.; n <= 512.; n *= 4.)
           out << ' ' << n << " ranks |";
         out << " half used up to |\n|---|";
-        for (double n = 2.; n <= 1024.; n *= 2.)
+        for (double n = 2.; n <= 512.; n *= 4.)
           out << "---|";
         out << "---|\n";
         for (const Network &network : networks)
@@ -274,26 +250,23 @@ namespace NMM
               << ": l = " << text_of(1e6 * network.latency, 2)
               << " us, b = " << text_of(1e-9 * network.bandwidth, 2)
               << " GB/s |";
-          for (double n = 2.; n <= 1024.; n *= 2.)
+          for (double n = 2.; n <= 512.; n *= 4.)
             out << ' ' << text_of(model.speed(n, network), 3) << " |";
           out << ' ' << text_of(model.end(network)) << " ranks |\n";
         }
         const Network &here = networks.front();
-        out << "\nTimes as fast as one rank. On two ranks the model says "
+        out << "\nOn two ranks the model says "
             << text_of(model.total(2., here), 3) << " s, measured are "
-            << text_of(two.total, 3)
-            << " s. What ends it: at the last number of ranks of the first "
-               "line, a rank's "
+            << text_of(two.total, 3) << " s. At " << text_of(model.end(here))
+            << " ranks of the first line a rank's "
             << text_of(one.elements / model.end(here), 3) << " elements have "
             << text_of(model.held(model.end(here)) -
-                         one.elements / model.end(here),
-                       2)
-            << " ghosts around them, an iteration's own work takes "
+                       one.elements / model.end(here))
+            << " ghosts around them, and an iteration's own work takes "
             << text_of(1e6 * one.solution / one.iterations / model.end(here), 3)
             << " us of "
             << text_of(1e6 * model.iteration(model.end(here), here), 3)
-            << " us, and " << text_of(1e3 * one.geometry, 2)
-            << " ms of geometry are there on every rank.\n\n";
+            << " us.\n\n";
       }
     } // namespace
 
@@ -308,23 +281,20 @@ namespace NMM
                              messages = select(rows, "message");
       if (strong.empty() || weak.empty())
         return;
-      out << "## A part of the mesh on each rank\n\n"
-             "With `Covers/Distribution = distributed` (in C++ "
-             "`make_distributed_mesh()`) a rank holds its own cells and five "
-             "layers of cells around them, cuts those, and numbers the covers "
-             "it knows; `replicated`, the default, is for everything but "
-             "linear static analyses on regular meshes. On "
-             "every rank are all curves, the boxes of all ranks and, while the "
-             "lattice is shared out, the number of cells in each of its rows "
-             "and columns. Counts are those of the rank that has most: "
-             "elements, unknowns of others in its rows of the matrix, messages "
-             "and bytes it sends for one product of matrix and vector, memory "
-             "for mesh, elements, covers, constraints and rules.\n\n"
-             "Strong scaling: the same ring on more ranks.\n\n";
-      write_table(out, strong);
-      out << "Weak scaling: as many unknowns for each rank.\n\n";
-      write_table(out, weak);
-      write_ratios(out, strong, weak);
+      out << "## Ranks\n\n"
+             "`Covers/Distribution = replicated`, the default, shares out "
+             "quadrature, assembly, factorization and solution; mesh, cutting "
+             "and covers are made by every rank, and the ordering before a "
+             "factorization is the first rank's. With `distributed` (in C++ "
+             "`make_distributed_mesh()`; linear statics on regular meshes) a "
+             "rank also holds only its own cells and five layers around them. "
+             "Elements and memory are those of the rank that has most. First "
+             "the same ring on more ranks, then as many unknowns for each "
+             "rank.\n\n";
+      std::vector<Row> all = strong;
+      all.insert(all.end(), weak.begin(), weak.end());
+      write_table(out, all);
+      write_bounds(out, strong);
 
       const Row *one =
                   find(strong, "strong scaling", "distributed", "CG + ML", 1.),

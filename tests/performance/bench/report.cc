@@ -5,9 +5,11 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iomanip>
 #include <map>
 #include <sstream>
+#include <tuple>
 
 namespace NMM
 {
@@ -115,34 +117,100 @@ namespace NMM
       }
 
 
-      void
-      write_series(std::ostream &out, const std::vector<Row> &rows)
+      /// A column of a table: what stands above it, and its cell of a row.
+      struct Column
       {
-        const Row &any = rows.front();
-        out << "| | elements | unknowns | non-zeros | factor entries | steps | "
-               "iterations | seconds | peak MB | error ("
-            << any.error_kind << ")";
-        const bool has_second = !any.second_error_kind.empty();
-        if (has_second)
-          out << " | error (" << any.second_error_kind << ")";
-        out << " |\n|---|---|---|---|---|---|---|---|---|---|"
-            << (has_second ? "---|" : "") << '\n';
+        std::string                             title;
+        std::function<std::string(const Row &)> cell;
+      };
+
+
+      /// The row of @p rows that differs from @p row in its case or solver only; an empty one if
+      /// there is none.
+      Row
+      partner(const std::vector<Row> &rows, const Row &row)
+      {
+        const auto key = [](const Row &r) {
+          return std::make_tuple(r.method,
+                                 r.kinematics,
+                                 r.enforcement,
+                                 r.stabilization,
+                                 text_of(r.degree),
+                                 text_of(r.unknowns),
+                                 text_of(r.steps));
+        };
+        for (const Row &other : rows)
+          if (key(other) == key(row))
+            return other;
+        return Row();
+      }
+
+
+      /// A table of @p rows, and beside each one what differs in its partner among @p others.
+      /// Columns without any value are left out.
+      void
+      write_series(std::ostream           &out,
+                   const std::vector<Row> &rows,
+                   const std::vector<Row> &others,
+                   const std::string      &name_of_others)
+      {
+        std::vector<Column> columns;
+        const auto          add = [&](const std::string &title,
+                             double Row::*member,
+                             std::string (*text)(double)) {
+          columns.push_back(
+            {title, [=](const Row &row) { return text(row.*member); }});
+        };
+        const auto add_other = [&](const std::string &title,
+                                   double Row::*member,
+                                   std::string (*text)(double)) {
+          columns.push_back(
+            {title + ", " + name_of_others, [=, &others](const Row &row) {
+               return text(partner(others, row).*member);
+             }});
+        };
+        const auto number = [](const double x) { return text_of(x); };
+        const auto error  = [](const double x) { return error_text(x); };
+        const Row &any    = rows.front();
+        add("unknowns", &Row::unknowns, number);
+        add("steps", &Row::steps, number);
+        add("iterations", &Row::iterations, number);
+        add("seconds", &Row::total, number);
+        add("peak MB", &Row::own_peak_memory, number);
+        add("error (" + any.error_kind + ")", &Row::error, error);
+        add("error (" + any.second_error_kind + ")", &Row::second_error, error);
+        if (!others.empty())
+        {
+          const bool is_same_case = others.front().name == any.name;
+          if (is_same_case)
+            add_other("iterations", &Row::iterations, number);
+          add_other("seconds", &Row::total, number);
+          if (is_same_case)
+            add_other("peak MB", &Row::own_peak_memory, number);
+          else
+            add_other("error", &Row::error, error);
+        }
+        const auto is_empty = [&](const Column &column) {
+          return std::all_of(rows.begin(), rows.end(), [&](const Row &row) {
+            return column.cell(row) == "-";
+          });
+        };
+        columns.erase(std::remove_if(columns.begin(), columns.end(), is_empty),
+                      columns.end());
+
+        out << '|';
+        for (const Column &column : columns)
+          out << " | " << column.title;
+        out << " |\n|---";
+        for (unsigned int i = 0; i < columns.size(); ++i)
+          out << "|---";
+        out << "|\n";
         for (const auto &[title, members] : make_series(rows))
           for (const Row &row : members)
           {
             out << "| " << title;
-            for (const double number : {row.elements,
-                                        row.unknowns,
-                                        row.nonzeros,
-                                        row.factor_entries,
-                                        row.steps,
-                                        row.iterations,
-                                        row.total,
-                                        row.own_peak_memory})
-              out << " | " << text_of(number);
-            out << " | " << error_text(row.error);
-            if (has_second)
-              out << " | " << error_text(row.second_error);
+            for (const Column &column : columns)
+              out << " | " << column.cell(row);
             out << " |\n";
           }
         out << '\n';
@@ -259,68 +327,64 @@ namespace NMM
          "Thick ring under inner pressure",
          "ring",
          "A quarter ring (the paper's Figs. 5-7) against Lame's solution, on "
-         "meshes that "
-         "do not fit it, regular or with triangles of half the size at the "
-         "inner circle; "
-         "beside them deal.II's own curved six-node triangles that fit it, "
-         "solved by "
-         "deal.II's interface to MUMPS, which factorizes without regard to "
-         "symmetry and has "
-         "twice the work. Seconds are from the curves to the displacements."},
+         "meshes that do not fit it, uniform or with triangles of half the "
+         "size at the inner circle; beside them deal.II's curved six-node "
+         "triangles that fit it, with deal.II's MUMPS, which factorizes "
+         "without regard to symmetry. The solver is MUMPS, beside it "
+         "conjugate gradients with ML. One rank."},
         {"cantilever dead",
          "Cantilever under a load of constant direction",
          "cantilever-dead",
          "The paper's Fig. 10, deflection at K = 2, 4, ..., 10 against the "
-         "fitted solid of "
-         "`applications/step-nmm-2/cantilever.csv`: `finite` is Newton's "
-         "method in five "
-         "steps, `incremental` the paper's many small ones on one mesh, "
-         "`small` one linear "
-         "solution, which knows nothing of large displacements. A dip of a "
-         "curve is no accuracy: what mesh, steps and reference lack cancels "
-         "there; "
-         "the level at its end counts."},
-        {"cantilever follower",
-         "Cantilever under a load that turns with it",
-         "cantilever-follower",
-         "The same with pressure on the deformed surface."},
+         "fitted solid of `applications/step-nmm-2/cantilever.csv`; follower: "
+         "the same under pressure that turns with the surface. `finite` is "
+         "Newton's method in five steps, `incremental` the paper's many small "
+         "ones on one mesh, `small` one linear solution. Dips of a curve are "
+         "no accuracy: errors of mesh, steps and reference cancel there."},
         {"Hertz disk",
          "Cylinder on a rigid plate",
          "hertz",
          "Pressure over the contact against Hertz's at a half-width of a tenth "
-         "of the radius; "
-         "springs of the penalty method are three times as stiff as those of "
-         "the augmented "
+         "of the radius; springs of the penalty "
+         "method are three times as stiff as those of the augmented "
          "Lagrangian. A finite disk differs from Hertz's half-plane by 0.1 to "
-         "0.2 %: "
-         "errors of the force below that mean nothing."},
+         "0.2 %, so smaller errors of the force mean nothing."},
         {"cracked plate",
          "Energy of a plate with an edge crack",
          "cracked-plate",
-         "A plate of 1 m x 4 m with a crack through half of its width, an open "
-         "joint that ends "
-         "inside, against the energy on a mesh of 0.02 m, halved down to 4e-8 "
-         "m at the "
-         "tip. Uniform "
-         "meshes err in proportion to the edge length whatever the order, as "
-         "sqrt(r) "
-         "at the tip has it; triangles halved towards the tip give the order "
-         "back."},
+         "A plate of 1 m x 4 m with a crack through half of its width, against "
+         "the energy on a mesh of 0.02 m, halved down to 4e-8 m at the tip. "
+         "Uniform meshes err in proportion to the edge length whatever the "
+         "order; triangles halved towards the tip give the order back."},
         {"incline",
          "Block that slides down an incline",
          "incline",
          "30 degrees, friction angle 25 degrees, 2 m after the block has "
-         "settled on its "
-         "springs, against the rigid block's way; sizes are time steps."},
+         "settled on its springs, against the rigid block's distance."},
         {"slope",
          "Slope of jointed rock that slides",
          "slope",
          "`applications/nmm/scenes/slope.prm` with a friction angle of 20 "
-         "degrees, the first quarter of a second "
-         "after its wall has been taken away. Error: way of the centre of mass "
-         "against that of a step of 2.5 ms; balance: error of the energy "
-         "account over the "
-         "largest kinetic energy. Sizes are time steps."}};
+         "degrees, the first quarter of a second after its wall has been taken "
+         "away, against a step of 2.5 ms. The energy balance is over the "
+         "largest kinetic energy."}};
+
+
+      /// Rows that stand beside those of a case, and what tells them apart.
+      std::pair<std::vector<Row>, std::string>
+      others_of(const Case &c, const std::vector<Row> &rows)
+      {
+        if (c.name == "ring")
+          return {select(rows,
+                         [&](const Row &row) {
+                           return row.name == c.name && row.ranks == 1. &&
+                                  row.solver == "CG + ML";
+                         }),
+                  "CG + ML"};
+        if (c.name == "cantilever dead")
+          return {select(rows, "cantilever follower"), "follower"};
+        return {};
+      }
 
 
       void
@@ -329,28 +393,29 @@ namespace NMM
         const Row &row = rows.front();
         out
           << "# Speed against error\n\n"
-          << "Made by `./setup.sh bench " << row.size
-          << "` from `tests/performance/performance.csv`, on " << row.date
-          << ": " << row.cpu << ", " << row.versions
-          << ", one BLAS thread. The program is `nmm-bench`, in "
-             "`tests/performance/bench`.\n\n"
-             "Times are wall times, the least of up to three runs (of what "
-             "takes longer than two seconds: of two; than ten: of one); they "
-             "hold for this machine and scatter "
-             "by some ten percent. Elements, "
-             "unknowns, non-zeros, factor entries, steps and iterations hold "
-             "everywhere. \"Peak MB\" is by how much a run raises the largest "
-             "resident size of its process above what it was before, summed "
-             "over "
-             "ranks.\n\n";
+             "    ./setup.sh bench "
+          << row.size
+          << "     # measures, and writes this page and its figures\n"
+             "    build/release/bin/nmm-bench report "
+             "tests/performance/performance.csv doc     # only writes\n\n"
+             "Measured on "
+          << row.date << ": " << row.cpu << ", " << row.versions
+          << ", one BLAS thread. Wall times are the least of up to three runs "
+             "and scatter by some ten percent; unknowns, steps and iterations "
+             "hold everywhere. Seconds are from the curves to the "
+             "answer, ratios of runs of the same session. \"Peak MB\" is what "
+             "a run adds to the largest "
+             "resident size of its process. "
+             "`tests/performance/performance.csv` has all rows, with non-zeros "
+             "and factor entries; `counts.csv` beside it has allocations and "
+             "instructions of each element and contact point, by `nmm-bench "
+             "counts`.\n\n";
       }
     } // namespace
 
 
     void
-    write_report(const std::vector<Row>   &rows,
-                 const std::vector<Count> &counts,
-                 const std::string        &directory)
+    write_report(const std::vector<Row> &rows, const std::string &directory)
     {
       const std::string images = directory + "/images";
       std::filesystem::create_directories(images);
@@ -365,15 +430,21 @@ namespace NMM
           continue;
         const std::string image = "performance-" + c.file + ".png";
         draw_case(members, c.title, images + "/" + image);
+        const auto [others, name_of_others] = others_of(c, rows);
+        const std::vector<Row> alone = select(members, [](const Row &row) {
+          return row.ranks == 1. || std::isnan(row.ranks);
+        });
         out << "### " << c.title << "\n\n"
             << c.text << "\n\n![" << c.title << "](images/" << image << ")\n\n";
-        write_comparison(out, members);
-        write_series(out, members);
+        write_comparison(out, alone);
+        write_series(
+          out,
+          select(alone, [](const Row &row) { return row.solver != "CG + ML"; }),
+          others,
+          name_of_others);
       }
       write_stages(out, rows, images);
-      report_counts(out, counts);
       write_threads(out, rows);
-      write_scaling(out, rows);
       write_distribution(out, rows, images);
       std::ofstream(directory + "/performance.md") << out.str();
     }

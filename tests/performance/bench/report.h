@@ -1,7 +1,6 @@
 #ifndef nmm_tests_performance_bench_report_h
 #define nmm_tests_performance_bench_report_h
 
-#include "counts.h"
 #include "row.h"
 #include <ostream>
 
@@ -11,12 +10,10 @@ namespace NMM
   {
     /**
      * Write @p directory/performance.md and the figures it shows, all of it from
-     * @p rows. @p counts may be empty.
+     * @p rows.
      */
     void
-    write_report(const std::vector<Row>   &rows,
-                 const std::vector<Count> &counts,
-                 const std::string        &directory);
+    write_report(const std::vector<Row> &rows, const std::string &directory);
 
 
     /// @name Pieces of it
@@ -42,17 +39,13 @@ namespace NMM
     void
     write_bars(std::ostream &out, const std::vector<Row> &rows);
 
-    /// Seconds of stages, of the largest run of each kind.
+    /// Seconds of stages, of the slowest run of each kind.
     void
     write_stages(std::ostream           &out,
                  const std::vector<Row> &rows,
                  const std::string      &image_directory);
 
-    /// Where more ranks would lead.
-    void
-    write_scaling(std::ostream &out, const std::vector<Row> &rows);
-
-    /// The mesh on each rank or a part of it, and a model of many ranks.
+    /// Runs on ranks, with the mesh on each rank or a part of it, and a model of many ranks.
     void
     write_distribution(std::ostream           &out,
                        const std::vector<Row> &rows,

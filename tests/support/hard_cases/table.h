@@ -14,8 +14,8 @@ namespace NMM
     struct Worst
     {
       unsigned int n = 0, n_failures = 0, cg_iterations = 0;
-      double condition = 0., smallest_condition = 1e300, mass_condition = 0.,
-             displacement_error = 0., energy_error = 0., smallest_fraction = 1.;
+      double       condition = 0., mass_condition = 0., displacement_error = 0.,
+             energy_error = 0., smallest_fraction = 1.;
 
       void
       add(const Result &result);

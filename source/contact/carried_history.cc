@@ -788,7 +788,8 @@ namespace NMM
 
 
       /// Add two places to the master of an interval, which is the slave after the cut: the slave's
-      /// point at s is stuck to the place t of the master, hence the master's point at t to s.
+      /// point at s is stuck to the place t of the master, hence the master's point at t to s. A
+      /// corner of the old slave is a corner of the new master, and keeps its anchor.
       void
       StickCarrier::add_reversed(const CommonPiece   &piece,
                                  const LinearHistory &part)
@@ -802,6 +803,25 @@ namespace NMM
         if (std::abs(slope) * edges[part.master->before].length <=
             least_ratio * edges[piece.before].length)
           return;
+        for (const unsigned int end : {0U, 1U})
+        {
+          const ContactSurface::Edge &corner = to.edges()[piece.after];
+          const unsigned int          place =
+            place_key(to, piece.after, PointKind::master_ends + end);
+          const double s = end == 0 ? part.begin : part.end;
+          StickPlace   stick;
+          if (piece.to_after(s) == end &&
+              (end == 0 ? corner.at_start : corner.at_end) ==
+                ContactSurface::Corner::convex &&
+              find_stick_place(places_along[piece.before], s, stick) &&
+              known_corners.insert(place).second)
+            sticks.push_back({place,
+                              double(end),
+                              part.master->after,
+                              part.master->to_after(part.t[end]),
+                              part.is_bonded,
+                              stick.slip});
+        }
         // The new slave ends where its edge does.
         double ends[2];
         for (const unsigned int end : {0U, 1U})

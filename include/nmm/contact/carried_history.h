@@ -38,6 +38,8 @@ namespace NMM
    * that divides a block makes its faces those of two blocks. @p slave_priority is that of the new
    * ContactParameters and decides about it. Where the roles change, the map from s to t is
    * inverted: a place t of the old master is stuck to the place s of the old slave.
+   * Edges of the new slave that no anchor of the old one lay on get no history, although contact
+   * may reach onto them by the elastic slip.
    *
    * If an edge and the edges of all its anchors are the same in both surfaces to the last bit, its
    * places are copied. A surface that is the same therefore gets back the same history, except for
@@ -57,6 +59,9 @@ namespace NMM
    * **Left out.** Faces that @p from does not have get no history, and faces that @p to does not
    * have lose theirs. Multipliers of the augmented Lagrangian stay empty, because motions do not use
    * them. The last search stays empty, so that the next detect() searches for candidate pairs anew.
+   *
+   * **Not conserved.** The faces of the new piece of a crack begin without pressure. The stress that
+   * the solid has transmitted there is released, and contact takes it up as the faces close.
    *
    * **Limits.** A face must not be longer in @p to than in @p from within one edge, as the end of
    * the old face would be continued by extrapolation. The new piece of a crack is a curve of its own

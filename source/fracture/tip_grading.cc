@@ -7,14 +7,15 @@ namespace NMM
   LocalSize
   grade_towards(const CrackTip &tip,
                 const double    growth,
-                const double    cell_size)
+                const double    cell_size,
+                const double    smallest)
   {
     // This is one halving less than is possible.
     constexpr double most_halvings = 1 << 19;
     LocalSize        size;
-    size.kind     = LocalSize::Kind::point;
-    size.point    = tip.point;
-    size.size     = std::max(1e-6 * tip.free_radius, cell_size / most_halvings);
+    size.kind  = LocalSize::Kind::point;
+    size.point = tip.point;
+    size.size = std::max(smallest * tip.free_radius, cell_size / most_halvings);
     size.growth   = growth;
     size.exponent = 5. / 6.;
     size.length   = tip.free_radius;

@@ -1,6 +1,5 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/contact/carried_history.h>
-#include <nmm/fracture/tip_grading.h>
 #include <nmm/mechanics/carried_covers.h>
 
 #include <algorithm>
@@ -127,11 +126,12 @@ namespace NMM
       if (fracture.grades_mesh())
         for (const GrowingTip &tip : tips)
           further_sizes.push_back(
-            grade_towards(tip.tip,
-                          fracture.grading,
-                          mesh.type == MathematicalMeshParameters::Type::graded
-                            ? mesh.graded.cell_size
-                            : mesh.regular.cell_size));
+            size_at_tip(tip.tip,
+                        fracture,
+                        mesh.type == MathematicalMeshParameters::Type::graded
+                          ? mesh.graded.cell_size
+                          : mesh.regular.cell_size,
+                        /* in_motion = */ true));
       cut_anew(grown, duration);
       growth->add(step_number(), time(), duration, tips);
       on_first_rank([&]() { growth->table().write(*directory); });
@@ -206,10 +206,12 @@ namespace NMM
       if (contact)
       {
         contact->continue_from(*former.contact);
-        contact_model->restore(former.friction_work,
-                               carry_history(former.history,
-                                             former.contact->faces(),
-                                             contact->faces()));
+        contact_model->restore(
+          former.friction_work,
+          carry_history(former.history,
+                        former.contact->faces(),
+                        contact->faces(),
+                        contact->contact().parameters().slave_priority));
       }
       integrator->continue_after_cut(state, former.energy, duration);
       // A few steps resolve the time in which the faces separate.

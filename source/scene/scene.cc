@@ -300,9 +300,12 @@ namespace NMM
       GradedMeshParameters graded = parameters.graded;
       if (parameters.type == MathematicalMeshParameters::Type::regular)
         static_cast<RegularMeshParameters &>(graded) = parameters.regular;
-      const auto at_tips = internal::sizes_at_tips(physical_mesh,
-                                                   scene_parameters.fracture,
-                                                   graded.cell_size);
+      const auto at_tips =
+        internal::sizes_at_tips(physical_mesh,
+                                scene_parameters.fracture,
+                                graded.cell_size,
+                                scene_parameters.model.analysis ==
+                                  Analysis::dynamics);
       graded.local_sizes.insert(graded.local_sizes.end(),
                                 at_tips.begin(),
                                 at_tips.end());

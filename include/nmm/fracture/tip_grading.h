@@ -15,15 +15,18 @@ namespace NMM
        \quad\Rightarrow\quad h = g R \left(\frac rR\right)^{5/6}, @f]
    * where R is the free radius of the tip and g = @p growth is the size of cells at the distance R
    * over R [-]. About 44 / g^2 cells lie in the disk r < R, for any cell size at
-   * the tip. That size is 1e-6 R: the crack is open only up to the cell that contains its tip,
-   * and a crack that is too short by a fraction of its length has a K that is too small by
-   * about half of that fraction.
+   * the tip. That size is @p smallest times R: the crack is open only up to the cell that contains
+   * its tip, and a crack that is too short by a fraction of its length has a K that is too small
+   * by about half of that fraction.
    *
    * A cell can be halved at most 20 times, so that the size of cells elsewhere, @p cell_size [m],
    * bounds the size at the tip from below.
    */
   LocalSize
-  grade_towards(const CrackTip &tip, double growth, double cell_size);
+  grade_towards(const CrackTip &tip,
+                double          growth,
+                double          cell_size,
+                double          smallest = 1e-6);
 } // namespace NMM
 
 #endif

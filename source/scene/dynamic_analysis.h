@@ -91,7 +91,8 @@ namespace NMM
       double           largest_balance = 0., largest_energy = 0.;
       Progress::Stage *stage = nullptr;
 
-      /// @throws InputError for cracks that grow on several ranks.
+      /// @throws InputError for cracks that grow on several ranks, and for loads on cracks that do not
+      /// turn with them in finite kinematics.
       void
       check_problem() override;
 

@@ -65,12 +65,30 @@ namespace
             {"initial stress", "Initial stress"});
     rejects("Fracture/Intensity factors=false",
             {"intensity factors", "Fracture/Intensity factors = true"});
-    expect_rejected_with(growing +
-                           std::vector<std::string>{"Time/End time=1",
-                                                    "Time/Initial step=0.1",
-                                                    "Materials/rock/Density=1"},
-                         "Model/Analysis=dynamic",
-                         {"cracks grow", "dynamic", "Fracture/Increments"});
+    // In motion.
+    const std::vector<std::string> moving =
+      growing + std::vector<std::string>{"Model/Analysis=dynamic",
+                                         "Time/End time=1",
+                                         "Time/Initial step=0.1",
+                                         "Materials/rock/Density=1"};
+    expect_rejected_with(moving,
+                         "Output/Checkpoint every=1",
+                         {"checkpoints", "Checkpoint every", "Increments"});
+    expect_rejected_with(moving,
+                         "Model/Kinematics=incremental",
+                         {"incremental", "Intensity factors"});
+    rejects("Fracture/Speed=100", {"speed", "Model/Analysis = dynamic"});
+    expect_rejected_with(cracked,
+                         "Fracture/Speed=100",
+                         {"'Speed'", "Increments"});
+    expect_rejected_with(
+      moving +
+        std::vector<std::string>{"Model/Kinematics=finite",
+                                 "Boundary conditions/Names=faces",
+                                 "Boundary conditions/faces/Boundary=crack",
+                                 "Boundary conditions/faces/Value=1"},
+      "Boundary conditions/faces/Type=pressure",
+      {"faces", "follower pressure"});
     expect_rejected_with(
       growing + std::vector<std::string>{"Contact/Enforcement=penalty"},
       "Load steps/Load factors=1, 0.5",

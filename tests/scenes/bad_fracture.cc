@@ -84,7 +84,7 @@ namespace
     expect_rejected_with(
       moving +
         std::vector<std::string>{"Model/Kinematics=finite",
-                                 "Boundary conditions/Names=faces",
+                                 "Boundary conditions/Names=held, faces",
                                  "Boundary conditions/faces/Boundary=crack",
                                  "Boundary conditions/faces/Value=1"},
       "Boundary conditions/faces/Type=pressure",

@@ -89,8 +89,10 @@ namespace NMM
   {
     /// The forces f_0 on owned unknowns, as loads [N/m]; of size 0 if there are none.
     MechanicalModel::Vector forces;
-    /// Time at which they begin to fade, and time at which they are gone [s].
-    double begin = 0., end = 0.;
+    /// Time at which they begin to fade [s].
+    double begin = 0.;
+    /// Time at which they are gone [s].
+    double end = 0.;
 
     /// Whether any of them is left at the time @p t [s].
     bool

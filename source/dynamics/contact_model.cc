@@ -400,8 +400,15 @@ namespace NMM
     const auto [history, of_model] =
       dealii::Utilities::unpack<std::pair<ContactHistory, std::vector<char>>>(
         state, /* allow_compression = */ false);
-    data->contact->restore_history(history);
+    restore_history(history);
     data->saved->restore_internal_state(of_model);
+  }
+
+
+  void
+  ContactModel::restore_history(const ContactHistory &history)
+  {
+    data->contact->restore_history(history);
     data->is_detected = false;
   }
 

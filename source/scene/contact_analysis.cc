@@ -578,9 +578,7 @@ namespace NMM
                                    const ContactHistory &history)
     {
       work = friction_work;
-      ContactModel::restore_internal_state(
-        dealii::Utilities::pack(std::make_pair(history, std::vector<char>()),
-                                /* allow_compression = */ false));
+      restore_history(history);
     }
 
 

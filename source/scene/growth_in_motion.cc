@@ -11,14 +11,19 @@ namespace NMM
 {
   namespace internal
   {
-    double
-    rayleigh_speed(const Material &material)
+    namespace
     {
-      const double nu          = material.poissons_ratio;
-      const double shear_speed = std::sqrt(material.youngs_modulus /
-                                           (2. * (1. + nu)) / material.density);
-      return (0.862 + 1.14 * nu) / (1. + nu) * shear_speed;
-    }
+      /// Speed of Rayleigh waves, (0.862 + 1.14 nu) / (1 + nu) times that of shear waves (within
+      /// 0.5 %; K. Graff, Wave motion in elastic solids (1975), section 6.1) [m/s].
+      double
+      rayleigh_speed(const Material &material)
+      {
+        const double nu          = material.poissons_ratio;
+        const double shear_speed = std::sqrt(
+          material.youngs_modulus / (2. * (1. + nu)) / material.density);
+        return (0.862 + 1.14 * nu) / (1. + nu) * shear_speed;
+      }
+    } // namespace
 
 
     GrowthInMotion::GrowthInMotion(const FractureParameters &parameters)

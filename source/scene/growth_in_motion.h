@@ -1,7 +1,6 @@
 #ifndef nmm_source_scene_growth_in_motion_h
 #define nmm_source_scene_growth_in_motion_h
 
-#include <nmm/covers/graded_mesh.h>
 #include <nmm/materials/material.h>
 #include <nmm/mechanics/elasticity_problem.h>
 
@@ -65,12 +64,6 @@ namespace NMM
       double
       speed(const Material &material) const;
     };
-
-
-    /// Speed of Rayleigh waves, (0.862 + 1.14 nu) / (1 + nu) times that of shear waves (within
-    /// 0.5 %; K. Graff, Wave motion in elastic solids (1975), section 6.1) [m/s].
-    double
-    rayleigh_speed(const Material &material);
   } // namespace internal
 } // namespace NMM
 

@@ -60,8 +60,9 @@ namespace NMM
    * have lose theirs. Multipliers of the augmented Lagrangian stay empty, because motions do not use
    * them. The last search stays empty, so that the next detect() searches for candidate pairs anew.
    *
-   * **Not conserved.** The faces of the new piece of a crack begin without pressure. The stress that
-   * the solid has transmitted there is released, and contact takes it up as the faces close.
+   * **New faces.** The faces of the new piece of a crack begin without pressure. What the solid has
+   * transmitted there is not a part of contact; in motion TimeIntegrator::continue_after_cut()
+   * lets it fade.
    *
    * **Limits.** A face must not be longer in @p to than in @p from within one edge, as the end of
    * the old face would be continued by extrapolation. The new piece of a crack is a curve of its own

@@ -150,6 +150,10 @@ namespace NMM
     void
     restore_internal_state(const std::vector<char> &state) override;
 
+    /// Continue with the @p history of contact only, e.g. the one that carry_history() returns.
+    void
+    restore_history(const ContactHistory &history);
+
     void
     set_absent_blocks(const std::vector<bool> &is_absent) override;
 

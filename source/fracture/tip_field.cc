@@ -35,7 +35,9 @@ namespace NMM
   }
 
 
-  TipField::TipField(const Kind kind, const PlaneElasticity &elasticity)
+  TipField::TipField(const Kind             kind,
+                     const PlaneElasticity &elasticity,
+                     const unsigned int     n)
     : mu(elasticity.mu)
     , kappa(kolosov_constant(elasticity))
   {
@@ -46,14 +48,14 @@ namespace NMM
       phi_factor = -psi_factor;
       return;
     }
-    // The functions follow from phi' = (K_I - i K_II) / (2 (2 pi z)^(1/2)).
-    const unsigned int n = 1;
-    power                = 0.5 * n - 1.;
+    // For n = 1, phi' = (K_I - i K_II) / (2 (2 pi z)^(1/2)).
+    power = 0.5 * n - 1.;
     const Complex A =
       (kind == Kind::opening ? Complex(1., 0.) : Complex(0., -1.)) /
       std::sqrt(2. * dealii::numbers::PI);
     phi_factor = 0.5 * n * A;
-    psi_factor = 0.5 * n * (std::conj(A) - 0.5 * n * A);
+    psi_factor =
+      -0.5 * n * ((n % 2 == 0 ? 1. : -1.) * std::conj(A) + 0.5 * n * A);
   }
 
 

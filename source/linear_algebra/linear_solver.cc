@@ -3,6 +3,7 @@
 #include <deal.II/base/timer.h>
 #include <deal.II/lac/solver_cg.h>
 
+#include <algorithm>
 #include <cmath>
 #include <linear_algebra/direct_solver.h>
 #include <linear_algebra/linear_solver.h>
@@ -21,6 +22,7 @@ namespace NMM
     {
       using Matrix = dealii::TrilinosWrappers::SparseMatrix;
       using Vector = dealii::TrilinosWrappers::MPI::Vector;
+      using AllRhs = std::vector<const Vector *>;
 
       /// |b - A x| / |b| [-]; |A x| if b = 0.
       double
@@ -37,10 +39,10 @@ namespace NMM
 
 
       void
-      solve_direct(const Matrix       &matrix,
-                   const Vector       &rhs,
-                   Vector             &solution,
-                   LinearSolverReport &report)
+      solve_direct(const Matrix        &matrix,
+                   const AllRhs        &rhs,
+                   std::vector<Vector> &solutions,
+                   LinearSolverReport  &report)
       {
         dealii::Timer timer;
         DirectSolver  solver;
@@ -50,7 +52,8 @@ namespace NMM
         report.factorization_time = timer.wall_time() - report.analysis_time;
         report.n_factor_entries   = solver.n_factor_entries();
         timer.restart();
-        solver.solve(rhs, solution);
+        for (unsigned int i = 0; i < rhs.size(); ++i)
+          solver.solve(*rhs[i], solutions[i]);
         report.solution_time = timer.wall_time();
       }
 
@@ -88,16 +91,16 @@ namespace NMM
       };
 
 
-      /// Solve by conjugate gradients. Returns the reason if they did not converge, otherwise an
-      /// empty string.
+      /// Solve by conjugate gradients. Returns the reason if they did not converge for one of the
+      /// right-hand sides, otherwise an empty string.
       template <typename Preconditioner>
       std::string
       solve_iterative(const Matrix                            &matrix,
-                      const Vector                            &rhs,
+                      const AllRhs                            &all_rhs,
                       const CoverSystem                       &covers,
                       const dealii::AffineConstraints<double> &constraints,
                       const LinearSolverParameters            &parameters,
-                      Vector                                  &solution,
+                      std::vector<Vector>                     &solutions,
                       LinearSolverReport                      &report)
       {
         dealii::Timer        timer;
@@ -105,25 +108,32 @@ namespace NMM
         report.direct             = false;
         report.factorization_time = timer.wall_time();
         timer.restart();
-        const double             norm = rhs.l2_norm();
-        dealii::SolverControl    control(parameters.max_iterations,
-                                      parameters.tolerance * norm);
-        dealii::SolverCG<Vector> solver(control);
-        std::string              failure;
-        try
+        report.n_iterations = 0;
+        std::string failure;
+        for (unsigned int i = 0; i < all_rhs.size() && failure.empty(); ++i)
         {
-          solver.solve(matrix, solution, rhs, preconditioner);
+          const double             norm = all_rhs[i]->l2_norm();
+          dealii::SolverControl    control(parameters.max_iterations,
+                                        parameters.tolerance * norm);
+          dealii::SolverCG<Vector> solver(control);
+          try
+          {
+            if (norm > 0.)
+              solver.solve(matrix, solutions[i], *all_rhs[i], preconditioner);
+          }
+          catch (const dealii::SolverControl::NoConvergence &error)
+          {
+            std::ostringstream what;
+            what << "Conjugate gradients did not converge: after "
+                 << error.last_step << " iterations the relative residual is "
+                 << error.last_residual / norm << " instead of "
+                 << parameters.tolerance;
+            failure = what.str();
+          }
+          if (norm > 0.)
+            report.n_iterations =
+              std::max(report.n_iterations, control.last_step());
         }
-        catch (const dealii::SolverControl::NoConvergence &error)
-        {
-          std::ostringstream what;
-          what << "Conjugate gradients did not converge: after "
-               << error.last_step << " iterations the relative residual is "
-               << error.last_residual / norm << " instead of "
-               << parameters.tolerance;
-          failure = what.str();
-        }
-        report.n_iterations  = control.last_step();
         report.solution_time = timer.wall_time();
         return failure;
       }
@@ -132,32 +142,35 @@ namespace NMM
 
     LinearSolverReport
     solve_linear_system(const Matrix                            &matrix,
-                        const Vector                            &rhs,
+                        const AllRhs                            &rhs,
                         const CoverSystem                       &covers,
                         const dealii::AffineConstraints<double> &constraints,
                         const LinearSolverParameters            &parameters,
-                        Vector                                  &solution)
+                        std::vector<Vector>                     &solutions)
     {
       using Type = LinearSolverParameters::Type;
       LinearSolverReport report;
-      solution.reinit(rhs, true);
-      solution = 0.;
+      solutions.assign(rhs.size(), *rhs.front());
+      for (Vector &solution : solutions)
+        solution = 0.;
       // Without loads the solution is zero, and the relative residual is undefined.
-      if (rhs.l2_norm() == 0.)
+      if (std::all_of(rhs.begin(), rhs.end(), [](const Vector *b) {
+            return b->l2_norm() == 0.;
+          }))
         return report;
 
       if (parameters.type == Type::direct ||
           (parameters.type == Type::automatic &&
            matrix.m() <= parameters.direct_limit))
-        solve_direct(matrix, rhs, solution, report);
+        solve_direct(matrix, rhs, solutions, report);
       else
       {
         const auto solve =
           covers.manifold_mesh().mathematical_mesh().degree() == 2
             ? &solve_iterative<TwoLevelPreconditioner>
             : &solve_iterative<OneLevelPreconditioner>;
-        const std::string failure =
-          solve(matrix, rhs, covers, constraints, parameters, solution, report);
+        const std::string failure = solve(
+          matrix, rhs, covers, constraints, parameters, solutions, report);
         AssertThrow(failure.empty() || parameters.type == Type::automatic,
                     NumericalFailure(failure,
                                      "",
@@ -165,10 +178,18 @@ namespace NMM
                                      "iterations, or aggregation of covers if "
                                      "it is off"));
         if (!failure.empty())
-          solve_direct(matrix, rhs, solution, report);
+          solve_direct(matrix, rhs, solutions, report);
       }
 
-      report.relative_residual = relative_residual(matrix, rhs, solution);
+      report.relative_residual = 0.;
+      for (unsigned int i = 0; i < rhs.size(); ++i)
+      {
+        const double residual =
+          relative_residual(matrix, *rhs[i], solutions[i]);
+        // written so that the report has a residual that is not a number
+        if (!(residual <= report.relative_residual))
+          report.relative_residual = residual;
+      }
       AssertThrow(
         std::isfinite(report.relative_residual) &&
           report.relative_residual < 1e-5,

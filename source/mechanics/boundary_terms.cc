@@ -220,10 +220,8 @@ namespace NMM
     }
 
 
-    void
-    EdgeTerms::add_tie(const unsigned int element,
-                       const ElementEdge &edge,
-                       LocalSystem       &system)
+    std::optional<EdgeTerms::TieWeights>
+    EdgeTerms::tie_weights(const unsigned int element, const ElementEdge &edge)
     {
       const ManifoldMesh     &mesh              = covers->manifold_mesh();
       const MathematicalMesh &mathematical_mesh = mesh.mathematical_mesh();
@@ -235,11 +233,13 @@ namespace NMM
                         .largest_eigenvalue() *
                       (*trace_constants)(elements[side]);
       if (!std::isfinite(bound[0]) && !std::isfinite(bound[1]))
-        return;
+        return {};
       // k_2 / (k_1 + k_2), written so that one k may be infinite
-      const double share[2] = {
-        std::isfinite(bound[0]) ? 1. / (1. + bound[0] / bound[1]) : 0.,
-        std::isfinite(bound[1]) ? 1. / (1. + bound[1] / bound[0]) : 0.};
+      TieWeights weights;
+      for (unsigned int side = 0; side < 2; ++side)
+        weights.share[side] = std::isfinite(bound[side])
+                                ? 1. / (1. + bound[side] / bound[1 - side])
+                                : 0.;
       // An element that is tied to a small block has a small bound, because the boundary of the
       // block is short compared with the element. The bound alone would tie the block too softly,
       // so that the penalty is at least the stiffness divided by the size of the smaller cell.
@@ -249,9 +249,24 @@ namespace NMM
       const double size =
         std::min(mathematical_mesh.cell_diameter(mesh.cell(elements[0])),
                  mathematical_mesh.cell_diameter(mesh.cell(elements[1])));
-      const double penalty =
+      weights.penalty =
         std::max(safety / (1. / bound[0] + 1. / bound[1]), softer / size);
+      return weights;
+    }
 
+
+    void
+    EdgeTerms::add_tie(const unsigned int element,
+                       const ElementEdge &edge,
+                       LocalSystem       &system)
+    {
+      const ManifoldMesh     &mesh              = covers->manifold_mesh();
+      const MathematicalMesh &mathematical_mesh = mesh.mathematical_mesh();
+      const unsigned int      elements[2]       = {element, edge.neighbor};
+
+      const std::optional<TieWeights> weights = tie_weights(element, edge);
+      if (!weights)
+        return;
       const EdgeRule rule =
         make_edge_rule(edge,
                        cell_frame(mathematical_mesh, mesh.cell(element)),
@@ -270,15 +285,109 @@ namespace NMM
                                                      x),
                  rule.normals[q],
                  side == 0 ? 1. : -1.,
-                 share[side],
+                 weights->share[side],
                  functionals);
         add_nitsche(functionals,
                     dealii::unit_symmetric_tensor<2>(),
-                    penalty,
+                    weights->penalty,
                     dealii::Tensor<1, 2>(),
                     rule.weights[q],
                     system);
       }
+    }
+
+
+    bool
+    EdgeTerms::compute_disk_edge(const unsigned int element,
+                                 const ElementEdge &edge,
+                                 const DiskCover   &disk,
+                                 DiskEdge          &result)
+    {
+      const ManifoldMesh     &mesh              = covers->manifold_mesh();
+      const MathematicalMesh &mathematical_mesh = mesh.mathematical_mesh();
+      const unsigned int      elements[2]       = {element, edge.neighbor};
+      const auto              is_inside         = [&](const unsigned int side) {
+        return disk.contains(
+          mesh.physical_mesh().regions()[mesh.region(elements[side])].inside);
+      };
+      if (is_inside(0) == is_inside(1))
+        return false;
+      const std::optional<TieWeights> weights = tie_weights(element, edge);
+      if (!weights)
+        return false;
+      const unsigned int     inside = is_inside(0) ? 0 : 1;
+      const double           w_1 = weights->share[inside], w_2 = 1. - w_1;
+      const PlaneElasticity &elasticity =
+        region_to_elasticity[mesh.region(element)];
+
+      const unsigned int n = disk.n_functions();
+      result.couplings.assign(n, dealii::Vector<double>(4 * n_per_cell));
+      result.works = result.couplings;
+      result.matrix.reinit(n, n);
+      result.work_matrix.reinit(n, n);
+
+      // The functions are no polynomials.
+      const unsigned int further_degree = 4;
+      const EdgeRule     rule =
+        make_edge_rule(edge,
+                       cell_frame(mathematical_mesh, mesh.cell(element)),
+                       2 * degree + further_degree);
+      std::vector<dealii::Tensor<1, 2>> F(n), t(n);
+      PointFunctionals                  functionals;
+      for (unsigned int q = 0; q < rule.points.size(); ++q)
+      {
+        const dealii::Point<2> x =
+          mathematical_mesh.reference_to_real(mesh.cell(element),
+                                              rule.points[q]);
+        const dealii::Tensor<1, 2> normal =
+          (inside == 0 ? 1. : -1.) * rule.normals[q];
+        functionals.n_covers     = 0;
+        functionals.initial_flux = 0.;
+        for (unsigned int side = 0; side < 2; ++side)
+          append(elements[side],
+                 mathematical_mesh.real_to_reference(mesh.cell(elements[side]),
+                                                     x),
+                 normal,
+                 side == inside ? 1. : -1.,
+                 weights->share[side],
+                 functionals);
+        for (unsigned int j = 0; j < n; ++j)
+        {
+          const DiskCover::Value value =
+            disk.evaluate(j, x, dealii::Tensor<1, 2>());
+          F[j] = value.displacement;
+          t[j] = elasticity.stress(dealii::symmetrize(value.gradient)) * normal;
+        }
+        for (unsigned int j = 0; j < n; ++j)
+        {
+          for (unsigned int k = 0; k < functionals.n_covers; ++k)
+          {
+            const bool   is_inner = k / n_per_cell == inside;
+            const double jump     = functionals.jump[k];
+            const double mean     = is_inner ? w_2 * jump : -w_1 * jump;
+            for (unsigned int c = 0; c < 2; ++c)
+            {
+              result.couplings[j](2 * k + c) +=
+                rule.weights[q] *
+                (mean * t[j][c] - functionals.flux[k][0][c] * F[j][0] -
+                 functionals.flux[k][1][c] * F[j][1] +
+                 weights->penalty * jump * F[j][c]);
+              if (is_inner)
+                result.works[j](2 * k + c) += rule.weights[q] * jump * t[j][c];
+            }
+          }
+          for (unsigned int k = 0; k < n; ++k)
+          {
+            // both orders of j and k have the same integral on the whole circle
+            const double work = 0.5 * (t[j] * F[k] + t[k] * F[j]);
+            result.work_matrix(j, k) += rule.weights[q] * work;
+            result.matrix(j, k) +=
+              rule.weights[q] *
+              ((1. - 2. * w_1) * work + weights->penalty * (F[j] * F[k]));
+          }
+        }
+      }
+      return true;
     }
   } // namespace internal
 } // namespace NMM

@@ -2,11 +2,16 @@
 #define nmm_source_mechanics_boundary_terms_h
 
 #include <nmm/covers/cover_system.h>
+#include <nmm/mechanics/disk_cover.h>
 #include <nmm/mechanics/elasticity_problem.h>
+
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/vector.h>
 
 #include <mechanics/curve_conditions.h>
 #include <mechanics/local_system.h>
 #include <mechanics/trace_constant.h>
+#include <optional>
 #include <vector>
 
 namespace NMM
@@ -46,6 +51,34 @@ namespace NMM
               const ElementEdge &edge,
               LocalSystem       &system);
 
+      /// Terms of the functions F_j of a disk cover on an edge of its circle. Unknowns are those of
+      /// an element, followed by those of its neighbour; v is a displacement of these.
+      struct DiskEdge
+      {
+        /// Nitsche's bilinear form of F_j and v.
+        std::vector<dealii::Vector<double>> couplings;
+        /// Integrals of sigma(F_j) n . v on the inside.
+        std::vector<dealii::Vector<double>> works;
+        /// Nitsche's bilinear form of F_j and F_k.
+        dealii::FullMatrix<double> matrix;
+        /// Integrals of sigma(F_j) n . F_k.
+        dealii::FullMatrix<double> work_matrix;
+      };
+
+      /**
+       * Compute the terms of a tied edge of @p element; returns false if the edge is not on the
+       * circle of @p disk. With n from the inside (1) to the outside (2) of the circle and
+       * w_1 + w_2 = 1, the terms of a tie and the first integral of DiskCover give
+       * @f[ B_j(v) = \int \sigma(F_j)n\cdot(w_2v_1+w_1v_2) - \{\sigma(v)\}n\cdot F_j
+           + \gamma F_j\cdot(v_1-v_2)\,ds, @f]
+       * @f[ C_{jk} = \int (1-2w_1)\,\sigma(F_j)n\cdot F_k + \gamma F_j\cdot F_k\,ds. @f]
+       */
+      bool
+      compute_disk_edge(unsigned int       element,
+                        const ElementEdge &edge,
+                        const DiskCover   &disk,
+                        DiskEdge          &result);
+
     private:
       /// Factor of the penalties [-]. Coercivity requires more than 1; a larger value allows for
       /// several aggregated elements whose bounds use the energy of the same root.
@@ -62,6 +95,20 @@ namespace NMM
         /// Flux of the initial stress.
         dealii::Tensor<1, 2> initial_flux;
       };
+
+      /// Averages and penalty of a tie.
+      struct TieWeights
+      {
+        /// Weights of the stress of the element and of its neighbour [-].
+        double share[2];
+        /// Penalty [Pa/m].
+        double penalty;
+      };
+
+      /// The weights of a tied edge; none if neither element has an area, so that there is nothing
+      /// to tie.
+      std::optional<TieWeights>
+      tie_weights(unsigned int element, const ElementEdge &edge);
 
       /// Append the functionals of an element: its displacement times @p sign to the jump,
       /// its traction times @p share to the flux.

@@ -1,7 +1,7 @@
 #ifndef nmm_source_mechanics_curve_conditions_h
 #define nmm_source_mechanics_curve_conditions_h
 
-#include <nmm/covers/manifold_mesh.h>
+#include <nmm/covers/cover_system.h>
 #include <nmm/mechanics/elasticity_problem.h>
 
 #include <map>
@@ -94,6 +94,22 @@ namespace NMM
       std::map<std::pair<unsigned int, unsigned int>, Face> faces;
       Face                                                  free;
     };
+
+
+    /// Call action(element, edge) for each tied edge of owned elements. Each edge occurs once,
+    /// as an edge of the element with the lower number.
+    template <typename Action>
+    void
+    for_each_tie(const CoverSystem     &covers,
+                 const CurveConditions &conditions,
+                 const Action          &action)
+    {
+      const auto [first, last] = covers.locally_owned_elements();
+      for (unsigned int e = first; e < last; ++e)
+        for (const ElementEdge &edge : covers.manifold_mesh().edges(e))
+          if (conditions.is_tied(e, edge) && e < edge.neighbor)
+            action(e, edge);
+    }
   } // namespace internal
 } // namespace NMM
 

@@ -55,6 +55,20 @@ namespace NMM
   }
 
 
+  void
+  DisplacementField::add_disk(const DiskCover              &disk,
+                              const dealii::Vector<double> &coefficients)
+  {
+    AssertDimension(coefficients.size(), disk.n_functions());
+    const auto &regions = covers->manifold_mesh().physical_mesh().regions();
+    region_to_disk.resize(regions.size(), invalid_index);
+    for (unsigned int r = 0; r < regions.size(); ++r)
+      if (disk.contains(regions[r].inside))
+        region_to_disk[r] = disks.size();
+    disks.emplace_back(&disk, coefficients);
+  }
+
+
   const CoverSystem &
   DisplacementField::cover_system() const
   {
@@ -73,6 +87,8 @@ namespace NMM
     unsigned int         i = 0;
     for (const unsigned int cover : covers->covers(element))
       u += values[i++] * nodal_values[cover];
+    if (!disks.empty())
+      u += disk_value(element, xi).displacement;
     return u;
   }
 
@@ -80,6 +96,52 @@ namespace NMM
   dealii::Tensor<2, 2>
   DisplacementField::gradient(const unsigned int      element,
                               const dealii::Point<2> &xi) const
+  {
+    dealii::Tensor<2, 2> sum = gradient_of_covers(element, xi);
+    if (!disks.empty())
+      sum += gradient_of_disks(element, xi);
+    return sum;
+  }
+
+
+  dealii::Tensor<2, 2>
+  DisplacementField::gradient_of_disks(const unsigned int      element,
+                                       const dealii::Point<2> &xi) const
+  {
+    return disk_value(element, xi).gradient;
+  }
+
+
+  DiskCover::Value
+  DisplacementField::disk_value(const unsigned int      element,
+                                const dealii::Point<2> &xi) const
+  {
+    DiskCover::Value    sum;
+    const ManifoldMesh &mesh = covers->manifold_mesh();
+    const unsigned int  disk =
+      disks.empty() ? invalid_index : region_to_disk[mesh.region(element)];
+    if (disk == invalid_index)
+      return sum;
+    const dealii::Point<2> x =
+      mesh.mathematical_mesh().reference_to_real(mesh.cell(element), xi);
+    // towards the middle of the element's corners
+    dealii::Tensor<1, 2> into_solid;
+    for (const ElementEdge &edge : mesh.edges(element))
+      into_solid += edge.start - x;
+    const auto &[cover, coefficients] = disks[disk];
+    for (unsigned int i = 0; i < coefficients.size(); ++i)
+    {
+      const DiskCover::Value value = cover->evaluate(i, x, into_solid);
+      sum.displacement += coefficients(i) * value.displacement;
+      sum.gradient += coefficients(i) * value.gradient;
+    }
+    return sum;
+  }
+
+
+  dealii::Tensor<2, 2>
+  DisplacementField::gradient_of_covers(const unsigned int      element,
+                                        const dealii::Point<2> &xi) const
   {
     double gradients[WeightFunctions::max_per_cell][2];
     WeightFunctions::gradients(degree, xi, gradients);

@@ -5,6 +5,7 @@
 #include <linear_algebra/linear_solver.h>
 #include <mechanics/boundary_terms.h>
 #include <mechanics/curve_conditions.h>
+#include <mechanics/disk_system.h>
 #include <mechanics/floating_blocks.h>
 #include <mechanics/ghost_terms.h>
 #include <mechanics/local_system.h>
@@ -24,22 +25,6 @@ namespace NMM
       return timer == nullptr
                ? nullptr
                : std::make_unique<dealii::TimerOutput::Scope>(*timer, name);
-    }
-
-
-    /// Call action(element, edge) for each tied edge of owned elements. Each edge occurs once,
-    /// as an edge of the element with the lower number.
-    template <typename Action>
-    void
-    for_each_tie(const CoverSystem               &covers,
-                 const internal::CurveConditions &conditions,
-                 const Action                    &action)
-    {
-      const auto [first, last] = covers.locally_owned_elements();
-      for (unsigned int e = first; e < last; ++e)
-        for (const ElementEdge &edge : covers.manifold_mesh().edges(e))
-          if (conditions.is_tied(e, edge) && e < edge.neighbor)
-            action(e, edge);
     }
 
 
@@ -66,17 +51,25 @@ namespace NMM
     const QuadratureCollection              &quadrature,
     const dealii::AffineConstraints<double> &constraints,
     const ElasticityProblem                 &problem,
-    const GhostPenalty                      *ghost_penalty)
+    const GhostPenalty                      *ghost_penalty,
+    const std::vector<const DiskCover *>    &disks)
     : covers(&covers)
     , quadrature(&quadrature)
     , constraints(&constraints)
     , problem(&problem)
     , ghost_penalty(ghost_penalty)
+    , disks(std::make_unique<internal::DiskSystem>(covers,
+                                                   constraints,
+                                                   problem,
+                                                   disks))
   {
     problem.check(covers.manifold_mesh().physical_mesh());
     // throws an exception for points outside the solid
     const internal::PointTerms points(covers, problem);
   }
+
+
+  StaticElasticity::~StaticElasticity() = default;
 
 
   void
@@ -155,15 +148,24 @@ namespace NMM
     section.reset();
     section = time_section(timer, "to Trilinos");
     assembler.finish(matrix, rhs);
+    disks->assemble(edge_terms, conditions, rhs);
   }
 
 
   LinearSolverReport
   StaticElasticity::solve(const LinearSolverParameters &parameters)
   {
-    dealii::TrilinosWrappers::MPI::Vector distributed_solution;
+    std::vector<const dealii::TrilinosWrappers::MPI::Vector *> all_rhs = {&rhs};
+    for (const auto &coupling : disks->couplings())
+      all_rhs.push_back(&coupling);
+    std::vector<dealii::TrilinosWrappers::MPI::Vector> solutions;
     const LinearSolverReport report = internal::solve_linear_system(
-      matrix, rhs, *covers, *constraints, parameters, distributed_solution);
+      matrix, all_rhs, *covers, *constraints, parameters, solutions);
+    dealii::TrilinosWrappers::MPI::Vector distributed_solution =
+      std::move(solutions.front());
+    solutions.erase(solutions.begin());
+    disks->combine(solutions, distributed_solution);
+    disk_energy_value = disks->energy(distributed_solution);
     constraints->distribute(distributed_solution);
     relevant_solution.reinit(covers->locally_owned_dofs(2),
                              covers->locally_relevant_dofs(2),
@@ -177,6 +179,20 @@ namespace NMM
   StaticElasticity::solution() const
   {
     return relevant_solution;
+  }
+
+
+  const std::vector<dealii::Vector<double>> &
+  StaticElasticity::disk_coefficients() const
+  {
+    return disks->coefficients();
+  }
+
+
+  double
+  StaticElasticity::disk_energy() const
+  {
+    return disk_energy_value;
   }
 
 

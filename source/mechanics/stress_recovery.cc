@@ -359,8 +359,8 @@ namespace NMM
         gradient += lambda[corner] * polynomial_gradient(polynomials[p], x);
     }
     if (direct_share != 0.)
-      gradient += direct_share * field->gradient(element, xi);
-    return gradient;
+      gradient += direct_share * field->gradient_of_covers(element, xi);
+    return gradient + field->gradient_of_disks(element, xi);
   }
 
 

@@ -74,6 +74,21 @@ namespace NMM
     }
 
 
+    /// Whether the edge lies on a curve that pictures show.
+    bool
+    is_on_curve(const ManifoldMesh &mesh, const ElementEdge &edge)
+    {
+      if (edge.curve_set == invalid_index)
+        return false;
+      const PhysicalMesh              &physical = mesh.physical_mesh();
+      const std::vector<unsigned int> &pieces = mesh.curve_set(edge.curve_set);
+      return std::any_of(pieces.begin(), pieces.end(), [&](const auto piece) {
+        return !physical.curves()[physical.piece_to_curve()[piece]]
+                  .is_auxiliary;
+      });
+    }
+
+
     void
     insert(std::vector<double> &numbers, const Vertex &vertex)
     {
@@ -189,7 +204,7 @@ namespace NMM
       };
       for (const ElementEdge &edge : mesh.edges(element))
       {
-        const bool is_physical = edge.curve_set != invalid_index;
+        const bool is_physical = is_on_curve(mesh, edge);
         if (!is_physical && !with_mesh_lines)
           continue;
         auto &lines = !is_physical               ? data.mesh_lines

@@ -1,5 +1,4 @@
 #include <nmm/base/exceptions.h>
-#include <nmm/fracture/tip_grading.h>
 
 #include <algorithm>
 #include <scene/crack_tips.h>
@@ -191,30 +190,10 @@ namespace NMM
     }
 
 
-    LocalSize
-    size_at_tip(const CrackTip           &tip,
-                const FractureParameters &parameters,
-                const double              cell_size,
-                const bool                in_motion)
+    double
+    smallest_at_tips(const FractureParameters &parameters, const bool in_motion)
     {
-      const bool grows = in_motion && parameters.n_increments > 0;
-      return grade_towards(tip,
-                           parameters.grading,
-                           cell_size,
-                           grows ? 1e-3 : 1e-6);
-    }
-
-
-    std::vector<LocalSize>
-    sizes_at_tips(const PhysicalMesh       &physical_mesh,
-                  const FractureParameters &parameters,
-                  const double              cell_size,
-                  const bool                in_motion)
-    {
-      std::vector<LocalSize> sizes;
-      for (const CrackTip &tip : find_crack_tips(physical_mesh))
-        sizes.push_back(size_at_tip(tip, parameters, cell_size, in_motion));
-      return sizes;
+      return in_motion && parameters.n_increments > 0 ? 1e-3 : 1e-6;
     }
   } // namespace internal
 } // namespace NMM

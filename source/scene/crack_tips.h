@@ -84,23 +84,12 @@ namespace NMM
     };
 
 
-    /// The size about @p tip in a mesh of cells of @p cell_size [m] that is graded towards crack tips.
-    /// The smallest cells are 1e-6 of the tip's free radius, and 1e-3 of it where cracks grow
-    /// @p in_motion: all tips that a crack has had keep their cells, and faces that touch should not be
-    /// divided into edges that are shorter than needed. Intensity factors are then too small
-    /// by about 5e-4.
-    LocalSize
-    size_at_tip(const CrackTip           &tip,
-                const FractureParameters &parameters,
-                double                    cell_size,
-                bool                      in_motion);
-
-    /// The sizes at all tips.
-    std::vector<LocalSize>
-    sizes_at_tips(const PhysicalMesh       &physical_mesh,
-                  const FractureParameters &parameters,
-                  double                    cell_size,
-                  bool                      in_motion);
+    /// The size of cells at tips in a mesh that is graded towards them, over the tip's free radius
+    /// [-]: 1e-6, and 1e-3 where cracks grow @p in_motion. There all tips that a crack has had keep
+    /// their cells, and faces that touch should not be divided into edges that are shorter than
+    /// needed. Intensity factors are then too small by about 5e-4.
+    double
+    smallest_at_tips(const FractureParameters &parameters, bool in_motion);
   } // namespace internal
 } // namespace NMM
 

@@ -1,5 +1,6 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/contact/carried_history.h>
+#include <nmm/fracture/tip_grading.h>
 #include <nmm/mechanics/carried_covers.h>
 
 #include <algorithm>
@@ -131,12 +132,12 @@ namespace NMM
       if (fracture.grades_mesh())
         for (const GrowingTip &tip : tips)
           further_sizes.push_back(
-            size_at_tip(tip.tip,
-                        fracture,
-                        mesh.type == MathematicalMeshParameters::Type::graded
-                          ? mesh.graded.cell_size
-                          : mesh.regular.cell_size,
-                        /* in_motion = */ true));
+            grade_towards(tip.tip,
+                          fracture.grading,
+                          mesh.type == MathematicalMeshParameters::Type::graded
+                            ? mesh.graded.cell_size
+                            : mesh.regular.cell_size,
+                          smallest_at_tips(fracture, /* in_motion = */ true)));
       cut_anew(grown, duration);
       growth->add(step_number(), time(), duration, tips);
       on_first_rank([&]() { growth->table().write(*directory); });

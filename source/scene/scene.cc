@@ -1,6 +1,7 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/base/memory.h>
 #include <nmm/covers/rank_cells.h>
+#include <nmm/fracture/tip_grading.h>
 #include <nmm/scene/parameter_tree.h>
 #include <nmm/scene/scene.h>
 
@@ -301,11 +302,12 @@ namespace NMM
       if (parameters.type == MathematicalMeshParameters::Type::regular)
         static_cast<RegularMeshParameters &>(graded) = parameters.regular;
       const auto at_tips =
-        internal::sizes_at_tips(physical_mesh,
-                                scene_parameters.fracture,
-                                graded.cell_size,
-                                scene_parameters.model.analysis ==
-                                  Analysis::dynamics);
+        sizes_at_tips(physical_mesh,
+                      scene_parameters.fracture.grading,
+                      graded.cell_size,
+                      internal::smallest_at_tips(
+                        scene_parameters.fracture,
+                        scene_parameters.model.analysis == Analysis::dynamics));
       graded.local_sizes.insert(graded.local_sizes.end(),
                                 at_tips.begin(),
                                 at_tips.end());

@@ -50,6 +50,7 @@ namespace NMM
       quadrature.reset();
       ghost_penalty.reset();
       contact.reset();
+      tip_covers.clear();
       covers.reset();
       manifold_mesh.reset();
       mathematical_mesh.reset();
@@ -64,12 +65,17 @@ namespace NMM
       const SceneParameters &parameters = scene.parameters();
       {
         Stage stage(progress, "geometry");
-        physical_mesh = std::make_unique<PhysicalMesh>(std::move(geometry));
+        physical_mesh = std::make_unique<PhysicalMesh>(Geometry(geometry));
         problem       = scene.make_problem();
         problem.check(*physical_mesh);
         check_problem();
         if (parameters.fracture.intensity_factors)
+        {
+          if (parameters.fracture.tips == FractureParameters::Tips::automatic &&
+              can_have_tip_covers())
+            add_tip_covers(std::move(geometry));
           crack_tips = std::make_unique<CrackTips>(scene, *physical_mesh);
+        }
       }
       {
         Stage stage(progress, "mathematical mesh");
@@ -102,9 +108,35 @@ namespace NMM
       add_counts();
       // The cut may have moved a curve onto another one that coincides with it within rounding.
       if (parameters.fracture.n_increments > 0)
-        this->geometry.curves() = physical_mesh->curves();
+      {
+        std::vector<Curve> &curves = this->geometry.curves();
+        curves                     = physical_mesh->curves();
+        curves.erase(std::remove_if(curves.begin(),
+                                    curves.end(),
+                                    [](const Curve &curve) {
+                                      return curve.is_auxiliary;
+                                    }),
+                     curves.end());
+      }
       if (series)
         series->follow(*covers, contact.get());
+    }
+
+
+    void
+    SceneAnalysis::add_tip_covers(Geometry geometry)
+    {
+      // A crack that grows is straight over its last increment only. Covers of that size would
+      // cost more cells than they spare, in each increment.
+      const FractureParameters &fracture = scene.parameters().fracture;
+      tip_covers                         = make_tip_covers(*physical_mesh,
+                                   problem,
+                                   fracture.radius,
+                                   fracture.n_increments > 0 ? 0.4 : 1e-6);
+      if (tip_covers.empty())
+        return;
+      add_circles(tip_covers, *physical_mesh, geometry);
+      physical_mesh = std::make_unique<PhysicalMesh>(std::move(geometry));
     }
 
 
@@ -190,7 +222,10 @@ namespace NMM
       summary.add("covers_held", MPI::max(covers->n_covers(), communicator));
       n_aggregated = MPI::sum(n_aggregated, communicator);
       summary.add("aggregated_covers", n_aggregated);
-      summary.add("unknowns", 2. * (covers->n_global_covers() - n_aggregated));
+      double n_unknowns = 2. * (covers->n_global_covers() - n_aggregated);
+      for (const auto &cover : tip_covers)
+        n_unknowns += cover->n_functions();
+      summary.add("unknowns", n_unknowns);
       summary.add("area",
                   MPI::sum(area, communicator),
                   scene.parameters().output.length_unit + "^2");
@@ -222,6 +257,7 @@ namespace NMM
                                 }));
       const PhysicalMesh::DanglingEnds &ends = physical_mesh->dangling_ends();
       summary.add("crack_tips", ends.n_kept);
+      summary.add("tip_covers", tip_covers.size());
       summary.add("crack_length", ends.length_kept, length);
       summary.add("dropped_ends", ends.n_dropped);
       summary.add("dropped_length", ends.length_dropped, length);
@@ -234,6 +270,12 @@ namespace NMM
       std::pair<dealii::Point<2>, double> largest;
       for (const dealii::Point<2> &tip : physical_mesh->dangling_ends().tips)
       {
+        if (std::any_of(tip_covers.begin(),
+                        tip_covers.end(),
+                        [&](const auto &cover) {
+                          return cover->tip().point == tip;
+                        }))
+          continue;
         const unsigned int element = manifold_mesh->find_element(tip);
         if (element == invalid_index)
           continue;
@@ -376,7 +418,8 @@ namespace NMM
           field->stress_from_gradient(element, dealii::Tensor<2, 2>());
         for (unsigned int q = 0; q < rule.size(); ++q)
         {
-          const auto gradient = field->gradient(element, rule.point(q));
+          const auto gradient =
+            field->gradient_of_covers(element, rule.point(q));
           const auto elastic_stress =
             field->stress_from_gradient(element, gradient) - initial_stress;
           energy += 0.5 * determinant * rule.weight(q) *

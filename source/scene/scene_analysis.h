@@ -3,6 +3,7 @@
 
 #include <nmm/covers/aggregation.h>
 #include <nmm/covers/cover_system.h>
+#include <nmm/fracture/tip_cover.h>
 #include <nmm/mechanics/displacement_field.h>
 #include <nmm/mechanics/stress_recovery.h>
 #include <nmm/output/output_directory.h>
@@ -100,6 +101,8 @@ namespace NMM
       std::unique_ptr<QuadratureCollection> quadrature;
       ElasticityProblem                     problem;
       std::unique_ptr<ProbePoints>          probes;
+      /// Covers of crack tips, if the analysis can have them.
+      std::vector<std::unique_ptr<TipCover>> tip_covers;
       /// Null unless the scene asks for intensity factors.
       std::unique_ptr<CrackTips>         crack_tips;
       std::unique_ptr<DisplacementField> field;
@@ -126,9 +129,9 @@ namespace NMM
       bool
       is_first_rank() const;
 
-      /// Elastic energy of `field` with small displacements, without initial stress [J].
-      /// Collective.
-      double
+      /// Elastic energy of `field` with small displacements, without initial stress and without
+      /// what tip covers contribute [J]. Collective.
+      virtual double
       small_strain_energy() const;
 
       /// Runs @p action on rank 0; if it throws, all ranks throw. See NMM::on_first_rank().
@@ -141,6 +144,17 @@ namespace NMM
       check_problem()
       {
       }
+
+      /// Whether the equations can have the functions of tip covers.
+      virtual bool
+      can_have_tip_covers() const
+      {
+        return false;
+      }
+
+      /// Makes tip covers, and the physical mesh again with their circles.
+      void
+      add_tip_covers(Geometry geometry);
 
       /// Makes the equations, after covers and quadrature were made.
       virtual void
@@ -174,7 +188,7 @@ namespace NMM
       std::vector<std::string>
       block_notices() const;
 
-      /// The crack tip in the largest cell of all tips, and the size of that cell [m]; the size is
+      /// The crack tip without a cover in the largest cell of all such tips, and the size of that cell [m]; the size is
       /// 0 if there is no tip.
       std::pair<dealii::Point<2>, double>
       tip_in_the_largest_cell() const;

@@ -39,8 +39,10 @@ namespace NMM
                 tips,
                 tip_treatments,
                 "graded: cells become small towards crack tips; as meshed: "
-                "they do not; automatic: graded if intensity factors are "
-                "asked for.");
+                "they do not; automatic: if intensity factors are asked for, "
+                "functions for the stress at the tip are added in a disk "
+                "around it (linear statics, straight cracks), elsewhere "
+                "graded.");
     entries.add("Grading",
                 grading,
                 Patterns::Double(0, 1),

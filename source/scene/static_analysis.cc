@@ -18,8 +18,28 @@ namespace NMM
     void
     StaticAnalysis::make_system()
     {
+      std::vector<const DiskCover *> disks;
+      for (const auto &cover : tip_covers)
+        disks.push_back(cover.get());
       elasticity = std::make_unique<StaticElasticity>(
-        *covers, *quadrature, constraints, problem, ghost_penalty.get());
+        *covers, *quadrature, constraints, problem, ghost_penalty.get(), disks);
+    }
+
+
+    bool
+    StaticAnalysis::can_have_tip_covers() const
+    {
+      return !scene.parameters().contact.is_present();
+    }
+
+
+    double
+    StaticAnalysis::small_strain_energy() const
+    {
+      const double energy = SceneAnalysis::small_strain_energy();
+      return elasticity == nullptr
+               ? energy
+               : energy + problem.thickness * elasticity->disk_energy();
     }
 
 
@@ -77,6 +97,8 @@ namespace NMM
       {
         Stage stage(progress, "stress recovery");
         field = std::make_unique<DisplacementField>(*covers, problem, solution);
+        for (unsigned int i = 0; i < tip_covers.size(); ++i)
+          field->add_disk(*tip_covers[i], elasticity->disk_coefficients()[i]);
         recovery = std::make_unique<StressRecovery>(*field, aggregation);
         evaluator =
           std::make_unique<FieldEvaluator>(*field, *recovery, problem);

@@ -37,6 +37,12 @@ namespace NMM
       void
       make_system() override;
 
+      bool
+      can_have_tip_covers() const override;
+
+      double
+      small_strain_energy() const override;
+
       void
       clear() override;
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <vector>
 
 using namespace NMM;
 using dealii::Point;
@@ -27,12 +28,14 @@ namespace
     const PlaneElasticity elasticity = {300., 200.};
     // Central differences of step h: h^2 times a third derivative, about 6 at r = 1, and
     // 1e-16 / h of rounding.
-    constexpr double h = 1e-5, tolerance = 1e-8;
-    for (const auto kind : {TipField::Kind::opening,
-                            TipField::Kind::sliding,
-                            TipField::Kind::point_force})
+    constexpr double      h = 1e-5, tolerance = 1e-8;
+    std::vector<TipField> fields = {
+      TipField(TipField::Kind::point_force, elasticity)};
+    for (const unsigned int n : {1, 2, 3, 4})
+      for (const auto kind : {TipField::Kind::opening, TipField::Kind::sliding})
+        fields.emplace_back(kind, elasticity, n);
+    for (const TipField &field : fields)
     {
-      const TipField field(kind, elasticity);
       for (const double theta : {-3., -1.3, 0.2, 1.5, 3.1})
       {
         const Point<2> x(0.9 * std::cos(theta), 0.9 * std::sin(theta));

@@ -202,13 +202,19 @@ namespace NMM
       LinearSolverReport
       solve(const LinearSolverParameters &parameters = {})
       {
-        system = std::make_unique<StaticElasticity>(
-          covers, *quadrature, constraints, problem, ghost_penalty.get());
+        system = std::make_unique<StaticElasticity>(covers,
+                                                    *quadrature,
+                                                    constraints,
+                                                    problem,
+                                                    ghost_penalty.get(),
+                                                    disks);
         system->assemble();
         const LinearSolverReport report = system->solve(parameters);
         field = std::make_unique<DisplacementField>(covers,
                                                     problem,
                                                     system->solution());
+        for (unsigned int i = 0; i < disks.size(); ++i)
+          field->add_disk(*disks[i], system->disk_coefficients()[i]);
         return report;
       }
 
@@ -248,6 +254,7 @@ namespace NMM
       std::unique_ptr<GhostPenalty>         ghost_penalty;
       std::unique_ptr<QuadratureCollection> quadrature;
       ElasticityProblem                     problem;
+      std::vector<const DiskCover *>        disks;
       std::unique_ptr<StaticElasticity>     system;
       std::unique_ptr<DisplacementField>    field;
     };

@@ -268,8 +268,7 @@ namespace
     const PhysicalMesh physical_mesh(geometry);
     const std::vector<CrackTip> tips = find_crack_tips(physical_mesh);
     GradedMeshParameters mesh;
-    for (const CrackTip &tip : tips)
-      mesh.local_sizes.push_back(grade_towards(tip, 0.25, mesh.cell_size));
+    mesh.local_sizes = sizes_at_tips(physical_mesh, 0.25, mesh.cell_size);
     for (const CrackTip &tip : tips)
       {
         const IntensityFactors k = compute_intensity_factors(field, problem, tip);

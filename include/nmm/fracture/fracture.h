@@ -7,6 +7,7 @@
 #include <nmm/fracture/intensity_factors.h>
 #include <nmm/fracture/kink_factors.h>
 #include <nmm/fracture/local_symmetry_criterion.h>
+#include <nmm/fracture/tip_cover.h>
 #include <nmm/fracture/tip_field.h>
 #include <nmm/fracture/tip_grading.h>
 
@@ -24,6 +25,7 @@
  * | nmm/covers/crack_tip.h | the tips, their frames, and the angle that jumps on the crack |
  * | nmm/geometry/crack_extension.h | the extension of a crack, up to the first curve it meets |
  * | tip_grading.h | grading of cells towards a tip |
+ * | tip_cover.h | covers with the functions that are singular at a tip |
  * | tip_field.h | elastic fields about a tip |
  * | intensity_factors.h | interaction integrals |
  * | growth_criterion.h | the interface of growth criteria, and their list; each has its own file |
@@ -34,8 +36,7 @@
  * const PhysicalMesh physical_mesh(geometry);
  * const std::vector<CrackTip> tips = find_crack_tips(physical_mesh);
  * GradedMeshParameters mesh;                        // with its cell size
- * for (const CrackTip &tip : tips)
- *   mesh.local_sizes.push_back(grade_towards(tip, 0.25, mesh.cell_size));
+ * mesh.local_sizes = sizes_at_tips(physical_mesh, 0.25, mesh.cell_size);
  * // ... covers, StaticElasticity, DisplacementField field ...
  * for (const CrackTip &tip : tips)
  *   {

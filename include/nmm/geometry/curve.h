@@ -129,6 +129,10 @@ namespace NMM
     /// whether the hole may reach beyond its domain and overlap others, as an excavation does.
     bool is_clipped = false;
 
+    /// Interfaces only: whether the program added the curve for its own purposes, so that pictures
+    /// do not show it.
+    bool is_auxiliary = false;
+
     /// For a boundary, the material of its domain; for a closed interface, the material inside it.
     /// Empty if the curve does not determine a material.
     std::string material;

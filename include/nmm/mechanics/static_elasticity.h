@@ -4,6 +4,7 @@
 #include <nmm/covers/aggregation.h>
 #include <nmm/covers/cover_system.h>
 #include <nmm/linear_algebra/linear_solver_parameters.h>
+#include <nmm/mechanics/disk_cover.h>
 #include <nmm/mechanics/elasticity_problem.h>
 #include <nmm/quadrature/element_quadrature.h>
 
@@ -11,9 +12,18 @@
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
+#include <deal.II/lac/vector.h>
+
+#include <memory>
+#include <vector>
 
 namespace NMM
 {
+  namespace internal
+  {
+    class DiskSystem;
+  }
+
   /**
    * Linear static elasticity on a cover system: stiffness (7), initial stress
    * (9), body force (10), point force (11), fixed point (12), and loads and displacements on
@@ -38,6 +48,9 @@ namespace NMM
    * are eliminated; their rows keep a diagonal entry. If there is a ghost penalty, its
    * terms are added.
    *
+   * Disk covers add functions to the displacement, see DiskCover. The circle of each of them must
+   * be an interface of the physical mesh.
+   *
    * Order of calls: assemble(), solve(), solution().
    *
    * Lifetime: all arguments of the constructor must outlive this object.
@@ -45,14 +58,17 @@ namespace NMM
   class StaticElasticity
   {
   public:
-    /// @p ghost_penalty may be null.
+    /// @p ghost_penalty may be null, and there may be no @p disks.
     /// @throws InputError if the problem does not fit the mesh, see
     /// ElasticityProblem::check(), or a point lies outside the solid.
     StaticElasticity(const CoverSystem                       &covers,
                      const QuadratureCollection              &quadrature,
                      const dealii::AffineConstraints<double> &constraints,
                      const ElasticityProblem                 &problem,
-                     const GhostPenalty *ghost_penalty = nullptr);
+                     const GhostPenalty *ghost_penalty           = nullptr,
+                     const std::vector<const DiskCover *> &disks = {});
+
+    ~StaticElasticity();
 
     /**
      * Make the sparsity pattern and assemble matrix and right-hand side. @p timer, if not null,
@@ -73,7 +89,16 @@ namespace NMM
     const dealii::TrilinosWrappers::MPI::Vector &
     solution() const;
 
-    /// The assembled matrix [N/m^2], with constraints eliminated.
+    /// The coefficients of the functions of each disk cover, after solve().
+    const std::vector<dealii::Vector<double>> &
+    disk_coefficients() const;
+
+    /// The part of the strain energy [J per metre of thickness] that depends on these coefficients,
+    /// without the energy of the other covers' displacement on its own.
+    double
+    disk_energy() const;
+
+    /// The assembled matrix [N/m^2] of the unknowns of covers, with constraints eliminated.
     const dealii::TrilinosWrappers::SparseMatrix &
     system_matrix() const;
 
@@ -87,6 +112,8 @@ namespace NMM
     const dealii::AffineConstraints<double> *constraints;
     const ElasticityProblem                 *problem;
     const GhostPenalty                      *ghost_penalty;
+    std::unique_ptr<internal::DiskSystem>    disks;
+    double                                   disk_energy_value = 0.;
 
     dealii::TrilinosWrappers::SparseMatrix matrix;
     dealii::TrilinosWrappers::MPI::Vector  rhs;

@@ -27,7 +27,8 @@ namespace NMM
    * three further rings of elements until the fit is well-conditioned. Nothing is averaged across
    * a joint or interface, because covers, and hence patches, never cross one. A cover whose
    * support contains both sides of a crack (around its tip), or for which no well-conditioned
-   * patch exists (in a body of few elements), keeps the direct stress.
+   * patch exists (in a body of few elements), keeps the direct stress. Functions of disk covers are
+   * known exactly; they are left out of the fits and added to the result.
    *
    * Cost: some 2 microseconds per corner cover. On the thick ring the largest
    * error of the hoop stress is 3 to 15 times smaller than that of the direct stress.

@@ -16,7 +16,8 @@ namespace NMM
     /// The treatment of the mathematical mesh at crack tips.
     enum class Tips
     {
-      /// The mesh is graded towards crack tips if intensity factors are computed.
+      /// If intensity factors are computed, tips have covers with tip functions (TipCover) in
+      /// linear statics where they fit, and the mesh is graded towards all other tips.
       automatic,
       /// The mesh is graded towards crack tips, see grade_towards().
       graded,
@@ -46,7 +47,7 @@ namespace NMM
     /// Rayleigh waves.
     double speed = 0.;
 
-    /// Whether the mesh is graded towards crack tips.
+    /// Whether the mesh is graded towards crack tips, or towards the circles of their covers.
     bool
     grades_mesh() const;
 

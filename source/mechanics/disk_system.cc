@@ -1,0 +1,194 @@
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <mechanics/disk_system.h>
+#include <mechanics/ghost_terms.h>
+
+namespace NMM
+{
+  namespace internal
+  {
+    DiskSystem::DiskSystem(const CoverSystem                       &covers,
+                           const dealii::AffineConstraints<double> &constraints,
+                           const ElasticityProblem                 &problem,
+                           const std::vector<const DiskCover *>    &disks)
+      : covers(&covers)
+      , constraints(&constraints)
+      , problem(&problem)
+      , disks(disks)
+    {
+      unsigned int n = 0;
+      for (const DiskCover *disk : disks)
+      {
+        offsets.push_back(n);
+        n += disk->n_functions();
+      }
+      matrix.reinit(n, n);
+      work_matrix.reinit(n, n);
+      rhs.reinit(n);
+    }
+
+
+    void
+    DiskSystem::assemble(EdgeTerms             &edge_terms,
+                         const CurveConditions &conditions,
+                         const Vector          &like)
+    {
+      Vector zero(like);
+      zero = 0.;
+      columns.assign(rhs.size(), zero);
+      works       = columns;
+      matrix      = 0.;
+      work_matrix = 0.;
+      for (unsigned int d = 0; d < disks.size(); ++d)
+      {
+        add_circle(d, edge_terms, conditions);
+        add_loads(d);
+      }
+      for (unsigned int j = 0; j < columns.size(); ++j)
+      {
+        columns[j].compress(dealii::VectorOperation::add);
+        works[j].compress(dealii::VectorOperation::add);
+      }
+      for (dealii::FullMatrix<double> *m : {&matrix, &work_matrix})
+        dealii::Utilities::MPI::sum(*m, covers->communicator(), *m);
+    }
+
+
+    void
+    DiskSystem::add_circle(const unsigned int     d,
+                           EdgeTerms             &edge_terms,
+                           const CurveConditions &conditions)
+    {
+      const unsigned int n_per_cell =
+        covers->manifold_mesh().mathematical_mesh().n_covers_per_cell();
+      const unsigned int                           m = disks[d]->n_functions();
+      std::vector<dealii::types::global_dof_index> unknowns(4 * n_per_cell);
+      EdgeTerms::DiskEdge                          local;
+      for_each_tie(
+        *covers,
+        conditions,
+        [&](const unsigned int e, const ElementEdge &edge) {
+          if (!edge_terms.compute_disk_edge(e, edge, *disks[d], local))
+            return;
+          const auto pair = covers_of_pair(*covers, e, edge.neighbor);
+          for (unsigned int i = 0; i < 4 * n_per_cell; ++i)
+            unknowns[i] = 2 * covers->global_cover(pair[i / 2]) + i % 2;
+          for (unsigned int j = 0; j < m; ++j)
+          {
+            constraints->distribute_local_to_global(local.couplings[j],
+                                                    unknowns,
+                                                    columns[offsets[d] + j]);
+            constraints->distribute_local_to_global(local.works[j],
+                                                    unknowns,
+                                                    works[offsets[d] + j]);
+          }
+          matrix.add(local.matrix, 1., offsets[d], offsets[d]);
+          work_matrix.add(local.work_matrix, 1., offsets[d], offsets[d]);
+        });
+    }
+
+
+    void
+    DiskSystem::add_loads(const unsigned int d)
+    {
+      const PhysicalMesh &mesh    = covers->manifold_mesh().physical_mesh();
+      const auto         &regions = mesh.regions();
+      const auto          inside =
+        std::find_if(regions.begin(), regions.end(), [&](const auto &region) {
+          return disks[d]->contains(region.inside);
+        });
+      AssertThrow(inside != regions.end(), dealii::ExcInternalError());
+      const Material &material = problem->materials[problem->region_to_material(
+        mesh)[inside - regions.begin()]];
+
+      DiskCover::Loads loads;
+      loads.initial_stress              = material.initial_stress;
+      const dealii::Tensor<1, 2> weight = material.density * problem->gravity;
+      loads.body_force                  = [&](const dealii::Point<2> &x) {
+        dealii::Tensor<1, 2> force = weight;
+        if (problem->body_force != nullptr)
+          for (unsigned int c = 0; c < 2; ++c)
+            force[c] += problem->body_force->value(x, c);
+        return force;
+      };
+      loads.face_pressure = [&](const dealii::Point<2> &x) {
+        double pressure = 0.;
+        for (const BoundaryCondition &condition : problem->boundary_conditions)
+          if (condition.curve == disks[d]->face_curve() &&
+              condition.value != nullptr)
+            pressure += condition.value->value(x);
+        return pressure;
+      };
+      const std::vector<double> work = disks[d]->work(loads);
+      std::copy(work.begin(), work.end(), rhs.begin() + offsets[d]);
+    }
+
+
+    const std::vector<DiskSystem::Vector> &
+    DiskSystem::couplings() const
+    {
+      return columns;
+    }
+
+
+    const dealii::FullMatrix<double> &
+    DiskSystem::own_matrix() const
+    {
+      return matrix;
+    }
+
+
+    void
+    DiskSystem::combine(const std::vector<Vector> &responses, Vector &solution)
+    {
+      const unsigned int n = columns.size();
+      AssertDimension(responses.size(), n);
+      dealii::FullMatrix<double> schur(matrix);
+      dealii::Vector<double>     c(n), g(rhs);
+      for (unsigned int j = 0; j < n; ++j)
+      {
+        g(j) -= columns[j] * solution;
+        for (unsigned int k = 0; k < n; ++k)
+          schur(k, j) -= columns[k] * responses[j];
+      }
+      schur.gauss_jordan();
+      schur.vmult(c, g);
+      for (unsigned int j = 0; j < n; ++j)
+        solution.add(-c(j), responses[j]);
+
+      values.clear();
+      for (unsigned int d = 0; d < disks.size(); ++d)
+      {
+        const auto first = c.begin() + offsets[d];
+        values.emplace_back(first, first + disks[d]->n_functions());
+      }
+    }
+
+
+    const std::vector<dealii::Vector<double>> &
+    DiskSystem::coefficients() const
+    {
+      return values;
+    }
+
+
+    double
+    DiskSystem::energy(const Vector &solution) const
+    {
+      double sum = 0.;
+      for (unsigned int d = 0; d < disks.size(); ++d)
+      {
+        const dealii::Vector<double> &c = values[d];
+        for (unsigned int j = 0; j < c.size(); ++j)
+        {
+          sum += c(j) * (works[offsets[d] + j] * solution);
+          for (unsigned int k = 0; k < c.size(); ++k)
+            sum +=
+              0.5 * c(j) * c(k) * work_matrix(offsets[d] + j, offsets[d] + k);
+        }
+      }
+      return sum;
+    }
+  } // namespace internal
+} // namespace NMM

@@ -101,16 +101,24 @@ namespace NMM
                      const dealii::Point<2>     &x,
                      const dealii::Tensor<1, 2> &into_solid) const
   {
-    constexpr double           nearest = 1e-6, on_crack = 1e-9;
+    constexpr double at_tip = 1e-6, beside_tip = 1e-2, on_crack = 1e-9;
     const dealii::Tensor<1, 2> d =
       dealii::transpose(frame) * (x - crack_tip.point);
-    double theta = std::atan2(d[1], d[0]);
-    if (dealii::numbers::PI - std::abs(theta) < on_crack &&
-        into_solid.norm_square() > 0.)
-      theta = (dealii::transpose(frame) * into_solid)[1] > 0.
-                ? dealii::numbers::PI
-                : -dealii::numbers::PI;
-    return at(i, std::max(d.norm(), nearest * disk_radius), theta);
+    if (d.norm() < at_tip * disk_radius)
+      return at(i, beside_tip * disk_radius, 0.);
+    const double theta = std::atan2(d[1], d[0]);
+    if (dealii::numbers::PI - std::abs(theta) > on_crack)
+      return at(i, d.norm(), theta);
+
+    const Value above = at(i, d.norm(), dealii::numbers::PI),
+                below = at(i, d.norm(), -dealii::numbers::PI);
+    const double side = (dealii::transpose(frame) * into_solid)[1];
+    if (side != 0.)
+      return side > 0. ? above : below;
+    Value mean;
+    mean.displacement = 0.5 * (above.displacement + below.displacement);
+    mean.gradient     = 0.5 * (above.gradient + below.gradient);
+    return mean;
   }
 
 

@@ -124,10 +124,18 @@ namespace NMM
       return sum;
     const dealii::Point<2> x =
       mesh.mathematical_mesh().reference_to_real(mesh.cell(element), xi);
-    // towards the middle of the element's corners
+    // Towards the middle of the element's corners. An element that holds the end of a curve is on
+    // both of its sides.
     dealii::Tensor<1, 2> into_solid;
-    for (const ElementEdge &edge : mesh.edges(element))
-      into_solid += edge.start - x;
+    bool                 is_on_both_sides = false;
+    if (!mesh.is_whole(element))
+      for (const ElementEdge &edge : mesh.edges(element))
+      {
+        into_solid += edge.start - x;
+        is_on_both_sides |= edge.neighbor == element;
+      }
+    if (is_on_both_sides)
+      into_solid = 0.;
     const auto &[cover, coefficients] = disks[disk];
     for (unsigned int i = 0; i < coefficients.size(); ++i)
     {

@@ -25,8 +25,8 @@ namespace NMM
    * discretization error; interaction integrals are more accurate.
    *
    * In the disk the crack must be straight, and there may be no other curve, point force
-   * or fixed point. At the tip itself, where stresses are infinite, functions are evaluated at the
-   * distance of 1e-6 R.
+   * or fixed point. At the tip itself stresses are infinite; evaluate() gives those at the distance
+   * R / 100 straight ahead.
    */
   class TipCover : public DiskCover
   {

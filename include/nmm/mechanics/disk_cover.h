@@ -65,7 +65,7 @@ namespace NMM
     contains(const dealii::Point<2> &x) const = 0;
 
     /// Function @p i at a point of the disk [m]. On a curve that the function jumps at, the
-    /// value is that of the side to which @p into_solid points.
+    /// value is that of the side to which @p into_solid points; if that is zero, the mean of both.
     virtual Value
     evaluate(unsigned int                i,
              const dealii::Point<2>     &x,

@@ -13,7 +13,6 @@
 #include <contact/contact_points.h>
 #include <contact/contact_search.h>
 #include <contact/contact_terms.h>
-#include <contact/step_clearances.h>
 #include <initializer_list>
 #include <memory>
 #include <vector>
@@ -186,10 +185,10 @@ namespace NMM
     void
     move_as_expected();
 
-    /// Put all points that may touch in the step into the sparsity pattern. The faces must be at
-    /// the end of the step as its first assembly, or Contact::expect(), has it. The pattern depends
-    /// only on the state at the beginning of the step, so that a computation that continues from a
-    /// checkpoint has the same one.
+    /// Put the points that touch at the present end of the step into the sparsity pattern, and no
+    /// others. The faces must be at the end of the step as its first assembly, or
+    /// Contact::expect(), has it. The pattern depends only on the state at the beginning of the
+    /// step, so that a computation that continues from a checkpoint has the same one.
     void
     couple_expected();
 
@@ -265,14 +264,6 @@ namespace NMM
     /// Candidate masters of a point.
     dealii::ArrayView<const unsigned int>
     masters_of(unsigned int q) const;
-
-    /// Compute the clearances of all points at the beginning of a step.
-    void
-    find_clearances();
-
-    /// Set a point that touches nothing at either end of the step.
-    void
-    note_clear(unsigned int q);
 
     /// @name One point in an assembly
     /// @{
@@ -459,9 +450,6 @@ namespace NMM
       std::vector<dealii::Tensor<1, 2>> obstacle_changes;
       /// Displacements of Contact::expect(); empty if there are none.
       std::vector<double> nodal_expected;
-      /// Clearances of the points in the step, and whether a point was clear in the last assembly.
-      internal::StepClearances clearances;
-      std::vector<bool>        was_clear;
       /// Active points that touch at the beginning or the end of the step.
       std::vector<unsigned int> near_points;
       /// Energy lost between the last accepted state and the beginning of the step [J/m].

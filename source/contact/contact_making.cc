@@ -20,7 +20,6 @@ namespace NMM
   {
     points.clear();
     point_data.clear();
-    step.clearances.disable();
     for (unsigned int i = 0; i < search.slaves().size(); ++i)
       if (search.corner(i) == PointKind::along)
         add_points_of(i);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <contact/contact_matrix.h>
+#include <linear_algebra/matrix_sum.h>
 
 namespace NMM
 {
@@ -62,10 +63,12 @@ namespace NMM
 
 
     void
-    ContactMatrix::couple_step(std::vector<bool> is_expected)
+    ContactMatrix::couple_step(const std::vector<unsigned int> &slaves)
     {
       look_at_candidates();
-      is_coupled       = std::move(is_expected);
+      is_coupled.assign(is_coupled.size(), false);
+      for (const unsigned int slave : slaves)
+        is_coupled[slave] = true;
       has_step_pattern = true;
     }
 
@@ -132,7 +135,7 @@ namespace NMM
     void
     ContactMatrix::add_to_tangent(const Matrix &other, const double factor)
     {
-      adder.add(factor, other, matrix, version, active->active_rows());
+      add_rows(factor, other, matrix, active->active_rows());
     }
 
 

@@ -9,7 +9,6 @@
 #include <contact/contact_search.h>
 #include <contact/contact_terms.h>
 #include <linear_algebra/cover_matrix_assembler.h>
-#include <linear_algebra/matrix_sum.h>
 #include <memory>
 #include <vector>
 
@@ -57,7 +56,7 @@ namespace NMM
 
       /// Set the pattern of a time step: the slaves that are expected to touch.
       void
-      couple_step(std::vector<bool> is_expected);
+      couple_step(const std::vector<unsigned int> &slaves);
 
       /// Begin a time step: couple_step() is to be called before its first tangent.
       void
@@ -152,9 +151,8 @@ namespace NMM
       unsigned int                          version          = 0;
       std::unique_ptr<CoverMatrixAssembler> assembler;
 
-      Matrix      matrix;
-      Vector      forces;
-      MatrixAdder adder;
+      Matrix matrix;
+      Vector forces;
 
       /// Arguments of begin_assembly() for the present assembly.
       bool        with_tangent   = false;

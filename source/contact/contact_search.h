@@ -278,18 +278,6 @@ namespace NMM
                      const AdmittedContact &admitted = AdmittedContact()) const;
 
       /**
-       * Lower bound on the distance of @p x from places where it would be behind one of the masters
-       * [m], as project() finds it with @p slack and @p home, or project_corner() with
-       * CornerRules::beyond_rounding and any_edge. It is the distance from the strips behind all
-       * masters that are as deep as the reach; 0 if one of the masters is an arc.
-       */
-      double
-      clearance(const dealii::Point<2>               &x,
-                dealii::ArrayView<const unsigned int> masters,
-                double                                slack,
-                unsigned int                          home) const;
-
-      /**
        * Slack for the division at which a piece of a slave begins or ends. A master's corner lies
        * there, and neither rounding nor small motions may decide whether the point has a master.
        * The result is positive if the piece, which goes on to @p s_inside, has a master next to its

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <contact/contact_data.h>
-#include <limits>
 #include <mechanics/nodal_values.h>
 #include <utility>
 
@@ -88,7 +87,6 @@ namespace NMM
         point.stick_t -=
           point.shear / (d.point_data[q].law->shear_spring() * length);
     }
-    d.find_clearances();
     d.stage = Data::Stage::step_begun;
   }
 
@@ -448,7 +446,6 @@ namespace NMM
       surface->update(step.end, e);
       surface->update(step.middle, e);
     });
-    step.clearances.note_motion();
   }
 
 
@@ -465,65 +462,11 @@ namespace NMM
 
 
   void
-  Contact::Data::find_clearances()
-  {
-    step.was_clear.assign(points.size(), false);
-    // Clearances cannot be used with dilation: sliding faces may open and touch others.
-    if (!parameters.skip_clear_points || laws.has_dilation())
-      return;
-    const auto               &edges = surface->edges();
-    std::vector<double>       distances(points.size(), 0.);
-    std::vector<unsigned int> point_to_body(points.size());
-    for (unsigned int q = 0; q < points.size(); ++q)
-    {
-      const ContactPoint &point     = points[q];
-      const PointData    &fixed     = point_data[q];
-      const bool          is_corner = fixed.corner < PointKind::along;
-      point_to_body[q]              = edges[search.slaves()[fixed.slave]].body;
-      if (fixed.gap_begin < fixed.offset || point.is_bonded ||
-          edges[point.edge].radius != 0.)
-        continue;
-      // A point without weight takes no part in contact until points are made again.
-      distances[q] =
-        fixed.has_angle && point.weight == 0.
-          ? std::numeric_limits<double>::max()
-          : search.clearance(surface->place(point.edge, point.s).x,
-                             masters_of(q),
-                             is_corner ? CornerRules::beyond_rounding
-                                       : fixed.slack,
-                             is_corner ? ContactSearch::any_edge : fixed.home);
-    }
-    step.clearances.begin(
-      *surface, search, std::move(distances), std::move(point_to_body), reach);
-  }
-
-
-  void
-  Contact::Data::note_clear(const unsigned int q)
-  {
-    PointData &fixed = point_data[q];
-    fixed.dilation   = Dilation();
-    fixed.new_slip = fixed.shear_work = fixed.normal_loss = fixed.offset_end =
-      0.;
-    fixed.master_end    = invalid_index;
-    fixed.gap_end       = reach;
-    ContactPoint &point = points[q];
-    report.n_changes += point.state != ContactState::open;
-    point.pressure = point.shear = 0.;
-    point.state                  = ContactState::open;
-  }
-
-
-  void
   Contact::Data::find_ends()
   {
     step.near_points.clear();
     for_each_active_point([&](const unsigned int q) {
-      const bool is_clear = step.clearances.is_clear(q);
-      if (is_clear && !step.was_clear[q])
-        note_clear(q);
-      step.was_clear[q] = is_clear;
-      if (!is_clear && find_end(q))
+      if (find_end(q))
         step.near_points.push_back(q);
     });
   }
@@ -543,15 +486,8 @@ namespace NMM
   void
   Contact::Data::couple_expected()
   {
-    // Factor on the expected motion by which clearances are checked.
-    constexpr double margin = 2.;
-
-    std::vector<bool> is_expected(search.slaves().size(), false);
-    for_each_active_point([&](const unsigned int q) {
-      if (!step.clearances.is_clear(q, margin))
-        is_expected[point_data[q].slave] = true;
-    });
-    matrix.couple_step(std::move(is_expected));
+    find_ends();
+    matrix.couple_step(slaves_of(step.near_points));
   }
 
 
@@ -607,17 +543,18 @@ namespace NMM
     const bool is_sparse   = with_tangent && body_matrix == nullptr;
     const bool is_first =
       is_sparse && on_one_rank && !d.matrix.is_step_coupled();
-    if (is_first && !d.step.nodal_expected.empty())
+    d.problem = Data::Problem::conserving_motion;
+    d.set_admitted_depth();
+    if (is_first)
     {
-      d.move_as_expected();
+      if (d.step.nodal_expected.empty())
+        d.set_step_states(end);
+      else
+        d.move_as_expected();
       d.couple_expected();
     }
     d.set_step_states(end);
-    d.problem = Data::Problem::conserving_motion;
-    d.set_admitted_depth();
     d.find_ends();
-    if (is_first && d.step.nodal_expected.empty())
-      d.couple_expected();
 
     d.surface->set_time(d.step.time_begin);
     for (unsigned int i = 0; i < n_obstacles; ++i)

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <limits>
 #include <linear_algebra/direct_solver.h>
-#include <linear_algebra/matrix_sum.h>
 
 namespace NMM
 {
@@ -17,7 +16,7 @@ namespace NMM
     const CoverSystem                       *covers;
     const dealii::AffineConstraints<double> *constraints;
     dealii::TrilinosWrappers::SparseMatrix   mass;
-    internal::MatrixSum                      matrix;
+    dealii::TrilinosWrappers::SparseMatrix   matrix;
     internal::DirectSolver                   solver;
     Vector                                   velocity, momentum, rhs;
     double time = 0., next_step = 0., initial_energy = 0.;
@@ -98,21 +97,21 @@ namespace NMM
                 InputError("The time step is " + std::to_string(h) + " s",
                            "step-by-step dynamics",
                            "choose it above 0"));
-    Vector                                  next(d.velocity);
-    const IncrementalElasticity::StepResult result = d.elasticity->try_step(
-      load_factor,
-      max_displacement,
-      [&](const IncrementalElasticity::Matrix &stiffness,
-          const Vector                        &residual,
-          Vector                              &correction) {
-        d.matrix.assemble(stiffness, 1., d.mass, 2. / (h * h), nullptr, 0.);
-        d.solver.factorize(d.matrix());
-        d.rhs = residual;
-        d.rhs.add(-2. / h, d.momentum);
-        d.solver.solve(d.rhs, correction);
-        // the new velocity is 2 du / h - v, with du = -correction
-        next.sadd(-1., -2. / h, correction);
-      });
+    Vector     next(d.velocity);
+    const auto solve = [&](const IncrementalElasticity::Matrix &stiffness,
+                           const Vector                        &residual,
+                           Vector                              &correction) {
+      d.matrix.copy_from(stiffness);
+      d.matrix.add(2. / (h * h), d.mass);
+      d.solver.factorize(d.matrix);
+      d.rhs = residual;
+      d.rhs.add(-2. / h, d.momentum);
+      d.solver.solve(d.rhs, correction);
+      // the new velocity is 2 du / h - v, with du = -correction
+      next.sadd(-1., -2. / h, correction);
+    };
+    const IncrementalElasticity::StepResult result =
+      d.elasticity->try_step(load_factor, max_displacement, solve);
     if (result.is_taken)
     {
       d.set_velocity(next);

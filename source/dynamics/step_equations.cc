@@ -7,11 +7,13 @@
 #include <cmath>
 #include <dynamics/step_equations.h>
 #include <linear_algebra/matrix_rows.h>
+#include <linear_algebra/matrix_sum.h>
 #include <utility>
 
 namespace NMM
 {
   using Vector = TimeIntegrator::Vector;
+  using internal::add_rows;
   using internal::DirectSolver;
 
 
@@ -193,29 +195,15 @@ namespace NMM
         body_matrix->add(c * damping.stiffness, stiffness_at_rest);
       return;
     }
-    if (in_place != nullptr)
+    if (in_place == nullptr)
     {
-      mass_adder.add(m + c * damping.mass,
-                     model->mass(),
-                     *in_place,
-                     tangents->pattern_version(),
-                     active_rows);
-      if (damps_by_stiffness() && c != 0.)
-        damping_adder.add(c * damping.stiffness,
-                          stiffness_at_rest,
-                          *in_place,
-                          tangents->pattern_version(),
-                          active_rows);
-      return;
+      matrix.copy_from(model->tangent());
+      matrix *= k;
     }
-    matrix.assemble(model->tangent(),
-                    k,
-                    model->mass(),
-                    m + c * damping.mass,
-                    damps_by_stiffness() ? &stiffness_at_rest : nullptr,
-                    c * damping.stiffness,
-                    tangents->pattern_version(),
-                    active_rows);
+    auto &sum = in_place != nullptr ? *in_place : matrix;
+    add_rows(m + c * damping.mass, model->mass(), sum, active_rows);
+    if (damps_by_stiffness() && c != 0.)
+      add_rows(c * damping.stiffness, stiffness_at_rest, sum, active_rows);
   }
 
 
@@ -349,7 +337,7 @@ namespace NMM
     {
       if (linear_solver == nullptr)
         linear_solver = std::make_unique<DirectSolver>();
-      linear_solver->factorize(matrix());
+      linear_solver->factorize(matrix);
       factorized_step   = h;
       factorized_events = state.events_passed;
     }

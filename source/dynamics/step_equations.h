@@ -4,8 +4,8 @@
 #include <nmm/dynamics/time_integrator.h>
 
 #include <dynamics/sleeping_blocks.h>
+#include <linear_algebra/active_items.h>
 #include <linear_algebra/direct_solver.h>
-#include <linear_algebra/matrix_sum.h>
 
 namespace NMM
 {
@@ -34,7 +34,7 @@ namespace NMM
     const dealii::TrilinosWrappers::SparseMatrix &
     tangent() const override
     {
-      return in_place != nullptr ? *in_place : matrix();
+      return in_place != nullptr ? *in_place : matrix;
     }
 
     bool
@@ -208,12 +208,11 @@ namespace NMM
     bool                                   model_damps = false;
     NewtonSolver                           newton;
     dealii::TrilinosWrappers::SparseMatrix stiffness_at_rest;
-    internal::MatrixSum                    matrix;
+    dealii::TrilinosWrappers::SparseMatrix matrix;
     /// The model's matrix, to which mass and damping are added; null if they are added to `matrix`.
     dealii::TrilinosWrappers::SparseMatrix *in_place = nullptr;
     /// The model's matrix if it is a body matrix, otherwise null.
     BodyMatrix                             *body_matrix = nullptr;
-    internal::MatrixAdder                   mass_adder, damping_adder;
     internal::ActiveItems                   active_rows;
     std::unique_ptr<internal::DirectSolver> mass_solver, linear_solver;
     /// Step and DynamicState::events_passed for which linear_solver was factorized [s].

@@ -24,13 +24,11 @@ namespace NMM
      * system has no blocks, all unknowns are one group.
      *
      * A group is active while it is being solved, and done once it has converged. A group that is
-     * held is not solved at all. In an active group an iteration corrects only the blocks that are
-     * far from equilibrium and their neighbours. In a large heap these are few blocks in the last
-     * iterations.
+     * held is not solved at all.
      *
-     * Order of calls: reinit(); in each iteration choose() and invalidate_tangents(), then
-     * assemblies of blocks_without_tangent() with unite() until have_tangents(), then sum() after
-     * each assembly of a residual, and retire_converged().
+     * Order of calls: reinit(); in each iteration assemblies of the active blocks, each followed by
+     * unite(), until reactivate() makes no other group active, then sum() after each assembly of a
+     * residual, and retire_converged().
      */
     class NewtonGroups
     {
@@ -43,11 +41,8 @@ namespace NMM
         /// Whether the group had converged after the last iteration.
         bool         has_converged = false;
         unsigned int n_unknowns    = 0;
-        /// Largest distance in the contact graph from a block that has not converged at which
-        /// blocks are corrected.
-        unsigned int n_rings = 2;
-        /// |r|^2 over the square of the force scale and |r . du| in each iteration since the
-        /// group was made, joined another one or was reactivated.
+        /// |r|^2 over the square of the force scale and |r . du| in each iteration since the group
+        /// was made, joined another one or was reactivated.
         std::vector<double> squares, energies;
         /// Whether contact states cycle, so that residuals must decrease from now on.
         bool       is_cycling = false;
@@ -56,35 +51,17 @@ namespace NMM
         double product = 0., square = 0.;
       };
 
-      /// Begin a solution: all blocks are active except those that @p is_held names (empty:
-      /// none). @p blocks gives the block of each owned unknown, or is empty.
+      /// Begin a solution: all blocks are active except those that @p is_held names (empty: none).
+      /// @p blocks gives the block of each owned unknown, or is empty.
       void
       reinit(const std::vector<unsigned int> &blocks,
              const std::vector<bool>         &is_held,
              const Vector                    &like);
 
-      /// Choose the blocks that are corrected from now on. In each active group these are the
-      /// blocks whose residual is unknown or above a tenth of their part of @p allowed, and their
-      /// neighbours up to Group::n_rings; if there are none, all blocks of the group. Blocks just
-      /// outside feel the corrections as forces, see affected(). Where these are above a tenth of
-      /// the group's residual, as in a tower at rest, or if the group cycles, the number of rings
-      /// doubles. @p scale is the force scale [N/m].
-      void
-      choose(const Vector &residual, double scale, double allowed);
-
-      /// For each block, whether it is corrected and its rows of the tangent have not been
-      /// assembled; empty: this holds for all blocks.
-      std::vector<bool>
-      blocks_without_tangent() const;
-
-      /// Whether the rows of all corrected blocks have been assembled.
-      bool
-      have_tangents() const;
-
       /// Record that the rows of @p blocks (empty: all) of the tangent @p matrix have been
-      /// assembled. Blocks that are coupled in these rows (by @p pairs or, if null, by nonzero
-      /// values) are one group from now on. A group that joins another one begins its history
-      /// anew. Blocks that were not coupled before are corrected, too.
+      /// assembled. Active blocks that are coupled in these rows (by @p pairs or, if null, by
+      /// nonzero values) are one group from now on. A group that joins another one begins its
+      /// history anew.
       void
       unite(const std::vector<bool>                      &blocks,
             const dealii::TrilinosWrappers::SparseMatrix &matrix,
@@ -100,14 +77,6 @@ namespace NMM
       {
         return neighbours;
       }
-
-      /// Mark the rows of all blocks as not assembled.
-      void
-      invalidate_tangents();
-
-      /// Record that the residual of @p blocks (empty: all) has been assembled.
-      void
-      note_residual(const std::vector<bool> &blocks);
 
       /// The roots of all groups. The root of a group is one of its blocks; its number addresses
       /// the group.
@@ -149,9 +118,9 @@ namespace NMM
         return !all_active_roots.empty();
       }
 
-      /// Number of unknowns that are corrected divided by that of all unknowns [-].
+      /// Number of unknowns of active groups divided by that of all unknowns [-].
       double
-      corrected_share() const;
+      active_share() const;
 
       unsigned int
       n_unknowns() const
@@ -160,25 +129,23 @@ namespace NMM
       }
 
       /// Make the groups of these blocks active again, with a new history, if they are done.
-      /// @p is_known: whether the residual of these blocks has been assembled.
-      void
-      reactivate(const std::vector<unsigned int> &blocks,
-                 const bool                       is_known = false);
+      /// Returns for each block whether it has become active; empty if none has.
+      std::vector<bool>
+      reactivate(const std::vector<unsigned int> &blocks);
 
       /// Mark active groups that have converged as done.
       void
       retire_converged();
 
-      /// For each block, whether its residual changes with the corrections of those active groups
-      /// for which @p is_meant is true: this holds for corrected blocks and the blocks that touch
-      /// them. Empty if it holds for all blocks.
+      /// For each block, whether it belongs to an active group for which @p is_meant is true. Empty
+      /// if all blocks do.
       template <typename Predicate>
       std::vector<bool>
-      affected(const Predicate &is_meant) const
+      active(const Predicate &is_meant) const
       {
         unsigned int      n = 0;
         std::vector<bool> result(groups.size(), false);
-        for (const unsigned int b : affected_blocks)
+        for (const unsigned int b : active_blocks)
           if (is_meant(groups[root_of[b]]))
           {
             result[b] = true;
@@ -201,13 +168,6 @@ namespace NMM
         return active_unknowns;
       }
 
-      /// Owned unknowns that are corrected.
-      const ActiveItems &
-      corrected() const
-      {
-        return corrected_unknowns;
-      }
-
       /// The group of the i-th owned unknown.
       Group &
       of_unknown(const unsigned int i)
@@ -216,7 +176,7 @@ namespace NMM
       }
 
       /// Compute Group::product and Group::square of active groups from the residual and a
-      /// correction, which is zero in unknowns that are not corrected.
+      /// correction.
       void
       sum(const Vector &residual, const Vector &correction);
 
@@ -233,27 +193,13 @@ namespace NMM
         held
       };
 
-      /// Properties of a block, see choose() and affected().
-      struct Block
-      {
-        bool residual_is_known = false, is_unconverged = false,
-             is_corrected = false, is_affected = false, has_tangent = false;
-        unsigned int n_unknowns = 0;
-      };
-
-      /// Move the neighbours of @p blocks (empty: all) to neighbours_before, so that these blocks
-      /// have none, and mark their rows of the tangent as assembled.
+      /// Remove the neighbours of @p blocks (empty: all).
       void
-      store_neighbours(const std::vector<bool> &blocks);
+      clear_neighbours(const std::vector<bool> &blocks);
 
-      /// Join the groups of @p blocks (empty: all) with those of the blocks they are coupled with.
+      /// Join the groups of active blocks with those of the blocks they are coupled with.
       void
-      unite_neighbours(const std::vector<bool> &blocks);
-
-      /// Find the neighbours of @p blocks (empty: all) from the nonzero values of their rows.
-      void
-      find_neighbours(const std::vector<bool>                      &blocks,
-                      const dealii::TrilinosWrappers::SparseMatrix &matrix);
+      unite_neighbours();
 
       void
       add_neighbour(const unsigned int block, const unsigned int other)
@@ -270,37 +216,18 @@ namespace NMM
       void
       update_active_lists();
 
-      /// Double the number of rings of those groups for which choose() requires it.
-      void
-      widen_rings(const std::vector<double> &squares, double scale);
-
-      /// Blocks that have not converged and their neighbours, each with its distance in the
-      /// contact graph from the nearest block that has not converged. The distance goes up to one
-      /// more than that of the blocks that are corrected.
-      std::vector<std::pair<unsigned int, unsigned int>>
-      unconverged_neighbourhood() const;
-
-      /// Correct the blocks that have not converged and their neighbours.
-      void
-      select_corrected();
-
       void
       join(const unsigned int i, const unsigned int j);
 
       DisjointSets              joined;
       std::vector<unsigned int> block_of, root_of, all_roots, all_active_roots,
-        active_blocks, affected_blocks;
+        active_blocks;
       std::vector<Group> groups;
       std::vector<State> states;
-      std::vector<Block> all_blocks;
       /// For each block, the blocks it is coupled with; see couplings().
       std::vector<std::vector<unsigned int>> neighbours;
-      /// Neighbours before the last assembly, sorted by block, and for each block the indices of
-      /// its first and past its last one; see store_neighbours().
-      std::vector<unsigned int> neighbours_before;
-      std::vector<BlockPair>    before_of_block;
-      ActiveItems               active_unknowns, corrected_unknowns;
-      unsigned int              n_all = 0;
+      ActiveItems                            active_unknowns;
+      unsigned int                           n_all = 0;
     };
   } // namespace internal
 } // namespace NMM

@@ -73,6 +73,15 @@ namespace NMM
                     const Vector            *increment,
                     const std::vector<bool> &blocks);
 
+    /// For each block, whether it is active; empty if all are.
+    std::vector<bool>
+    all_active() const
+    {
+      return groups.are_there_several()
+               ? groups.active([](const Group &) { return true; })
+               : std::vector<bool>();
+    }
+
     Deformation
     assemble_tangent(const Vector &u, const Vector *increment);
 
@@ -85,7 +94,7 @@ namespace NMM
           Vector                  &solution,
           const std::vector<bool> &blocks = {});
 
-    /// Set u from the owned unknowns, in blocks that are corrected.
+    /// Set u from the owned unknowns, in active blocks.
     void
     distribute(Vector &u);
 
@@ -121,9 +130,7 @@ namespace NMM
 
   NewtonSolver::~NewtonSolver() = default;
 
-
-  /// Assemble the residual of the blocks that corrections change, in active groups for which
-  /// @p is_meant is true.
+  /// Assemble the residual of active groups for which @p is_meant is true.
   template <typename Predicate>
   Deformation
   NewtonSolver::Data::assemble_residual(const Vector    &u,
@@ -132,9 +139,8 @@ namespace NMM
     return assemble_blocks(u,
                            Tangent::none,
                            nullptr,
-                           groups.are_there_several()
-                             ? groups.affected(is_meant)
-                             : std::vector<bool>());
+                           groups.are_there_several() ? groups.active(is_meant)
+                                                      : std::vector<bool>());
   }
 
 
@@ -166,7 +172,6 @@ namespace NMM
     // the first assembly comprises all blocks that are not held
     if (blocks.empty() || scale == 0.)
       scale = system->force_scale();
-    groups.note_residual(blocks);
     double norm = 0.;
     if (blocks.empty())
     {
@@ -191,24 +196,21 @@ namespace NMM
   }
 
 
-  /// Assemble the tangent and residual of corrected blocks and update the groups. A corrected
-  /// block may press on one that has not been corrected so far, which may press on another one:
-  /// each time only the rows of the new blocks are assembled.
+  /// Assemble the tangent and residual of active blocks and update the groups. An active block may
+  /// press on one that is done. That one is active from then on, and only the rows of its group are
+  /// assembled in addition.
   Deformation
   NewtonSolver::Data::assemble_tangent(const Vector &u, const Vector *increment)
   {
-    const unsigned int k      = report->iterations.size();
-    unsigned int       before = invalid_index;
-    groups.choose(residual, scale, parameters.residual_tolerance * scale);
-    groups.invalidate_tangents();
+    const unsigned int k          = report->iterations.size();
+    bool               is_partial = false;
     system->forget_tangent();
-    do
+    std::vector<bool> blocks = all_active();
+    while (true)
     {
-      const std::vector<bool> blocks = groups.are_there_several()
-                                         ? groups.blocks_without_tangent()
-                                         : std::vector<bool>();
       touched.clear();
-      const Deformation state =
+      const unsigned int version = system->pattern_version();
+      const Deformation  state =
         assemble_blocks(u,
                         k > parameters.n_robust_iterations ? Tangent::consistent
                                                            : Tangent::robust,
@@ -216,17 +218,19 @@ namespace NMM
                         blocks);
       if (state != Deformation::admissible)
         return state;
-      // a matrix that got another pattern has lost the rows assembled before
-      const unsigned int version = system->pattern_version();
-      if (before != invalid_index && version != before)
-        groups.invalidate_tangents();
-      before = version;
-      groups.reactivate(touched);
       if (const BodyMatrix *body_matrix = system->body_tangent())
         groups.unite(blocks, *body_matrix);
       else
         groups.unite(blocks, system->tangent(), system->coupled_blocks());
-    } while (!groups.have_tangents());
+      blocks = groups.reactivate(touched);
+      // a matrix that got another pattern has lost the rows assembled before
+      const bool is_lost = is_partial && version != system->pattern_version();
+      if (is_lost)
+        blocks = all_active();
+      else if (blocks.empty())
+        break;
+      is_partial = !is_lost;
+    }
     touched.clear();
     return Deformation::admissible;
   }
@@ -235,7 +239,7 @@ namespace NMM
   void
   NewtonSolver::Data::note_increment()
   {
-    if (groups.corrected().all())
+    if (groups.unknowns().all())
     {
       Vector change(owned);
       change -= before;
@@ -243,7 +247,7 @@ namespace NMM
       return;
     }
     const auto to = last_increment.begin();
-    for (const unsigned int i : groups.corrected().chosen())
+    for (const unsigned int i : groups.unknowns().chosen())
       to[i] =
         std::as_const(owned).begin()[i] - std::as_const(before).begin()[i];
   }
@@ -267,10 +271,10 @@ namespace NMM
       direct_solver->forget_analysis();
     version = system->pattern_version();
     if (const BodyMatrix *body_matrix = system->body_tangent())
-      direct_solver->factorize(*body_matrix, groups.corrected().chosen());
+      direct_solver->factorize(*body_matrix, groups.unknowns().chosen());
     else
       direct_solver->factorize(system->tangent(),
-                               groups.corrected().chosen(),
+                               groups.unknowns().chosen(),
                                groups.couplings());
     report->factorization_time += timer.wall_time();
   }
@@ -292,7 +296,7 @@ namespace NMM
   void
   NewtonSolver::Data::distribute(Vector &u)
   {
-    if (groups.corrected().all() || constraints->n_constraints() > 0)
+    if (groups.unknowns().all() || constraints->n_constraints() > 0)
     {
       constraints->distribute(owned);
       u = owned;
@@ -301,7 +305,7 @@ namespace NMM
     // on one rank u has the same unknowns as owned
     const auto from = owned.begin();
     const auto to   = u.begin();
-    for (const unsigned int i : groups.corrected().chosen())
+    for (const unsigned int i : groups.unknowns().chosen())
       to[i] = from[i];
   }
 
@@ -368,12 +372,12 @@ namespace NMM
     const auto         x = owned.begin(), a = before.begin();
     const auto         c = std::as_const(correction).begin();
     const unsigned int n = owned.locally_owned_size();
-    groups.corrected().for_each(n, [&](const unsigned int i) { a[i] = x[i]; });
+    groups.unknowns().for_each(n, [&](const unsigned int i) { a[i] = x[i]; });
     Deformation state   = Deformation::admissible;
     bool        goes_on = true;
     while (goes_on)
     {
-      groups.corrected().for_each(n, [&](const unsigned int i) {
+      groups.unknowns().for_each(n, [&](const unsigned int i) {
         x[i] = a[i] - groups.of_unknown(i).search.step_length() * c[i];
       });
       distribute(u);
@@ -410,7 +414,7 @@ namespace NMM
       return false;
     }
     iteration.relative_residual = report->relative_residual;
-    iteration.active_share      = groups.corrected_share();
+    iteration.active_share      = groups.active_share();
     try
     {
       factorize();
@@ -469,19 +473,18 @@ namespace NMM
   NewtonSolver::Data::refine(Vector &u)
   {
     const auto is_new = [](const Group &group) { return group.has_converged; };
-    const std::vector<bool> blocks = groups.are_there_several()
-                                       ? groups.affected(is_new)
-                                       : std::vector<bool>();
+    const std::vector<bool> blocks =
+      groups.are_there_several() ? groups.active(is_new) : std::vector<bool>();
     for (unsigned int i = 0; i < parameters.n_refinements; ++i)
     {
       solve(residual, correction, blocks);
       const auto x = owned.begin();
       const auto c = std::as_const(correction).begin();
-      groups.corrected().for_each(owned.locally_owned_size(),
-                                  [&](const unsigned int j) {
-                                    if (is_new(groups.of_unknown(j)))
-                                      x[j] -= c[j];
-                                  });
+      groups.unknowns().for_each(owned.locally_owned_size(),
+                                 [&](const unsigned int j) {
+                                   if (is_new(groups.of_unknown(j)))
+                                     x[j] -= c[j];
+                                 });
       distribute(u);
       touched.clear();
       if (assemble_blocks(u, Tangent::none, nullptr, blocks) !=
@@ -532,7 +535,7 @@ namespace NMM
       if (groups[root].square * groups.n_unknowns() >
           allowed * allowed * groups[root].n_unknowns)
         touched.push_back(root);
-    groups.reactivate(touched, /* is_known = */ true);
+    groups.reactivate(touched);
     return !groups.is_any_active();
   }
 

@@ -55,9 +55,6 @@ namespace NMM
     /// which carries the contact points. The softer or finer block is the better slave. If this is
     /// empty, it is the number of the block.
     std::vector<unsigned int> slave_priority;
-    /// Whether assemblies of a time step skip points that cannot touch anything within it.
-    /// This saves time and changes no result.
-    bool skip_clear_points = true;
 
     /// Check all values and laws. @throws InputError naming the value that is out of range.
     void

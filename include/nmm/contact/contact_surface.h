@@ -281,19 +281,6 @@ namespace NMM
     dealii::Tensor<1, 2>
     displacement(unsigned int edge, double t) const;
 
-    /// Displacement along a straight edge at the current displacements and time; undefined for
-    /// arcs.
-    EdgeDisplacement
-    edge_displacement(const unsigned int edge) const
-    {
-      EdgeDisplacement result;
-      if (is_rigid(edge))
-        result.d[0] = obstacle_displacements[all_edges[edge].body - n_blocks];
-      else
-        result = current[edge];
-      return result;
-    }
-
     /// Whether a point is certainly further than @p distance [m] from all places
     /// -before <= t <= 1 + after of an edge, both parameters being at most 1/2. Always false for
     /// arcs. This costs much less than the search for the nearest place.

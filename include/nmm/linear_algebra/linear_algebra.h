@@ -20,7 +20,7 @@
  * |---|---|
  * | cover_matrix_assembler.h | sums local matrices and right-hand sides into a sparse system |
  * | nmm/linear_algebra/body_matrix.h | dense couplings of many small bodies, instead of a sparse matrix |
- * | matrix_sum.h | k K + m M + c C for matrices whose sparsity patterns differ |
+ * | matrix_sum.h | adds a matrix of a smaller pattern, in selected rows |
  * | active_items.h | lists of rows, elements or points that belong to selected blocks |
  * | linear_solver.h | one symmetric positive definite system, direct or iterative |
  * | direct_solver.h | a factorization that is used many times; selects one of the direct solvers |

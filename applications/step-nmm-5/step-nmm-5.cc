@@ -422,19 +422,47 @@ namespace StepNMM5
   // both for scenes, so this part reads one, sets the increments, and runs it: what the
   // program `nmm` does with `flaw.prm`.
   void
-  run_flaw(const Parameters &parameters)
+  run(const std::string              &scene_file,
+      const std::vector<std::string> &replacements,
+      const std::string              &output_directory)
   {
-    const NMM::Scene scene(
-      STEP_NMM_5_FLAW,
-      {"Fracture/Increments=" + std::to_string(parameters.n_wing_increments),
-       "Fracture/Increment=" + std::to_string(parameters.wing_increment)});
+    const NMM::Scene     scene(scene_file, replacements);
     NMM::SceneRunOptions options;
-    options.output = parameters.output_directory + "/step-nmm-5-flaw";
+    options.output = output_directory;
     NMM::Progress progress(std::cout,
                            /* is_terminal = */ false,
                            MPI_COMM_WORLD);
     bool          has_output = false;
     NMM::run_scene(scene, options, progress, MPI_COMM_WORLD, has_output);
+  }
+
+
+  void
+  run_flaw(const Parameters &parameters)
+  {
+    run(STEP_NMM_5_FLAW,
+        {"Fracture/Increments=" + std::to_string(parameters.n_wing_increments),
+         "Fracture/Increment=" + std::to_string(parameters.wing_increment)},
+        parameters.output_directory + "/step-nmm-5-flaw");
+  }
+
+
+  // @sect3{Rock bridges of a slope}
+
+  // Here cracks grow in motion. Where the equivalent intensity factor of a tip reaches the toughness at the end of a time
+  // step, the crack becomes longer by an increment and the solid is cut again. The state is carried over, so that
+  // displacements and velocities are the same functions as before, and so are places of sticking and slipping. The
+  // forces between the new faces fade while the crack runs along them. A mass that has lost its last bridge
+  // is a block like any other from then on: it slides, lands and comes to rest. `slope.prm` has the scene.
+  void
+  run_slope(const Parameters &parameters)
+  {
+    const std::string folder =
+      parameters.output_directory + "/step-nmm-5-slope";
+    run(STEP_NMM_5_SLOPE,
+        {"Time/End time=" + std::to_string(parameters.slope_end_time)},
+        folder);
+    print_slope(folder);
   }
 } // namespace StepNMM5
 
@@ -458,5 +486,7 @@ main(int argc, char **argv)
       write_results(parameters, measurements, paths);
       if (parameters.n_wing_increments > 0)
         run_flaw(parameters);
+      if (parameters.slope_end_time > 0.)
+        run_slope(parameters);
     });
 }

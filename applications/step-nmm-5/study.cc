@@ -1,6 +1,7 @@
 #include "study.h"
 
 #include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/utilities.h>
 
 #include "tutorial/tutorial.h"
 #include <cmath>
@@ -8,6 +9,7 @@
 #include <iomanip>
 #include <iostream>
 #include <limits>
+#include <map>
 #include <sstream>
 
 namespace StepNMM5
@@ -54,6 +56,11 @@ namespace StepNMM5
                       "0.05",
                       Patterns::Double(0.),
                       "Length of the wings' increments [m].");
+    prm.declare_entry(
+      "Slope end time",
+      "3.5",
+      Patterns::Double(0.),
+      "Until when the slope is followed [s]; 0: this part is left out.");
     Tutorial::read_parameter_file(prm, file_name, "step-nmm-5.prm");
 
     Parameters parameters;
@@ -64,6 +71,7 @@ namespace StepNMM5
     parameters.beam_grading      = prm.get_double("Beam grading");
     parameters.n_wing_increments = prm.get_integer("Wing increments");
     parameters.wing_increment    = prm.get_double("Wing increment");
+    parameters.slope_end_time    = prm.get_double("Slope end time");
     parameters.output_directory  = output_directory;
     return parameters;
   }
@@ -236,6 +244,76 @@ plot for [i=0:*] 'PREFIXpaths.txt' index i using 1:2 lw 2 title columnheader(1),
 e
 )";
   } // namespace
+
+
+  namespace
+  {
+    using Row = std::map<std::string, std::string>;
+
+    /// The rows of a table with a header, by column. Lines that start with # have the units.
+    std::vector<Row>
+    read_rows(const std::string &file_name)
+    {
+      std::ifstream            file(file_name);
+      std::vector<std::string> columns;
+      std::vector<Row>         rows;
+      for (std::string line; std::getline(file, line);)
+      {
+        if (line[0] == '#')
+          continue;
+        const std::vector<std::string> cells =
+          Utilities::split_string_list(line, ',');
+        if (columns.empty())
+        {
+          columns = cells;
+          continue;
+        }
+        Row row;
+        for (unsigned int i = 0; i < columns.size(); ++i)
+          row[columns[i]] = i < cells.size() ? cells[i] : "";
+        rows.push_back(row);
+      }
+      return rows;
+    }
+  } // namespace
+
+
+  void
+  print_slope(const std::string &directory)
+  {
+    std::cout << "The slope\n" << std::fixed;
+    for (const Row &row : read_rows(directory + "/growth.csv"))
+      std::cout << std::setprecision(4) << std::setw(10)
+                << std::stod(row.at("time")) << " s: crack from ("
+                << row.at("x") << ", " << row.at("y") << ") to ("
+                << row.at("end_x") << ", " << row.at("end_y") << ") m "
+                << row.at("met") << '\n';
+    const std::vector<Row> states = read_rows(directory + "/history.csv"),
+                           probes =
+                             read_rows(directory + "/probes-history.csv");
+    std::cout << "  time [s]  energies [J/m]: kinetic  dissipated  fracture  "
+                 "account  way of the mass [m]\n";
+    // a row each quarter of a second
+    double next = 0.;
+    for (unsigned int i = 0; i < states.size() && i < probes.size(); ++i)
+    {
+      const auto state = [&](const char *name) {
+        return std::stod(states[i].at(name));
+      };
+      if (state("time") < next - 1e-9 && i + 1 < states.size())
+        continue;
+      next += 0.25;
+      std::cout << std::setprecision(3) << std::setw(10) << state("time")
+                << std::setprecision(0) << std::setw(24) << state("kinetic")
+                << std::setw(12) << state("dissipated") << std::setprecision(1)
+                << std::setw(10) << state("fracture") << std::setprecision(4)
+                << std::setw(10) << state("balance") << std::setw(21)
+                << std::hypot(std::stod(probes[i].at("mass_x")),
+                              std::stod(probes[i].at("mass_y")))
+                << std::endl;
+    }
+    std::cout << std::defaultfloat;
+  }
 
 
   void

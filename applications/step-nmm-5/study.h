@@ -31,7 +31,9 @@ namespace StepNMM5
     /// Number of the wings' increments, 0 to leave that part out, and their length [m].
     unsigned int n_wing_increments = 6;
     double       wing_increment    = 0.05;
-    std::string  output_directory;
+    /// Until when the slope is followed [s]; 0 to leave that part out.
+    double      slope_end_time = 3.5;
+    std::string output_directory;
   };
 
   /// @throws NMM::InputError for an unreadable file, unknown keys or bad values.
@@ -118,6 +120,11 @@ namespace StepNMM5
 
   void
   print(const CrackPath &path);
+
+  /// The increments in the slope and the states at which a crack arrives somewhere, from the tables in
+  /// the folder @p directory.
+  void
+  print_slope(const std::string &directory);
 
   /// CSV files and figures.
   void

@@ -91,7 +91,8 @@ namespace
                                  "set Increments = 0.4\n"
                                  "set Beam cell size = 1\n"
                                  "set Beam grading = 0.6\n"
-                                 "set Wing increments = 0\n";
+                                 "set Wing increments = 0\n"
+                                 "set Slope end time = 0\n";
     const DriverResult result = run_driver({NMM_STEP_5, parameters, folder});
     ASSERT_EQ(result.exit_code, 0) << result.output;
 

@@ -216,9 +216,11 @@ set ylabel 'relative error'
 f = 'PREFIXstudy.csv'
 set style data linespoints
 row(mesh, degree, column) = strcol(1) eq mesh && $2 == degree ? column : NaN
-plot f skip 1 using 7:(row('graded', 2, $4)) pt 7 lc 'blue' title 'K, second order, graded', \
+plot f skip 1 using 7:(row('covered', 2, $4)) pt 5 lc 'dark-green' title 'K, second order, cover of the tip', \
+     f skip 1 using 7:(row('graded', 2, $4)) pt 7 lc 'blue' title 'K, second order, graded', \
      f skip 1 using 7:(row('graded', 1, $4)) pt 6 lc 'blue' dt 2 title 'K, first order, graded', \
      f skip 1 using 7:(row('uniform', 2, $4)) pt 4 lc 'gray50' title 'K, second order, cells of one size', \
+     f skip 1 using 7:(row('covered', 2, $6)) pt 5 lc 'orange-red' title 'stress, second order, cover of the tip', \
      f skip 1 using 7:(row('graded', 2, $6)) pt 7 lc 'dark-red' title 'stress, second order, graded', \
      f skip 1 using 7:(row('graded', 1, $6)) pt 6 lc 'dark-red' dt 2 title 'stress, first order, graded', \
      f skip 1 using 7:(row('uniform', 2, $6)) pt 4 lc 'orange' title 'stress, second order, cells of one size'

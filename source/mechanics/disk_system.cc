@@ -34,6 +34,8 @@ namespace NMM
                          const CurveConditions &conditions,
                          const Vector          &like)
     {
+      if (disks.empty())
+        return;
       Vector zero(like);
       zero = 0.;
       columns.assign(rhs.size(), zero);

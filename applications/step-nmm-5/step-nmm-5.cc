@@ -339,11 +339,12 @@ namespace StepNMM5
     path.criterion = name;
     path.increment = increment;
 
+    // A cover would be as small as the last increment, over which alone the crack is straight.
     const auto solve = [&](const NMM::Geometry &with_crack) {
       return std::make_unique<CrackedSolid>(with_crack,
                                             problem,
                                             parameters.beam_cell_size,
-                                            Tips::covered,
+                                            Tips::graded,
                                             parameters.beam_grading);
     };
     std::unique_ptr<CrackedSolid> beam = solve(geometry);

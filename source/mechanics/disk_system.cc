@@ -144,6 +144,8 @@ namespace NMM
     void
     DiskSystem::combine(const std::vector<Vector> &responses, Vector &solution)
     {
+      if (disks.empty())
+        return;
       const unsigned int n = columns.size();
       AssertDimension(responses.size(), n);
       dealii::FullMatrix<double> schur(matrix);

@@ -30,11 +30,9 @@ namespace NMM
 
   TipCover::TipCover(const CrackTip        &tip,
                      const double           radius,
-                     const std::string     &curve,
                      const PlaneElasticity &elasticity)
     : crack_tip(tip)
     , disk_radius(radius)
-    , curve(curve)
   {
     for (unsigned int c = 0; c < 2; ++c)
       frame[c][0] = tip.direction[c];
@@ -74,13 +72,6 @@ namespace NMM
   TipCover::contains(const dealii::Point<2> &x) const
   {
     return x.distance(crack_tip.point) < disk_radius;
-  }
-
-
-  const std::string &
-  TipCover::face_curve() const
-  {
-    return curve;
   }
 
 
@@ -189,10 +180,7 @@ namespace NMM
       const Material &material =
         problem.materials[region_to_material[tip.region]];
       covers.push_back(std::make_unique<TipCover>(
-        tip,
-        radius,
-        solid.curves()[tip.curve].name,
-        material.plane_elasticity(problem.plane_state)));
+        tip, radius, material.plane_elasticity(problem.plane_state)));
     }
     return covers;
   }

@@ -256,13 +256,35 @@ namespace NMM
 
 
     void
+    EdgeTerms::set_pair(const unsigned int          element,
+                        const ElementEdge          &edge,
+                        const dealii::Point<2>     &x,
+                        const dealii::Tensor<1, 2> &normal,
+                        const TieWeights           &weights,
+                        PointFunctionals           &functionals) const
+    {
+      const ManifoldMesh &mesh        = covers->manifold_mesh();
+      const unsigned int  elements[2] = {element, edge.neighbor};
+      functionals.n_covers            = 0;
+      functionals.initial_flux        = 0.;
+      for (unsigned int side = 0; side < 2; ++side)
+        append(elements[side],
+               mesh.mathematical_mesh().real_to_reference(
+                 mesh.cell(elements[side]), x),
+               normal,
+               side == 0 ? 1. : -1.,
+               weights.share[side],
+               functionals);
+    }
+
+
+    void
     EdgeTerms::add_tie(const unsigned int element,
                        const ElementEdge &edge,
                        LocalSystem       &system)
     {
       const ManifoldMesh     &mesh              = covers->manifold_mesh();
       const MathematicalMesh &mathematical_mesh = mesh.mathematical_mesh();
-      const unsigned int      elements[2]       = {element, edge.neighbor};
 
       const std::optional<TieWeights> weights = tie_weights(element, edge);
       if (!weights)
@@ -277,16 +299,7 @@ namespace NMM
         const dealii::Point<2> x =
           mathematical_mesh.reference_to_real(mesh.cell(element),
                                               rule.points[q]);
-        functionals.n_covers     = 0;
-        functionals.initial_flux = 0.;
-        for (unsigned int side = 0; side < 2; ++side)
-          append(elements[side],
-                 mathematical_mesh.real_to_reference(mesh.cell(elements[side]),
-                                                     x),
-                 rule.normals[q],
-                 side == 0 ? 1. : -1.,
-                 weights->share[side],
-                 functionals);
+        set_pair(element, edge, x, rule.normals[q], *weights, functionals);
         add_nitsche(functionals,
                     dealii::unit_symmetric_tensor<2>(),
                     weights->penalty,
@@ -315,8 +328,8 @@ namespace NMM
       const std::optional<TieWeights> weights = tie_weights(element, edge);
       if (!weights)
         return false;
-      const unsigned int     inside = is_inside(0) ? 0 : 1;
-      const double           w_1 = weights->share[inside], w_2 = 1. - w_1;
+      const unsigned int     inside  = is_inside(0) ? 0 : 1;
+      const double           outward = inside == 0 ? 1. : -1.;
       const PlaneElasticity &elasticity =
         region_to_elasticity[mesh.region(element)];
 
@@ -332,62 +345,73 @@ namespace NMM
         make_edge_rule(edge,
                        cell_frame(mathematical_mesh, mesh.cell(element)),
                        2 * degree + further_degree);
-      std::vector<dealii::Tensor<1, 2>> F(n), t(n);
-      PointFunctionals                  functionals;
+      PointFunctionals functionals;
+      DiskPoint        point;
+      point.displacements.resize(n);
+      point.tractions.resize(n);
       for (unsigned int q = 0; q < rule.points.size(); ++q)
       {
         const dealii::Point<2> x =
           mathematical_mesh.reference_to_real(mesh.cell(element),
                                               rule.points[q]);
-        const dealii::Tensor<1, 2> normal =
-          (inside == 0 ? 1. : -1.) * rule.normals[q];
-        functionals.n_covers     = 0;
-        functionals.initial_flux = 0.;
-        for (unsigned int side = 0; side < 2; ++side)
-          append(elements[side],
-                 mathematical_mesh.real_to_reference(mesh.cell(elements[side]),
-                                                     x),
-                 normal,
-                 side == inside ? 1. : -1.,
-                 weights->share[side],
-                 functionals);
         for (unsigned int j = 0; j < n; ++j)
         {
           const DiskCover::Value value =
             disk.evaluate(j, x, dealii::Tensor<1, 2>());
-          F[j] = value.displacement;
-          t[j] = elasticity.stress(dealii::symmetrize(value.gradient)) * normal;
+          point.displacements[j] = value.displacement;
+          point.tractions[j] =
+            outward * (elasticity.stress(dealii::symmetrize(value.gradient)) *
+                       rule.normals[q]);
         }
-        for (unsigned int j = 0; j < n; ++j)
-        {
-          for (unsigned int k = 0; k < functionals.n_covers; ++k)
-          {
-            const bool   is_inner = k / n_per_cell == inside;
-            const double jump     = functionals.jump[k];
-            const double mean     = is_inner ? w_2 * jump : -w_1 * jump;
-            for (unsigned int c = 0; c < 2; ++c)
-            {
-              result.couplings[j](2 * k + c) +=
-                rule.weights[q] *
-                (mean * t[j][c] - functionals.flux[k][0][c] * F[j][0] -
-                 functionals.flux[k][1][c] * F[j][1] +
-                 weights->penalty * jump * F[j][c]);
-              if (is_inner)
-                result.works[j](2 * k + c) += rule.weights[q] * jump * t[j][c];
-            }
-          }
-          for (unsigned int k = 0; k < n; ++k)
-          {
-            // both orders of j and k have the same integral on the whole circle
-            const double work = 0.5 * (t[j] * F[k] + t[k] * F[j]);
-            result.work_matrix(j, k) += rule.weights[q] * work;
-            result.matrix(j, k) +=
-              rule.weights[q] *
-              ((1. - 2. * w_1) * work + weights->penalty * (F[j] * F[k]));
-          }
-        }
+        set_pair(element, edge, x, rule.normals[q], *weights, functionals);
+        add_disk_point(
+          functionals, point, inside, *weights, rule.weights[q], result);
       }
       return true;
+    }
+
+
+    void
+    EdgeTerms::add_disk_point(const PointFunctionals &functionals,
+                              const DiskPoint        &point,
+                              const unsigned int      inside,
+                              const TieWeights       &weights,
+                              const double            weight,
+                              DiskEdge               &result) const
+    {
+      const double w_1 = weights.share[inside], w_2 = 1. - w_1;
+      // jump and flux are those of the element minus its neighbour, and with its normal
+      const double sign = inside == 0 ? 1. : -1.;
+      for (unsigned int j = 0; j < point.displacements.size(); ++j)
+      {
+        const dealii::Tensor<1, 2> &F = point.displacements[j],
+                                   &t = point.tractions[j];
+        for (unsigned int k = 0; k < functionals.n_covers; ++k)
+        {
+          const bool   is_inner = k / n_per_cell == inside;
+          const double jump     = sign * functionals.jump[k];
+          const double mean     = is_inner ? w_2 * jump : -w_1 * jump;
+          for (unsigned int c = 0; c < 2; ++c)
+          {
+            const double flux = sign * (functionals.flux[k][0][c] * F[0] +
+                                        functionals.flux[k][1][c] * F[1]);
+            result.couplings[j](2 * k + c) +=
+              weight * (mean * t[c] - flux + weights.penalty * jump * F[c]);
+            if (is_inner)
+              result.works[j](2 * k + c) += weight * jump * t[c];
+          }
+        }
+        for (unsigned int k = 0; k < point.displacements.size(); ++k)
+        {
+          // both orders of j and k have the same integral on the whole circle
+          const double work =
+            0.5 * (t * point.displacements[k] + point.tractions[k] * F);
+          result.work_matrix(j, k) += weight * work;
+          result.matrix(j, k) +=
+            weight * ((1. - 2. * w_1) * work +
+                      weights.penalty * (F * point.displacements[k]));
+        }
+      }
     }
   } // namespace internal
 } // namespace NMM

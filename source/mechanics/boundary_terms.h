@@ -120,6 +120,32 @@ namespace NMM
              double                      share,
              PointFunctionals           &functionals) const;
 
+      /// Replace the functionals by those of both elements of a tied edge at the point @p x [m].
+      /// The jump is the displacement of @p element minus that of its neighbour.
+      void
+      set_pair(unsigned int                element,
+               const ElementEdge          &edge,
+               const dealii::Point<2>     &x,
+               const dealii::Tensor<1, 2> &normal,
+               const TieWeights           &weights,
+               PointFunctionals           &functionals) const;
+
+      /// The functions F_j of a disk and their tractions sigma(F_j) n at a point of its circle.
+      struct DiskPoint
+      {
+        std::vector<dealii::Tensor<1, 2>> displacements, tractions;
+      };
+
+      /// Add the terms of compute_disk_edge() at a point. @p inside is 0 if the element is inside of
+      /// the circle, and 1 if its neighbour is.
+      void
+      add_disk_point(const PointFunctionals &functionals,
+                     const DiskPoint        &point,
+                     unsigned int            inside,
+                     const TieWeights       &weights,
+                     double                  weight,
+                     DiskEdge               &result) const;
+
       /// Add Nitsche's terms at a point, see StaticElasticity.
       static void
       add_nitsche(const PointFunctionals              &functionals,

@@ -45,7 +45,7 @@ namespace NMM
       for (unsigned int d = 0; d < disks.size(); ++d)
       {
         add_circle(d, edge_terms, conditions);
-        add_loads(d);
+        add_loads(d, conditions);
       }
       for (unsigned int j = 0; j < columns.size(); ++j)
       {
@@ -92,7 +92,8 @@ namespace NMM
 
 
     void
-    DiskSystem::add_loads(const unsigned int d)
+    DiskSystem::add_loads(const unsigned int     d,
+                          const CurveConditions &conditions)
     {
       const PhysicalMesh &mesh    = covers->manifold_mesh().physical_mesh();
       const auto         &regions = mesh.regions();
@@ -101,8 +102,11 @@ namespace NMM
           return disks[d]->contains(region.inside);
         });
       AssertThrow(inside != regions.end(), dealii::ExcInternalError());
-      const Material &material = problem->materials[problem->region_to_material(
-        mesh)[inside - regions.begin()]];
+      const unsigned int region = inside - regions.begin();
+      const Material    &material =
+        problem->materials[problem->region_to_material(mesh)[region]];
+      const std::vector<unsigned int> pressures =
+        pressures_within(region, conditions);
 
       DiskCover::Loads loads;
       loads.initial_stress              = material.initial_stress;
@@ -116,14 +120,34 @@ namespace NMM
       };
       loads.face_pressure = [&](const dealii::Point<2> &x) {
         double pressure = 0.;
-        for (const BoundaryCondition &condition : problem->boundary_conditions)
-          if (condition.curve == disks[d]->face_curve() &&
-              condition.value != nullptr)
-            pressure += condition.value->value(x);
+        for (const unsigned int c : pressures)
+          if (const auto &value = problem->boundary_conditions[c].value)
+            pressure += value->value(x);
         return pressure;
       };
       const std::vector<double> work = disks[d]->work(loads);
       std::copy(work.begin(), work.end(), rhs.begin() + offsets[d]);
+    }
+
+
+    std::vector<unsigned int>
+    DiskSystem::pressures_within(const unsigned int     region,
+                                 const CurveConditions &conditions) const
+    {
+      const ManifoldMesh       &mesh = covers->manifold_mesh();
+      std::vector<unsigned int> is_within(problem->boundary_conditions.size());
+      const auto [first, last] = covers->locally_owned_elements();
+      for (unsigned int e = first; e < last; ++e)
+        if (mesh.region(e) == region)
+          for (const ElementEdge &edge : mesh.edges(e))
+            for (const unsigned int c : conditions.conditions(e, edge))
+              is_within[c] = problem->boundary_conditions[c].is_pressure();
+      dealii::Utilities::MPI::max(is_within, covers->communicator(), is_within);
+      std::vector<unsigned int> result;
+      for (unsigned int c = 0; c < is_within.size(); ++c)
+        if (is_within[c] > 0)
+          result.push_back(c);
+      return result;
     }
 
 

@@ -82,7 +82,13 @@ namespace NMM
 
       /// Set g of disk @p d.
       void
-      add_loads(unsigned int d);
+      add_loads(unsigned int d, const CurveConditions &conditions);
+
+      /// Pressures on curves within a region, as indices into
+      /// ElasticityProblem::boundary_conditions. Collective.
+      std::vector<unsigned int>
+      pressures_within(unsigned int           region,
+                       const CurveConditions &conditions) const;
 
       const CoverSystem                       *covers;
       const dealii::AffineConstraints<double> *constraints;

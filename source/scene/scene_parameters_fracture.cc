@@ -46,8 +46,8 @@ namespace NMM
     entries.add("Grading",
                 grading,
                 Patterns::Double(0, 1),
-                "Tips that are graded: size of cells over the distance "
-                "from the tip, where another curve or tip is reached [-]; the "
+                "Size of cells over the distance from the tip, where another "
+                "curve or tip or the circle of a cover is reached [-]; the "
                 "error of intensity factors falls with its fourth power.");
     entries.add("Radius",
                 radius,

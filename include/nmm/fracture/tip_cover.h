@@ -8,7 +8,6 @@
 #include <nmm/mechanics/elasticity_problem.h>
 
 #include <memory>
-#include <string>
 #include <vector>
 
 namespace NMM
@@ -31,10 +30,9 @@ namespace NMM
   class TipCover : public DiskCover
   {
   public:
-    /// A cover about a tip with the given radius [m]. @p curve is the name of the crack.
+    /// A cover about a tip with the given radius [m].
     TipCover(const CrackTip        &tip,
              double                 radius,
-             const std::string     &curve,
              const PlaneElasticity &elasticity);
 
     /// The tip.
@@ -56,9 +54,6 @@ namespace NMM
              const dealii::Point<2>     &x,
              const dealii::Tensor<1, 2> &into_solid) const override;
 
-    const std::string &
-    face_curve() const override;
-
     /// Integrals over the disk in polar coordinates; loads should be smooth in it.
     std::vector<double>
     work(const Loads &loads) const override;
@@ -69,7 +64,6 @@ namespace NMM
 
     CrackTip              crack_tip;
     double                disk_radius;
-    std::string           curve;
     dealii::Tensor<2, 2>  frame;
     std::vector<TipField> fields;
     std::vector<double>   scales;

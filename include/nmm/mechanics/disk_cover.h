@@ -6,7 +6,6 @@
 #include <deal.II/base/tensor.h>
 
 #include <functional>
-#include <string>
 #include <vector>
 
 namespace NMM
@@ -70,10 +69,6 @@ namespace NMM
     evaluate(unsigned int                i,
              const dealii::Point<2>     &x,
              const dealii::Tensor<1, 2> &into_solid) const = 0;
-
-    /// Name of the curve within the disk, on which pressures may act.
-    virtual const std::string &
-    face_curve() const = 0;
 
     /**
      * Work of @p loads on each of the functions [N/m per unit of the coefficient]: that of the body

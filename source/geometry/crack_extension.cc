@@ -1,3 +1,4 @@
+#include <nmm/base/exceptions.h>
 #include <nmm/geometry/crack_extension.h>
 
 #include "geometry/messages.h"
@@ -65,6 +66,26 @@ namespace NMM
           }
       return nearest;
     }
+
+
+    /// Divides a piece of @p curve at @p point, unless this is an end of the piece.
+    void
+    divide_at(Curve                  &curve,
+              const unsigned int      piece,
+              const dealii::Point<2> &point)
+    {
+      const CurvePiece whole = curve.pieces[piece];
+      if (whole.kind != CurvePiece::Kind::circle &&
+          (point == whole.start || point == whole.end))
+        return;
+      const auto [first, second] = internal::split(whole, point);
+      curve.pieces[piece]        = second;
+      curve.pieces.insert(curve.pieces.begin() + piece, first);
+    }
+
+
+    /// Lengths below this part of an increment are not made [-].
+    constexpr double near = 1e-3;
   } // namespace
 
 
@@ -75,7 +96,7 @@ namespace NMM
                const double                length,
                const std::string          &name)
   {
-    constexpr double    look_ahead = 1.5, nearly_none = 1e-6, near = 1e-3;
+    constexpr double    look_ahead = 1.5, nearly_none = 1e-6;
     std::vector<Curve> &curves = geometry.curves();
     const Meeting       meeting =
       find_meeting(curves,
@@ -87,17 +108,10 @@ namespace NMM
     CrackExtension result;
     if (meeting.distance < std::numeric_limits<double>::max())
     {
-      Curve           &other = curves[meeting.curve];
-      const CurvePiece piece = other.pieces[meeting.piece];
-      result.met             = internal::describe(other);
-      result.end             = meeting.point;
-      if (piece.kind == CurvePiece::Kind::circle ||
-          (result.end != piece.start && result.end != piece.end))
-      {
-        const auto [first, second]  = internal::split(piece, meeting.point);
-        other.pieces[meeting.piece] = second;
-        other.pieces.insert(other.pieces.begin() + meeting.piece, first);
-      }
+      Curve &other = curves[meeting.curve];
+      result.met   = internal::describe(other);
+      result.end   = meeting.point;
+      divide_at(other, meeting.piece, meeting.point);
     }
     else
       result.end = tip + length * direction;
@@ -108,5 +122,41 @@ namespace NMM
     extension.pieces = {CurvePiece::segment(tip, result.end)};
     geometry.add(std::move(extension));
     return result;
+  }
+
+
+  CrackExtension
+  start_crack(Geometry                   &geometry,
+              const dealii::Point<2>     &point,
+              const dealii::Tensor<1, 2> &direction,
+              const double                length,
+              const std::string          &name)
+  {
+    Meeting nearest;
+    for (unsigned int c = 0; c < geometry.curves().size(); ++c)
+    {
+      const Curve &curve = geometry.curves()[c];
+      if (curve.role != CurveRole::boundary && curve.role != CurveRole::hole)
+        continue;
+      for (unsigned int p = 0; p < curve.pieces.size(); ++p)
+      {
+        const dealii::Point<2> x =
+          internal::nearest_point(curve.pieces[p], point);
+        if (x.distance(point) < nearest.distance)
+          nearest = {x.distance(point), c, p, x};
+      }
+    }
+    AssertThrow(nearest.distance < std::numeric_limits<double>::max(),
+                InputError("no boundary is there for a crack to start at",
+                           to_string(point),
+                           "draw a boundary"));
+    Curve           &curve = geometry.curves()[nearest.curve];
+    const CurvePiece piece = curve.pieces[nearest.piece];
+    if (piece.kind != CurvePiece::Kind::circle)
+      for (const dealii::Point<2> &end : {piece.start, piece.end})
+        if (nearest.point.distance(end) < near * length)
+          nearest.point = end;
+    divide_at(curve, nearest.piece, nearest.point);
+    return extend_crack(geometry, nearest.point, direction, length, name);
   }
 } // namespace NMM

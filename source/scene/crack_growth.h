@@ -1,6 +1,7 @@
 #ifndef nmm_source_scene_crack_growth_h
 #define nmm_source_scene_crack_growth_h
 
+#include <nmm/fracture/crack_start.h>
 #include <nmm/fracture/growth_criterion.h>
 #include <nmm/geometry/crack_extension.h>
 #include <nmm/output/output_directory.h>
@@ -15,13 +16,18 @@ namespace NMM
 {
   namespace internal
   {
-    /// A tip that grows, with the reason and the result.
+    /// A tip that grows, or a place at which a crack starts, with the reason and the result.
     struct GrowingTip
     {
+      /// Whether a new crack starts here. Then the tip has a point, a direction and a region only,
+      /// and neither factors nor verdict.
+      bool                     is_new = false;
       CrackTip                 tip;
       IntensityFactors         factors;
       GrowthCriterion::Verdict verdict;
-      /// K_eq / K_c [-].
+      /// Mean stress across a crack that starts, see find_crack_starts() [Pa].
+      double mean_stress = 0.;
+      /// K_eq / K_c, or of a crack that starts the mean stress over the strength [-].
       double drive = 0.;
       /// Of the increment, from the tip's direction [rad]; with an implicit criterion it is
       /// turned after each trial.
@@ -37,14 +43,33 @@ namespace NMM
     const GrowthCriterion &
     growth_criterion(const FractureParameters &parameters);
 
-    /// All tips of @p tips, which were computed, with what the scene's criterion says of them.
+    /// Whether new cracks can start where @p fracture lets cracks grow: if a material has a fracture
+    /// strength.
+    bool
+    can_start_cracks(const FractureParameters    &fracture,
+                     const std::vector<Material> &materials);
+
+    /// Smallest distance of places where cracks start at once [m]. A crack takes the stress from
+    /// the boundary beside it, over a few times its length.
+    double
+    distance_of_starts(const FractureParameters &parameters);
+
+    /// Leaves out new cracks that start beside a tip that grows, since it takes the stress away.
+    void
+    drop_starts_beside_tips(std::vector<GrowingTip>  &growing,
+                            const FractureParameters &parameters);
+
+    /// All tips of @p tips, which were computed, with what the scene's criterion says of them, and
+    /// then the places where cracks are most likely to start.
     std::vector<GrowingTip>
     judge_tips(const CrackTips          &tips,
                const FractureParameters &parameters,
                const ElasticityProblem  &problem,
-               const PhysicalMesh       &physical_mesh);
+               const CoverSystem        &covers,
+               const ElementStress      &stress);
 
-    /// Extends the crack of a tip in @p geometry by one increment at the tip's angle.
+    /// Extends the crack of a tip in @p geometry by one increment at the tip's angle, or lets a
+    /// new one start.
     void
     extend_by_increment(GrowingTip               &growing,
                         const FractureParameters &parameters,

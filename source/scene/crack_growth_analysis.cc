@@ -32,6 +32,19 @@ namespace NMM
 
 
     void
+    CrackGrowthAnalysis::check_problem()
+    {
+      StaticAnalysis::check_problem();
+      AssertThrow(!can_start_cracks(scene.parameters().fracture,
+                                    problem.materials) ||
+                    dealii::Utilities::MPI::n_mpi_processes(communicator) == 1,
+                  InputError("cracks start on one rank only",
+                             "parameter 'Materials/.../Fracture strength'",
+                             "run the scene on one rank, or set it to 0"));
+    }
+
+
+    void
     CrackGrowthAnalysis::equilibrate()
     {
       if (contact)
@@ -108,7 +121,11 @@ namespace NMM
       growing_tips       = judge_tips(*crack_tips,
                                 scene.parameters().fracture,
                                 problem,
-                                *physical_mesh);
+                                *covers,
+                                [this](const unsigned int      element,
+                                       const dealii::Point<2> &xi) {
+                                  return field->stress(element, xi);
+                                });
       double most_driven = 0.;
       for (const GrowingTip &tip : growing_tips)
         most_driven = std::max(most_driven, tip.drive);
@@ -121,6 +138,7 @@ namespace NMM
                                                  tip.drive < least;
                                         }),
                          growing_tips.end());
+      drop_starts_beside_tips(growing_tips, scene.parameters().fracture);
       return most_driven;
     }
 

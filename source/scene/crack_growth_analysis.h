@@ -46,6 +46,10 @@ namespace NMM
       void
       clear() override;
 
+      /// @throws InputError for cracks that start on several ranks.
+      void
+      check_problem() override;
+
       /// A state of equilibrium, at the load factor at which the next increment grows.
       struct State
       {

@@ -24,8 +24,8 @@ namespace NMM
     public:
       CrackTips(const Scene &scene, const PhysicalMesh &physical_mesh);
 
-      /// @throws InputError if there is no tip, or a radius is larger than the free
-      /// radius of a tip.
+      /// @throws InputError if there is no tip and no crack can start, or a radius is larger than
+      /// the free radius of a tip.
       void
       check() const;
 

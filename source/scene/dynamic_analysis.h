@@ -177,6 +177,11 @@ namespace NMM
       void
       compute_tips_in_motion();
 
+      /// Cauchy stress in the present state, in axes that turn with the material at each point
+      /// [Pa], without viscous stress.
+      ElementStress
+      stress_in_material_axes() const;
+
       /// Rotation of the material about a crack tip, in finite kinematics.
       dealii::Tensor<2, 2>
       rotation_at(const CrackTip &tip, const DisplacementField &u) const;

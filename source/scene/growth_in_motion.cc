@@ -43,28 +43,34 @@ namespace NMM
 
 
     std::vector<GrowingTip>
-    GrowthInMotion::find_growing_tips(const CrackTips         &tips,
-                                      const ElasticityProblem &problem,
-                                      const PhysicalMesh      &physical_mesh,
-                                      const double             t) const
+    GrowthInMotion::find_growing_tips(std::vector<GrowingTip> judged,
+                                      const double            t) const
     {
-      if (increments.n_increments() >= parameters->n_increments)
-        return {};
-      std::vector<GrowingTip> all =
-        judge_tips(tips, *parameters, problem, physical_mesh);
-      const auto is_on_its_way = [&](const dealii::Point<2> &point) {
+      const auto is_on_its_way = [&](const GrowingTip &tip) {
+        const double near = tip.is_new ? distance_of_starts(*parameters) : 0.;
         return t < arrival &&
-               std::find(running_tips.begin(), running_tips.end(), point) !=
-                 running_tips.end();
+               std::any_of(running_tips.begin(),
+                           running_tips.end(),
+                           [&](const dealii::Point<2> &running) {
+                             return running.distance(tip.tip.point) <= near;
+                           });
       };
-      all.erase(std::remove_if(all.begin(),
-                               all.end(),
-                               [&](const GrowingTip &tip) {
-                                 return !(tip.drive >= 1.) ||
-                                        is_on_its_way(tip.tip.point);
-                               }),
-                all.end());
-      return all;
+      judged.erase(std::remove_if(judged.begin(),
+                                  judged.end(),
+                                  [&](const GrowingTip &tip) {
+                                    return !(tip.drive >= 1.) ||
+                                           is_on_its_way(tip);
+                                  }),
+                   judged.end());
+      drop_starts_beside_tips(judged, *parameters);
+      return judged;
+    }
+
+
+    bool
+    GrowthInMotion::has_increments_left() const
+    {
+      return increments.n_increments() < parameters->n_increments;
     }
 
 
@@ -114,10 +120,15 @@ namespace NMM
     void
     DynamicAnalysis::grow()
     {
-      if (!growth || !crack_tips)
+      if (!growth || !crack_tips || !growth->has_increments_left())
         return;
       std::vector<GrowingTip> tips =
-        growth->find_growing_tips(*crack_tips, problem, *physical_mesh, time());
+        growth->find_growing_tips(judge_tips(*crack_tips,
+                                             scene.parameters().fracture,
+                                             problem,
+                                             *covers,
+                                             stress_in_material_axes()),
+                                  time());
       if (tips.empty())
         return;
       Geometry grown = geometry;
@@ -131,13 +142,14 @@ namespace NMM
         scene.parameters().mathematical_mesh;
       if (fracture.grades_mesh())
         for (const GrowingTip &tip : tips)
-          further_sizes.push_back(
-            grade_towards(tip.tip,
-                          fracture.grading,
-                          mesh.type == MathematicalMeshParameters::Type::graded
-                            ? mesh.graded.cell_size
-                            : mesh.regular.cell_size,
-                          smallest_at_tips(fracture, /* in_motion = */ true)));
+          if (!tip.is_new)
+            further_sizes.push_back(grade_towards(
+              tip.tip,
+              fracture.grading,
+              mesh.type == MathematicalMeshParameters::Type::graded
+                ? mesh.graded.cell_size
+                : mesh.regular.cell_size,
+              smallest_at_tips(fracture, /* in_motion = */ true)));
       cut_anew(grown, duration);
       growth->add(step_number(), time(), duration, tips);
       on_first_rank([&]() { growth->table().write(*directory); });

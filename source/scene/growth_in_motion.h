@@ -28,12 +28,15 @@ namespace NMM
     public:
       explicit GrowthInMotion(const FractureParameters &parameters);
 
-      /// The tips that grow at the time @p t [s].
+      /// The tips that grow at the time @p t [s], and the new ones that start, of those that were
+      /// judged. Beside a crack that runs no other starts, since its closing forces still act
+      /// there.
       std::vector<GrowingTip>
-      find_growing_tips(const CrackTips         &tips,
-                        const ElasticityProblem &problem,
-                        const PhysicalMesh      &physical_mesh,
-                        double                   t) const;
+      find_growing_tips(std::vector<GrowingTip> judged, double t) const;
+
+      /// Whether cracks may grow further.
+      bool
+      has_increments_left() const;
 
       /// Longest time that one of the increments takes [s]; the closing forces of all of them fade
       /// in this time.

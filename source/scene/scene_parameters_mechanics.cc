@@ -83,6 +83,12 @@ namespace NMM
                 Patterns::Double(0),
                 "K_c: cracks grow where their intensity factor reaches it; 0: "
                 "not known, cracks must not grow in it [Pa m^0.5].");
+    entries.add("Fracture strength",
+                material.fracture_strength,
+                Patterns::Double(0),
+                "f_t: where cracks grow, new ones start at boundaries and "
+                "holes where the mean stress over the length 2/pi (K_c/f_t)^2 "
+                "reaches it; 0: none start [Pa].");
     std::map<std::string, double> values;
     std::string law_name = material_law_entries().read(*material.law, values);
     material_law_entries().list(entries, law_name, values);

@@ -46,14 +46,14 @@ namespace NMM
       void
       clear() override;
 
-    private:
-      std::optional<ThickRing>          exact_solution;
-      std::unique_ptr<StaticElasticity> elasticity;
-
       /// Makes the exact solution, if the scene has one. @throws InputError if it does not
       /// match the problem.
       void
       check_problem() override;
+
+    private:
+      std::optional<ThickRing>          exact_solution;
+      std::unique_ptr<StaticElasticity> elasticity;
 
       /// Adds the condition number and the weakest point to the summary, and prints a warning if it
       /// is above the limit.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <scene/current_stress.h>
 #include <scene/dynamic_analysis.h>
 #include <vector>
 
@@ -15,6 +16,24 @@ namespace NMM
 
     namespace
     {
+      /// The rotation R of the polar decomposition F = R U. In two dimensions F + cof F is R times a
+      /// number; F may have any positive factor. Without a rotation, the identity.
+      Tensor<2, 2>
+      rotation_of(const Tensor<2, 2> &F)
+      {
+        const double c = F[0][0] + F[1][1], s = F[1][0] - F[0][1],
+                     norm     = std::hypot(c, s);
+        Tensor<2, 2> rotation = dealii::unit_symmetric_tensor<2>();
+        if (norm > 0.)
+        {
+          rotation[0][0] = rotation[1][1] = c / norm;
+          rotation[1][0]                  = s / norm;
+          rotation[0][1]                  = -s / norm;
+        }
+        return rotation;
+      }
+
+
       /// Multiplies a function by a number; null stays null.
       void
       scale(std::shared_ptr<const dealii::Function<2>> &function,
@@ -97,12 +116,34 @@ namespace NMM
     }
 
 
+    ElementStress
+    DynamicAnalysis::stress_in_material_axes() const
+    {
+      const auto u = std::make_shared<const DisplacementField>(*covers,
+                                                               problem,
+                                                               displacement());
+      if (scene.parameters().model.kinematics != Kinematics::finite)
+        return [u](const unsigned int element, const dealii::Point<2> &xi) {
+          return u->stress(element, xi);
+        };
+      return [u, law = CurrentStress::finite(*elasticity)](
+               const unsigned int element, const dealii::Point<2> &xi) {
+        const Tensor<2, 2> gradient = u->gradient(element, xi);
+        const Tensor<2, 2> rotation = rotation_of(
+          Tensor<2, 2>(dealii::unit_symmetric_tensor<2>()) + gradient);
+        const dealii::SymmetricTensor<2, 2> stress =
+          law(element, xi, gradient).in_plane;
+        return dealii::symmetrize(transpose(rotation) * Tensor<2, 2>(stress) *
+                                  rotation);
+      };
+    }
+
+
     Tensor<2, 2>
     DynamicAnalysis::rotation_at(const CrackTip          &tip,
                                  const DisplacementField &u) const
     {
-      // The rotation of the mean deformation gradient, R = (F + cof F) / |F + cof F|. In two
-      // dimensions F + cof F is a rotation times a number.
+      // The rotation of the mean deformation gradient.
       const dealii::Point<2> middle(1. / 3., 1. / 3.);
       const auto [first, last] = covers->locally_owned_elements();
       Tensor<2, 2> local;
@@ -113,17 +154,7 @@ namespace NMM
           local +=
             manifold_mesh->area(element) *
             (dealii::unit_symmetric_tensor<2>() + u.gradient(element, middle));
-      const Tensor<2, 2> sum = dealii::Utilities::MPI::sum(local, communicator);
-      const double       c = sum[0][0] + sum[1][1], s = sum[1][0] - sum[0][1],
-                   norm     = std::hypot(c, s);
-      Tensor<2, 2> rotation = dealii::unit_symmetric_tensor<2>();
-      if (norm > 0.)
-      {
-        rotation[0][0] = rotation[1][1] = c / norm;
-        rotation[1][0]                  = s / norm;
-        rotation[0][1]                  = -s / norm;
-      }
-      return rotation;
+      return rotation_of(dealii::Utilities::MPI::sum(local, communicator));
     }
 
 

@@ -122,4 +122,35 @@ namespace
     EXPECT_EQ(mesh.n_blocks(), 2u);
     EXPECT_TRUE(NMM::find_crack_tips(mesh).empty());
   }
+
+
+  TEST(CrackExtension, StartsAtAHoleAndInACorner)
+  {
+    // The place is off the circle by rounding of a field: the hole is divided at its nearest point.
+    NMM::Geometry geometry =
+      NMM::parse_geometry(plate + "hole name=bore CIRCLE (0 0, 1)", "");
+    const Point along(0.6, 0.8);
+    auto        extension = NMM::start_crack(
+      geometry, Point(0.6001, 0.8), Point(along) / along.norm(), 0.5, "new");
+    EXPECT_EQ(extension.met, "");
+    EXPECT_NEAR(extension.end.norm(), 1.5, 1e-4);
+    // In the corner within a thousandth of the increment, and there exactly.
+    extension = NMM::start_crack(
+      geometry, Point(-4.9999, -5.), Point(0.6, 0.8), 2., "corner");
+    EXPECT_EQ(extension.end, Point(-5. + 2. * 0.6, -5. + 2. * 0.8));
+    const NMM::PhysicalMesh mesh(std::move(geometry));
+    const auto              tips = NMM::find_crack_tips(mesh);
+    ASSERT_EQ(tips.size(), 2u);
+    EXPECT_EQ(mesh.n_blocks(), 1u);
+    EXPECT_EQ(mesh.curves()[tips[1].curve].name, "new");
+    EXPECT_TRUE(mesh.notices().empty());
+
+    // From side to side of a narrow strip.
+    NMM::Geometry strip =
+      NMM::parse_geometry("boundary POLYGON ((0 0, 9 0, 9 1, 0 1))", "");
+    EXPECT_EQ(NMM::start_crack(strip, Point(4., 0.), Point(0., 1.), 0.8, "cut")
+                .met.substr(0, 8),
+              "boundary");
+    EXPECT_EQ(NMM::PhysicalMesh(std::move(strip)).n_blocks(), 2u);
+  }
 } // namespace

@@ -1,6 +1,7 @@
 #ifndef nmm_fracture_fracture_h
 #define nmm_fracture_fracture_h
 
+#include <nmm/fracture/crack_start.h>
 #include <nmm/fracture/energy_release_criterion.h>
 #include <nmm/fracture/growth_criterion.h>
 #include <nmm/fracture/hoop_stress_criterion.h>
@@ -24,6 +25,7 @@
  * |---|---|
  * | nmm/covers/crack_tip.h | the tips, their frames, and the angle that jumps on the crack |
  * | nmm/geometry/crack_extension.h | the extension of a crack, up to the first curve it meets |
+ * | crack_start.h | places at boundaries where cracks may start |
  * | tip_grading.h | grading of cells towards a tip |
  * | tip_cover.h | covers with the functions that are singular at a tip |
  * | tip_field.h | elastic fields about a tip |

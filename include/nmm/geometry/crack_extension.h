@@ -38,6 +38,19 @@ namespace NMM
                const dealii::Tensor<1, 2> &direction,
                double                      length,
                const std::string          &name);
+
+  /**
+   * Let a new crack called @p name start at the boundary or hole nearest to @p point, which
+   * need not lie on it exactly, and grow from there as in extend_crack(). The boundary is divided
+   * at a point with double coordinates, at which the crack starts.
+   * @throws InputError if there is neither a boundary nor a hole.
+   */
+  CrackExtension
+  start_crack(Geometry                   &geometry,
+              const dealii::Point<2>     &point,
+              const dealii::Tensor<1, 2> &direction,
+              double                      length,
+              const std::string          &name);
 } // namespace NMM
 
 #endif

@@ -66,6 +66,9 @@ namespace NMM
     /// Fracture toughness K_c [Pa m^(1/2)]: a crack grows when its equivalent intensity factor
     /// reaches it. 0 stands for an unknown toughness.
     double toughness = 0.;
+    /// Strength f_t [Pa] at which cracks start at boundaries: where the mean stress over a length
+    /// reaches it, see find_crack_starts(). 0 stands for an unknown strength; no crack starts.
+    double fracture_strength = 0.;
     /// The law that gives stress from deformation; never null.
     std::shared_ptr<const MaterialLaw> law = default_material_law();
     /// Initial stress sigma_0 of the paper's eq. (9), tension positive [Pa]. In `finite`

@@ -118,7 +118,7 @@ namespace NMM
     {
       const std::string extension = fs::path(name).extension().string();
       if (name == "summary.csv" || name == "probes.csv" || name == "tips.csv" ||
-          name == "growth.csv" || name == "picture.png" ||
+          name == "tips.vtu" || name == "growth.csv" || name == "picture.png" ||
           name == "contacts.vtp" || name == "animation.html" ||
           (starts_with(name, "fields.") &&
            (extension == ".vtu" || extension == ".pvtu")))
@@ -128,9 +128,10 @@ namespace NMM
       return name == "history.csv" || name == "safety_factor.csv" ||
              name == "probes-history.csv" || name == "checkpoint.nmm" ||
              name == "fields.pvd" || name == "contacts.csv" ||
-             name == "contacts.pvd" || name == "left-blocks.csv" ||
-             name == "animation.frames" ||
+             name == "contacts.pvd" || name == "tips.pvd" ||
+             name == "left-blocks.csv" || name == "animation.frames" ||
              (starts_with(name, "contacts-") && extension == ".vtp") ||
+             (starts_with(name, "tips-") && extension == ".vtu") ||
              (starts_with(name, "fields-") &&
               (extension == ".vtu" || extension == ".pvtu")) ||
              (starts_with(name, "picture-") && extension == ".png");

@@ -448,6 +448,52 @@ namespace NMM
     }
 
 
+    /// Draws a dark ring with a white rim about @p x [pixels]. The field at @p x remains visible.
+    void
+    draw_ring(cairo_t *cr, const Point<2> &x, const double unit)
+    {
+      for (const bool is_rim : {true, false})
+      {
+        if (is_rim)
+          cairo_set_source_rgba(cr, 1., 1., 1., 0.8);
+        else
+          cairo_set_source_rgb(cr, 0.05, 0.05, 0.05);
+        cairo_set_line_width(cr, (is_rim ? 3.4 : 1.4) * unit);
+        cairo_new_sub_path(cr);
+        cairo_arc(cr, x[0], x[1], 5. * unit, 0., 2. * dealii::numbers::PI);
+        cairo_stroke(cr);
+      }
+    }
+
+
+    /// Width of the lines of grown faces [thousandths of the picture width].
+    constexpr double grown_face_width = 3.2;
+
+
+    /// The legend of crack tips and grown faces, below the plot.
+    void
+    draw_legend_of_cracks(cairo_t           *cr,
+                          const PictureData &data,
+                          const Layout      &layout)
+    {
+      const double u = layout.unit, y = layout.height - 10. * u;
+      double       x = 30. * u;
+      if (!data.tips.empty())
+      {
+        draw_ring(cr, Point<2>(x + 7. * u, y), u);
+        draw_text(cr, "crack tip", x + 20. * u, y + 5. * u, 15. * u, 90. * u);
+        x += 120. * u;
+      }
+      if (data.grown_faces.empty())
+        return;
+      cairo_set_line_width(cr, grown_face_width * u);
+      cairo_move_to(cr, x, y);
+      cairo_line_to(cr, x + 22. * u, y);
+      cairo_stroke(cr);
+      draw_text(cr, "grown crack", x + 30. * u, y + 5. * u, 15. * u, 110. * u);
+    }
+
+
     void
     draw_all_lines(cairo_t           *cr,
                    const PictureData &data,
@@ -484,8 +530,17 @@ namespace NMM
                  1.4,
                  CAIRO_LINE_CAP_ROUND,
                  {{0.05, 0.05, 0.05, 1.}});
+      draw_lines(cr,
+                 data.grown_faces,
+                 layout,
+                 scale,
+                 grown_face_width,
+                 CAIRO_LINE_CAP_ROUND,
+                 {{0.05, 0.05, 0.05, 1.}});
       draw_obstacles(cr, data, layout);
       draw_bars(cr, data, layout, largest_traction);
+      for (const PictureData::Vertex &tip : data.tips)
+        draw_ring(cr, layout(tip.at(scale)), layout.unit);
       cairo_restore(cr);
     }
 
@@ -544,6 +599,7 @@ namespace NMM
                 data.contacts.empty() ? width : 0.52 * width);
       if (!data.contacts.empty())
         draw_legend_of_bars(cr.get(), data, layout, largest, parameters);
+      draw_legend_of_cracks(cr.get(), data, layout);
       draw_colour_bar(cr.get(), layout, minimum, maximum);
       cairo_surface_flush(surface.get());
       return surface;

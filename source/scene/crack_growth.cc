@@ -183,6 +183,16 @@ namespace NMM
     }
 
 
+    std::vector<std::pair<dealii::Point<2>, dealii::Point<2>>>
+    GrowthTable::increments() const
+    {
+      std::vector<std::pair<dealii::Point<2>, dealii::Point<2>>> result;
+      for (const Row &row : rows)
+        result.emplace_back(row.tip.tip.point, row.tip.extension.end);
+      return result;
+    }
+
+
     void
     GrowthTable::write(const OutputDirectory &directory) const
     {

@@ -95,6 +95,10 @@ namespace NMM
       double
       grown_length() const;
 
+      /// Start and end of all increments [m].
+      std::vector<std::pair<dealii::Point<2>, dealii::Point<2>>>
+      increments() const;
+
       /// Writes growth.csv. For use on one rank.
       void
       write(const OutputDirectory &directory) const;

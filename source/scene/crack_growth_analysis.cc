@@ -187,7 +187,11 @@ namespace NMM
       description << step << " increment(s)";
       if (std::isfinite(states.back().load_factor))
         description << ", load factor " << states.back().load_factor;
-      series->write(step / every, step, description.str(), *evaluator);
+      series->write(step / every,
+                    step,
+                    description.str(),
+                    *evaluator,
+                    sample_cracks().get());
     }
 
 
@@ -195,6 +199,7 @@ namespace NMM
     CrackGrowthAnalysis::solve()
     {
       const unsigned int n = scene.parameters().fracture.n_increments;
+      growth_table         = &increments;
       {
         Stage stage(progress, "crack growth");
         equilibrate();

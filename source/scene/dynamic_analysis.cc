@@ -102,7 +102,10 @@ namespace NMM
       if (!growth && !incremental)
         set_first_state();
       if (!growth && scene.parameters().fracture.n_increments > 0)
+      {
         growth = std::make_unique<GrowthInMotion>(scene.parameters().fracture);
+        growth_table = &growth->table();
+      }
     }
 
 

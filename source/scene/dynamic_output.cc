@@ -232,7 +232,8 @@ namespace NMM
       series->write(step_number() / scene.parameters().output.fields_every,
                     time(),
                     description.str(),
-                    *evaluator);
+                    *evaluator,
+                    sample_cracks().get());
     }
 
 

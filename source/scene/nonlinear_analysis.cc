@@ -341,7 +341,8 @@ namespace NMM
         series->write(history.size() / every,
                       last_value(),
                       description.str(),
-                      *evaluator);
+                      *evaluator,
+                      sample_cracks().get());
       }
     }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <scene/crack_growth.h>
 #include <scene/scene_analysis.h>
 #include <sstream>
 
@@ -438,6 +439,39 @@ namespace NMM
     }
 
 
+    std::unique_ptr<CrackSample>
+    SceneAnalysis::sample_cracks() const
+    {
+      if (!evaluator || !crack_tips ||
+          crack_tips->all_factors().size() != crack_tips->all_tips().size())
+        return nullptr;
+      std::vector<Probe> tips;
+      for (const CrackTip &tip : crack_tips->all_tips())
+      {
+        tips.emplace_back();
+        tips.back().name  = "crack tip";
+        tips.back().point = tip.point;
+      }
+      auto              cracks = std::make_unique<CrackSample>();
+      const ProbePoints points(*manifold_mesh, tips);
+      const auto [first, last] = covers->locally_owned_elements();
+      for (unsigned int i = 0; i < tips.size(); ++i)
+      {
+        const ProbePoints::Entry &entry = points.entries()[i];
+        dealii::Tensor<1, 2>      u;
+        if (entry.element >= first && entry.element < last)
+          u = evaluator->displacement(entry.element, entry.x);
+        cracks->tips.push_back({entry.x,
+                                dealii::Utilities::MPI::sum(u, communicator),
+                                crack_tips->all_tips()[i].direction,
+                                crack_tips->all_factors()[i]});
+      }
+      if (growth_table != nullptr)
+        cracks->increments = growth_table->increments();
+      return cracks;
+    }
+
+
     void
     SceneAnalysis::open(const OutputDirectory &output_directory)
     {
@@ -480,6 +514,7 @@ namespace NMM
         if (crack_tips && is_first_rank())
           crack_tips->write(*directory);
 
+        const auto           cracks = sample_cracks();
         const FieldTriangles triangles(*covers, evaluator.get());
         if (fault.empty())
           fault = triangles.find_not_finite(communicator);
@@ -492,7 +527,8 @@ namespace NMM
         if (parameters.fields)
           series->finish(
             last_value(),
-            write_fields_of_state(*covers, triangles, *directory, "fields"));
+            write_fields_of_state(*covers, triangles, *directory, "fields"),
+            cracks.get());
         if (evaluator)
           series->finish_contact(last_value());
         PictureData drawn;
@@ -500,6 +536,7 @@ namespace NMM
           write_picture(scene,
                         *covers,
                         evaluator ? contact.get() : nullptr,
+                        cracks.get(),
                         triangles,
                         evaluator.get(),
                         scene.title() +

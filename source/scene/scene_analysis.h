@@ -27,6 +27,8 @@ namespace NMM
 {
   namespace internal
   {
+    class GrowthTable;
+
     /**
      * The analysis of a scene, from geometry to files: the part that all kinds of analysis share.
      * The order of calls is build(), print_report(), open(), solve(), verify(), write(). All
@@ -104,7 +106,9 @@ namespace NMM
       /// Covers of crack tips, if the analysis can have them.
       std::vector<std::unique_ptr<TipCover>> tip_covers;
       /// Null unless the scene asks for intensity factors.
-      std::unique_ptr<CrackTips>         crack_tips;
+      std::unique_ptr<CrackTips> crack_tips;
+      /// Increments of a derived analysis; null unless cracks grow.
+      const GrowthTable                 *growth_table = nullptr;
       std::unique_ptr<DisplacementField> field;
       std::unique_ptr<StressRecovery>    recovery;
       std::unique_ptr<FieldEvaluator>    evaluator;
@@ -125,6 +129,11 @@ namespace NMM
       /// Collective.
       void
       compute_intensity_factors();
+
+      /// The cracks in the state of `evaluator`, for files and pictures. Null without a state or
+      /// intensity factors of the present tips. Collective.
+      std::unique_ptr<CrackSample>
+      sample_cracks() const;
 
       bool
       is_first_rank() const;

@@ -38,6 +38,7 @@ namespace NMM
     write_picture(const Scene           &scene,
                   const CoverSystem     &covers,
                   const ContactAnalysis *contact,
+                  const CrackSample     *cracks,
                   const FieldTriangles  &triangles,
                   const FieldEvaluator  *evaluator,
                   const std::string     &title,
@@ -57,6 +58,8 @@ namespace NMM
                     contact->points(),
                     data,
                     contact->pressure_of_rounding());
+      if (cracks != nullptr)
+        add_cracks(*cracks, data);
       if (is_first_rank(covers))
         directory.write_file(file_name, [&](const std::string &name) {
           draw_picture(data, parameters, title, name);
@@ -88,6 +91,9 @@ namespace NMM
             : "load_factor",
           parameters.output.contacts,
           parameters.output.fields);
+      if (parameters.fracture.intensity_factors && parameters.output.fields &&
+          is_first_rank(covers))
+        tip_files = std::make_unique<FileSeries>(directory, "tips");
     }
 
 
@@ -113,6 +119,8 @@ namespace NMM
       files.resume(limit);
       if (contact_series)
         contact_series->resume(limit);
+      if (tip_files)
+        tip_files->resume(limit);
       const OutputParameters &output = scene->parameters().output;
       if (output.animation && output.picture && output.fields_every > 0)
         open_animation(limit);
@@ -123,7 +131,8 @@ namespace NMM
     StateSeries::write(const unsigned int    number,
                        const double          value,
                        const std::string    &description,
-                       const FieldEvaluator &evaluator)
+                       const FieldEvaluator &evaluator,
+                       const CrackSample    *cracks)
     {
       const OutputParameters &output = scene->parameters().output;
       std::ostringstream      suffix;
@@ -146,12 +155,19 @@ namespace NMM
         if (contact_series)
           contact_series->write(value, "contacts" + suffix.str(), points);
       }
+      if (cracks != nullptr && tip_files)
+      {
+        const std::string name = "tips" + suffix.str() + ".vtu";
+        write_tips(cracks->tips, *directory, name);
+        tip_files->add(value, name);
+      }
       if (!output.picture)
         return;
       PictureData data;
       write_picture(*scene,
                     *covers,
                     contact,
+                    cracks,
                     triangles,
                     &evaluator,
                     scene->title() + ", " + description,
@@ -205,11 +221,18 @@ namespace NMM
 
 
     void
-    StateSeries::finish(const double value, const std::string &file_name)
+    StateSeries::finish(const double       value,
+                        const std::string &file_name,
+                        const CrackSample *cracks)
     {
       MPI_Barrier(covers->communicator());
       if (is_first_rank(*covers))
         files.finish(value, file_name);
+      if (cracks != nullptr && tip_files)
+      {
+        write_tips(cracks->tips, *directory, "tips.vtu");
+        tip_files->finish(value, "tips.vtu");
+      }
     }
 
 
@@ -222,6 +245,5 @@ namespace NMM
       if (contact_series)
         contact_series->finish(value, points);
     }
-
   } // namespace internal
 } // namespace NMM

@@ -3,6 +3,7 @@
 
 #include <nmm/covers/cover_system.h>
 #include <nmm/output/animation.h>
+#include <nmm/output/crack_output.h>
 #include <nmm/output/field_samples.h>
 #include <nmm/output/output_directory.h>
 #include <nmm/scene/scene.h>
@@ -17,12 +18,13 @@ namespace NMM
   {
     /// Draws picture.png or a picture of a series, with the settings of the scene. If @p evaluator
     /// is null, the picture shows the blocks. If @p contact is not null, it also shows contact
-    /// tractions and obstacles. The content is stored in @p drawn on rank 0, unless that is null.
-    /// Collective.
+    /// tractions and obstacles, and if @p cracks is not null, crack tips and cracks that have
+    /// grown. The content is stored in @p drawn on rank 0, unless that is null. Collective.
     void
     write_picture(const Scene           &scene,
                   const CoverSystem     &covers,
                   const ContactAnalysis *contact,
+                  const CrackSample     *cracks,
                   const FieldTriangles  &triangles,
                   const FieldEvaluator  *evaluator,
                   const std::string     &title,
@@ -35,7 +37,8 @@ namespace NMM
      * fields-NNNN.vtu, picture-NNNN.png, and fields.pvd, which always lists the fields that
      * exist. At the end it writes animation.html, for which frames are stored in
      * animation.frames during the run. With contact it also writes the contact points:
-     * contacts.csv, contacts-NNNN.vtp, contacts.pvd. All functions are collective.
+     * contacts.csv, contacts-NNNN.vtp, contacts.pvd, and with intensity factors the crack tips:
+     * tips-NNNN.vtu, tips.pvd. All functions are collective.
      *
      * Lifetime: the arguments of the constructor must outlive this object.
      */
@@ -58,16 +61,20 @@ namespace NMM
       resume(double last);
 
       /// Writes the state @p number at the time or load factor @p value. @p description is added to
-      /// the title of the picture.
+      /// the title of the picture. @p cracks is null without intensity factors.
       void
       write(unsigned int          number,
             double                value,
             const std::string    &description,
-            const FieldEvaluator &evaluator);
+            const FieldEvaluator &evaluator,
+            const CrackSample    *cracks);
 
-      /// Adds the final state to the list, whose fields are in @p file_name.
+      /// Adds the final state to the list, whose fields are in @p file_name, and writes its tips
+      /// to tips.vtu unless @p cracks is null.
       void
-      finish(double value, const std::string &file_name);
+      finish(double             value,
+             const std::string &file_name,
+             const CrackSample *cracks);
 
       /// Writes the contact points of the final state, if there is contact.
       void
@@ -89,6 +96,7 @@ namespace NMM
       const OutputDirectory *directory;
       /// The writers, which are used on rank 0 only.
       FileSeries                     files;
+      std::unique_ptr<FileSeries>    tip_files;
       std::unique_ptr<Animation>     animation;
       std::unique_ptr<ContactSeries> contact_series;
     };

@@ -1,8 +1,10 @@
 #include <nmm/base/program.h>
 #include <nmm/output/animation.h>
+#include <nmm/output/crack_output.h>
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -273,6 +275,51 @@ namespace
     EXPECT_TRUE(same_as_by());
     frame.bar_scale.reset();
     EXPECT_FALSE(same_as_by());
+    animation.discard();
+  }
+
+
+  // Tips and grown faces are drawn in pictures and in frames; a frame without them is stored as
+  // before.
+  TEST(Animation, KeepsCracks)
+  {
+    std::filesystem::remove(spool);
+    Animation         animation(spool);
+    PictureParameters parameters;
+    PictureData       plain = square(1., shift(0., 0.)), cracked = plain;
+    // The first outline is part of the increment, the second one only touches it.
+    CrackSample cracks;
+    cracks.tips.push_back(
+      {Point<2>(1000.5, 1000.5), shift(0., 0.), shift(1., 0.), {}});
+    cracks.increments = {{Point<2>(999., 1000.), Point<2>(1001., 1000.)}};
+    add_cracks(cracks, cracked);
+    ASSERT_EQ(cracked.grown_faces.size(), 1u);
+    ASSERT_EQ(cracked.outlines.size(), 1u);
+    EXPECT_EQ(cracked.grown_faces[0][0].position, Point<2>(1000., 1000.));
+
+    const auto frame_as_stored = [&](const PictureData &data) {
+      animation.add_frame(0., data);
+      std::string   row;
+      std::ifstream file(spool);
+      while (std::getline(file, row) && file.peek() != EOF)
+        ;
+      return row;
+    };
+    const std::string plain_row   = frame_as_stored(plain),
+                      cracked_row = frame_as_stored(cracked);
+    EXPECT_EQ(std::count(plain_row.begin(), plain_row.end(), ','), 1);
+    EXPECT_EQ(std::count(cracked_row.begin(), cracked_row.end(), ','), 2);
+
+    const auto drawn = [&](const PictureData &data) {
+      return draw_picture_in_memory(data, parameters, "cracks");
+    };
+    PictureData only_tips = plain;
+    only_tips.tips        = cracked.tips;
+    EXPECT_NE(drawn(plain), drawn(only_tips));
+    EXPECT_NE(drawn(only_tips), drawn(cracked));
+    const auto frames = frames_of(write(animation, parameters));
+    ASSERT_EQ(frames.size(), 2u);
+    EXPECT_NE(frames[0].png, frames[1].png);
     animation.discard();
   }
 

@@ -1,3 +1,4 @@
+#include <nmm/output/crack_output.h>
 #include <nmm/output/vtu.h>
 
 #include <deal.II/base/utilities.h>
@@ -131,5 +132,48 @@ namespace
       ASSERT_EQ(offsets[t], static_cast<std::int32_t>(6 * (t + 1)));
       ASSERT_EQ(types[t], 22);
     }
+  }
+
+
+  TEST(Vtu, TipsHoldWhatWasGiven)
+  {
+    std::vector<TipSample> tips(2);
+    for (unsigned int i = 0; i < 2; ++i)
+    {
+      tips[i].x            = dealii::Point<2>(1. + i, 0.3);
+      tips[i].direction    = dealii::Tensor<1, 2>({0.6, -0.8});
+      tips[i].displacement = dealii::Tensor<1, 2>({1e-3 * i, 2e-3});
+      tips[i].factors.K_I  = 1e6 + i;
+      tips[i].factors.K_II = -2e5;
+      tips[i].factors.T    = -3e6;
+      tips[i].factors.energy_release_rate = 40.5 + i;
+    }
+    const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / "nmm-test-tips";
+    const OutputDirectory directory(folder);
+    directory.create();
+    const auto written = [&](const std::vector<TipSample> &samples) {
+      write_tips(samples, directory, "tips.vtu");
+      std::ifstream in(folder / "tips.vtu");
+      return std::string(std::istreambuf_iterator<char>(in), {});
+    };
+    const std::string file = written(tips), empty = written({});
+    std::filesystem::remove_all(folder);
+
+    using Floats         = std::vector<float>;
+    const auto expect_is = [&](const std::string &name, const Floats &values) {
+      EXPECT_EQ(read_array<float>(file, name), values) << name;
+    };
+    expect_is("<Points>", {1.f, 0.3f, 0.f, 2.f, 0.3f, 0.f});
+    expect_is("\"K_I\"", {1e6f, 1000001.f});
+    expect_is("\"K_II\"", {-2e5f, -2e5f});
+    expect_is("\"T\"", {-3e6f, -3e6f});
+    expect_is("\"energy_release_rate\"", {40.5f, 41.5f});
+    expect_is("\"direction\"", {0.6f, -0.8f, 0.f, 0.6f, -0.8f, 0.f});
+    expect_is("\"displacement\"", {0.f, 2e-3f, 0.f, 1e-3f, 2e-3f, 0.f});
+    // VTK's vertices
+    EXPECT_EQ(read_array<std::uint8_t>(file, "\"types\""),
+              (std::vector<std::uint8_t>{1, 1}));
+    EXPECT_NE(empty.find("NumberOfPoints=\"0\""), std::string::npos) << empty;
   }
 } // namespace

@@ -1,6 +1,7 @@
 #include "rejected_input.h"
 #include <algorithm>
 #include <iterator>
+#include <regex>
 
 // How runs end that meet a limit: of memory, of numbers, of contact, of the disk.
 using namespace rejected_input;
@@ -79,15 +80,51 @@ namespace
                              "picture-0001.png",
                              "picture-0002.png",
                              "animation.html",
+                             "tips-0001.vtu",
+                             "tips-0002.vtu",
+                             "tips.vtu",
                              "tips.csv"})
       EXPECT_FALSE(content(name).empty()) << name;
     EXPECT_NE(content("fields.pvd").find("timestep=\"4\""), std::string::npos);
+    EXPECT_NE(content("tips-0001.vtu").find("NumberOfPoints=\"1\""),
+              std::string::npos);
+    // ParaView shows fields and tips in step.
+    EXPECT_EQ(std::regex_replace(content("tips.pvd"),
+                                 std::regex("tips"),
+                                 "fields"),
+              content("fields.pvd"));
     const auto n_lines = [](const std::string &text) {
       return std::count(text.begin(), text.end(), '\n');
     };
     // a head, the state before and one after each increment
     EXPECT_EQ(n_lines(content("history.csv")), 6);
     EXPECT_EQ(n_lines(content("growth.csv")), 5);
+  }
+
+
+  // On the same mesh, intensity factors add tips to the picture and to files, and nothing else.
+  TEST(EndsOfRuns, TipsAreShownIfTheirFactorsAreAskedFor)
+  {
+    std::string fields[2], picture[2];
+    for (const bool with_factors : {false, true})
+    {
+      const DriverResult result =
+        run({"Geometry/Text=" + square +
+               "; joint name=crack LINESTRING (0 0.5, 0.5 0.5)",
+             std::string("Fracture/Intensity factors=") +
+               (with_factors ? "true" : "false"),
+             "Fracture/Tips=as meshed",
+             "Boundary conditions/held/Value=0; y"});
+      if (!is_first_rank())
+        continue;
+      EXPECT_EQ(result.exit_code, 0) << result.output;
+      fields[with_factors]  = content("fields.vtu");
+      picture[with_factors] = content("picture.png");
+      for (const char *name : {"tips.csv", "tips.vtu", "tips.pvd"})
+        EXPECT_EQ(fs::exists(folder + "/" + name), with_factors) << name;
+    }
+    EXPECT_TRUE(fields[0] == fields[1]);
+    EXPECT_TRUE(!is_first_rank() || picture[0] != picture[1]);
   }
 
 

@@ -17,7 +17,8 @@ namespace NMM
    * Vertices are drawn at position + deformation_scale * displacement.
    *
    * The functions `serialize` write or read the content by one of Boost's archives, in which an
-   * animation stores its frames.
+   * animation stores its frames. It stores crack tips and grown faces beside the archive, so that
+   * frames without them do not change.
    */
   struct PictureData
   {
@@ -103,6 +104,10 @@ namespace NMM
     std::vector<Polyline> obstacles;
     /// Contact tractions.
     std::vector<Bar> contacts;
+    /// Crack tips, which are marked by rings.
+    std::vector<Vertex> tips;
+    /// Crack faces that have grown during the analysis, drawn in a stronger line.
+    std::vector<Polyline> grown_faces;
 
     /// Values of another quantity at the vertices of the triangles.
     struct Layer
@@ -126,7 +131,7 @@ namespace NMM
     /// Factor on displacements [-].
     double deformation_scale = 0.;
 
-    /// Writes or reads all of the content.
+    /// Writes or reads all of the content but crack tips and grown faces.
     template <typename Archive>
     void
     serialize(Archive &archive, unsigned int)

@@ -23,7 +23,7 @@ namespace NMM
 
     constexpr char checkpoint_magic[8] =
       {'N', 'M', 'M', 'S', 'T', 'A', 'T', 'E'};
-    constexpr std::uint32_t version = 9;
+    constexpr std::uint32_t version = 10;
 
     std::uint64_t
     sum(const char *bytes, const std::size_t n)
@@ -80,6 +80,23 @@ namespace NMM
       action(state.sums.external_work);
       action(state.sums.dissipated);
       action(state.sums.left);
+      action(state.sums.fracture);
+      action(state.sums.cuts);
+      action(state.closing.begin);
+      action(state.closing.end);
+    }
+
+
+    /// The vectors of a state, in the order of the file. Closing forces are among them while they
+    /// act.
+    template <typename State>
+    auto
+    vectors_of(State &state)
+    {
+      std::vector<decltype(&state.u)> vectors = {&state.u, &state.v, &state.a};
+      if (state.closing.act_at(state.time))
+        vectors.push_back(&state.closing.forces);
+      return vectors;
     }
 
 
@@ -178,12 +195,38 @@ namespace NMM
         return "it is damaged: its check sum is wrong";
       return "";
     }
+
+
+    /// The file on all ranks, which is whole; on return, @p position is that of its first content.
+    /// @throws InputError otherwise.
+    Bytes
+    read_file(const std::string &filename,
+              const MPI_Comm     communicator,
+              const char       *&position)
+    {
+      Bytes bytes;
+      if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+      {
+        std::ifstream in(filename, std::ios::binary);
+        bytes.assign(std::istreambuf_iterator<char>(in), {});
+      }
+      bytes = dealii::Utilities::MPI::broadcast(communicator, bytes);
+      const std::string fault = find_fault(bytes);
+      if (!fault.empty())
+        refuse("The checkpoint cannot be used: " + fault,
+               filename,
+               "take another one, or start anew");
+      position = bytes.data() + sizeof(checkpoint_magic) + sizeof(version) +
+                 sizeof(std::uint64_t);
+      return bytes;
+    }
   } // namespace
 
 
   void
   Checkpoint::write(const TimeIntegrator &integrator,
-                    const std::string    &filename)
+                    const std::string    &filename,
+                    const Bytes          &of_caller)
   {
     const DynamicState    &state = integrator.state();
     const MechanicalModel &model = integrator.model();
@@ -195,11 +238,14 @@ namespace NMM
     put(bytes, version);
     const std::size_t length_position = bytes.size();
     put(bytes, std::uint64_t());
+    put(bytes, static_cast<std::uint64_t>(of_caller.size()));
+    bytes.insert(bytes.end(), of_caller.begin(), of_caller.end());
     put(bytes, mesh);
     put(bytes, scheme_fingerprint(integrator.scheme()));
     for_each_scalar(state, [&](const auto &value) { put(bytes, value); });
     put(bytes, static_cast<std::uint64_t>(state.u.size()));
-    for (const Vector *vector : {&state.u, &state.v, &state.a})
+    put(bytes, state.closing.act_at(state.time));
+    for (const Vector *vector : vectors_of(state))
       append_global(*vector, bytes);
     put(bytes, static_cast<std::uint64_t>(state.left_blocks.size()));
     for (const unsigned int block : state.left_blocks)
@@ -230,26 +276,25 @@ namespace NMM
   }
 
 
+  Bytes
+  Checkpoint::read_of_caller(const std::string &filename,
+                             const MPI_Comm     communicator)
+  {
+    const char *position = nullptr;
+    const Bytes bytes    = read_file(filename, communicator, position);
+    const auto  n        = get<std::uint64_t>(position);
+    return Bytes(position, position + n);
+  }
+
+
   void
   Checkpoint::read(const std::string &filename, TimeIntegrator &integrator)
   {
-    const MechanicalModel &model        = integrator.model();
-    const MPI_Comm         communicator = model.communicator();
-    Bytes                  bytes;
-    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-    {
-      std::ifstream in(filename, std::ios::binary);
-      bytes.assign(std::istreambuf_iterator<char>(in), {});
-    }
-    bytes = dealii::Utilities::MPI::broadcast(communicator, bytes);
-
-    const std::string fault = find_fault(bytes);
-    if (!fault.empty())
-      refuse("The checkpoint cannot be used: " + fault,
-             filename,
-             "take another one, or start anew");
-    const char *position = bytes.data() + sizeof(checkpoint_magic) +
-                           sizeof(version) + sizeof(std::uint64_t);
+    const MechanicalModel &model    = integrator.model();
+    const char            *position = nullptr;
+    const Bytes bytes = read_file(filename, model.communicator(), position);
+    const auto  n_of_caller = get<std::uint64_t>(position);
+    position += n_of_caller;
     if (get<std::uint64_t>(position) !=
         model_interface<SavedModel>(model).fingerprint())
       refuse(
@@ -265,14 +310,17 @@ namespace NMM
     for_each_scalar(state, [&](auto &value) {
       value = get<std::decay_t<decltype(value)>>(position);
     });
-    const auto n = get<std::uint64_t>(position);
+    const auto n         = get<std::uint64_t>(position);
+    state.closing.forces = get<bool>(position) ? state.u : Vector();
+    const auto vectors   = vectors_of(state);
     if (n != state.u.size() ||
-        position + (3 * n + 3) * sizeof(double) > bytes.data() + bytes.size())
+        position + (vectors.size() * n + 3) * sizeof(double) >
+          bytes.data() + bytes.size())
       refuse("The checkpoint has " + std::to_string(n) +
                " unknowns instead of " + std::to_string(state.u.size()),
              filename,
              "continue with the scene it was written with");
-    for (Vector *vector : {&state.u, &state.v, &state.a})
+    for (Vector *vector : vectors)
     {
       for (const auto i : vector->locally_owned_elements())
       {

@@ -122,6 +122,14 @@ namespace NMM
     } // namespace
 
 
+    CrackExtension
+    CrackAdvance::extend(Geometry &geometry) const
+    {
+      const auto advance = is_new ? start_crack : extend_crack;
+      return advance(geometry, tip, direction, length, name);
+    }
+
+
     void
     extend_by_increment(GrowingTip               &growing,
                         const FractureParameters &parameters,
@@ -131,21 +139,14 @@ namespace NMM
       const Tensor<1, 2>    &e = growing.tip.direction;
       const dealii::Point<2> direction(c * e[0] - s * e[1],
                                        s * e[0] + c * e[1]);
-      if (growing.is_new)
-      {
-        growing.extension = start_crack(geometry,
-                                        growing.tip.point,
-                                        direction,
-                                        parameters.increment,
-                                        new_name(geometry));
-        return;
-      }
-      growing.extension =
-        extend_crack(geometry,
-                     growing.tip.point,
-                     direction,
-                     parameters.increment,
-                     geometry.curves()[growing.tip.curve].name);
+      growing.advance   = {growing.tip.point,
+                           direction,
+                           parameters.increment,
+                         growing.is_new
+                             ? new_name(geometry)
+                             : geometry.curves()[growing.tip.curve].name,
+                           growing.is_new};
+      growing.extension = growing.advance.extend(geometry);
     }
 
 
@@ -162,10 +163,31 @@ namespace NMM
     {
       const Tensor<1, 2> &e = tip.tip.direction,
                          d  = tip.extension.end - tip.tip.point;
-      length += d.norm();
-      rows.push_back({step, value, tip});
       // An implicit criterion may have turned the increment once more after its last trial.
-      rows.back().tip.angle = std::atan2(e[0] * d[1] - e[1] * d[0], e * d);
+      const double angle = std::atan2(e[0] * d[1] - e[1] * d[0], e * d);
+      add({step,
+           value,
+           tip.advance,
+           tip.factors,
+           angle,
+           tip.extension.end,
+           tip.extension.met,
+           tip.mean_stress});
+    }
+
+
+    void
+    GrowthTable::add(const Increment &increment)
+    {
+      length += (increment.end - increment.advance.tip).norm();
+      rows.push_back(increment);
+    }
+
+
+    const std::vector<Increment> &
+    GrowthTable::increments() const
+    {
+      return rows;
     }
 
 
@@ -183,16 +205,6 @@ namespace NMM
     }
 
 
-    std::vector<std::pair<dealii::Point<2>, dealii::Point<2>>>
-    GrowthTable::increments() const
-    {
-      std::vector<std::pair<dealii::Point<2>, dealii::Point<2>>> result;
-      for (const Row &row : rows)
-        result.emplace_back(row.tip.tip.point, row.tip.extension.end);
-      return result;
-    }
-
-
     void
     GrowthTable::write(const OutputDirectory &directory) const
     {
@@ -200,27 +212,25 @@ namespace NMM
         out << "step," << value_name
             << ",x,y,K_I,K_II,T,spread,angle,end_x,end_y,met,start_stress\n";
         out.precision(12);
-        for (const Row &row : rows)
+        for (const Increment &row : rows)
         {
-          const GrowingTip &tip = row.tip;
-          out << row.step << ',' << row.value << ',' << tip.tip.point[0] << ','
-              << tip.tip.point[1];
+          out << row.step << ',' << row.value << ',' << row.advance.tip[0]
+              << ',' << row.advance.tip[1];
           // A new crack has no intensity factors before, and others no stress at which they start.
-          if (tip.is_new)
+          if (row.advance.is_new)
             out << ",,,,";
           else
-            for (const double value : {tip.factors.K_I,
-                                       tip.factors.K_II,
-                                       tip.factors.T,
-                                       tip.factors.spread})
+            for (const double value : {row.factors.K_I,
+                                       row.factors.K_II,
+                                       row.factors.T,
+                                       row.factors.spread})
               out << ',' << value;
-          for (const double value : {tip.angle * 180. / dealii::numbers::PI,
-                                     tip.extension.end[0],
-                                     tip.extension.end[1]})
+          for (const double value :
+               {row.angle * 180. / dealii::numbers::PI, row.end[0], row.end[1]})
             out << ',' << value;
-          out << ',' << quoted(tip.extension.met) << ',';
-          if (tip.is_new)
-            out << tip.mean_stress;
+          out << ',' << quoted(row.met) << ',';
+          if (row.advance.is_new)
+            out << row.start_stress;
           out << '\n';
         }
       });

@@ -6,6 +6,7 @@
 #include <nmm/geometry/crack_extension.h>
 #include <nmm/output/output_directory.h>
 
+#include <boost/serialization/string.hpp>
 #include <optional>
 #include <scene/crack_tips.h>
 #include <string>
@@ -14,8 +15,44 @@
 
 namespace NMM
 {
+  /// Reads or writes intensity factors by one of Boost's archives.
+  template <typename Archive>
+  void
+  serialize(Archive          &archive,
+            IntensityFactors &k,
+            const unsigned int /*version*/)
+  {
+    archive &k.K_I &k.K_II &k.T &k.energy_release_rate &k.radius &k.spread;
+  }
+
+
   namespace internal
   {
+    /// The arguments of a call of extend_crack() or start_crack().
+    struct CrackAdvance
+    {
+      /// The tip before [m], and the unit direction from there.
+      dealii::Point<2>     tip;
+      dealii::Tensor<1, 2> direction;
+      /// Length of the increment [m].
+      double length = 0.;
+      /// Name of the crack.
+      std::string name;
+      /// Whether a new crack starts, by start_crack().
+      bool is_new = false;
+
+      CrackExtension
+      extend(Geometry &geometry) const;
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, const unsigned int /*version*/)
+      {
+        archive &tip &direction &length &name &is_new;
+      }
+    };
+
+
     /// A tip that grows, or a place at which a crack starts, with the reason and the result.
     struct GrowingTip
     {
@@ -32,6 +69,7 @@ namespace NMM
       /// Of the increment, from the tip's direction [rad]; with an implicit criterion it is
       /// turned after each trial.
       double         angle = 0.;
+      CrackAdvance   advance;
       CrackExtension extension;
       /// Angle of the previous trial [rad] and its residual [rad], see
       /// CrackGrowthAnalysis::turn_increments(), if there was one.
@@ -76,6 +114,33 @@ namespace NMM
                         Geometry                 &geometry);
 
 
+    /// An increment that was made: all that is needed to make it again, and a row of growth.csv.
+    struct Increment
+    {
+      /// Number of the step in which it was made. Increments of the same step were cut together.
+      unsigned int step = 0;
+      /// Load factor [-] or time [s].
+      double       value = 0.;
+      CrackAdvance advance;
+      /// Intensity factors before; not those of a crack that started.
+      IntensityFactors factors;
+      /// From the direction of the tip before [rad].
+      double angle = 0.;
+      /// The tip after [m], and what the crack has met there; see CrackExtension.
+      dealii::Point<2> end;
+      std::string      met;
+      /// Mean stress across a crack that started, see CrackStart [Pa].
+      double start_stress = 0.;
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, const unsigned int /*version*/)
+      {
+        archive &step &value &advance &factors &angle &end &met &start_stress;
+      }
+    };
+
+
     /// The increments by which cracks have grown, and growth.csv.
     class GrowthTable
     {
@@ -88,6 +153,14 @@ namespace NMM
       void
       add(unsigned int step, double value, const GrowingTip &tip);
 
+      /// Adds an increment that an earlier part of the run has made.
+      void
+      add(const Increment &increment);
+
+      /// All increments in the order in which they were made.
+      const std::vector<Increment> &
+      increments() const;
+
       unsigned int
       n_increments() const;
 
@@ -95,25 +168,14 @@ namespace NMM
       double
       grown_length() const;
 
-      /// Start and end of all increments [m].
-      std::vector<std::pair<dealii::Point<2>, dealii::Point<2>>>
-      increments() const;
-
       /// Writes growth.csv. For use on one rank.
       void
       write(const OutputDirectory &directory) const;
 
     private:
-      struct Row
-      {
-        unsigned int step;
-        double       value;
-        GrowingTip   tip;
-      };
-
-      std::string      value_name;
-      std::vector<Row> rows;
-      double           length = 0.;
+      std::string            value_name;
+      std::vector<Increment> rows;
+      double                 length = 0.;
     };
   } // namespace internal
 } // namespace NMM

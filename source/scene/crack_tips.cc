@@ -4,6 +4,7 @@
 #include <scene/crack_growth.h>
 #include <scene/parsing.h>
 #include <sstream>
+#include <utility>
 
 namespace NMM
 {
@@ -27,6 +28,15 @@ namespace NMM
     CrackTips::all_factors() const
     {
       return factors;
+    }
+
+
+    void
+    CrackTips::restore(std::vector<IntensityFactors> earlier)
+    {
+      Assert(earlier.empty() || earlier.size() == tips.size(),
+             dealii::ExcDimensionMismatch(earlier.size(), tips.size()));
+      factors = std::move(earlier);
     }
 
 

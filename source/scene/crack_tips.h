@@ -36,6 +36,10 @@ namespace NMM
       const std::vector<IntensityFactors> &
       all_factors() const;
 
+      /// Takes over what all_factors() of an earlier part of the run returned.
+      void
+      restore(std::vector<IntensityFactors> earlier);
+
       /// Computes the intensity factors of all tips from the solution. Collective.
       void
       compute(const DisplacementField &field,

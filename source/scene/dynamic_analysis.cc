@@ -24,6 +24,11 @@ namespace NMM
       , restart(restart)
       , kind(scene.parameters().model.analysis)
     {
+      if (scene.parameters().fracture.n_increments > 0)
+      {
+        growth = std::make_unique<GrowthInMotion>(scene.parameters().fracture);
+        growth_table = &growth->table();
+      }
     }
 
 
@@ -92,20 +97,16 @@ namespace NMM
       else
         make_integrator();
       if (probe_history)
-        probe_history->follow(*covers, *probes, scene.parameters().probes);
-      else
-        probe_history =
-          std::make_unique<ProbeHistory>(*covers,
-                                         *probes,
-                                         scene.parameters().probes);
-      // A solid that is cut again goes on from the state that it was in.
-      if (!growth && !incremental)
-        set_first_state();
-      if (!growth && scene.parameters().fracture.n_increments > 0)
       {
-        growth = std::make_unique<GrowthInMotion>(scene.parameters().fracture);
-        growth_table = &growth->table();
+        // A solid that is cut again goes on from the state that it was in.
+        probe_history->follow(*covers, *probes, scene.parameters().probes);
+        return;
       }
+      probe_history = std::make_unique<ProbeHistory>(*covers,
+                                                     *probes,
+                                                     scene.parameters().probes);
+      if (!incremental)
+        set_first_state();
     }
 
 
@@ -363,7 +364,7 @@ namespace NMM
       integrator->restore(last_good);
       // If the end of a step was being checked, the contact history is that of a refused state,
       // from which a run must not continue.
-      if (kind == Analysis::dynamics && !is_checking_state && !growth)
+      if (kind == Analysis::dynamics && can_be_saved)
         write_checkpoint();
     }
 
@@ -380,6 +381,8 @@ namespace NMM
       };
       last_good = integrator->state();
       note_energies();
+      if (growth)
+        continue_growth();
       try
       {
         grow();

@@ -9,6 +9,7 @@
 #include <nmm/output/csv_series.h>
 
 #include <memory>
+#include <optional>
 #include <scene/growth_in_motion.h>
 #include <scene/probe_history.h>
 #include <scene/scene_analysis.h>
@@ -67,6 +68,8 @@ namespace NMM
 
       /// Null if cracks do not grow.
       std::unique_ptr<GrowthInMotion> growth;
+      /// The growth before the checkpoint from which this run continues, if there was any.
+      std::optional<SavedGrowth> earlier_growth;
 
       /// Velocity of the state that is shown [m/s].
       std::unique_ptr<DisplacementField> velocity_field;
@@ -78,8 +81,9 @@ namespace NMM
 
       /// The last accepted state, which is restored if a step fails.
       DynamicState last_good;
-      /// Whether a step was made, but its end is not accepted yet.
-      bool             is_checking_state = false;
+      /// Whether a run can continue from the present state. It cannot while the end of a step is
+      /// being checked, nor after a cut that failed.
+      bool             can_be_saved = true;
       RelaxationReport relaxation;
       StartReport      start;
       /// Numbers of this run, without those of the run that wrote the checkpoint.
@@ -112,6 +116,17 @@ namespace NMM
       /// Lets the integrator start from the scene's initial state, or from a checkpoint.
       void
       set_first_state();
+
+      std::vector<Increment>
+      earlier_increments() override;
+
+      /// Makes the intensity factors those of the state from which this run continues.
+      void
+      continue_growth();
+
+      /// What read_of_caller() returns to earlier_increments(); empty if cracks do not grow.
+      std::vector<char>
+      growth_to_save() const;
 
       /// Lets cracks grow whose tips have reached the toughness in the present state.
       void

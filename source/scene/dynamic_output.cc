@@ -47,6 +47,8 @@ namespace NMM
         open_departures(continue_after);
         if (is_continued)
           directory->resume();
+        if (growth && growth->table().n_increments() > 0)
+          growth->table().write(*directory);
       });
       if (!has_start() && !is_continued)
         write_first_state();
@@ -83,7 +85,7 @@ namespace NMM
         drop_blocks();
       if (integrator)
       {
-        is_checking_state = true;
+        can_be_saved = false;
         note_energies();
         const std::string fault =
           contact ? contact->find_deep_penetration() : "";
@@ -94,8 +96,8 @@ namespace NMM
                                        std::to_string(step_number()),
                                      "take shorter steps, or choose a higher "
                                      "'Contact/Normal stiffness'"));
-        is_checking_state = false;
-        last_good         = integrator->state();
+        can_be_saved = true;
+        last_good    = integrator->state();
       }
       write_rows(record);
       const OutputParameters &output = scene.parameters().output;
@@ -241,7 +243,8 @@ namespace NMM
     DynamicAnalysis::write_checkpoint()
     {
       Checkpoint::write(*integrator,
-                        (directory->path() / "checkpoint.nmm").string());
+                        (directory->path() / "checkpoint.nmm").string(),
+                        growth_to_save());
     }
 
 

@@ -1,5 +1,6 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/contact/carried_history.h>
+#include <nmm/dynamics/checkpoint.h>
 #include <nmm/fracture/tip_grading.h>
 #include <nmm/mechanics/carried_covers.h>
 
@@ -117,10 +118,83 @@ namespace NMM
     }
 
 
+    bool
+    GrowthInMotion::has_grown_in(const unsigned int step) const
+    {
+      return increments.n_increments() > 0 &&
+             increments.increments().back().step == step;
+    }
+
+
+    void
+    GrowthInMotion::save(SavedGrowth &saved) const
+    {
+      saved.increments   = increments.increments();
+      saved.running_tips = running_tips;
+      saved.arrival      = arrival;
+    }
+
+
+    void
+    GrowthInMotion::restore(const SavedGrowth &saved)
+    {
+      Assert(increments.n_increments() == 0, dealii::ExcInternalError());
+      for (const Increment &increment : saved.increments)
+        increments.add(increment);
+      running_tips = saved.running_tips;
+      arrival      = saved.arrival;
+    }
+
+
+    std::vector<Increment>
+    DynamicAnalysis::earlier_increments()
+    {
+      if (restart.empty() || !growth)
+        return {};
+      const std::vector<char> bytes =
+        Checkpoint::read_of_caller(restart, communicator);
+      // The cracks of the earlier part may have been at rest.
+      if (bytes.empty())
+        return {};
+      earlier_growth =
+        dealii::Utilities::unpack<SavedGrowth>(bytes,
+                                               /* allow_compression = */ false);
+      growth->restore(*earlier_growth);
+      further_sizes = earlier_growth->sizes;
+      return earlier_growth->increments;
+    }
+
+
+    void
+    DynamicAnalysis::continue_growth()
+    {
+      if (earlier_growth)
+        // Contact has all points sticking now, while factors are those of the state before that.
+        crack_tips->restore(earlier_growth->factors);
+      else if (!restart.empty())
+        compute_tips_in_motion();
+    }
+
+
+    std::vector<char>
+    DynamicAnalysis::growth_to_save() const
+    {
+      if (!growth)
+        return {};
+      SavedGrowth saved;
+      growth->save(saved);
+      saved.sizes   = further_sizes;
+      saved.factors = crack_tips->all_factors();
+      return dealii::Utilities::pack(saved, /* allow_compression = */ false);
+    }
+
+
     void
     DynamicAnalysis::grow()
     {
-      if (!growth || !crack_tips || !growth->has_increments_left())
+      // A run that continues from a checkpoint may have grown at the end of its last step already.
+      if (!growth || !growth->has_increments_left() ||
+          growth->has_grown_in(step_number()))
         return;
       std::vector<GrowingTip> tips =
         growth->find_growing_tips(judge_tips(*crack_tips,
@@ -159,6 +233,7 @@ namespace NMM
     void
     DynamicAnalysis::cut_anew(const Geometry &grown, const double duration)
     {
+      can_be_saved = false;
       integrator->balance_accelerations();
       FormerSolid former;
       former.state  = integrator->state();
@@ -196,7 +271,8 @@ namespace NMM
       {
         fault = failure.message();
       }
-      if (fault.empty())
+      can_be_saved = fault.empty();
+      if (can_be_saved)
         return;
       build(before);
       carry_over(former, duration);

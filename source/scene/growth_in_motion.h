@@ -1,16 +1,48 @@
 #ifndef nmm_source_scene_growth_in_motion_h
 #define nmm_source_scene_growth_in_motion_h
 
+#include <nmm/covers/graded_mesh.h>
 #include <nmm/materials/material.h>
 #include <nmm/mechanics/elasticity_problem.h>
 
+#include <boost/serialization/vector.hpp>
 #include <scene/crack_growth.h>
 #include <vector>
 
 namespace NMM
 {
+  /// Reads or writes the size of cells at a point by one of Boost's archives.
+  template <typename Archive>
+  void
+  serialize(Archive &archive, LocalSize &size, const unsigned int /*version*/)
+  {
+    archive &size.point &size.size &size.growth &size.exponent &size.length;
+  }
+
+
   namespace internal
   {
+    /// What a checkpoint holds of cracks that grow while the solid moves, beside the state.
+    struct SavedGrowth
+    {
+      std::vector<Increment> increments;
+      /// See GrowthInMotion.
+      std::vector<dealii::Point<2>> running_tips;
+      double                        arrival = 0.;
+      /// Sizes of cells where tips have been.
+      std::vector<LocalSize> sizes;
+      /// Intensity factors of all tips in the present state.
+      std::vector<IntensityFactors> factors;
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, const unsigned int /*version*/)
+      {
+        archive &increments &running_tips &arrival &sizes &factors;
+      }
+    };
+
+
     /**
      * Cracks that grow while the solid moves: which tips grow next, and what has grown.
      *
@@ -55,6 +87,19 @@ namespace NMM
 
       const GrowthTable &
       table() const;
+
+      /// Whether an increment was made at the end of the step @p step.
+      bool
+      has_grown_in(unsigned int step) const;
+
+      /// Writes all members to @p saved.
+      void
+      save(SavedGrowth &saved) const;
+
+      /// Takes over what save() has written in an earlier part of the run. @pre No increment was
+      /// made yet.
+      void
+      restore(const SavedGrowth &saved);
 
     private:
       const FractureParameters *parameters;

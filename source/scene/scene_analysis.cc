@@ -34,9 +34,71 @@ namespace NMM
         clean(geometry, scene.parameters().geometry.cleaning_tolerance);
       if (scene.parameters().fracture.n_increments > 0)
         this->geometry = geometry;
+      const std::vector<Increment> increments = earlier_increments();
+      if (!increments.empty())
+      {
+        replay(increments);
+        // Tips that have grown may be near other curves, or gone.
+        build(this->geometry);
+        return;
+      }
       build(std::move(geometry));
       if (crack_tips)
         crack_tips->check();
+    }
+
+
+    void
+    SceneAnalysis::replay(const std::vector<Increment> &increments)
+    {
+      for (auto next = increments.begin(); next != increments.end();)
+      {
+        clear();
+        make_physical_mesh(geometry);
+        keep_geometry();
+        for (const unsigned int step = next->step;
+             next != increments.end() && next->step == step;
+             ++next)
+          AssertThrow(next->advance.extend(geometry).end == next->end,
+                      InputError("The crack that has grown to " +
+                                   to_string(next->end) +
+                                   " before the checkpoint ends elsewhere now",
+                                 "the checkpoint of another geometry",
+                                 "continue with the scene it was written "
+                                 "with"));
+      }
+    }
+
+
+    void
+    SceneAnalysis::make_physical_mesh(Geometry geometry)
+    {
+      Stage stage(progress, "geometry");
+      physical_mesh = std::make_unique<PhysicalMesh>(Geometry(geometry));
+      problem       = scene.make_problem();
+      problem.check(*physical_mesh);
+      check_problem();
+      const FractureParameters &fracture = scene.parameters().fracture;
+      if (!fracture.intensity_factors)
+        return;
+      if (fracture.tips == FractureParameters::Tips::automatic &&
+          can_have_tip_covers())
+        add_tip_covers(std::move(geometry));
+      crack_tips = std::make_unique<CrackTips>(scene, *physical_mesh);
+    }
+
+
+    void
+    SceneAnalysis::keep_geometry()
+    {
+      std::vector<Curve> &curves = geometry.curves();
+      curves                     = physical_mesh->curves();
+      curves.erase(std::remove_if(curves.begin(),
+                                  curves.end(),
+                                  [](const Curve &curve) {
+                                    return curve.is_auxiliary;
+                                  }),
+                   curves.end());
     }
 
 
@@ -64,20 +126,7 @@ namespace NMM
     {
       clear();
       const SceneParameters &parameters = scene.parameters();
-      {
-        Stage stage(progress, "geometry");
-        physical_mesh = std::make_unique<PhysicalMesh>(Geometry(geometry));
-        problem       = scene.make_problem();
-        problem.check(*physical_mesh);
-        check_problem();
-        if (parameters.fracture.intensity_factors)
-        {
-          if (parameters.fracture.tips == FractureParameters::Tips::automatic &&
-              can_have_tip_covers())
-            add_tip_covers(std::move(geometry));
-          crack_tips = std::make_unique<CrackTips>(scene, *physical_mesh);
-        }
-      }
+      make_physical_mesh(std::move(geometry));
       {
         Stage stage(progress, "mathematical mesh");
         mathematical_mesh =
@@ -107,18 +156,8 @@ namespace NMM
       }
       make_system();
       add_counts();
-      // The cut may have moved a curve onto another one that coincides with it within rounding.
       if (parameters.fracture.n_increments > 0)
-      {
-        std::vector<Curve> &curves = this->geometry.curves();
-        curves                     = physical_mesh->curves();
-        curves.erase(std::remove_if(curves.begin(),
-                                    curves.end(),
-                                    [](const Curve &curve) {
-                                      return curve.is_auxiliary;
-                                    }),
-                     curves.end());
-      }
+        keep_geometry();
       if (series)
         series->follow(*covers, contact.get());
     }
@@ -467,7 +506,8 @@ namespace NMM
                                 crack_tips->all_factors()[i]});
       }
       if (growth_table != nullptr)
-        cracks->increments = growth_table->increments();
+        for (const Increment &increment : growth_table->increments())
+          cracks->increments.emplace_back(increment.advance.tip, increment.end);
       return cracks;
     }
 

@@ -18,6 +18,7 @@
 #include <functional>
 #include <memory>
 #include <scene/contact_analysis.h>
+#include <scene/crack_growth.h>
 #include <scene/crack_tips.h>
 #include <scene/state_series.h>
 #include <string>
@@ -27,8 +28,6 @@ namespace NMM
 {
   namespace internal
   {
-    class GrowthTable;
-
     /**
      * The analysis of a scene, from geometry to files: the part that all kinds of analysis share.
      * The order of calls is build(), print_report(), open(), solve(), verify(), write(). All
@@ -148,6 +147,28 @@ namespace NMM
       on_first_rank(const std::function<void()> &action) const;
 
     private:
+      /// Increments by which cracks have grown in an earlier part of this run, from its checkpoint.
+      virtual std::vector<Increment>
+      earlier_increments()
+      {
+        return {};
+      }
+
+      /// Lets the cracks of `geometry` grow by the increments of an earlier part of this run. The
+      /// geometry is then that of which the solid was made there, bit by bit. @throws InputError if
+      /// they do not fit.
+      void
+      replay(const std::vector<Increment> &increments);
+
+      /// Makes the physical mesh of a geometry, problem and tips; the first part of build().
+      void
+      make_physical_mesh(Geometry geometry);
+
+      /// Sets the present geometry to the curves of the physical mesh. The cut may have moved a
+      /// curve onto another one that coincides with it within rounding.
+      void
+      keep_geometry();
+
       /// Further checks of the problem, before anything is cut.
       virtual void
       check_problem()

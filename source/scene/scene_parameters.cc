@@ -430,11 +430,10 @@ namespace NMM
           "remove it, or choose an elastic material");
     if (fracture.n_increments == 0)
       return;
-    check(is_static || (output.checkpoint_every == 0 && time.sleep.speed == 0.),
-          "checkpoints and sleeping blocks are not available while cracks grow "
-          "in motion",
+    check(is_static || time.sleep.speed == 0.,
+          "sleeping blocks are not available while cracks grow in motion",
           "Increments",
-          "remove 'Output/Checkpoint every' and 'Time/Sleep speed'");
+          "remove 'Time/Sleep speed'");
     check(is_dynamic || fracture.speed == 0.,
           "the speed of cracks would not be used in equilibrium",
           "Speed",

@@ -151,7 +151,9 @@ namespace
     Body              body = beam(true);
     TimeIntegrator    integrator(*body.mechanics, TimeScheme::newmark());
     step(integrator, 0.02);
-    Checkpoint::write(integrator, file);
+    const std::vector<char> of_caller = {'a', 'b', 'c'};
+    Checkpoint::write(integrator, file, of_caller);
+    EXPECT_EQ(Checkpoint::read_of_caller(file, MPI_COMM_WORLD), of_caller);
     std::ifstream     in(file, std::ios::binary);
     const std::string good((std::istreambuf_iterator<char>(in)), {});
     const auto        put = [&](const std::string &bytes) {

@@ -71,9 +71,10 @@ namespace
                                          "Time/End time=1",
                                          "Time/Initial step=0.1",
                                          "Materials/rock/Density=1"};
-    expect_rejected_with(moving,
-                         "Output/Checkpoint every=1",
-                         {"checkpoints", "Checkpoint every", "Increments"});
+    expect_rejected_with(
+      moving + std::vector<std::string>{"Contact/Enforcement=penalty"},
+      "Time/Sleep speed=0.01",
+      {"sleeping blocks", "Sleep speed", "Increments"});
     expect_rejected_with(moving,
                          "Model/Kinematics=incremental",
                          {"incremental", "Intensity factors"});

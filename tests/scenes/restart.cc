@@ -180,6 +180,111 @@ namespace
   }
 
 
+  /// The contents of a file without the date of VTK files.
+  std::string
+  without_date(const std::string &text)
+  {
+    const std::size_t begin = text.find("<VTKFile");
+    return begin == std::string::npos ? text : text.substr(begin);
+  }
+
+
+  /// All files but the summary, which has wall times, are the same.
+  void
+  expect_same_files(const std::string &a, const std::string &b)
+  {
+    auto files = contents(a), others = contents(b);
+    for (auto *all : {&files, &others})
+      EXPECT_EQ(all->erase("summary.csv"), 1u);
+    EXPECT_EQ(files.size(), others.size());
+    for (const auto &[name, text] : files)
+      EXPECT_TRUE(without_date(text) == without_date(others[name]))
+        << a << '/' << name << " and that of " << b << " differ";
+  }
+
+
+  /// The cells of the column @p name of a table, as text.
+  std::vector<std::string>
+  column(const std::string &file, const std::string &name)
+  {
+    std::istringstream       lines(read_file(file));
+    std::vector<std::string> cells;
+    std::ptrdiff_t           number = -1;
+    for (std::string line; std::getline(lines, line);)
+    {
+      if (line.front() == '#')
+        continue;
+      std::vector<std::string> row;
+      std::istringstream       text(line);
+      for (std::string cell; std::getline(text, cell, ',');)
+        row.push_back(cell);
+      if (number < 0)
+        number = std::find(row.begin(), row.end(), name) - row.begin();
+      else
+        cells.push_back(row.at(number));
+    }
+    return cells;
+  }
+
+
+  /// Stops where the crack grows for the second time, before and after the cut, and two steps
+  /// later, while the closing forces fade.
+  void
+  check_stops_in_growth(const std::string &scene, const Arguments &more)
+  {
+    SCOPED_TRACE(scene);
+    const Arguments settings =
+      Arguments{"--set",
+                "Output/Checkpoint every=7",
+                "--set",
+                "Output/Fields every=20",
+                NMM_SOURCE_DIR "/tests/scenes/" + scene + "/scene.prm"} +
+      more;
+    const std::string straight = fresh_output_dir("straight-growth");
+    run(settings + Arguments{"-o", straight});
+    const auto times = column(straight + "/history.csv", "time");
+    const auto steps = column(straight + "/growth.csv", "step");
+    ASSERT_GT(steps.size(), 2u);
+    const unsigned int second = std::stoi(steps[1]);
+    struct Stop
+    {
+      unsigned int step, n_increments;
+      Arguments    arguments;
+    };
+    for (const Stop &stop :
+         {Stop{second, 1, {"--set", "Fracture/Increments=1"}},
+          Stop{second, 2, {}},
+          Stop{second + 2, 2, {}}})
+    {
+      SCOPED_TRACE("stop at " + times.at(stop.step) + " s after " +
+                   std::to_string(stop.n_increments) + " increment(s)");
+      const std::string stopped = fresh_output_dir("stopped-growth");
+      run(
+        settings + stop.arguments +
+        Arguments{"-o", stopped, "--set", "Time/End time=" + times[stop.step]});
+      EXPECT_EQ(column(stopped + "/growth.csv", "step").size(),
+                stop.n_increments);
+      run(settings +
+          Arguments{"-o", stopped, "--restart", stopped + "/checkpoint.nmm"});
+      expect_same_files(straight, stopped);
+    }
+  }
+
+
+  TEST(Restart, CracksGoOnInTheirGrowth)
+  {
+    // With contact, and a block that comes free.
+    check_stops_in_growth("bar-breaks", {"--set", "Time/End time=0.06"});
+    check_stops_in_growth(
+      "bar-breaks",
+      {"--set", "Time/End time=0.06", "--set", "Model/Kinematics=finite"});
+    // Debug takes a minute for this one.
+#ifdef NDEBUG
+    check_stops_in_growth("crack-runs", {});
+#endif
+  }
+
+
   TEST(Restart, GoesOnInAnotherFolder)
   {
     const std::string first  = fresh_output_dir("first");
@@ -292,6 +397,40 @@ namespace
     std::ofstream(folder + "/text.nmm") << "something else altogether, of "
                                            "some length";
     expect_refused(folder + "/text.nmm", scene, {}, {"no checkpoint"});
+  }
+
+
+  TEST(Restart, RefusesGrowthThatDoesNotFit)
+  {
+    const std::string folder     = fresh_output_dir("refused-growth");
+    const std::string checkpoint = folder + "/checkpoint.nmm";
+    const std::string scene      = "bar-breaks/scene.prm";
+    run({"-o",
+         folder,
+         "--set",
+         "Output/Checkpoint every=10",
+         "--set",
+         "Time/End time=0.054",
+         cases_dir + scene});
+    ASSERT_TRUE(fs::exists(folder + "/growth.csv"));
+    expect_refused(checkpoint,
+                   scene,
+                   {"--set", "Mathematical mesh/Cell size=0.2"},
+                   {"another mesh"});
+    expect_refused(checkpoint,
+                   scene,
+                   {"--set",
+                    "Geometry/Text=boundary name=sides material=rock "
+                    "LINESTRING (0 3, 0 0); boundary name=bottom LINESTRING "
+                    "(0 0, 0.5 0); boundary name=sides LINESTRING (0.5 0, "
+                    "0.5 3); boundary name=top LINESTRING (0.5 3, 0 3); "
+                    "joint name=crack LINESTRING (-0.1 1.5, 0.4 1.5)"},
+                   {"ends elsewhere", "the scene it was written with"});
+    // What has grown is at the beginning of the file.
+    std::string damaged = read_file(checkpoint);
+    damaged[100] ^= 1;
+    std::ofstream(folder + "/damaged.nmm", std::ios::binary) << damaged;
+    expect_refused(folder + "/damaged.nmm", scene, {}, {"damaged"});
   }
 
 

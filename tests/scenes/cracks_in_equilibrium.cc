@@ -129,10 +129,6 @@ namespace
       EXPECT_LT(loads[i + 1], loads[i]);
       EXPECT_LT(loads[i + 1] * energies[i + 1], loads[i] * energies[i]);
     }
-    std::ostringstream t;
-    for (unsigned int i = 0; i < 15; ++i)
-      t << loads[i] << ' ' << 2 * loads[i] * energies[i] << '\n';
-    std::cout << t.str();
   }
 
 

@@ -324,16 +324,29 @@ namespace NMM
 
 
   std::vector<CrackStart>
-  find_crack_starts(const CoverSystem       &covers,
-                    const ElasticityProblem &problem,
-                    const ElementStress     &stress,
-                    const double             spacing)
+  find_crack_starts(const CoverSystem                   &covers,
+                    const ElasticityProblem             &problem,
+                    const ElementStress                 &stress,
+                    const double                         spacing,
+                    const std::vector<dealii::Point<2>> &taken)
   {
     // The first estimate may be this much too low beside the largest one.
     constexpr double       most_underestimate = 0.6, least_drive = 0.8;
     const StartSearch      search(covers, problem, stress);
     std::vector<Candidate> candidates =
       search.candidates(covers.locally_owned_elements());
+    candidates.erase(std::remove_if(candidates.begin(),
+                                    candidates.end(),
+                                    [&](const Candidate &candidate) {
+                                      return std::any_of(
+                                        taken.begin(),
+                                        taken.end(),
+                                        [&](const dealii::Point<2> &x) {
+                                          return x.distance(candidate.point) <
+                                                 spacing;
+                                        });
+                                    }),
+                     candidates.end());
     double largest = 0.;
     for (const Candidate &candidate : candidates)
       largest = std::max(largest, candidate.drive);

@@ -34,35 +34,46 @@ namespace NMM
     }
 
 
-    double
-    distance_of_starts(const FractureParameters &parameters)
+    namespace
     {
-      constexpr double increments = 5.;
-      return increments * parameters.increment;
-    }
-
-
-    void
-    drop_starts_beside_tips(std::vector<GrowingTip>  &growing,
-                            const FractureParameters &parameters)
-    {
-      const double            distance = distance_of_starts(parameters);
-      std::vector<GrowingTip> kept;
-      for (const GrowingTip &tip : growing)
-        if (!tip.is_new || std::none_of(growing.begin(),
-                                        growing.end(),
-                                        [&](const GrowingTip &other) {
-                                          return !other.is_new &&
-                                                 other.tip.point.distance(
-                                                   tip.tip.point) < distance;
-                                        }))
-          kept.push_back(tip);
-      growing = std::move(kept);
-    }
+      /// The places where cracks may start beside all tips and increments, see judge_tips().
+      std::vector<GrowingTip>
+      find_new_tips(const CrackTips          &tips,
+                    const GrowthTable        &earlier,
+                    const FractureParameters &parameters,
+                    const ElasticityProblem  &problem,
+                    const CoverSystem        &covers,
+                    const ElementStress      &stress)
+      {
+        constexpr double n_increments = 5.;
+        const double     distance     = n_increments * parameters.increment;
+        std::vector<dealii::Point<2>> taken;
+        for (const CrackTip &tip : tips.all_tips())
+          taken.push_back(tip.point);
+        for (const Increment &increment : earlier.increments())
+          if (increment.advance.is_new)
+            taken.push_back(increment.advance.tip);
+        std::vector<GrowingTip> result;
+        for (const CrackStart &start :
+             find_crack_starts(covers, problem, stress, distance, taken))
+        {
+          GrowingTip candidate;
+          candidate.is_new        = true;
+          candidate.tip.point     = start.point;
+          candidate.tip.direction = start.direction;
+          candidate.tip.region    = start.region;
+          candidate.mean_stress   = start.mean_stress;
+          candidate.drive         = start.drive;
+          result.push_back(std::move(candidate));
+        }
+        return result;
+      }
+    } // namespace
 
 
     std::vector<GrowingTip>
     judge_tips(const CrackTips          &tips,
+               const GrowthTable        &earlier,
                const FractureParameters &parameters,
                const ElasticityProblem  &problem,
                const CoverSystem        &covers,
@@ -86,18 +97,9 @@ namespace NMM
         result.push_back(std::move(candidate));
       }
       if (can_start_cracks(parameters, problem.materials))
-        for (const CrackStart &start : find_crack_starts(
-               covers, problem, stress, distance_of_starts(parameters)))
-        {
-          GrowingTip candidate;
-          candidate.is_new        = true;
-          candidate.tip.point     = start.point;
-          candidate.tip.direction = start.direction;
-          candidate.tip.region    = start.region;
-          candidate.mean_stress   = start.mean_stress;
-          candidate.drive         = start.drive;
-          result.push_back(std::move(candidate));
-        }
+        for (GrowingTip &tip :
+             find_new_tips(tips, earlier, parameters, problem, covers, stress))
+          result.push_back(std::move(tip));
       return result;
     }
 

@@ -87,25 +87,6 @@ namespace NMM
     can_start_cracks(const FractureParameters    &fracture,
                      const std::vector<Material> &materials);
 
-    /// Smallest distance of places where cracks start at once [m]. A crack takes the stress from
-    /// the boundary beside it, over a few times its length.
-    double
-    distance_of_starts(const FractureParameters &parameters);
-
-    /// Leaves out new cracks that start beside a tip that grows, since it takes the stress away.
-    void
-    drop_starts_beside_tips(std::vector<GrowingTip>  &growing,
-                            const FractureParameters &parameters);
-
-    /// All tips of @p tips, which were computed, with what the scene's criterion says of them, and
-    /// then the places where cracks are most likely to start.
-    std::vector<GrowingTip>
-    judge_tips(const CrackTips          &tips,
-               const FractureParameters &parameters,
-               const ElasticityProblem  &problem,
-               const CoverSystem        &covers,
-               const ElementStress      &stress);
-
     /// Extends the crack of a tip in @p geometry by one increment at the tip's angle, or lets a
     /// new one start.
     void
@@ -177,6 +158,24 @@ namespace NMM
       std::vector<Increment> rows;
       double                 length = 0.;
     };
+
+
+    /**
+     * All tips of @p tips, which were computed, with what the scene's criterion says of them, and
+     * then the places where cracks are most likely to start.
+     *
+     * A crack takes the stress from the boundary beside it over a few times its length, but in
+     * motion not at once. Therefore no crack starts within five increments of a tip, of a place
+     * where another one has started, or of one that starts at the same time. @p earlier are the
+     * increments that were made.
+     */
+    std::vector<GrowingTip>
+    judge_tips(const CrackTips          &tips,
+               const GrowthTable        &earlier,
+               const FractureParameters &parameters,
+               const ElasticityProblem  &problem,
+               const CoverSystem        &covers,
+               const ElementStress      &stress);
   } // namespace internal
 } // namespace NMM
 

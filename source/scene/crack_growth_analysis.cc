@@ -119,6 +119,7 @@ namespace NMM
     CrackGrowthAnalysis::find_growing_tips()
     {
       growing_tips       = judge_tips(*crack_tips,
+                                increments,
                                 scene.parameters().fracture,
                                 problem,
                                 *covers,
@@ -138,7 +139,6 @@ namespace NMM
                                                  tip.drive < least;
                                         }),
                          growing_tips.end());
-      drop_starts_beside_tips(growing_tips, scene.parameters().fracture);
       return most_driven;
     }
 

@@ -48,13 +48,9 @@ namespace NMM
                                       const double            t) const
     {
       const auto is_on_its_way = [&](const GrowingTip &tip) {
-        const double near = tip.is_new ? distance_of_starts(*parameters) : 0.;
-        return t < arrival &&
-               std::any_of(running_tips.begin(),
-                           running_tips.end(),
-                           [&](const dealii::Point<2> &running) {
-                             return running.distance(tip.tip.point) <= near;
-                           });
+        return t < arrival && std::find(running_tips.begin(),
+                                        running_tips.end(),
+                                        tip.tip.point) != running_tips.end();
       };
       judged.erase(std::remove_if(judged.begin(),
                                   judged.end(),
@@ -63,7 +59,6 @@ namespace NMM
                                            is_on_its_way(tip);
                                   }),
                    judged.end());
-      drop_starts_beside_tips(judged, *parameters);
       return judged;
     }
 
@@ -198,6 +193,7 @@ namespace NMM
         return;
       std::vector<GrowingTip> tips =
         growth->find_growing_tips(judge_tips(*crack_tips,
+                                             growth->table(),
                                              scene.parameters().fracture,
                                              problem,
                                              *covers,

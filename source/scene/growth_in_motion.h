@@ -61,8 +61,7 @@ namespace NMM
       explicit GrowthInMotion(const FractureParameters &parameters);
 
       /// The tips that grow at the time @p t [s], and the new ones that start, of those that were
-      /// judged. Beside a crack that runs no other starts, since its closing forces still act
-      /// there.
+      /// judged.
       std::vector<GrowingTip>
       find_growing_tips(std::vector<GrowingTip> judged, double t) const;
 

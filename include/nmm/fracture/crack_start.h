@@ -57,17 +57,19 @@ namespace NMM
    * the line is turned until the mean stress across it is largest. Materials without a fracture
    * strength, boundaries on which the displacement is prescribed, and lines that leave the block
    * or meet a joint are left out. Of places nearer to each other than @p spacing [m], only the
-   * one with the largest drive is returned, and none with less than 0.8 of the largest drive.
+   * one with the largest drive is returned, and none with less than 0.8 of the largest drive, nor
+   * within this distance of the places @p taken.
    *
    * Limits: one rank; joints and interfaces are no places to start from, unless they end at a
    * boundary. Lines of less than a cell see the stress of a single cell; in the corner of a notch
    * this needs cells that are smaller than L.
    */
   std::vector<CrackStart>
-  find_crack_starts(const CoverSystem       &covers,
-                    const ElasticityProblem &problem,
-                    const ElementStress     &stress,
-                    double                   spacing);
+  find_crack_starts(const CoverSystem                   &covers,
+                    const ElasticityProblem             &problem,
+                    const ElementStress                 &stress,
+                    double                               spacing,
+                    const std::vector<dealii::Point<2>> &taken = {});
 } // namespace NMM
 
 #endif

@@ -73,11 +73,12 @@ namespace NMM
       InputError(parameter_message("Toughness", toughness, "Pa m^0.5"),
                  where,
                  "give a number that is not negative"));
-    AssertThrow(
-      std::isfinite(fracture_strength) && fracture_strength >= 0.,
-      InputError(parameter_message("Fracture strength", fracture_strength, "Pa"),
-                 where,
-                 "give a number that is not negative"));
+    AssertThrow(std::isfinite(fracture_strength) && fracture_strength >= 0.,
+                InputError(parameter_message("Fracture strength",
+                                             fracture_strength,
+                                             "Pa"),
+                           where,
+                           "give a number that is not negative"));
     AssertThrow(std::isfinite(initial_stress.norm()),
                 InputError("Initial stress is not finite",
                            where,

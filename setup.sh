@@ -258,10 +258,10 @@ command_fuzz()
   local generator failed=()
   configure_and_build release program_nmm-fuzz
   local n
-  for generator in geometry scene growth contact-growth; do
-    # a solution with contact takes seconds
+  for generator in geometry scene growth contact-growth growth-in-motion; do
+    # a solution with contact, and a motion, take seconds
     n=$1
-    [[ $generator != contact-growth ]] || n=$(($1 / 100 + 1))
+    [[ $generator != *-* ]] || n=$(($1 / 100 + 1))
     say "Random inputs: $generator"
     build/release/bin/nmm-fuzz "$generator" "$n" "$2" || failed+=("$generator")
   done

@@ -18,7 +18,8 @@ namespace NMM
         {"scene", &make_scene_case, &run_scene_case},
         {"growth", &make_growth_case, &run_scene_case},
         // where contact cycles, a solution takes ten seconds until it is given up
-        {"contact-growth", &make_contact_growth_case, &run_scene_case, 60}};
+        {"contact-growth", &make_contact_growth_case, &run_scene_case, 60},
+        {"growth-in-motion", &make_growth_in_motion_case, &run_scene_case, 60}};
       return all;
     }
 

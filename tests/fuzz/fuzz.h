@@ -68,6 +68,10 @@ namespace NMM
     Case
     make_contact_growth_case(std::uint64_t seed);
 
+    /// The same in motion, some of them with contact.
+    Case
+    make_growth_in_motion_case(std::uint64_t seed);
+
     /// Runs the scene as the program nmm does. Wrong are exit codes other than 0, 2 and 3, files written with
     /// 2, and tables with values that are not finite with 0.
     std::string

@@ -53,6 +53,13 @@ TEST(Fuzz, GrowthWithContact)
 }
 
 
+TEST(Fuzz, GrowthInMotion)
+{
+  for (unsigned int seed = 1; seed <= n_samples(6); ++seed)
+    expect_good("growth-in-motion", seed);
+}
+
+
 // Joints that run within rounding along others and end inside a block: the patch test was
 // off by up to 2e-2 there, or the system singular.
 TEST(Fuzz, StripsThatEndInABlock)

@@ -12,13 +12,23 @@ namespace NMM
   {
     namespace
     {
+      enum class Kind
+      {
+        equilibrium,
+        contact,
+        motion
+      };
+
+
       class PlateMaker
       {
       public:
-        PlateMaker(const std::uint64_t seed, const bool has_contact)
+        PlateMaker(const std::uint64_t seed, const Kind kind)
           : generator(seed)
           , digits(chance(0.5) ? 1 + integer(3) : 17)
-          , has_contact(has_contact)
+          , has_contact(kind == Kind::contact ||
+                        (kind == Kind::motion && chance(0.3)))
+          , moves(kind == Kind::motion)
         {
         }
 
@@ -49,9 +59,18 @@ namespace NMM
             << "\nend\nsubsection Materials\n  set Names = rock\n"
                "  subsection rock\n    set Young's modulus = "
             // contact sees the deformed faces: small strains
-            << (has_contact ? 1e6 : 1.)
-            << "\n    set "
-               "Poisson's ratio = 0.25\n    set Toughness = 1\n  end\nend\n"
+            << (moves         ? 1e3
+                : has_contact ? 1e6
+                              : 1.)
+            << "\n    set Poisson's ratio = 0.25\n    set Density = 1\n"
+               "    set Toughness = "
+            << (moves ? 0.4 : 1.);
+          // The length over which stress is averaged is between 1e-3 and 0.6 of the plate.
+          if (chance(0.5))
+            scene << "\n    set Fracture strength = "
+                  << std::pow(10., 1.4 * number());
+          scene
+            << "\n  end\nend\n"
                "subsection Boundary conditions\n  set Names = held, "
                "pulled\n  subsection held\n    set Boundary = bottom\n    set "
                "Type = displacement\n    set Value = 0; 0\n  end\n  "
@@ -64,6 +83,13 @@ namespace NMM
             scene << "subsection Contact\n  set Enforcement = penalty\n"
                      "  set Friction angle = "
                   << 60. * number() << "\nend\n";
+          // A wave runs through the plate in 0.03 s.
+          if (moves)
+            scene << "subsection Model\n  set Analysis = dynamic\n"
+                     "  set Kinematics = "
+                  << (chance(0.5) ? "small" : "finite")
+                  << "\nend\nsubsection Time\n  set End time = 0.1\n"
+                     "  set Initial step = 2e-3\nend\n";
           Case result;
           result.description = std::to_string(n_cracks) + " cracks and " +
                                std::to_string(n_others) + " other curves";
@@ -74,7 +100,7 @@ namespace NMM
       private:
         std::mt19937_64 generator;
         unsigned int    digits;
-        bool            has_contact;
+        bool            has_contact, moves;
         unsigned int    n_cracks = 0, n_others = 0;
 
 
@@ -169,14 +195,21 @@ namespace NMM
     Case
     make_growth_case(const std::uint64_t seed)
     {
-      return PlateMaker(seed, /* has_contact = */ false).make();
+      return PlateMaker(seed, Kind::equilibrium).make();
     }
 
 
     Case
     make_contact_growth_case(const std::uint64_t seed)
     {
-      return PlateMaker(seed, /* has_contact = */ true).make();
+      return PlateMaker(seed, Kind::contact).make();
+    }
+
+
+    Case
+    make_growth_in_motion_case(const std::uint64_t seed)
+    {
+      return PlateMaker(seed, Kind::motion).make();
     }
   } // namespace Fuzz
 } // namespace NMM

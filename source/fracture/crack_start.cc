@@ -133,8 +133,9 @@ namespace NMM
             continue;
           for (const ElementEdge &edge : mesh.edges(e))
           {
+            // Edges of slivers may have no length.
             if (edge.curve_set == invalid_index ||
-                edge.neighbor != invalid_index ||
+                edge.neighbor != invalid_index || edge.start == edge.end ||
                 conditions.has_displacement(e, edge))
               continue;
             Candidate best{e, edge, 0., {}, 0.};

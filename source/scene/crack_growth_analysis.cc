@@ -313,7 +313,9 @@ namespace NMM
       bool             turns     = false;
       for (GrowingTip &growing : tips)
         for (unsigned int i = 0; i < crack_tips->all_tips().size(); ++i)
-          if (crack_tips->all_tips()[i].point == growing.extension.end)
+          // The direction of a crack that starts follows from the stress before.
+          if (!growing.is_new &&
+              crack_tips->all_tips()[i].point == growing.extension.end)
           {
             const IntensityFactors &k = crack_tips->all_factors()[i];
             if (k.K_I <= 0.)

@@ -43,15 +43,15 @@ namespace NMM
     void
     CrackTips::check() const
     {
-      AssertThrow(!tips.empty() ||
-                    can_start_cracks(scene.parameters().fracture,
-                                     scene.parameters().materials),
-                  InputError("there is no crack tip that could have intensity "
-                             "factors",
-                             "parameter 'Fracture/Intensity factors'",
-                             "let an open joint end inside a block, let cracks "
-                             "grow in a material with a 'Fracture strength', or "
-                             "remove it"));
+      AssertThrow(
+        !tips.empty() || can_start_cracks(scene.parameters().fracture,
+                                          scene.parameters().materials),
+        InputError("there is no crack tip that could have intensity "
+                   "factors",
+                   "parameter 'Fracture/Intensity factors'",
+                   "let an open joint end inside a block, let cracks "
+                   "grow in a material with a 'Fracture strength', or "
+                   "remove it"));
       const double radius = scene.parameters().fracture.radius;
       for (const CrackTip &tip : tips)
         AssertThrow(radius <= tip.free_radius,

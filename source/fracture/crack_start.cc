@@ -305,8 +305,16 @@ namespace NMM
         const CurvePiece line =
           CurvePiece::segment(x + 1e-6 * length * direction,
                               x + length * direction);
+        // A crack beside the boundary that it starts from would only peel a strip off. At the end
+        // of the line it is as far from there as a line at 12 degrees to it.
+        constexpr double near = 0.1, least_distance = 0.2;
+        const auto distance = [](const CurvePiece &wall, const Point<2> &p) {
+          return internal::nearest_point(wall, p).distance(p);
+        };
         for (const CurvePiece &wall : walls)
-          if (!internal::crossings(line, wall).empty())
+          if (!internal::crossings(line, wall).empty() ||
+              (distance(wall, x) < near * length &&
+               distance(wall, line.end) < least_distance * length))
             return none;
         const auto mean      = mean_stress(element, x, direction, many_points);
         const Tensor<1, 2> n = left_of(direction);

@@ -171,6 +171,28 @@ TEST(CrackStart, ACrackStartsFromTheCornerOfANotch)
 }
 
 
+TEST(CrackStart, NoCrackStartsAlongItsBoundary)
+{
+  // Stress across the lower and upper side only: a line along one of them has the same mean
+  // stress as all others from the left or right side.
+  SymmetricTensor<2, 2> uniform;
+  uniform[1][1]       = 1.;
+  const double L      = 0.2;
+  const auto   starts = find_starts(
+    "boundary name=outline POLYGON ((0 0, 1 0, 1 1, 0 1))",
+    0.13,
+    rock(std::sqrt(0.5 * dealii::numbers::PI * L), 1.),
+    [&](const Point<2> &) { return uniform; },
+    0.05);
+  ASSERT_FALSE(starts.empty());
+  for (const CrackStart &start : starts)
+  {
+    const Point<2> end = start.point + L * start.direction;
+    EXPECT_GE(std::min(end[1], 1. - end[1]), 0.0999 * L);
+  }
+}
+
+
 TEST(CrackStart, NoCrackStartsWhereNoneCan)
 {
   EXPECT_TRUE(

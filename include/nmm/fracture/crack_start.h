@@ -56,7 +56,8 @@ namespace NMM
    * inward normal is computed first. Where it is largest, the point is moved along its edge, and
    * the line is turned until the mean stress across it is largest. Materials without a fracture
    * strength, boundaries on which the displacement is prescribed, and lines that leave the block
-   * or meet a joint are left out. Of places nearer to each other than @p spacing [m], only the
+   * or meet a joint are left out, and those that run along the boundary from which they
+   * start. Of places nearer to each other than @p spacing [m], only the
    * one with the largest drive is returned, and none with less than 0.8 of the largest drive, nor
    * within this distance of the places @p taken.
    *

@@ -96,6 +96,15 @@ namespace NMM
                                        std::to_string(step_number()),
                                      "take shorter steps, or choose a higher "
                                      "'Contact/Normal stiffness'"));
+        // A crack that leaves a very thin strip can make equations that bring energy.
+        AssertThrow(
+          !growth || growth->table().n_increments() == 0 || !balance_is_off(),
+          NumericalFailure(
+            "A crack that has grown has left equations that bring energy",
+            "time " + std::to_string(time()) + " s, step " +
+              std::to_string(step_number()),
+            "choose another 'Fracture/Increment' or "
+            "'Fracture/Grading'"));
         can_be_saved = true;
         last_good    = integrator->state();
       }

@@ -2,6 +2,7 @@
 #include <nmm/fracture/crack_start.h>
 
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/physics/transformations.h>
 
 #include "geometry/piece_geometry.h"
 #include "mechanics/curve_conditions.h"
@@ -27,6 +28,15 @@ namespace NMM
     }
 
 
+    Tensor<1, 2>
+    turned(const Tensor<1, 2> &direction, const double angle)
+    {
+      return dealii::Physics::Transformations::Rotations::rotation_matrix_2d(
+               angle) *
+             direction;
+    }
+
+
     /// The point of an edge at @p t in [0, 1], and the unit normal there that points into the
     /// element.
     std::pair<Point<2>, Tensor<1, 2>>
@@ -42,13 +52,6 @@ namespace NMM
       const Tensor<1, 2> out({std::cos(angle), std::sin(angle)});
       return {edge.center + std::abs(edge.radius) * out,
               edge.radius > 0. ? -1. * out : out};
-    }
-
-
-    double
-    larger_principal_value(const SymmetricTensor<2, 2> &s)
-    {
-      return 0.5 * trace(s) + std::hypot(0.5 * (s[0][0] - s[1][1]), s[0][1]);
     }
 
 
@@ -204,14 +207,6 @@ namespace NMM
       std::vector<CurvePiece> walls;
 
 
-      static Tensor<1, 2>
-      turned(const Tensor<1, 2> &direction, const double angle)
-      {
-        return std::cos(angle) * direction +
-               std::sin(angle) * left_of(direction);
-      }
-
-
       std::optional<CrackStart>
       turn_at(const Candidate &candidate, const double t) const
       {
@@ -288,7 +283,7 @@ namespace NMM
       {
         const auto [x, normal] = point_and_normal(edge, t);
         const auto mean        = mean_stress(element, x, normal, few_points);
-        return mean ? larger_principal_value(*mean) /
+        return mean ? dealii::eigenvalues(*mean)[0] /
                         material(element).fracture_strength
                     : 0.;
       }

@@ -124,18 +124,11 @@ namespace NMM
       return sum;
     const dealii::Point<2> x =
       mesh.mathematical_mesh().reference_to_real(mesh.cell(element), xi);
-    // Towards the middle of the element's corners. An element that holds the end of a curve is on
-    // both of its sides.
-    dealii::Tensor<1, 2> into_solid;
-    bool                 is_on_both_sides = false;
-    if (!mesh.is_whole(element))
-      for (const ElementEdge &edge : mesh.edges(element))
-      {
-        into_solid += edge.start - x;
-        is_on_both_sides |= edge.neighbor == element;
-      }
-    if (is_on_both_sides)
-      into_solid = 0.;
+    dealii::Tensor<1, 2> into_solid = mesh.reference_point(element) - x;
+    // An element that holds the end of a curve is on both of its sides.
+    for (const ElementEdge &edge : mesh.edges(element))
+      if (edge.neighbor == element)
+        into_solid = 0.;
     const auto &[cover, coefficients] = disks[disk];
     for (unsigned int i = 0; i < coefficients.size(); ++i)
     {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <boost/serialization/array.hpp>
-#include <boost/serialization/utility.hpp>
 #include <boost/serialization/vector.hpp>
 #include <cmath>
 #include <cstdlib>
@@ -14,7 +13,6 @@
 #include <functional>
 #include <iomanip>
 #include <sstream>
-#include <tuple>
 
 namespace NMM
 {
@@ -22,32 +20,6 @@ namespace NMM
   {
     constexpr unsigned int max_places = 12;
     const std::string      head       = "time,frame";
-
-
-    /// Crack tips and grown faces of a picture.
-    using Cracks = std::pair<std::vector<PictureData::Vertex>,
-                             std::vector<PictureData::Polyline>>;
-
-
-    /// @p object as an archive in base64.
-    template <typename Object>
-    std::string
-    to_base64(const Object &object)
-    {
-      const std::vector<char> bytes = dealii::Utilities::pack(object);
-      return dealii::Utilities::encode_base64({bytes.begin(), bytes.end()});
-    }
-
-
-    template <typename Object>
-    Object
-    from_base64(const std::string &text)
-    {
-      const std::vector<unsigned char> bytes =
-        dealii::Utilities::decode_base64(text);
-      return dealii::Utilities::unpack<Object>(
-        std::vector<char>(bytes.begin(), bytes.end()));
-    }
 
 
     /// Copies the values of @p quantity from its layer into the triangles, if there is one.
@@ -173,12 +145,11 @@ namespace NMM
                 InputError("a frame of an earlier time",
                            "the moving picture",
                            "add frames in the order of their times"));
-    std::ostringstream row;
-    row << std::setprecision(17) << time << ',' << to_base64(data);
-    // A further cell, which the head does not name, holds the cracks if there are any.
-    if (!data.tips.empty() || !data.grown_faces.empty())
-      row << ',' << to_base64(Cracks(data.tips, data.grown_faces));
-    row << '\n';
+    const std::vector<char> bytes = dealii::Utilities::pack(data);
+    std::ostringstream      row;
+    row << std::setprecision(17) << time << ','
+        << dealii::Utilities::encode_base64({bytes.begin(), bytes.end()})
+        << '\n';
     const auto position =
       static_cast<std::streamoff>(std::filesystem::file_size(file_name));
     rows->append(row.str());
@@ -206,12 +177,10 @@ namespace NMM
                 InputError("the file '" + file_name + "' cannot be read",
                            "the moving picture",
                            "leave it in its place while the analysis runs"));
-    const std::size_t first = row.find(',') + 1, second = row.find(',', first);
-    auto data = from_base64<PictureData>(row.substr(first, second - first));
-    if (second != std::string::npos)
-      std::tie(data.tips, data.grown_faces) =
-        from_base64<Cracks>(row.substr(second + 1));
-    return data;
+    const std::vector<unsigned char> bytes =
+      dealii::Utilities::decode_base64(row.substr(row.find(',') + 1));
+    return dealii::Utilities::unpack<PictureData>(
+      std::vector<char>(bytes.begin(), bytes.end()));
   }
 
 

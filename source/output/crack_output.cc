@@ -2,13 +2,13 @@
 
 #include <deal.II/base/data_out_base.h>
 
+#include "geometry/piece_geometry.h"
 #include <algorithm>
 #include <tuple>
 
 namespace NMM
 {
   using dealii::Point;
-  using dealii::Tensor;
 
   void
   write_tips(const std::vector<TipSample> &tips,
@@ -67,14 +67,12 @@ namespace NMM
     for (const TipSample &tip : cracks.tips)
       data.tips.push_back({tip.x, tip.displacement});
 
-    // The cut may move an increment by rounding.
-    constexpr double tolerance = 1e-6;
-    const auto       is_on     = [](const auto &increment, const Point<2> &x) {
-      const auto &[start, end] = increment;
-      const Tensor<1, 2> d     = end - start;
-      const double       t =
-        std::min(1., std::max(0., (x - start) * d / d.norm_square()));
-      return x.distance(start + t * d) <= tolerance * d.norm();
+    const auto is_on = [](const auto &increment, const Point<2> &x) {
+      // The cut may move an increment by rounding.
+      constexpr double tolerance = 1e-6;
+      const auto &[start, end]   = increment;
+      return internal::nearest_point(CurvePiece::segment(start, end), x)
+               .distance(x) <= tolerance * start.distance(end);
     };
     const auto first_grown = std::stable_partition(
       data.outlines.begin(),

@@ -1,5 +1,7 @@
 #include <nmm/output/csv_series.h>
 
+#include <deal.II/physics/transformations.h>
+
 #include <algorithm>
 #include <cmath>
 #include <scene/crack_growth.h>
@@ -34,54 +36,15 @@ namespace NMM
     }
 
 
-    namespace
-    {
-      /// The places where cracks may start beside all tips and increments, see judge_tips().
-      std::vector<GrowingTip>
-      find_new_tips(const CrackTips          &tips,
-                    const GrowthTable        &earlier,
-                    const FractureParameters &parameters,
-                    const ElasticityProblem  &problem,
-                    const CoverSystem        &covers,
-                    const ElementStress      &stress)
-      {
-        constexpr double n_increments = 5.;
-        const double     distance     = n_increments * parameters.increment;
-        std::vector<dealii::Point<2>> taken;
-        for (const CrackTip &tip : tips.all_tips())
-          taken.push_back(tip.point);
-        for (const Increment &increment : earlier.increments())
-          if (increment.advance.is_new)
-            taken.push_back(increment.advance.tip);
-        std::vector<GrowingTip> result;
-        for (const CrackStart &start :
-             find_crack_starts(covers, problem, stress, distance, taken))
-        {
-          GrowingTip candidate;
-          candidate.is_new        = true;
-          candidate.tip.point     = start.point;
-          candidate.tip.direction = start.direction;
-          candidate.tip.region    = start.region;
-          candidate.mean_stress   = start.mean_stress;
-          candidate.drive         = start.drive;
-          result.push_back(std::move(candidate));
-        }
-        return result;
-      }
-    } // namespace
-
-
     std::vector<GrowingTip>
     judge_tips(const CrackTips          &tips,
-               const GrowthTable        &earlier,
                const FractureParameters &parameters,
                const ElasticityProblem  &problem,
-               const CoverSystem        &covers,
-               const ElementStress      &stress)
+               const PhysicalMesh       &physical_mesh)
     {
       const GrowthCriterion          &criterion = growth_criterion(parameters);
       const std::vector<unsigned int> region_to_material =
-        problem.region_to_material(covers.manifold_mesh().physical_mesh());
+        problem.region_to_material(physical_mesh);
       std::vector<GrowingTip> result;
       for (unsigned int i = 0; i < tips.all_tips().size(); ++i)
       {
@@ -96,11 +59,42 @@ namespace NMM
         candidate.angle = candidate.verdict.angle;
         result.push_back(std::move(candidate));
       }
-      if (can_start_cracks(parameters, problem.materials))
-        for (GrowingTip &tip :
-             find_new_tips(tips, earlier, parameters, problem, covers, stress))
-          result.push_back(std::move(tip));
       return result;
+    }
+
+
+    void
+    add_new_tips(std::vector<GrowingTip>  &judged,
+                 const CrackTips          &tips,
+                 const GrowthTable        &earlier,
+                 const FractureParameters &parameters,
+                 const ElasticityProblem  &problem,
+                 const CoverSystem        &covers,
+                 const ElementStress      &stress)
+    {
+      constexpr double              n_increments = 5.;
+      std::vector<dealii::Point<2>> taken;
+      for (const CrackTip &tip : tips.all_tips())
+        taken.push_back(tip.point);
+      for (const Increment &increment : earlier.increments())
+        if (increment.advance.is_new)
+          taken.push_back(increment.advance.tip);
+      for (const CrackStart &start :
+           find_crack_starts(covers,
+                             problem,
+                             stress,
+                             n_increments * parameters.increment,
+                             taken))
+      {
+        GrowingTip candidate;
+        candidate.tip.point      = start.point;
+        candidate.tip.direction  = start.direction;
+        candidate.tip.region     = start.region;
+        candidate.mean_stress    = start.mean_stress;
+        candidate.drive          = start.drive;
+        candidate.advance.is_new = true;
+        judged.push_back(std::move(candidate));
+      }
     }
 
 
@@ -137,18 +131,16 @@ namespace NMM
                         const FractureParameters &parameters,
                         Geometry                 &geometry)
     {
-      const double c = std::cos(growing.angle), s = std::sin(growing.angle);
-      const Tensor<1, 2>    &e = growing.tip.direction;
-      const dealii::Point<2> direction(c * e[0] - s * e[1],
-                                       s * e[0] + c * e[1]);
-      growing.advance   = {growing.tip.point,
-                           direction,
-                           parameters.increment,
-                         growing.is_new
-                             ? new_name(geometry)
-                             : geometry.curves()[growing.tip.curve].name,
-                           growing.is_new};
-      growing.extension = growing.advance.extend(geometry);
+      CrackAdvance &advance = growing.advance;
+      advance.tip           = growing.tip.point;
+      advance.direction =
+        dealii::Physics::Transformations::Rotations::rotation_matrix_2d(
+          growing.angle) *
+        growing.tip.direction;
+      advance.length    = parameters.increment;
+      advance.name      = advance.is_new ? new_name(geometry)
+                                         : geometry.curves()[growing.tip.curve].name;
+      growing.extension = advance.extend(geometry);
     }
 
 

@@ -56,9 +56,8 @@ namespace NMM
     /// A tip that grows, or a place at which a crack starts, with the reason and the result.
     struct GrowingTip
     {
-      /// Whether a new crack starts here. Then the tip has a point, a direction and a region only,
-      /// and neither factors nor verdict.
-      bool                     is_new = false;
+      /// If a new crack starts here (CrackAdvance::is_new), the tip has a point, a direction and a
+      /// region only, and neither factors nor verdict.
       CrackTip                 tip;
       IntensityFactors         factors;
       GrowthCriterion::Verdict verdict;
@@ -68,7 +67,8 @@ namespace NMM
       double drive = 0.;
       /// Of the increment, from the tip's direction [rad]; with an implicit criterion it is
       /// turned after each trial.
-      double         angle = 0.;
+      double angle = 0.;
+      /// How it grows; complete after extend_by_increment().
       CrackAdvance   advance;
       CrackExtension extension;
       /// Angle of the previous trial [rad] and its residual [rad], see
@@ -86,6 +86,13 @@ namespace NMM
     bool
     can_start_cracks(const FractureParameters    &fracture,
                      const std::vector<Material> &materials);
+
+    /// All tips of @p tips, which were computed, with what the scene's criterion says of them.
+    std::vector<GrowingTip>
+    judge_tips(const CrackTips          &tips,
+               const FractureParameters &parameters,
+               const ElasticityProblem  &problem,
+               const PhysicalMesh       &physical_mesh);
 
     /// Extends the crack of a tip in @p geometry by one increment at the tip's angle, or lets a
     /// new one start.
@@ -161,21 +168,21 @@ namespace NMM
 
 
     /**
-     * All tips of @p tips, which were computed, with what the scene's criterion says of them, and
-     * then the places where cracks are most likely to start.
+     * Adds the places where cracks are most likely to start to @p judged.
      *
      * A crack takes the stress from the boundary beside it over a few times its length, but in
      * motion not at once. Therefore no crack starts within five increments of a tip, of a place
      * where another one has started, or of one that starts at the same time. @p earlier are the
      * increments that were made.
      */
-    std::vector<GrowingTip>
-    judge_tips(const CrackTips          &tips,
-               const GrowthTable        &earlier,
-               const FractureParameters &parameters,
-               const ElasticityProblem  &problem,
-               const CoverSystem        &covers,
-               const ElementStress      &stress);
+    void
+    add_new_tips(std::vector<GrowingTip>  &judged,
+                 const CrackTips          &tips,
+                 const GrowthTable        &earlier,
+                 const FractureParameters &parameters,
+                 const ElasticityProblem  &problem,
+                 const CoverSystem        &covers,
+                 const ElementStress      &stress);
   } // namespace internal
 } // namespace NMM
 

@@ -118,20 +118,24 @@ namespace NMM
     double
     CrackGrowthAnalysis::find_growing_tips()
     {
-      growing_tips       = judge_tips(*crack_tips,
-                                increments,
-                                scene.parameters().fracture,
-                                problem,
-                                *covers,
-                                [this](const unsigned int      element,
-                                       const dealii::Point<2> &xi) {
-                                  return field->stress(element, xi);
-                                });
+      const FractureParameters &parameters = scene.parameters().fracture;
+      growing_tips =
+        judge_tips(*crack_tips, parameters, problem, *physical_mesh);
+      if (can_start_cracks(parameters, problem.materials))
+        add_new_tips(growing_tips,
+                     *crack_tips,
+                     increments,
+                     parameters,
+                     problem,
+                     *covers,
+                     [this](const unsigned int      element,
+                            const dealii::Point<2> &xi) {
+                       return field->stress(element, xi);
+                     });
       double most_driven = 0.;
       for (const GrowingTip &tip : growing_tips)
         most_driven = std::max(most_driven, tip.drive);
-      const double least =
-        (1. - scene.parameters().fracture.tolerance) * most_driven;
+      const double least = (1. - parameters.tolerance) * most_driven;
       growing_tips.erase(std::remove_if(growing_tips.begin(),
                                         growing_tips.end(),
                                         [&](const GrowingTip &tip) {
@@ -314,7 +318,7 @@ namespace NMM
       for (GrowingTip &growing : tips)
         for (unsigned int i = 0; i < crack_tips->all_tips().size(); ++i)
           // The direction of a crack that starts follows from the stress before.
-          if (!growing.is_new &&
+          if (!growing.advance.is_new &&
               crack_tips->all_tips()[i].point == growing.extension.end)
           {
             const IntensityFactors &k = crack_tips->all_factors()[i];

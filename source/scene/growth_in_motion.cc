@@ -191,28 +191,32 @@ namespace NMM
       if (!growth || !growth->has_increments_left() ||
           growth->has_grown_in(step_number()))
         return;
+      const FractureParameters &fracture = scene.parameters().fracture;
+      std::vector<GrowingTip>   judged =
+        judge_tips(*crack_tips, fracture, problem, *physical_mesh);
+      if (can_start_cracks(fracture, problem.materials))
+        add_new_tips(judged,
+                     *crack_tips,
+                     growth->table(),
+                     fracture,
+                     problem,
+                     *covers,
+                     stress_in_material_axes());
       std::vector<GrowingTip> tips =
-        growth->find_growing_tips(judge_tips(*crack_tips,
-                                             growth->table(),
-                                             scene.parameters().fracture,
-                                             problem,
-                                             *covers,
-                                             stress_in_material_axes()),
-                                  time());
+        growth->find_growing_tips(std::move(judged), time());
       if (tips.empty())
         return;
       Geometry grown = geometry;
       for (GrowingTip &tip : tips)
-        extend_by_increment(tip, scene.parameters().fracture, grown);
+        extend_by_increment(tip, fracture, grown);
       const double duration =
         growth->travel_time(tips, problem, *physical_mesh);
       // Cells must not become larger where a tip has been, see CarriedCovers.
-      const FractureParameters         &fracture = scene.parameters().fracture;
       const MathematicalMeshParameters &mesh =
         scene.parameters().mathematical_mesh;
       if (fracture.grades_mesh())
         for (const GrowingTip &tip : tips)
-          if (!tip.is_new)
+          if (!tip.advance.is_new)
             further_sizes.push_back(grade_towards(
               tip.tip,
               fracture.grading,

@@ -1,6 +1,5 @@
 #include <deal.II/base/function.h>
 
-#include <cmath>
 #include <functional>
 #include <memory>
 #include <scene/current_stress.h>
@@ -16,24 +15,6 @@ namespace NMM
 
     namespace
     {
-      /// The rotation R of the polar decomposition F = R U. In two dimensions F + cof F is R times a
-      /// number; F may have any positive factor. Without a rotation, the identity.
-      Tensor<2, 2>
-      rotation_of(const Tensor<2, 2> &F)
-      {
-        const double c = F[0][0] + F[1][1], s = F[1][0] - F[0][1],
-                     norm     = std::hypot(c, s);
-        Tensor<2, 2> rotation = dealii::unit_symmetric_tensor<2>();
-        if (norm > 0.)
-        {
-          rotation[0][0] = rotation[1][1] = c / norm;
-          rotation[1][0]                  = s / norm;
-          rotation[0][1]                  = -s / norm;
-        }
-        return rotation;
-      }
-
-
       /// Multiplies a function by a number; null stays null.
       void
       scale(std::shared_ptr<const dealii::Function<2>> &function,
@@ -129,7 +110,7 @@ namespace NMM
       return [u, law = CurrentStress::finite(*elasticity)](
                const unsigned int element, const dealii::Point<2> &xi) {
         const Tensor<2, 2> gradient = u->gradient(element, xi);
-        const Tensor<2, 2> rotation = rotation_of(
+        const Tensor<2, 2> rotation = dealii::project_onto_orthogonal_tensors(
           Tensor<2, 2>(dealii::unit_symmetric_tensor<2>()) + gradient);
         const dealii::SymmetricTensor<2, 2> stress =
           law(element, xi, gradient).in_plane;
@@ -143,7 +124,7 @@ namespace NMM
     DynamicAnalysis::rotation_at(const CrackTip          &tip,
                                  const DisplacementField &u) const
     {
-      // The rotation of the mean deformation gradient.
+      // The rotation R of the mean deformation gradient F = R U.
       const dealii::Point<2> middle(1. / 3., 1. / 3.);
       const auto [first, last] = covers->locally_owned_elements();
       Tensor<2, 2> local;
@@ -154,7 +135,8 @@ namespace NMM
           local +=
             manifold_mesh->area(element) *
             (dealii::unit_symmetric_tensor<2>() + u.gradient(element, middle));
-      return rotation_of(dealii::Utilities::MPI::sum(local, communicator));
+      return dealii::project_onto_orthogonal_tensors(
+        dealii::Utilities::MPI::sum(local, communicator));
     }
 
 

@@ -16,12 +16,13 @@ namespace
 
   /// The places where cracks start in a solid of one material with the given stress.
   std::vector<CrackStart>
-  find_starts(const std::string       &text,
-              const double             cell_size,
-              const Material          &material,
-              const StressField       &stress,
-              const double             spacing,
-              const BoundaryCondition &condition = {})
+  find_starts(const std::string           &text,
+              const double                 cell_size,
+              const Material              &material,
+              const StressField           &stress,
+              const double                 spacing,
+              const BoundaryCondition     &condition = {},
+              const std::vector<Point<2>> &taken     = {})
   {
     RegularMeshParameters mesh;
     mesh.cell_size = cell_size;
@@ -39,7 +40,8 @@ namespace
           elements.mathematical_mesh().reference_to_real(elements.cell(element),
                                                          xi));
       },
-      spacing);
+      spacing,
+      taken);
   }
 
 
@@ -129,6 +131,19 @@ TEST(CrackStart, CracksStartOnBothSidesOfAHole)
     product *= start.point * Tensor<1, 2>({-load[1], load[0]});
   }
   EXPECT_LT(product, 0.);
+
+  // None starts near a place that is taken.
+  const auto others = find_starts(plate_with_hole,
+                                  0.3,
+                                  material,
+                                  kirsch_stress,
+                                  0.5,
+                                  {},
+                                  {starts[0].point + Tensor<1, 2>({0.2, 0.2})});
+  for (const CrackStart &other : others)
+    EXPECT_GT(other.point.distance(starts[0].point), 0.2);
+  ASSERT_FALSE(others.empty());
+  EXPECT_LT(others[0].point.distance(starts[1].point), 1e-12);
 }
 
 

@@ -356,4 +356,36 @@ namespace
     problem.point_forces[0].point = Point<2>(0., 0.);
     EXPECT_TRUE(covers_of("joint LINESTRING (-2 0, 0 0)", problem).empty());
   }
+
+
+  // The crack runs along edges of the mesh, so that the elements beside it are whole. At a face
+  // their displacement is that of their side, and not the mean of both.
+  TEST(TipCover, FacesAlongEdgesOfTheMeshOpen)
+  {
+    RegularMeshParameters mesh = mesh_parameters(0.125);
+    mesh.pattern               = MeshPattern::right_angled;
+    CoveredModel solid("joint LINESTRING (-2 0, 0 0)", mesh);
+    solve_westergaard(solid);
+    const ManifoldMesh &elements = solid.model->manifold_mesh;
+    unsigned int        n_whole  = 0;
+    for (unsigned int e = 0; e < elements.n_elements(); ++e)
+      for (const ElementEdge &edge : elements.edges(e))
+      {
+        const Point<2> x = edge.start + 0.5 * (edge.end - edge.start);
+        if (edge.curve_set == invalid_index || x[1] != 0. || x[0] > -0.1)
+          continue;
+        n_whole += elements.is_whole(e);
+        const auto u = [&](const Point<2> &y) {
+          return solid.model->field->displacement(
+            e,
+            elements.mathematical_mesh().real_to_reference(elements.cell(e),
+                                                           y));
+        };
+        // The field is continuous up to the face; half of the opening is 1e-3 and more.
+        const Tensor<1, 2> inwards = elements.reference_point(e) - x;
+        EXPECT_NEAR((u(x) - u(x + 1e-6 * inwards)).norm(), 0., 1e-7);
+        EXPECT_GT(std::copysign(1., inwards[1]) * u(x)[1], 1e-4);
+      }
+    EXPECT_GT(n_whole, 4u);
+  }
 } // namespace

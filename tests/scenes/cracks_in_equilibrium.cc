@@ -1,42 +1,16 @@
 #include <deal.II/base/numbers.h>
 
 #include "run_in_process.h"
+#include "table.h"
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
 #include <gtest/gtest.h>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
 // The paths of equilibrium along which cracks grow: load, displacement and released energy.
 namespace
 {
-  /// The columns of a table of numbers.
-  std::map<std::string, std::vector<double>>
-  read_columns(const std::string &file)
-  {
-    std::ifstream            in(file);
-    std::string              line, cell;
-    std::vector<std::string> names;
-    std::getline(in, line);
-    for (std::istringstream cells(line); std::getline(cells, cell, ',');)
-      names.push_back(cell);
-    std::map<std::string, std::vector<double>> columns;
-    while (std::getline(in, line))
-    {
-      std::istringstream cells(line);
-      for (const std::string &name : names)
-      {
-        std::getline(cells, cell, ',');
-        columns[name].push_back(std::atof(cell.c_str()));
-      }
-    }
-    return columns;
-  }
-
-
   /// history.csv of a scene whose crack grows.
   std::map<std::string, std::vector<double>>
   run_growth(std::vector<std::string> arguments)
@@ -45,7 +19,11 @@ namespace
     arguments.insert(arguments.begin(), {"--output", folder});
     const DriverResult result = run_in_process(arguments);
     EXPECT_EQ(result.exit_code, 0) << result.output;
-    return read_columns(folder + "/history.csv");
+    std::map<std::string, std::vector<double>> numbers;
+    for (const auto &[name, cells] : read_columns(folder + "/history.csv"))
+      for (const std::string &cell : cells)
+        numbers[name].push_back(std::stod(cell));
+    return numbers;
   }
 
 

@@ -1,5 +1,6 @@
 #include "cases.h"
 #include "run_driver.h"
+#include "table.h"
 #include <csignal>
 #include <cstdlib>
 #include <ctime>
@@ -203,30 +204,6 @@ namespace
   }
 
 
-  /// The cells of the column @p name of a table, as text.
-  std::vector<std::string>
-  column(const std::string &file, const std::string &name)
-  {
-    std::istringstream       lines(read_file(file));
-    std::vector<std::string> cells;
-    std::ptrdiff_t           number = -1;
-    for (std::string line; std::getline(lines, line);)
-    {
-      if (line.front() == '#')
-        continue;
-      std::vector<std::string> row;
-      std::istringstream       text(line);
-      for (std::string cell; std::getline(text, cell, ',');)
-        row.push_back(cell);
-      if (number < 0)
-        number = std::find(row.begin(), row.end(), name) - row.begin();
-      else
-        cells.push_back(row.at(number));
-    }
-    return cells;
-  }
-
-
   /// Stops where cracks grow for the second time, before and after the cut, and two steps
   /// later, while the closing forces fade.
   void
@@ -242,8 +219,8 @@ namespace
       more;
     const std::string straight = fresh_output_dir("straight-growth");
     run(settings + Arguments{"-o", straight});
-    const auto times = column(straight + "/history.csv", "time");
-    const auto steps = column(straight + "/growth.csv", "step");
+    const auto times = read_columns(straight + "/history.csv")["time"];
+    const auto steps = read_columns(straight + "/growth.csv")["step"];
     // Several cracks may grow in the same step.
     const auto n_of_first = static_cast<unsigned int>(
       std::count(steps.begin(), steps.end(), steps.at(0)));
@@ -271,7 +248,7 @@ namespace
       run(
         settings + stop.arguments +
         Arguments{"-o", stopped, "--set", "Time/End time=" + times[stop.step]});
-      EXPECT_EQ(column(stopped + "/growth.csv", "step").size(),
+      EXPECT_EQ(read_columns(stopped + "/growth.csv")["step"].size(),
                 stop.n_increments);
       run(settings +
           Arguments{"-o", stopped, "--restart", stopped + "/checkpoint.nmm"});

@@ -61,8 +61,8 @@ namespace NMM
    * one with the largest drive is returned, and none with less than 0.8 of the largest drive, nor
    * within this distance of the places @p taken.
    *
-   * Limits: one rank; joints and interfaces are no places to start from, unless they end at a
-   * boundary. Lines of less than a cell see the stress of a single cell; in the corner of a notch
+   * Limits: one rank; joints, interfaces and sides that two domains share are no places to start
+   * from, unless they end at a boundary. Lines of less than a cell see the stress of a single cell; in the corner of a notch
    * this needs cells that are smaller than L.
    */
   std::vector<CrackStart>

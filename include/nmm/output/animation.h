@@ -91,8 +91,7 @@ namespace NMM
    * Collects the frames of an animation and draws them at the end. View, colours and the factor
    * on displacements that suit all frames are known only at the end, so frames are stored in a
    * file while the analysis runs. It is a CsvSeries with a row per frame: its time, and its
-   * PictureData as an archive of Boost, compressed and in base64; a second archive follows if
-   * there are cracks. Memory: one frame.
+   * PictureData as an archive of Boost, compressed and in base64. Memory: one frame.
    *
    * For use on one rank.
    */

@@ -17,8 +17,7 @@ namespace NMM
    * Vertices are drawn at position + deformation_scale * displacement.
    *
    * The functions `serialize` write or read the content by one of Boost's archives, in which an
-   * animation stores its frames. It stores crack tips and grown faces beside the archive, so that
-   * frames without them do not change.
+   * animation stores its frames.
    */
   struct PictureData
   {
@@ -131,13 +130,13 @@ namespace NMM
     /// Factor on displacements [-].
     double deformation_scale = 0.;
 
-    /// Writes or reads all of the content but crack tips and grown faces.
+    /// Writes or reads all of the content.
     template <typename Archive>
     void
     serialize(Archive &archive, unsigned int)
     {
       archive &triangles &outlines &interfaces &mesh_lines &obstacles &contacts
-        &layers &deformation_scale;
+        &tips &grown_faces &layers &deformation_scale;
     }
   };
 

@@ -49,11 +49,10 @@ namespace
     add("set,s",
         po::value<std::vector<std::string>>()->composing(),
         "Section/Key=value, replaces a value of the scene; may be repeated");
-    add(
-      "restart,r",
-      po::value<std::string>(),
-      "continue a dynamic analysis from this checkpoint; histories and series "
-      "in the folder for the results are continued");
+    add("restart,r",
+        po::value<std::string>(),
+        "continue a run from this checkpoint; histories and series "
+        "in the folder for the results are continued");
     add(
       "threads,t",
       po::value<unsigned int>()->default_value(1),

@@ -1,37 +1,15 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/dynamics/elastic_models.h>
-#include <nmm/materials/material_law.h>
 #include <nmm/mechanics/mass_matrix.h>
 
 #include <algorithm>
-#include <dynamics/hash.h>
+#include <dynamics/solid_hash.h>
 #include <limits>
-#include <typeinfo>
 
 namespace NMM
 {
   namespace
   {
-    /// Add the kind of a material law and its parameters to a hash.
-    void
-    hash_law(const Material &material, internal::Hash &hash)
-    {
-      const std::vector<NamedMaterialLaw> &laws = material_laws();
-      const std::unique_ptr<MaterialLaw>   law  = material.law->clone();
-      const auto                           known =
-        std::find_if(laws.begin(),
-                     laws.end(),
-                     [&](const NamedMaterialLaw &named) {
-                       return typeid(*named.law) == typeid(*law);
-                     });
-      hash.add(static_cast<unsigned int>(known - laws.begin()));
-      for (const LawParameter &parameter : law->parameters())
-        hash.add(*parameter.value);
-      if (material.given_initial_stress_zz)
-        hash.add(*material.given_initial_stress_zz);
-    }
-
-
     bool
     equal(const LoadAmplitudes &a, const LoadAmplitudes &b)
     {
@@ -239,36 +217,9 @@ namespace NMM
   std::uint64_t
   ElasticModel::fingerprint() const
   {
-    const CoverSystem       &covers  = elasticity->cover_system();
-    const ManifoldMesh      &mesh    = covers.manifold_mesh();
-    const ElasticityProblem &problem = elasticity->elasticity_problem();
-    internal::Hash           hash;
-    hash.add(covers.n_covers());
-    hash.add(mesh.n_elements());
-    for (unsigned int e = 0; e < mesh.n_elements(); ++e)
-    {
-      for (const unsigned int k : covers.covers(e))
-        hash.add(k);
-      hash.add(mesh.region(e));
-      hash.add(mesh.area(e));
-    }
-    for (unsigned int k = 0; k < covers.n_covers(); ++k)
-      for (unsigned int c = 0; c < 2; ++c)
-        hash.add(covers.node(k)[c]);
-    for (const unsigned int m :
-         problem.region_to_material(mesh.physical_mesh()))
-    {
-      const Material &material = problem.materials[m];
-      for (const double value : {material.youngs_modulus,
-                                 material.poissons_ratio,
-                                 material.density,
-                                 material.initial_stress[0][0],
-                                 material.initial_stress[1][1],
-                                 material.initial_stress[0][1]})
-        hash.add(value);
-      hash_law(material, hash);
-    }
-    hash.add(static_cast<unsigned int>(problem.plane_state));
+    internal::Hash hash =
+      internal::hash_of_solid(elasticity->cover_system(),
+                              elasticity->elasticity_problem());
     hash.add(force_properties().is_linear);
     return hash.value();
   }

@@ -1,7 +1,10 @@
 #include <nmm/base/exceptions.h>
 
 #include <algorithm>
+#include <boost/serialization/vector.hpp>
 #include <cmath>
+#include <dynamics/checkpoint_file.h>
+#include <dynamics/solid_hash.h>
 #include <limits>
 #include <scene/crack_growth_analysis.h>
 #include <sstream>
@@ -12,6 +15,12 @@ namespace NMM
   {
     using Stage = Progress::Stage;
 
+    namespace
+    {
+      const std::string kind_of_checkpoint =
+        "the growth of cracks in equilibrium";
+    }
+
     void
     CrackGrowthAnalysis::make_system()
     {
@@ -20,6 +29,10 @@ namespace NMM
           scene, *covers, *quadrature, constraints, problem, *contact);
       else
         StaticAnalysis::make_system();
+      if (earlier_path && states.empty() &&
+          fingerprint() != earlier_path->fingerprint)
+        refuse_checkpoint(
+          "The checkpoint is of another mesh, geometry or material", restart);
     }
 
 
@@ -41,6 +54,99 @@ namespace NMM
                   InputError("cracks start on one rank only",
                              "parameter 'Materials/.../Fracture strength'",
                              "run the scene on one rank, or set it to 0"));
+    }
+
+
+    std::uint64_t
+    CrackGrowthAnalysis::fingerprint() const
+    {
+      Hash hash = hash_of_solid(*covers, problem);
+      for (const Material &material : problem.materials)
+      {
+        hash.add(material.toughness);
+        hash.add(material.fracture_strength);
+      }
+      return hash.value();
+    }
+
+
+    std::vector<Increment>
+    CrackGrowthAnalysis::earlier_increments()
+    {
+      if (restart.empty())
+        return {};
+      earlier_path = dealii::Utilities::unpack<SavedPath>(
+        CheckpointFile::read(restart, communicator, kind_of_checkpoint)
+          .preparation,
+        /* allow_compression = */ false);
+      for (const Increment &increment : earlier_path->increments)
+        increments.add(increment);
+      return earlier_path->increments;
+    }
+
+
+    void
+    CrackGrowthAnalysis::continue_path()
+    {
+      states     = earlier_path->states;
+      n_unturned = earlier_path->n_unturned;
+      states.pop_back();
+      equilibrate();
+      take_state();
+      // Rounding on another number of ranks and the search for the load with contact leave less.
+      constexpr double tolerance = 2e-3;
+      const double     before    = earlier_path->states.back().load_factor,
+                   now           = states.back().load_factor;
+      if (std::abs(now - before) > tolerance * std::abs(before) ||
+          std::isfinite(now) != std::isfinite(before))
+        refuse_checkpoint("The load factor of the checkpoint is " +
+                            std::to_string(before) +
+                            " and that of the scene in the same state " +
+                            std::to_string(now),
+                          restart);
+    }
+
+
+    void
+    CrackGrowthAnalysis::open_files()
+    {
+      if (earlier_path)
+        continue_path();
+      const bool is_continued = continues_in_folder();
+      if (is_continued)
+        series->resume(last_value());
+      on_first_rank([&]() {
+        if (is_continued)
+          directory->resume();
+        else
+          directory->create();
+      });
+    }
+
+
+    void
+    CrackGrowthAnalysis::write_checkpoint() const
+    {
+      if (scene.parameters().output.checkpoint_every == 0 || states.empty())
+        return;
+      const SavedPath path{increments.increments(),
+                           states,
+                           n_unturned,
+                           state_fingerprint};
+      CheckpointFile{kind_of_checkpoint,
+                     dealii::Utilities::pack(path,
+                                             /* allow_compression = */ false),
+                     {}}
+        .write(checkpoint_file(), communicator);
+    }
+
+
+    void
+    CrackGrowthAnalysis::write_checkpoint_of_state() const
+    {
+      const unsigned int every = scene.parameters().output.checkpoint_every;
+      if (every > 0 && (states.size() - 1) % every == 0)
+        write_checkpoint();
     }
 
 
@@ -170,6 +276,7 @@ namespace NMM
               samples[i] ? scale * samples[i]->displacement[c]
                          : std::numeric_limits<double>::quiet_NaN());
       states.push_back(std::move(state));
+      state_fingerprint = fingerprint();
     }
 
 
@@ -206,19 +313,32 @@ namespace NMM
       growth_table         = &increments;
       {
         Stage stage(progress, "crack growth");
-        equilibrate();
-        take_state();
-        write_tables();
-        while (states.size() <= n && grow())
+        if (states.empty())
         {
+          equilibrate();
           take_state();
-          write_tables();
-          show_state();
-          stage.update([&](double) {
-            return std::to_string(states.size() - 1) + " of " +
-                   std::to_string(n) + " increments";
-          });
         }
+        write_tables();
+        try
+        {
+          while (states.size() <= n && grow())
+          {
+            take_state();
+            write_tables();
+            show_state();
+            write_checkpoint_of_state();
+            stage.update([&](double) {
+              return std::to_string(states.size() - 1) + " of " +
+                     std::to_string(n) + " increments";
+            });
+          }
+        }
+        catch (const NumericalFailure &)
+        {
+          write_checkpoint();
+          throw;
+        }
+        write_checkpoint();
         stage.remark(std::to_string(states.size() - 1) + " increment(s)");
       }
       if (!end_reason.empty())

@@ -1,7 +1,9 @@
 #ifndef nmm_source_scene_crack_growth_analysis_h
 #define nmm_source_scene_crack_growth_analysis_h
 
+#include <cstdint>
 #include <limits>
+#include <optional>
 #include <scene/contact_loading.h>
 #include <scene/crack_growth.h>
 #include <scene/static_analysis.h>
@@ -40,6 +42,7 @@ namespace NMM
       verify() override;
 
     private:
+      /// @throws InputError if this run is to continue that of another solid.
       void
       make_system() override;
 
@@ -50,11 +53,47 @@ namespace NMM
       void
       check_problem() override;
 
+      std::vector<Increment>
+      earlier_increments() override;
+
+      void
+      open_files() override;
+
+      /// Finds the last state before the checkpoint again. @throws InputError if that is another
+      /// one now.
+      void
+      continue_path();
+
       /// A state of equilibrium, at the load factor at which the next increment grows.
       struct State
       {
         double              load_factor, crack_length, strain_energy;
         std::vector<double> probes;
+
+        template <typename Archive>
+        void
+        serialize(Archive &archive, const unsigned int /*version*/)
+        {
+          archive &load_factor &crack_length &strain_energy &probes;
+        }
+      };
+
+      /// What a checkpoint holds. The states follow from each other without memory, so the equations
+      /// of the last one are made again from the increments.
+      struct SavedPath
+      {
+        std::vector<Increment> increments;
+        std::vector<State>     states;
+        unsigned int           n_unturned = 0;
+        /// That of the last state's solid, see CrackGrowthAnalysis::fingerprint().
+        std::uint64_t fingerprint = 0;
+
+        template <typename Archive>
+        void
+        serialize(Archive &archive, const unsigned int /*version*/)
+        {
+          archive &increments &states &n_unturned &fingerprint;
+        }
       };
 
       /// Null without contact.
@@ -67,8 +106,24 @@ namespace NMM
       double load_factor = std::numeric_limits<double>::quiet_NaN();
       /// Why growth came to an end; empty if it did not.
       std::string end_reason;
+      /// The fingerprint() of the last state.
+      std::uint64_t state_fingerprint = 0;
       /// Number of increments whose direction was not found.
       unsigned int n_unturned = 0;
+      /// The path before the checkpoint from which this run continues, if it does.
+      std::optional<SavedPath> earlier_path;
+
+      /// The solid and its materials as one number, by which a checkpoint recognizes them.
+      std::uint64_t
+      fingerprint() const;
+
+      /// Writes a checkpoint, if the scene asks for any.
+      void
+      write_checkpoint() const;
+
+      /// Writes a checkpoint if the scene asks for one after this state.
+      void
+      write_checkpoint_of_state() const;
 
       /// Finds the equilibrium, the tips that grow next, and the load factor at which they do.
       void

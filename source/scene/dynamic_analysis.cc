@@ -20,8 +20,7 @@ namespace NMM
                                      Progress          &progress,
                                      const MPI_Comm     communicator,
                                      const std::string &restart)
-      : SceneAnalysis(scene, progress, communicator)
-      , restart(restart)
+      : SceneAnalysis(scene, progress, communicator, restart)
       , kind(scene.parameters().model.analysis)
     {
       if (scene.parameters().fracture.n_increments > 0)
@@ -406,14 +405,22 @@ namespace NMM
     void
     DynamicAnalysis::run_relaxation()
     {
-      last_good  = integrator->state();
-      relaxation = relax(*integrator,
-                         scene.parameters().relaxation.relaxation,
-                         [&](const StepRecord &record) {
-                           n_cuts += record.n_cuts;
-                           n_lost_iterations += record.n_lost_iterations;
-                           after_step(record);
-                         });
+      last_good            = integrator->state();
+      unsigned int n_stops = 0;
+      do
+      {
+        relaxation = relax(*integrator,
+                           scene.parameters().relaxation.relaxation,
+                           [&](const StepRecord &record) {
+                             n_cuts += record.n_cuts;
+                             n_lost_iterations += record.n_lost_iterations;
+                             after_step(record);
+                           });
+        n_stops += relaxation.n_stops;
+        // Those of the last step are of the solid before it was stopped.
+        compute_tips_in_motion();
+      } while (grow() || integrator->state().closing.act_at(time()));
+      relaxation.n_stops = n_stops;
     }
 
 

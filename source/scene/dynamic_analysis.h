@@ -44,8 +44,7 @@ namespace NMM
     private:
       using Vector = MechanicalModel::Vector;
 
-      std::string restart;
-      Analysis    kind;
+      Analysis kind;
 
       // Each object refers to those above it.
       std::unique_ptr<QuadratureCollection> mass_quadrature;
@@ -128,8 +127,9 @@ namespace NMM
       std::vector<char>
       growth_to_save() const;
 
-      /// Lets cracks grow whose tips have reached the toughness in the present state.
-      void
+      /// Lets cracks grow whose tips have reached the toughness in the present state. Returns
+      /// whether there were any.
+      bool
       grow();
 
       /// The solid before it was cut again, and its state.

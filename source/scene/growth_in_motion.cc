@@ -184,13 +184,13 @@ namespace NMM
     }
 
 
-    void
+    bool
     DynamicAnalysis::grow()
     {
       // A run that continues from a checkpoint may have grown at the end of its last step already.
       if (!growth || !growth->has_increments_left() ||
           growth->has_grown_in(step_number()))
-        return;
+        return false;
       const FractureParameters &fracture = scene.parameters().fracture;
       std::vector<GrowingTip>   judged =
         judge_tips(*crack_tips, fracture, problem, *physical_mesh);
@@ -205,12 +205,15 @@ namespace NMM
       std::vector<GrowingTip> tips =
         growth->find_growing_tips(std::move(judged), time());
       if (tips.empty())
-        return;
+        return false;
       Geometry grown = geometry;
       for (GrowingTip &tip : tips)
         extend_by_increment(tip, fracture, grown);
+      // A relaxation is at rest again only after its first step, in which the forces fade.
       const double duration =
-        growth->travel_time(tips, problem, *physical_mesh);
+        kind == Analysis::relaxation
+          ? scene.parameters().relaxation.relaxation.step
+          : growth->travel_time(tips, problem, *physical_mesh);
       // Cells must not become larger where a tip has been, see CarriedCovers.
       const MathematicalMeshParameters &mesh =
         scene.parameters().mathematical_mesh;
@@ -227,6 +230,7 @@ namespace NMM
       cut_anew(grown, duration);
       growth->add(step_number(), time(), duration, tips);
       on_first_rank([&]() { growth->table().write(*directory); });
+      return true;
     }
 
 

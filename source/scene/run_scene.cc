@@ -20,12 +20,11 @@ namespace NMM
                   const MPI_Comm     communicator,
                   const std::string &restart)
     {
-      const ModelParameters &model      = scene.parameters().model;
-      const bool             is_dynamic = model.analysis == Analysis::dynamics;
-      AssertThrow(restart.empty() ||
-                    (is_dynamic && model.kinematics != Kinematics::incremental),
-                  InputError("the scene has no dynamic analysis of small or "
-                             "finite kinematics to continue",
+      const ModelParameters &model = scene.parameters().model;
+      AssertThrow(restart.empty() || scene.parameters().may_be_continued(),
+                  InputError("the scene has neither a dynamic analysis of "
+                             "small or finite kinematics nor cracks that grow "
+                             "in a static one, which could be continued",
                              "--restart " + restart,
                              "give the scene the checkpoint was written "
                              "with"));
@@ -41,7 +40,8 @@ namespace NMM
       if (scene.parameters().fracture.n_increments > 0)
         return std::make_unique<internal::CrackGrowthAnalysis>(scene,
                                                                progress,
-                                                               communicator);
+                                                               communicator,
+                                                               restart);
       if (model.kinematics == Kinematics::small &&
           !scene.parameters().is_nonlinear())
         return std::make_unique<internal::StaticAnalysis>(scene,

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <filesystem>
 #include <scene/crack_growth.h>
 #include <scene/scene_analysis.h>
 #include <sstream>
@@ -18,10 +19,12 @@ namespace NMM
 
     SceneAnalysis::SceneAnalysis(const Scene   &scene,
                                  Progress      &progress,
-                                 const MPI_Comm communicator)
+                                 const MPI_Comm communicator,
+                                 std::string    restart)
       : scene(scene)
       , progress(progress)
       , communicator(communicator)
+      , restart(std::move(restart))
     {
     }
 
@@ -528,6 +531,23 @@ namespace NMM
     SceneAnalysis::open_files()
     {
       on_first_rank([&]() { directory->create(); });
+    }
+
+
+    bool
+    SceneAnalysis::continues_in_folder() const
+    {
+      const bool has_history =
+        !restart.empty() && is_first_rank() &&
+        std::filesystem::exists(directory->path() / "history.csv");
+      return dealii::Utilities::MPI::logical_or(has_history, communicator);
+    }
+
+
+    std::string
+    SceneAnalysis::checkpoint_file() const
+    {
+      return (directory->path() / "checkpoint.nmm").string();
     }
 
 

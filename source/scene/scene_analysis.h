@@ -39,9 +39,11 @@ namespace NMM
     class SceneAnalysis
     {
     public:
+      /// @p restart is the file of the checkpoint from which to continue; empty for none.
       SceneAnalysis(const Scene &scene,
                     Progress    &progress,
-                    MPI_Comm     communicator);
+                    MPI_Comm     communicator,
+                    std::string  restart = "");
 
       virtual ~SceneAnalysis() = default;
 
@@ -76,7 +78,9 @@ namespace NMM
       const Scene &scene;
       Progress    &progress;
       MPI_Comm     communicator;
-      Summary      summary;
+      /// The checkpoint from which to continue; empty for none.
+      const std::string restart;
+      Summary           summary;
       /// Whether the problem is solved completely. If not, there may still be an evaluator
       /// of the last accepted state.
       bool is_solved = false;
@@ -133,6 +137,14 @@ namespace NMM
       /// intensity factors of the present tips. Collective.
       std::unique_ptr<CrackSample>
       sample_cracks() const;
+
+      /// Whether this run continues an earlier one whose results are in the folder. Collective.
+      bool
+      continues_in_folder() const;
+
+      /// The file to which checkpoints are written.
+      std::string
+      checkpoint_file() const;
 
       bool
       is_first_rank() const;

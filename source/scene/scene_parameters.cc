@@ -309,6 +309,15 @@ namespace NMM
 
 
   bool
+  SceneParameters::may_be_continued() const
+  {
+    return model.analysis == Analysis::dynamics
+             ? model.kinematics != Kinematics::incremental
+             : model.analysis == Analysis::statics && fracture.n_increments > 0;
+  }
+
+
+  bool
   SceneParameters::is_nonlinear() const
   {
     return contact.is_present() || has_inelastic_material();
@@ -413,17 +422,18 @@ namespace NMM
     if (!fracture.intensity_factors)
       return;
     const bool is_static  = model.analysis == Analysis::statics,
-               is_dynamic = model.analysis == Analysis::dynamics;
-    check((model.kinematics == Kinematics::small &&
-           (is_static || is_dynamic)) ||
-            (model.kinematics == Kinematics::finite && is_dynamic),
+               is_dynamic = model.analysis == Analysis::dynamics,
+               moves = is_dynamic || model.analysis == Analysis::relaxation;
+    check((model.kinematics == Kinematics::small && (is_static || moves)) ||
+            (model.kinematics == Kinematics::finite && moves),
           "intensity factors are those of small displacements in equilibrium, "
-          "or of motion with small or finite kinematics, not of " +
+          "or of motion or relaxation with small or finite kinematics, not "
+          "of " +
             to_string(model.kinematics) + " kinematics in a " +
             to_string(model.analysis) + " analysis",
           "Intensity factors",
-          "set 'Model/Kinematics = small' and 'Model/Analysis' to static or "
-          "dynamic, or remove it");
+          "set 'Model/Kinematics = small' and 'Model/Analysis' to static, "
+          "dynamic or relaxation, or remove it");
     check(!has_inelastic_material(),
           "intensity factors are not computed in materials that yield",
           "Intensity factors",
@@ -435,7 +445,7 @@ namespace NMM
           "Increments",
           "remove 'Time/Sleep speed'");
     check(is_dynamic || fracture.speed == 0.,
-          "the speed of cracks would not be used in equilibrium",
+          "the speed of cracks would be used in a dynamic analysis only",
           "Speed",
           "remove it, or set 'Model/Analysis = dynamic'");
     AssertThrow(load_steps.load_steps().are_ascending(),
@@ -454,7 +464,7 @@ namespace NMM
                              where + "/Toughness'",
                              "give the material's, > 0"));
       // The load factor of growth is computed by proportion, which initial stress does not allow.
-      AssertThrow(is_dynamic || material.initial_stress.norm() == 0.,
+      AssertThrow(moves || material.initial_stress.norm() == 0.,
                   InputError("cracks do not grow in a material with initial "
                              "stress, to which the load factor does not apply",
                              where + "/Initial stress'",

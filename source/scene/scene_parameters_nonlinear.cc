@@ -316,16 +316,15 @@ namespace NMM
                              "' would not be used by a " + analysis,
                            "parameter 'Initial velocities/Names'",
                            "remove it, or set 'Model/Analysis = dynamic'"));
-    AssertThrow(output.checkpoint_every == 0 ||
-                  (model.analysis == Analysis::dynamics &&
-                   model.kinematics != Kinematics::incremental),
+    AssertThrow(output.checkpoint_every == 0 || may_be_continued(),
                 InputError("checkpoints are not available with " +
                              (model.analysis == Analysis::dynamics
                                 ? to_string(model.kinematics) + " kinematics"
                                 : analysis),
                            "parameter 'Output/Checkpoint every'",
                            "remove it, or set 'Model/Analysis = dynamic' with "
-                           "small or finite kinematics"));
+                           "small or finite kinematics, or let cracks grow in "
+                           "a static analysis"));
     check_output_quantities();
     if (model.analysis == Analysis::statics)
       return;

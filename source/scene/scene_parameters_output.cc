@@ -69,7 +69,8 @@ namespace NMM
                 checkpoint_every,
                 Patterns::Integer(0),
                 "Dynamic analysis: write checkpoint.nmm after every so many "
-                "steps, from which 'nmm --restart' continues; 0: none.");
+                "steps, or increments of cracks in a static analysis, from "
+                "which 'nmm --restart' continues; 0: none.");
     entries.add("Picture", picture, "Write picture.png.");
     entries.add("Picture quantity",
                 quantity,

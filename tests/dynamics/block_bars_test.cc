@@ -35,6 +35,10 @@ namespace NMM
 
     TEST(BlockBars, ColumnsTopple)
     {
+#ifdef DEBUG
+      GTEST_SKIP()
+        << "only in Release: 55 s, and the map below runs the same code";
+#endif
       Measurements measurements;
       Toppling     toppling;
       toppling.tolerance = 0.01;

@@ -41,21 +41,21 @@ TEST(Fuzz, Scenes)
 
 TEST(Fuzz, Growth)
 {
-  for (unsigned int seed = 1; seed <= n_samples(100); ++seed)
+  for (unsigned int seed = 1; seed <= n_samples(40); ++seed)
     expect_good("growth", seed);
 }
 
 
 TEST(Fuzz, GrowthWithContact)
 {
-  for (unsigned int seed = 1; seed <= n_samples(6); ++seed)
+  for (unsigned int seed = 1; seed <= n_samples(4); ++seed)
     expect_good("contact-growth", seed);
 }
 
 
 TEST(Fuzz, GrowthInMotion)
 {
-  for (unsigned int seed = 1; seed <= n_samples(6); ++seed)
+  for (unsigned int seed = 1; seed <= n_samples(4); ++seed)
     expect_good("growth-in-motion", seed);
 }
 

@@ -110,7 +110,7 @@ namespace
   {
     // In Debug on one rank: other scenes pass the assertions of two ranks in a tenth of the
     // time.
-#ifdef NDEBUG
+#ifndef DEBUG
     const std::vector<unsigned int> all_n_ranks = {1, 2};
 #else
     const std::vector<unsigned int> all_n_ranks = {1};
@@ -142,7 +142,7 @@ namespace
   // twenty times slower and sees the begin.
   TEST(Restart, SlopeGoesOnInItsSlide)
   {
-#ifdef NDEBUG
+#ifndef DEBUG
     const std::string end = "3";
 #else
     const std::string               end         = "0.2";
@@ -260,7 +260,7 @@ namespace
   TEST(Restart, CracksGoOnInTheirGrowth)
   {
     // With contact, and a block that comes free; 50 s in Debug.
-#ifdef NDEBUG
+#ifndef DEBUG
     check_stops_in_growth(
       "bar-breaks",
       {"--set", "Time/End time=0.06", "--set", "Model/Kinematics=finite"});
@@ -268,6 +268,55 @@ namespace
     // New cracks that start.
     check_stops_in_growth("bar-with-hole-breaks",
                           {"--set", "Time/End time=0.055"});
+  }
+
+
+  /// Stops after @p n_first increments of cracks in equilibrium and goes on to @p n.
+  void
+  check_stop_in_equilibrium(const std::string &scene,
+                            const unsigned int n_first,
+                            const unsigned int n,
+                            const Arguments   &more)
+  {
+    SCOPED_TRACE(scene);
+    const auto settings = [&](const std::string &folder,
+                              const unsigned int n_increments) {
+      return Arguments{"-o",
+                       folder,
+                       "--set",
+                       "Output/Checkpoint every=2",
+                       "--set",
+                       "Output/Fields every=1",
+                       "--set",
+                       "Fracture/Increments=" + std::to_string(n_increments),
+                       NMM_SOURCE_DIR + ("/" + scene)} +
+             more;
+    };
+    const std::string straight = fresh_output_dir("straight-path");
+    const std::string stopped  = fresh_output_dir("stopped-path");
+    run(settings(straight, n));
+    EXPECT_EQ(read_columns(straight + "/history.csv")["step"].size(), n + 1);
+    run(settings(stopped, n_first));
+    run(settings(stopped, n) +
+        Arguments{"--restart", stopped + "/checkpoint.nmm"});
+    expect_same_files(straight, stopped);
+  }
+
+
+  TEST(Restart, CracksGoOnInEquilibrium)
+  {
+    // With covers of tips, and increments that are turned.
+    check_stop_in_equilibrium("applications/nmm/scenes/three-hole-beam.prm",
+                              2,
+                              4,
+                              {"--set", "Fracture/Criterion=local symmetry"});
+    // With contact: wings of a closed flaw.
+    check_stop_in_equilibrium("tests/scenes/closed-crack/scene.prm",
+                              1,
+                              2,
+                              {"--set", "Fracture/Increment=0.1"});
+    // A crack that starts.
+    check_stop_in_equilibrium("tests/scenes/hole-cracks/scene.prm", 1, 3, {});
   }
 
 
@@ -358,7 +407,14 @@ namespace
                    scene,
                    {"--set", "Time/End time=0.1"},
                    {"Time/End time", "0.1"});
-    expect_refused(checkpoint, "base.prm", {}, {"--restart", "no dynamic"});
+    expect_refused(checkpoint,
+                   "base.prm",
+                   {},
+                   {"--restart", "neither a dynamic"});
+    expect_refused(checkpoint,
+                   "double-cantilever/scene.prm",
+                   {},
+                   {"of a motion", "the growth of cracks in equilibrium"});
     // Other probes: other columns.
     expect_refused(checkpoint,
                    scene,
@@ -412,6 +468,25 @@ namespace
                     "0.5 3); boundary name=top LINESTRING (0.5 3, 0 3); "
                     "joint name=crack LINESTRING (-0.1 1.5, 0.4 1.5)"},
                    {"ends elsewhere", "the scene it was written with"});
+    {
+      const std::string path       = fresh_output_dir("refused-path");
+      const std::string cantilever = "double-cantilever/scene.prm";
+      run({"-o",
+           path,
+           "--set",
+           "Output/Checkpoint every=1",
+           "--set",
+           "Fracture/Increments=1",
+           cases_dir + cantilever});
+      expect_refused(path + "/checkpoint.nmm",
+                     cantilever,
+                     {"--set", "Materials/strip/Toughness=11"},
+                     {"mesh, geometry or material"});
+      expect_refused(path + "/checkpoint.nmm",
+                     cantilever,
+                     {"--set", "Boundary conditions/open up/Value=0; 3"},
+                     {"load factor of the checkpoint"});
+    }
     // What has grown is at the beginning of the file.
     std::string damaged = read_file(checkpoint);
     damaged[100] ^= 1;

@@ -13,7 +13,8 @@
 
 // Each folder beside this file is a case: expected.csv says in comment lines which
 // scene is run and how ("# scene:", "# arguments:", "# ranks:", "# exit code:") and what
-// the run prints among other things ("# says:"), and
+// the run prints among other things ("# says:"), whether Debug leaves it out since it takes
+// long there and other cases run the same code ("# build: Release"), and
 // has the rows name, value, abs_tol, rel_tol, source of the value. Arguments and what
 // is printed are separated by vertical bars. A name is a row
 // of summary.csv, "probes/<probe>/<point>/<column>" of probes.csv, or
@@ -37,6 +38,8 @@ namespace
     std::vector<std::string> arguments;
     unsigned int             n_ranks   = 1;
     int                      exit_code = 0;
+    /// Whether it is left out in Debug.
+    bool                     is_long = false;
     std::vector<std::string> says;
     std::vector<Row>         rows;
   };
@@ -91,6 +94,8 @@ namespace
         result.n_ranks = std::stoul(ranks.front());
       else if (const auto code = directive("exit code"); !code.empty())
         result.exit_code = std::stoi(code.front());
+      else if (const auto build = directive("build"); !build.empty())
+        result.is_long = build.front() == "Release";
       else if (const auto says = directive("says"); !says.empty())
         result.says = says;
       else if (!line.empty() && line[0] != '#' && line.rfind("name,", 0) != 0)
@@ -196,6 +201,10 @@ namespace
     const Case        test_case = read_case(GetParam());
     const std::string output    = fresh_output_dir(GetParam());
     ASSERT_FALSE(test_case.rows.empty());
+#ifdef DEBUG
+    if (test_case.is_long)
+      GTEST_SKIP() << "only in Release";
+#endif
 
     std::vector<std::string> arguments = test_case.arguments;
     arguments.insert(arguments.end(),

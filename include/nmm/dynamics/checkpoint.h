@@ -13,9 +13,8 @@ namespace NMM
    * Unknowns are stored in global order, so that a file can be read on any number of ranks. On
    * the same number of ranks the continued run is bitwise identical to an uninterrupted one.
    *
-   * File (little endian): "NMMSTATE", version, length of what follows, bytes of the caller, the
-   * fingerprints of the discretization and of the scheme, the state, and a 64-bit
-   * FNV-1a check sum of everything before. Rank 0 writes and reads. Functions are collective.
+   * The file has the fingerprints of discretization and scheme, and a check sum. Functions are
+   * collective.
    */
   struct Checkpoint
   {

@@ -14,7 +14,7 @@ namespace NMM
   {
     /// Folder for the results; it is made if it does not exist.
     std::string output;
-    /// File of the checkpoint from which a dynamic analysis continues; if empty, it starts at 0 s.
+    /// File of the checkpoint from which a motion or the growth of cracks continues; empty: none.
     std::string restart;
     /// Whether the scene is only read, cut and reported, without solving and without files.
     bool check_only = false;

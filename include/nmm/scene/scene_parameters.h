@@ -435,6 +435,11 @@ namespace NMM
     bool
     is_nonlinear() const;
 
+    /// Whether checkpoints can be written and continued: in dynamic analyses with small or finite
+    /// kinematics, and where cracks grow in a static analysis.
+    bool
+    may_be_continued() const;
+
   private:
     void
     list_entries(internal::Entries &entries, const SceneNames &names);

@@ -4,7 +4,8 @@
 #
 #   ./setup.sh run    the thick ring, with the driver
 #   ./setup.sh test   all tests, Debug and Release
-#   ./setup.sh bench  speed against error: doc/performance.md anew; or heaps of blocks
+#   ./setup.sh bench  speed against error: doc/performance.md anew; or heaps of blocks,
+#                     or scenes with cracks
 #   ./setup.sh fuzz N N random inputs of each kind, N / 100 of the slowest
 #
 # Safe to repeat. Environment variables, all optional:
@@ -26,6 +27,13 @@ readonly packages=(
   libcgal-dev libeigen3-dev libboost-program-options-dev
   libcairo2-dev fonts-dejavu-core libdxflib-dev zlib1g-dev
   libgtest-dev gnuplot-nox valgrind)
+
+# Open MPI as root, with more ranks than cores.
+readonly open_mpi=(
+  env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+  OMPI_MCA_rmaps_base_oversubscribe=1
+  PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe
+  OMPI_MCA_btl_vader_single_copy_mechanism=none)
 
 export OPENBLAS_NUM_THREADS="${OPENBLAS_NUM_THREADS:-1}"
 
@@ -54,11 +62,12 @@ usage()
   cat <<'USAGE'
 Usage: ./setup.sh run    set up, build, and run the thick ring
        ./setup.sh test   set up, build Debug and Release, and run every test
-       ./setup.sh bench [quick|full|heaps]
+       ./setup.sh bench [quick|full|heaps|scenes]
                          set up, build, measure speed against error, and write
                          doc/performance.md anew: in minutes, or all of it in
                          half an hour; or measure heaps of blocks, for
-                         tests/performance/heap.csv
+                         tests/performance/heap.csv; or errors and seconds of
+                         scenes with cracks, for tests/performance/scenes.csv
        ./setup.sh fuzz [N [SEED]]
                          set up, build, and run N (10000) random inputs of each kind;
                          those that fail are written below output/fuzz
@@ -286,10 +295,7 @@ command_bench()
 
   local on_two_ranks=(mpirun -np 2)
   if mpirun --version 2>&1 | grep -q 'Open MPI'; then
-    on_two_ranks=(env OMPI_ALLOW_RUN_AS_ROOT=1
-                  OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-                  OMPI_MCA_btl_vader_single_copy_mechanism=none
-                  mpirun --oversubscribe -np 2)
+    on_two_ranks=("${open_mpi[@]}" mpirun --oversubscribe -np 2)
   fi
   say "Measuring on two ranks"
   "${on_two_ranks[@]}" "$program" measure "$size" "$table" ||
@@ -314,6 +320,30 @@ command_bench()
 
   say "Done. Look at:"
   printf '   report  %s\n   table   %s\n' "$PWD/doc/performance.md" "$PWD/$table"
+}
+
+
+machine()
+{
+  echo "$(awk -F': ' '/^model name/ {print $2; exit}' /proc/cpuinfo), $(nproc) cores"
+}
+
+
+# Scenes with cracks: errors beside seconds, and the table of doc/accuracy.md.
+command_bench_scenes()
+{
+  local table=tests/performance/scenes.csv page=doc/accuracy.md
+
+  configure_and_build release program_nmm nmm-scene-errors
+
+  say "Running scenes with cracks (3 minutes)"
+  OPENBLAS_NUM_THREADS=1 "${open_mpi[@]}" \
+    build/release/bin/nmm-scene-errors "$table" "$page" \
+    "# $(machine), one for each rank; $(date +%F); made by ./setup.sh bench scenes" ||
+    die "a scene failed (the message is above); $table is as it was."
+
+  say "Done. Look at:"
+  printf '   page   %s\n   table  %s\n' "$PWD/$page" "$PWD/$table"
 }
 
 
@@ -352,8 +382,7 @@ command_bench_heaps()
   heap 20 0 6 0 0.001
   heap 20 0 6 0.05 0.001
   {
-    echo "# $(awk -F': ' '/^model name/ {print $2; exit}' /proc/cpuinfo)," \
-         "$(nproc) cores, one used, processor time; $(date +%F);" \
+    echo "# $(machine), one used, processor time; $(date +%F);" \
          "made by ./setup.sh bench heaps"
     cat "$lines"
   } >"$table"
@@ -392,14 +421,14 @@ main()
       ;;
     bench)
       local size="${2:-quick}"
-      if [[ $# -gt 2 || ! "$size" =~ ^(quick|full|heaps)$ ]]; then
+      if [[ $# -gt 2 || ! "$size" =~ ^(quick|full|heaps|scenes)$ ]]; then
         usage >&2
-        die "'bench' takes one argument at most, 'quick', 'full' or 'heaps'."
+        die "'bench' takes one argument at most, 'quick', 'full', 'heaps' or 'scenes'."
       fi
       install_packages
       check_versions
-      if [[ "$size" == heaps ]]; then
-        command_bench_heaps
+      if [[ "$size" =~ ^(heaps|scenes)$ ]]; then
+        "command_bench_$size"
       else
         command_bench "$size"
       fi

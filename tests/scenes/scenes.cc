@@ -1,4 +1,5 @@
 #include "cases.h"
+#include "expected_values.h"
 #include "run_driver.h"
 #include <algorithm>
 #include <cmath>
@@ -11,185 +12,9 @@
 #include <string>
 #include <vector>
 
-// Each folder beside this file is a case: expected.csv says in comment lines which
-// scene is run and how ("# scene:", "# arguments:", "# ranks:", "# exit code:") and what
-// the run prints among other things ("# says:"), whether Debug leaves it out since it takes
-// long there and other cases run the same code ("# build: Release"), and
-// has the rows name, value, abs_tol, rel_tol, source of the value. Arguments and what
-// is printed are separated by vertical bars. A name is a row
-// of summary.csv, "probes/<probe>/<point>/<column>" of probes.csv, or
-// "history/<step>/<column>" of history.csv, "probes-history/..." likewise; <step> may
-// be "last", "tips/<tip>/<column>" of tips.csv, or "growth/<step>/<column>" of
-// growth.csv. A value v passes if
-// |v - expected| <= abs_tol + rel_tol * |expected|.
 namespace
 {
   namespace fs = std::filesystem;
-
-  struct Row
-  {
-    std::string name;
-    double      value, abs_tol, rel_tol;
-  };
-
-  struct Case
-  {
-    std::string              scene;
-    std::vector<std::string> arguments;
-    unsigned int             n_ranks   = 1;
-    int                      exit_code = 0;
-    /// Whether it is left out in Debug.
-    bool                     is_long = false;
-    std::vector<std::string> says;
-    std::vector<Row>         rows;
-  };
-
-
-  std::vector<std::string>
-  split(const std::string &line, const char separator)
-  {
-    std::vector<std::string> fields;
-    std::istringstream       stream(line);
-    for (std::string field; std::getline(stream, field, separator);)
-    {
-      const auto first = field.find_first_not_of(' ');
-      fields.push_back(
-        first == std::string::npos
-          ? ""
-          : field.substr(first, field.find_last_not_of(' ') - first + 1));
-    }
-    return fields;
-  }
-
-
-  /// NaN for a cell that is no number, since the run has none there.
-  double
-  to_number(const std::string &cell)
-  {
-    std::istringstream stream(cell);
-    double             value;
-    return stream >> value ? value : std::nan("");
-  }
-
-
-  Case
-  read_case(const std::string &name)
-  {
-    Case          result;
-    std::ifstream file(cases_dir + name + "/expected.csv");
-    EXPECT_TRUE(file.good());
-    for (std::string line; std::getline(file, line);)
-    {
-      const auto directive = [&](const std::string &key) {
-        return line.rfind("# " + key + ":", 0) == 0
-                 ? split(line.substr(key.size() + 3), '|')
-                 : std::vector<std::string>();
-      };
-      if (const auto scene = directive("scene"); !scene.empty())
-        result.scene = scene.front();
-      else if (const auto arguments = directive("arguments");
-               !arguments.empty())
-        result.arguments = arguments;
-      else if (const auto ranks = directive("ranks"); !ranks.empty())
-        result.n_ranks = std::stoul(ranks.front());
-      else if (const auto code = directive("exit code"); !code.empty())
-        result.exit_code = std::stoi(code.front());
-      else if (const auto build = directive("build"); !build.empty())
-        result.is_long = build.front() == "Release";
-      else if (const auto says = directive("says"); !says.empty())
-        result.says = says;
-      else if (!line.empty() && line[0] != '#' && line.rfind("name,", 0) != 0)
-      {
-        const auto fields = split(line, ',');
-        // A tolerance or source left out is a mistake in the case.
-        if (fields.size() < 5 || fields[4].empty())
-          ADD_FAILURE() << "incomplete row: " << line;
-        else
-          result.rows.push_back({fields[0],
-                                 std::stod(fields[1]),
-                                 std::stod(fields[2]),
-                                 std::stod(fields[3])});
-      }
-    }
-    return result;
-  }
-
-
-  /// Rows of a table with a column @p key, as "<table>/<key>/<column>" and, of the
-  /// last one, "<table>/last/<column>".
-  void
-  read_steps(const fs::path                &file_name,
-             const std::string             &table,
-             const std::string             &key_column,
-             std::map<std::string, double> &values)
-  {
-    std::ifstream file(file_name);
-    std::string   line;
-    while (std::getline(file, line) && line[0] == '#')
-      ;
-    const auto columns = split(line, ',');
-    const auto position =
-      std::find(columns.begin(), columns.end(), key_column) - columns.begin();
-    while (std::getline(file, line))
-    {
-      const auto fields = split(line, ',');
-      for (const std::string &key : {fields.at(position), std::string("last")})
-        for (std::size_t i = 0; i < fields.size(); ++i)
-          values[table + "/" + key + "/" + columns.at(i)] =
-            to_number(fields[i]);
-    }
-  }
-
-
-  std::map<std::string, double>
-  read_results(const fs::path &directory)
-  {
-    std::map<std::string, double> values;
-    std::ifstream                 summary(directory / "summary.csv");
-    EXPECT_TRUE(summary.good()) << "no summary.csv in " << directory;
-    std::string line;
-    std::getline(summary, line);
-    EXPECT_EQ(line, "name,value,unit");
-    while (std::getline(summary, line))
-    {
-      const auto fields = split(line, ',');
-      values[fields[0]] = std::stod(fields[1]);
-    }
-
-    for (const char *table : {"history", "probes-history"})
-      read_steps(directory / (std::string(table) + ".csv"),
-                 table,
-                 "step",
-                 values);
-    read_steps(directory / "tips.csv", "tips", "tip", values);
-    read_steps(directory / "growth.csv", "growth", "step", values);
-
-    std::ifstream probes(directory / "probes.csv");
-    if (!std::getline(probes, line))
-      return values;
-    const auto columns = split(line, ',');
-    while (std::getline(probes, line))
-    {
-      const auto fields = split(line, ',');
-      for (std::size_t i = 2; i < fields.size(); ++i)
-        values["probes/" + fields[0] + "/" + fields[1] + "/" + columns[i]] =
-          to_number(fields[i]);
-    }
-    return values;
-  }
-
-
-  std::vector<std::string>
-  case_names()
-  {
-    std::vector<std::string> names;
-    for (const auto &entry : fs::directory_iterator(cases_dir))
-      if (fs::exists(entry.path() / "expected.csv"))
-        names.push_back(entry.path().filename().string());
-    std::sort(names.begin(), names.end());
-    return names;
-  }
-
 
   class SceneCase : public testing::TestWithParam<std::string>
   {
@@ -207,10 +32,7 @@ namespace
 #endif
 
     std::vector<std::string> arguments = test_case.arguments;
-    arguments.insert(arguments.end(),
-                     {"--output",
-                      output,
-                      cases_dir + GetParam() + "/" + test_case.scene});
+    arguments.insert(arguments.end(), {"--output", output, test_case.scene});
     const DriverResult result = run_driver(arguments, test_case.n_ranks);
     ASSERT_EQ(result.exit_code, test_case.exit_code) << result.output;
     for (const std::string &text : test_case.says)
@@ -219,12 +41,11 @@ namespace
         << result.output;
 
     const auto values = read_results(output);
-    for (const Row &row : test_case.rows)
+    for (const ExpectedValue &row : test_case.rows)
     {
       const auto entry = values.find(row.name);
       ASSERT_TRUE(entry != values.end()) << "no value " << row.name;
-      const double tolerance = row.abs_tol + row.rel_tol * std::abs(row.value);
-      EXPECT_NEAR(entry->second, row.value, tolerance) << row.name;
+      EXPECT_NEAR(entry->second, row.value, row.tolerance()) << row.name;
     }
   }
 

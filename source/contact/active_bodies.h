@@ -87,6 +87,12 @@ namespace NMM
       }
 
       const ActiveItems &
+      active_covers() const
+      {
+        return covers;
+      }
+
+      const ActiveItems &
       active_rows() const
       {
         return rows;

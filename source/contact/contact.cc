@@ -556,7 +556,6 @@ namespace NMM
   {
     data->active.select(is_active, is_held);
     data->list_points_of_bodies();
-    data->matrix.update_active_rows();
   }
 
 

@@ -25,15 +25,7 @@ namespace NMM
       , active(&active)
       , communicator(surface.cover_system().communicator())
     {
-      const CoverSystem &covers = surface.cover_system();
-      forces.reinit(covers.locally_owned_dofs(2), communicator);
-      if (constraints.n_constraints() > 0 &&
-          Parallel::n_mpi_processes(communicator) == 1)
-      {
-        is_prescribed.resize(2 * covers.n_covers());
-        for (const auto &line : constraints.get_lines())
-          is_prescribed[line.index] = true;
-      }
+      forces.reinit(surface.cover_system().locally_owned_dofs(2), communicator);
     }
 
 
@@ -51,14 +43,6 @@ namespace NMM
       // An empty pattern is sufficient for forces.
       is_coupled.assign(search->slaves().size(), false);
       make_pattern();
-    }
-
-
-    void
-    ContactMatrix::update_active_rows()
-    {
-      if (assembler != nullptr)
-        assembler->set_active_rows(active->flags());
     }
 
 
@@ -106,16 +90,12 @@ namespace NMM
            with_tangent && tangent_factor != 1. && i < n * n;
            ++i)
         local.matrix[i] *= tangent_factor;
-      if (with_tangent && body_matrix == nullptr)
-      {
-        assembler->add(covers, local.matrix, local.rhs);
+      const bool is_sparse = with_tangent && body_matrix == nullptr;
+      assembler->add(covers, is_sparse ? local.matrix : nullptr, local.rhs);
+      if (!with_tangent || is_sparse)
         return;
-      }
-      assembler->add_rhs(covers, local.rhs);
-      if (!with_tangent)
-        return;
-      for (unsigned int i = 0; !is_prescribed.empty() && i < n; ++i)
-        if (is_prescribed[2 * covers[i / 2] + i % 2])
+      for (unsigned int i = 0; constraints->n_constraints() > 0 && i < n; ++i)
+        if (constraints->is_constrained(2 * covers[i / 2] + i % 2))
           for (unsigned int j = 0; j < n; ++j)
             local.matrix[n * i + j] = local.matrix[n * j + i] = 0.;
       body_matrix->add(covers, local.matrix);
@@ -125,10 +105,7 @@ namespace NMM
     void
     ContactMatrix::end_assembly()
     {
-      if (with_tangent && body_matrix == nullptr)
-        assembler->transfer(matrix, forces);
-      else
-        assembler->transfer_rhs(forces);
+      assembler->compress(with_tangent && body_matrix == nullptr);
     }
 
 
@@ -271,10 +248,8 @@ namespace NMM
       couple_ties();
       assembler->ignore_inhomogeneities();
       assembler->leave_empty_rows();
-      assembler->assemble_in_place();
-      assembler->build();
-      assembler->set_active_rows(active->flags());
-      matrix.clear();
+      assembler->restrict_to(active->active_covers());
+      assembler->build(matrix, forces);
       ++version;
     }
   } // namespace internal

@@ -47,10 +47,6 @@ namespace NMM
       void
       update_candidates();
 
-      /// Update after a change of the set of active bodies.
-      void
-      update_active_rows();
-
       void
       couple_all();
 
@@ -138,8 +134,6 @@ namespace NMM
       const StickPlaces                       *stick_places;
       const ActiveBodies                      *active;
       MPI_Comm                                 communicator;
-      /// For each unknown, whether it is prescribed, for body matrices; empty if none is.
-      std::vector<bool> is_prescribed;
 
       /// Couplings by append_couplings(): at the current positions, and when the pattern was begun.
       std::vector<unsigned int> candidates, coupled_candidates;

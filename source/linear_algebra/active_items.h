@@ -35,6 +35,7 @@ namespace NMM
           of_blocks[begins[block + 1]++] = item;
         });
         is_known = true;
+        active.clear();
         bits.assign((n + 63) / 64, 0);
         select({});
       }
@@ -69,6 +70,8 @@ namespace NMM
       select(const std::vector<bool> &blocks)
       {
         is_all = blocks.empty();
+        for (const unsigned int item : active)
+          bits[item / 64] = 0;
         active.clear();
         for (unsigned int b = 0; b < blocks.size() && b + 2 < begins.size();
              ++b)
@@ -77,8 +80,8 @@ namespace NMM
               bits[of_blocks[i] / 64] |= std::uint64_t(1)
                                          << (of_blocks[i] % 64);
         for (unsigned int word = 0; !is_all && word < bits.size(); ++word)
-          for (; bits[word] != 0; bits[word] &= bits[word] - 1)
-            active.push_back(64 * word + __builtin_ctzll(bits[word]));
+          for (std::uint64_t rest = bits[word]; rest != 0; rest &= rest - 1)
+            active.push_back(64 * word + __builtin_ctzll(rest));
       }
 
       /// Whether all blocks are active.
@@ -86,6 +89,13 @@ namespace NMM
       all() const
       {
         return is_all;
+      }
+
+      /// Whether an item is active.
+      bool
+      contains(const unsigned int item) const
+      {
+        return is_all || (bits[item / 64] >> (item % 64) & 1) != 0;
       }
 
       /// Active items in ascending order; undefined if all() is true.
@@ -112,7 +122,8 @@ namespace NMM
       bool is_all = true, is_known = false;
       /// Items sorted by block (of_blocks), the index of the first item of each block (begins),
       /// and the active items.
-      std::vector<unsigned int>  begins, of_blocks, active;
+      std::vector<unsigned int> begins, of_blocks, active;
+      /// For each item, a bit that is set if the item is in the list of active items.
       std::vector<std::uint64_t> bits;
     };
   } // namespace internal

@@ -16,6 +16,8 @@ namespace NMM
     /// reading a short row.
     struct MatrixRows
     {
+      MatrixRows() = default;
+
       explicit MatrixRows(const Epetra_CrsMatrix &matrix)
       {
         int      *row_begins, *row_columns;
@@ -32,8 +34,8 @@ namespace NMM
       {
       }
 
-      const int *begins, *columns;
-      double    *values;
+      const int *begins = nullptr, *columns = nullptr;
+      double    *values = nullptr;
     };
   } // namespace internal
 } // namespace NMM

@@ -98,8 +98,8 @@ namespace NMM
       assembler.couple({both.data(), both.size()});
     }
     assembler.ignore_inhomogeneities();
-    assembler.assemble_in_place();
-    assembler.build();
+    assembler.restrict_to(active_covers);
+    assembler.build(matrix, residual);
   }
 
 
@@ -107,7 +107,6 @@ namespace NMM
   FiniteElasticity::Data::set_active_blocks(const std::vector<bool> &blocks)
   {
     active_blocks = blocks;
-    assembler.set_active_rows(blocks);
     if (!blocks.empty() && active_elements.empty())
     {
       const ManifoldMesh       &mesh = covers->manifold_mesh();
@@ -416,7 +415,7 @@ namespace NMM
           return;
         const double f[2] = {-factor * load.forces[2 * i],
                              -factor * load.forces[2 * i + 1]};
-        assembler.add_rhs({&k, 1}, f);
+        assembler.add({&k, 1}, nullptr, f);
         square += f[0] * f[0] + f[1] * f[1];
         work += f[0] * nodal[2 * k] + f[1] * nodal[2 * k + 1];
       };
@@ -453,6 +452,7 @@ namespace NMM
     if (state == Deformation::admissible)
       state = add_ties(task);
     add_dead_loads(task);
+    assembler.compress(task.with_tangent);
 
     // if an element is inverted on any rank, the result is inverted on all ranks
     double sums[7] = {state == Deformation::inverted ? 1. : 0.,
@@ -475,11 +475,6 @@ namespace NMM
     energies.dissipated         = sums[6];
     largest_jump =
       dealii::Utilities::MPI::max(largest_jump, covers->communicator());
-
-    if (task.with_tangent)
-      assembler.transfer(matrix, residual);
-    else
-      assembler.transfer_rhs(residual);
     return Deformation::admissible;
   }
 } // namespace NMM

@@ -167,10 +167,9 @@ namespace NMM
               const Task                           &task,
               const LocalSystem                    &local)
     {
-      if (task.with_tangent)
-        assembler.add(covers, local.matrix, local.rhs);
-      else
-        assembler.add_rhs(covers, local.rhs);
+      assembler.add(covers,
+                    task.with_tangent ? local.matrix : nullptr,
+                    local.rhs);
     }
 
     const CoverSystem                       *covers;

@@ -215,7 +215,7 @@ namespace NMM
     for (const EdgeTables::Site &tie : edges->ties)
       assembler.couple(gather(tie, nodal, none, both));
     assembler.ignore_inhomogeneities();
-    assembler.build();
+    assembler.build(matrix, residual);
 
     const auto [first, last] = covers.locally_owned_elements();
     stress.reserve(tables.n_points());
@@ -443,7 +443,7 @@ namespace NMM
     dead_loads.for_each_force(
       [&](const unsigned int k, const Tensor<1, 2> &force) {
         const double f[2] = {-load_factor * force[0], -load_factor * force[1]};
-        assembler.add_rhs({&k, 1}, f);
+        assembler.add({&k, 1}, nullptr, f);
       });
     return true;
   }
@@ -562,11 +562,11 @@ namespace NMM
     read_nodal_values(*d.covers, d.solution, d.nodal);
     d.assembler.reset();
     const bool is_good = d.assemble(load_factor);
+    d.assembler.compress();
     AssertThrow(dealii::Utilities::MPI::min(is_good ? 1 : 0, communicator) == 1,
                 NumericalFailure("An element is turned inside out",
                                  "load factor " + std::to_string(load_factor),
                                  "take smaller steps, or finite kinematics"));
-    d.assembler.transfer(d.matrix, d.residual);
     d.correction.reinit(d.residual);
     if (solve)
       solve(d.matrix, d.residual, d.correction);

@@ -119,8 +119,7 @@ namespace NMM
         }
     assembler.ignore_inhomogeneities();
     assembler.leave_empty_rows();
-    assembler.assemble_in_place();
-    assembler.build();
+    assembler.build(matrix, residual);
   }
 
 
@@ -363,10 +362,7 @@ namespace NMM
     d.is_admissible      = true;
     const auto add_local = [&](dealii::ArrayView<const unsigned int> to,
                                const LocalSystem                    &local) {
-      if (with_tangent)
-        d.assembler.add(to, local.matrix, local.rhs);
-      else
-        d.assembler.add_rhs(to, local.rhs);
+      d.assembler.add(to, with_tangent ? local.matrix : nullptr, local.rhs);
     };
     LocalSystem               local;
     std::vector<unsigned int> both;
@@ -406,10 +402,7 @@ namespace NMM
       sum(*number);
     sum(d.totals.n_yielding);
     d.totals.force_scale = std::sqrt(d.totals.force_scale);
-    if (with_tangent)
-      d.assembler.transfer(d.matrix, d.residual);
-    else
-      d.assembler.transfer_rhs(d.residual);
+    d.assembler.compress(with_tangent);
     return Parallel::max(d.is_admissible ? 0 : 1, covers.communicator()) == 0
              ? Deformation::admissible
              : Deformation::inverted;

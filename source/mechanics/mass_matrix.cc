@@ -61,7 +61,9 @@ namespace NMM
     CoverMatrixAssembler assembler(covers, constraints);
     for (const auto &[e, f] : pairs)
       assembler.couple({covers_of_pair(covers, e, f).data(), 2 * n});
-    assembler.build();
+    dealii::TrilinosWrappers::MPI::Vector rhs;
+    assembler.build(matrix, rhs);
+    assembler.reset();
 
     LocalSystem   local;
     ReferenceMass whole, cut;
@@ -102,8 +104,6 @@ namespace NMM
                       local.rhs);
       }
     }
-
-    dealii::TrilinosWrappers::MPI::Vector rhs;
-    assembler.finish(matrix, rhs);
+    assembler.compress();
   }
 } // namespace NMM

@@ -99,7 +99,8 @@ namespace NMM
                             covers_of_pair(*covers, pair.first, pair.second);
                           assembler.couple({both.data(), 2 * n_per_cell});
                         });
-    assembler.build();
+    assembler.build(matrix, rhs);
+    assembler.reset();
 
     section.reset();
     section = time_section(timer, "assembly");
@@ -147,7 +148,7 @@ namespace NMM
       });
     section.reset();
     section = time_section(timer, "to Trilinos");
-    assembler.finish(matrix, rhs);
+    assembler.compress();
     disks->assemble(edge_terms, conditions, rhs);
   }
 

@@ -1,5 +1,6 @@
 // Items of chosen blocks against looking at all of them.
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <linear_algebra/active_items.h>
 #include <random>
@@ -60,6 +61,9 @@ namespace
         EXPECT_FALSE(items.all());
         EXPECT_EQ(items.chosen(), expected);
         EXPECT_EQ(all_of(items, n), expected);
+        for (unsigned int i = 0; i < n; ++i)
+          EXPECT_EQ(items.contains(i),
+                    std::binary_search(expected.begin(), expected.end(), i));
       }
       items.select({});
       EXPECT_TRUE(items.all());

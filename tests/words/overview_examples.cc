@@ -165,14 +165,14 @@ namespace
     CoverMatrixAssembler assembler(covers, constraints);
     for (const auto &pair : tied_pairs)
       assembler.couple(pair.covers);
-    assembler.build();
+    assembler.build(matrix, rhs);
     DirectSolver solver(DirectSolver::Symmetry::symmetric);
     while (!has_converged)
       {
         assembler.reset();
         for (unsigned int e = first; e < last; ++e)
           assembler.add(covers.covers(e), local_matrix(e), local_rhs(e));
-        assembler.transfer(matrix, rhs);
+        assembler.compress();
         solver.factorize(matrix);
         solver.solve(rhs, solution);
         constraints.distribute(solution);

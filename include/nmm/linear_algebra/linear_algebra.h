@@ -35,21 +35,20 @@
  * CoverMatrixAssembler assembler(covers, constraints);    // couples all elements
  * for (const auto &pair : tied_pairs)
  *   assembler.couple(pair.covers);                        // couplings beyond elements
- * assembler.build();                                      // makes the sparsity pattern
+ * assembler.build(matrix, rhs);                           // makes the sparsity pattern
  * DirectSolver solver(DirectSolver::Symmetry::symmetric);
  * while (!has_converged)
  *   {
  *     assembler.reset();
  *     for (unsigned int e = first; e < last; ++e)
  *       assembler.add(covers.covers(e), local_matrix(e), local_rhs(e));
- *     assembler.transfer(matrix, rhs);                    // copies to Trilinos objects
+ *     assembler.compress();                               // sends values to their owners
  *     solver.factorize(matrix);
  *     solver.solve(rhs, solution);
  *     constraints.distribute(solution);
  *   }
  * @endcode
- * A system that is solved only once uses CoverMatrixAssembler::finish() and
- * internal::solve_linear_system() instead.
+ * A system that is solved only once uses internal::solve_linear_system() instead.
  *
  * To add a direct solver, implement DirectFactorization in a file of its own and select it
  * in DirectSolver. Failures (a singular matrix, lack of memory, iterations that do not

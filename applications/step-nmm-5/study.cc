@@ -58,7 +58,7 @@ namespace StepNMM5
                       "Length of the wings' increments [m].");
     prm.declare_entry(
       "Slope end time",
-      "3.5",
+      "2.5",
       Patterns::Double(0.),
       "Until when the slope is followed [s]; 0: this part is left out.");
     Tutorial::read_parameter_file(prm, file_name, "step-nmm-5.prm");

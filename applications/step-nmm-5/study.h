@@ -32,7 +32,7 @@ namespace StepNMM5
     unsigned int n_wing_increments = 6;
     double       wing_increment    = 0.05;
     /// Until when the slope is followed [s]; 0 to leave that part out.
-    double      slope_end_time = 3.5;
+    double      slope_end_time = 2.5;
     std::string output_directory;
   };
 

@@ -93,10 +93,12 @@ namespace NMM
       states.pop_back();
       equilibrate();
       take_state();
+      const State &saved = earlier_path->states.back();
+      if (saved.probes.size() != states.back().probes.size())
+        refuse_checkpoint("The checkpoint is of other probes", restart);
       // Rounding on another number of ranks and the search for the load with contact leave less.
       constexpr double tolerance = 2e-3;
-      const double     before    = earlier_path->states.back().load_factor,
-                   now           = states.back().load_factor;
+      const double before = saved.load_factor, now = states.back().load_factor;
       if (std::abs(now - before) > tolerance * std::abs(before) ||
           std::isfinite(now) != std::isfinite(before))
         refuse_checkpoint("The load factor of the checkpoint is " +

@@ -486,6 +486,10 @@ namespace
                      cantilever,
                      {"--set", "Boundary conditions/open up/Value=0; 3"},
                      {"load factor of the checkpoint"});
+      expect_refused(path + "/checkpoint.nmm",
+                     cantilever,
+                     {"--set", "Probes/Names="},
+                     {"other probes"});
     }
     // What has grown is at the beginning of the file.
     std::string damaged = read_file(checkpoint);

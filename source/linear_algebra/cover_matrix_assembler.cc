@@ -203,7 +203,7 @@ namespace NMM
 
 
     /// Add T^T A T and T^T (f - A g) for a local matrix A and right-hand side f, where
-    /// u = T z + g are the constraints of the local unknowns u.
+    /// u = T z + g are the constraints of the local unknowns u. Most rows of T have one entry.
     void
     CoverMatrixAssembler::add_constrained(
       const dealii::ArrayView<const unsigned int> of_covers,
@@ -216,45 +216,55 @@ namespace NMM
                expanded.begin();
       };
       const unsigned int n = 2 * of_covers.size(), m = 2 * expanded.size();
-      expansion.reinit(n, m);
-      local_inhomogeneities.reinit(n);
+      local_inhomogeneities.assign(n, 0.);
+      terms.clear();
+      term_begins.assign(1, 0);
       for (unsigned int i = 0; i < n; ++i)
       {
         const unsigned int k       = of_covers[i / 2];
         const auto         unknown = 2 * covers->global_cover(k) + i % 2;
-        const auto *entries = constraints->get_constraint_entries(unknown);
-        if (entries == nullptr)
+        if (const auto *entries = constraints->get_constraint_entries(unknown))
         {
-          expansion(i, 2 * position_of(k) + i % 2) = 1.;
-          continue;
+          for (const auto &[j, weight] : *entries)
+            terms.emplace_back(2 * position_of(covers->local_cover(j / 2)) +
+                                 j % 2,
+                               weight);
+          if (has_inhomogeneities)
+            local_inhomogeneities[i] = constraints->get_inhomogeneity(unknown);
         }
-        for (const auto &[j, weight] : *entries)
-          expansion(i, 2 * position_of(covers->local_cover(j / 2)) + j % 2) +=
-            weight;
-        if (has_inhomogeneities)
-          local_inhomogeneities(i) = constraints->get_inhomogeneity(unknown);
+        else
+          terms.emplace_back(2 * position_of(k) + i % 2, 1.);
+        term_begins.push_back(terms.size());
       }
+      if (m == 0)
+        return;
 
-      local_rhs.reinit(n);
-      expanded_rhs.reinit(m);
-      if (matrix_values != nullptr)
-      {
-        local_matrix.reinit(n, n);
-        local_matrix.fill(matrix_values);
-        expanded_matrix.reinit(m, m);
-        expanded_matrix.triple_product(local_matrix,
-                                       expansion,
-                                       expansion,
-                                       /* transpose_B = */ true);
-        local_matrix.vmult(local_rhs, local_inhomogeneities);
-      }
+      expanded_rhs.assign(m, 0.);
+      expanded_matrix.assign(matrix_values != nullptr ? m * m : 0, 0.);
       for (unsigned int i = 0; i < n; ++i)
-        local_rhs(i) = values[i] - local_rhs(i);
-      expansion.Tvmult(expanded_rhs, local_rhs);
-      if (m > 0)
-        add_free({expanded.data(), expanded.size()},
-                 matrix_values != nullptr ? &expanded_matrix(0, 0) : nullptr,
-                 expanded_rhs.begin());
+      {
+        double value = values[i];
+        if (matrix_values != nullptr)
+          for (unsigned int j = 0; j < n; ++j)
+            value -= matrix_values[n * i + j] * local_inhomogeneities[j];
+        for (unsigned int a = term_begins[i]; a < term_begins[i + 1]; ++a)
+        {
+          const auto [row, weight] = terms[a];
+          expanded_rhs[row] += weight * value;
+          if (matrix_values == nullptr)
+            continue;
+          double *const expanded_row = expanded_matrix.data() + m * row;
+          for (unsigned int j = 0; j < n; ++j)
+          {
+            const double entry = weight * matrix_values[n * i + j];
+            for (unsigned int b = term_begins[j]; b < term_begins[j + 1]; ++b)
+              expanded_row[terms[b].first] += entry * terms[b].second;
+          }
+        }
+      }
+      add_free({expanded.data(), expanded.size()},
+               matrix_values != nullptr ? expanded_matrix.data() : nullptr,
+               expanded_rhs.data());
     }
 
 

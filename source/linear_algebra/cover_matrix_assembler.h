@@ -6,13 +6,12 @@
 #include <deal.II/base/array_view.h>
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
-#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
-#include <deal.II/lac/vector.h>
 
 #include <linear_algebra/active_items.h>
 #include <linear_algebra/matrix_rows.h>
+#include <utility>
 #include <vector>
 
 namespace NMM
@@ -154,8 +153,10 @@ namespace NMM
       /// Scratch of couple() and add().
       std::vector<unsigned int>                    expanded;
       std::vector<dealii::types::global_dof_index> global_columns;
-      dealii::FullMatrix<double> expansion, local_matrix, expanded_matrix;
-      dealii::Vector<double>     local_rhs, local_inhomogeneities, expanded_rhs;
+      std::vector<double> local_inhomogeneities, expanded_rhs, expanded_matrix;
+      /// Rows of T, see add_constrained(): columns and weights, and where each row begins.
+      std::vector<std::pair<unsigned int, double>> terms;
+      std::vector<unsigned int>                    term_begins;
     };
   } // namespace internal
 } // namespace NMM

@@ -471,7 +471,7 @@ namespace
   TEST(BadInput, RestartMPI)
   {
     expect_rejected({"--restart", "no-such.nmm", base_scene},
-                    {"--restart", "no dynamic analysis"});
+                    {"--restart", "neither a dynamic analysis"});
     std::vector<std::string> arguments = {"--restart", "no-such.nmm"};
     for (const std::string &setting : dynamic)
       arguments.insert(arguments.end(), {"--set", setting});

@@ -488,7 +488,10 @@ namespace
                      {"load factor of the checkpoint"});
       expect_refused(path + "/checkpoint.nmm",
                      cantilever,
-                     {"--set", "Probes/Names="},
+                     {"--set",
+                      "Probes/Names=upper arm, more",
+                      "--set",
+                      "Probes/more/Point=9, 0"},
                      {"other probes"});
     }
     // What has grown is at the beginning of the file.

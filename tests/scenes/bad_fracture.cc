@@ -25,10 +25,14 @@ namespace
     rejects("Model/Kinematics=finite",
             {"intensity factors", "finite", "Model/Kinematics = small"});
     expect_rejected_with(
-      cracked + std::vector<std::string>{"Relaxation/Step=0.1",
-                                         "Materials/rock/Density=1"},
-      "Model/Analysis=relaxation",
-      {"intensity factors", "relaxation", "to static or dynamic"});
+      cracked +
+        std::vector<std::string>{"Relaxation/Step=0.1",
+                                 "Materials/rock/Density=1",
+                                 "Contact/Enforcement=penalty",
+                                 "Contact/Friction angle=30",
+                                 "Safety factor/Largest displacement=0.1"},
+      "Model/Analysis=safety factor",
+      {"intensity factors", "safety factor", "dynamic or relaxation"});
     expect_rejected_with(
       cracked + std::vector<std::string>{"Model/Plane state=plane strain",
                                          "Materials/rock/Cohesion=1"},

@@ -334,9 +334,7 @@ namespace NMM
                      at_end   = tip.point.distance(edge.end);
         const double near     = std::min(at_start, at_end),
                      far      = std::max(at_start, at_end);
-        // An edge that is shorter than coordinates can tell has no direction.
-        const bool is_point = !edge.is_arc() && edge.start == edge.end;
-        if (near >= largest_radius || is_point)
+        if (near >= largest_radius)
           return;
         std::vector<unsigned int> curves;
         for (const unsigned int piece : mesh.curve_set(edge.curve_set))
@@ -355,7 +353,8 @@ namespace NMM
           const EdgePoint at =
             point_on(edge, at_start < at_end ? share : 1. - share);
           const double r = at.x.distance(tip.point);
-          if (r < largest_radius && r > 0.)
+          // An edge that is shorter than coordinates can tell has no direction.
+          if (r < largest_radius && r > 0. && at.velocity.norm() > 0.)
             add_face_point(element,
                            at,
                            curves,

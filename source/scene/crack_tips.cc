@@ -1,6 +1,7 @@
 #include <nmm/base/exceptions.h>
 
 #include <algorithm>
+#include <cmath>
 #include <scene/crack_growth.h>
 #include <scene/parsing.h>
 #include <sstream>
@@ -84,11 +85,19 @@ namespace NMM
     {
       factors.clear();
       for (const CrackTip &tip : tips)
+      {
         // The free radius of a tip that has grown may be smaller than that at the start.
         factors.push_back(factors_of(
           tip,
           std::min(scene.parameters().fracture.radius, tip.free_radius),
           rules));
+        AssertThrow(std::isfinite(factors.back().K_I) &&
+                      std::isfinite(factors.back().K_II),
+                    NumericalFailure("The intensity factors are not finite",
+                                     "the crack tip at " + to_string(tip.point),
+                                     "choose another 'Mathematical mesh/Cell "
+                                     "size' or 'Fracture/Radius'"));
+      }
     }
 
 

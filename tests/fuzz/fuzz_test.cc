@@ -77,3 +77,11 @@ TEST(Fuzz, StripsTiedToTheTraceOfAnother)
   for (const unsigned int seed : {7227, 27434, 42709, 48836})
     expect_good("geometry", seed);
 }
+
+
+// An arc of a crack's face that is shorter than coordinates can tell has no direction: the
+// intensity factors were no numbers, and the run ended with exit code 0.
+TEST(Fuzz, FacesThatAreShorterThanCoordinatesCanTell)
+{
+  expect_good("growth", 41766);
+}

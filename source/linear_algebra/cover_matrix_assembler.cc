@@ -210,6 +210,8 @@ namespace NMM
       const double                               *matrix_values,
       const double                               *values)
     {
+      Assert(matrix_values != nullptr || !has_inhomogeneities,
+             dealii::ExcMessage("Inhomogeneous constraints need the matrix."));
       expand(of_covers);
       const auto position_of = [this](const unsigned int cover) {
         return std::lower_bound(expanded.begin(), expanded.end(), cover) -
@@ -244,7 +246,7 @@ namespace NMM
       for (unsigned int i = 0; i < n; ++i)
       {
         double value = values[i];
-        if (matrix_values != nullptr)
+        if (has_inhomogeneities)
           for (unsigned int j = 0; j < n; ++j)
             value -= matrix_values[n * i + j] * local_inhomogeneities[j];
         for (unsigned int a = term_begins[i]; a < term_begins[i + 1]; ++a)

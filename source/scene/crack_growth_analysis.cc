@@ -129,7 +129,7 @@ namespace NMM
     void
     CrackGrowthAnalysis::write_checkpoint() const
     {
-      if (scene.parameters().output.checkpoint_every == 0 || states.empty())
+      if (scene.parameters().output.checkpoint_every == 0)
         return;
       const SavedPath path{increments.increments(),
                            states,
@@ -140,15 +140,6 @@ namespace NMM
                                              /* allow_compression = */ false),
                      {}}
         .write(checkpoint_file(), communicator);
-    }
-
-
-    void
-    CrackGrowthAnalysis::write_checkpoint_of_state() const
-    {
-      const unsigned int every = scene.parameters().output.checkpoint_every;
-      if (every > 0 && (states.size() - 1) % every == 0)
-        write_checkpoint();
     }
 
 
@@ -278,7 +269,8 @@ namespace NMM
               samples[i] ? scale * samples[i]->displacement[c]
                          : std::numeric_limits<double>::quiet_NaN());
       states.push_back(std::move(state));
-      state_fingerprint = fingerprint();
+      if (scene.parameters().output.checkpoint_every > 0)
+        state_fingerprint = fingerprint();
     }
 
 
@@ -311,8 +303,9 @@ namespace NMM
     void
     CrackGrowthAnalysis::solve()
     {
-      const unsigned int n = scene.parameters().fracture.n_increments;
-      growth_table         = &increments;
+      const unsigned int n     = scene.parameters().fracture.n_increments,
+                         every = scene.parameters().output.checkpoint_every;
+      growth_table             = &increments;
       {
         Stage stage(progress, "crack growth");
         if (states.empty())
@@ -328,7 +321,8 @@ namespace NMM
             take_state();
             write_tables();
             show_state();
-            write_checkpoint_of_state();
+            if (every > 0 && (states.size() - 1) % every == 0)
+              write_checkpoint();
             stage.update([&](double) {
               return std::to_string(states.size() - 1) + " of " +
                      std::to_string(n) + " increments";

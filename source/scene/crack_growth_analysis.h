@@ -106,7 +106,7 @@ namespace NMM
       double load_factor = std::numeric_limits<double>::quiet_NaN();
       /// Why growth came to an end; empty if it did not.
       std::string end_reason;
-      /// The fingerprint() of the last state.
+      /// The fingerprint() of the last state, if the scene asks for checkpoints.
       std::uint64_t state_fingerprint = 0;
       /// Number of increments whose direction was not found.
       unsigned int n_unturned = 0;
@@ -117,13 +117,9 @@ namespace NMM
       std::uint64_t
       fingerprint() const;
 
-      /// Writes a checkpoint, if the scene asks for any.
+      /// Writes a checkpoint of the last state, if the scene asks for any.
       void
       write_checkpoint() const;
-
-      /// Writes a checkpoint if the scene asks for one after this state.
-      void
-      write_checkpoint_of_state() const;
 
       /// Finds the equilibrium, the tips that grow next, and the load factor at which they do.
       void

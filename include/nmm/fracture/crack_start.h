@@ -62,8 +62,8 @@ namespace NMM
    * within this distance of the places @p taken.
    *
    * Limits: one rank; joints, interfaces and sides that two domains share are no places to start
-   * from, unless they end at a boundary. Lines of less than a cell see the stress of a single cell; in the corner of a notch
-   * this needs cells that are smaller than L.
+   * from, unless they end at a boundary. Lines of less than a cell see the stress of a single
+   * cell; in the corner of a notch this needs cells that are smaller than L.
    */
   std::vector<CrackStart>
   find_crack_starts(const CoverSystem                   &covers,

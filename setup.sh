@@ -22,7 +22,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
 readonly packages=(
-  g++ cmake ninja-build pkg-config git clang-format
+  g++ lld cmake ninja-build pkg-config git clang-format
   libdeal.ii-dev mpi-default-bin libmumps-dev libsuitesparse-dev libopenblas0-pthread
   libcgal-dev libeigen3-dev libboost-program-options-dev
   libcairo2-dev fonts-dejavu-core libdxflib-dev zlib1g-dev

@@ -1,5 +1,6 @@
 // Detection of bodies that pass through each other in a step.
 #include <algorithm>
+#include <base/cross.h>
 #include <cmath>
 #include <contact/contact_crossings.h>
 #include <limits>
@@ -24,13 +25,6 @@ namespace NMM
       /// Fraction of a chord by which it is continued beyond its ends, so that no point passes
       /// between two chords.
       constexpr double chord_slack = 1e-9;
-
-
-      double
-      cross(const Tensor<1, 2> &a, const Tensor<1, 2> &b)
-      {
-        return a[0] * b[1] - a[1] * b[0];
-      }
 
 
       Tensor<1, 2>

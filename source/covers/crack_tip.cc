@@ -2,6 +2,7 @@
 #include <nmm/covers/point_location.h>
 
 #include <algorithm>
+#include <base/cross.h>
 #include <cmath>
 #include <covers/exact_curves.h>
 #include <utility>
@@ -14,12 +15,7 @@ namespace NMM
     using Halfedge = Arrangement::Halfedge_const_handle;
     using Vertex   = Arrangement::Vertex_const_handle;
 
-    double
-    cross(const dealii::Tensor<1, 2> &a, const dealii::Tensor<1, 2> &b)
-    {
-      return a[0] * b[1] - a[1] * b[0];
-    }
-
+    using internal::cross;
 
     /// Angle from @p a to @p b in (-pi, pi].
     double

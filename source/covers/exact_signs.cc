@@ -20,13 +20,6 @@ namespace NMM
         8. * std::numeric_limits<double>::epsilon();
 
 
-      Kernel::Point_2
-      exact(const Point<2> &x)
-      {
-        return {x[0], x[1]};
-      }
-
-
       /// Exact position of a vertex; empty if a coordinate is irrational.
       std::optional<Kernel::Point_2>
       rational(const PhysicalEdges &physical_edges, const unsigned int vertex)

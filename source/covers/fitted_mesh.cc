@@ -4,6 +4,7 @@
 
 #include "cutting.h"
 #include <algorithm>
+#include <base/cross.h>
 #include <cmath>
 #include <limits>
 
@@ -29,13 +30,6 @@ namespace NMM
 
       /// A frame is thin if the ratio of its sides is below this.
       constexpr double thin_ratio = 0.05;
-
-
-      double
-      cross(const Tensor<1, 2> &a, const Tensor<1, 2> &b)
-      {
-        return a[0] * b[1] - a[1] * b[0];
-      }
 
 
       Tensor<1, 2>

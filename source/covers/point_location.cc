@@ -1,6 +1,7 @@
 #include <nmm/covers/point_location.h>
 
 #include <algorithm>
+#include <base/cross.h>
 #include <map>
 
 namespace NMM
@@ -9,12 +10,7 @@ namespace NMM
 
   namespace
   {
-    double
-    cross(const Tensor<1, 2> &a, const Tensor<1, 2> &b)
-    {
-      return a[0] * b[1] - a[1] * b[0];
-    }
-
+    using internal::cross;
 
     /**
      * Whether the ray from @p x in the direction +x crosses the segment a b. The test is half-open

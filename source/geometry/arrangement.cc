@@ -11,12 +11,6 @@ namespace NMM
       using FT       = Kernel::FT;
       using Interval = CGAL::Interval_nt<true>;
 
-      Kernel::Point_2
-      exact(const dealii::Point<2> &point)
-      {
-        return {point[0], point[1]};
-      }
-
       Interval
       to_interval(const FT &number)
       {

@@ -54,6 +54,13 @@ namespace NMM
       std::vector<DirectedEdge> solid_edges;
     };
 
+    /// The point of the same coordinates: doubles are rationals.
+    inline Kernel::Point_2
+    exact(const dealii::Point<2> &point)
+    {
+      return {point[0], point[1]};
+    }
+
     /// The exact curve of a piece; its doubles are exact rationals.
     BaseTraits::Curve_2
     exact_curve(const CurvePiece &piece);

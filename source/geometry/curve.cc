@@ -17,11 +17,7 @@ namespace NMM
       return std::isfinite(point[0]) && std::isfinite(point[1]);
     }
 
-    internal::Kernel::Point_2
-    exact(const dealii::Point<2> &point)
-    {
-      return {point[0], point[1]};
-    }
+    using internal::exact;
 
     void
     check_circle(const Curve &curve, const CurvePiece &piece)

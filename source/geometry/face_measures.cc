@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <base/angle_minus_sine.h>
+#include <base/cross.h>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -22,12 +23,6 @@ namespace NMM
           edge.start + 0.5 * (edge.end - edge.start);
         return 2. * std::atan2(0.5 * edge.start.distance(edge.end),
                                middle.distance(edge.center));
-      }
-
-      double
-      cross(const dealii::Tensor<1, 2> &a, const dealii::Tensor<1, 2> &b)
-      {
-        return a[0] * b[1] - a[1] * b[0];
       }
 
       bool

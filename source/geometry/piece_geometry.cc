@@ -3,6 +3,7 @@
 #include "geometry/arrangement.h"
 #include "geometry/messages.h"
 #include <algorithm>
+#include <base/cross.h>
 #include <cmath>
 
 namespace NMM
@@ -14,23 +15,11 @@ namespace NMM
       using Point  = dealii::Point<2>;
       using Vector = dealii::Tensor<1, 2>;
 
-      double
-      cross(const Vector &a, const Vector &b)
-      {
-        return a[0] * b[1] - a[1] * b[0];
-      }
-
       /// Twice the signed area of the triangle.
       double
       turn(const Point &a, const Point &b, const Point &c)
       {
         return cross(b - a, c - a);
-      }
-
-      Kernel::Point_2
-      exact(const Point &point)
-      {
-        return {point[0], point[1]};
       }
 
       bool

@@ -285,6 +285,17 @@ namespace NMM
   ContactStatics::~ContactStatics() = default;
 
 
+  void
+  ContactStatics::continue_from(const double          load_factor,
+                                const Vector         &u,
+                                const ContactHistory &history)
+  {
+    Assert(load_factor > 0., dealii::ExcMessage("Nothing is to be continued."));
+    data->contact->restore_history(history);
+    data->statics.continue_from(load_factor, u);
+  }
+
+
   std::vector<ContactStep>
   ContactStatics::run(
     const LoadSteps                                                &steps,

@@ -34,6 +34,10 @@ namespace NMM
       const double     least    = std::min({xi[0], xi[1], 1. - xi[0] - xi[1]});
       return least > -rounding ? 0. : -least;
     }
+
+
+    /// A node that lies further outside of its former cell than this is sought in others [-].
+    constexpr double most_outside = 0.5;
   } // namespace
 
 
@@ -56,6 +60,26 @@ namespace NMM
     };
     std::vector<Rank>   best(to.n_covers());
     std::vector<double> largest(former_blocks.size(), -1.);
+    const auto          propose = [&](const unsigned int cover,
+                             const unsigned int former,
+                             const double       area) {
+      const Point<2> xi =
+        former_cells.real_to_reference(former_mesh.cell(former),
+                                       to.node(cover));
+      // Interpolation is better than extrapolation, and large elements are located best.
+      const Rank rank{distance_outside(xi), area};
+      Rank      &other = best[cover];
+      if (other.area >= 0. &&
+          (rank.outside > other.outside ||
+           (rank.outside == other.outside && rank.area <= other.area)))
+        return;
+      other                  = rank;
+      origins[cover].element = former;
+      WeightFunctions::values(former_cells.degree(),
+                              xi,
+                              origins[cover].weights);
+      remove_rounding(former_cells.n_covers_per_cell(), origins[cover].weights);
+    };
     for (unsigned int element = 0; element < mesh.n_elements(); ++element)
     {
       const unsigned int former = find_former(element, rules.rule(element));
@@ -69,24 +93,23 @@ namespace NMM
         former_blocks[block] = former_mesh.block(former);
       }
       for (const unsigned int cover : to.covers(element))
+        propose(cover, former, area);
+    }
+    // Where cells have become larger, another part of an element may be nearer to the node.
+    for (unsigned int element = 0; element < mesh.n_elements(); ++element)
+    {
+      const auto covers = to.covers(element);
+      if (std::all_of(covers.begin(), covers.end(), [&](const unsigned int c) {
+            return best[c].outside <= most_outside;
+          }))
+        continue;
+      const dealii::Quadrature<2> &rule = rules.rule(element);
+      for (unsigned int q = 0; q < rule.size(); ++q)
       {
-        const Point<2> xi =
-          former_cells.real_to_reference(former_mesh.cell(former),
-                                         to.node(cover));
-        // Interpolation is better than extrapolation, and large elements are located best.
-        const Rank rank{distance_outside(xi), area};
-        Rank      &other = best[cover];
-        if (other.area >= 0. &&
-            (rank.outside > other.outside ||
-             (rank.outside == other.outside && rank.area <= other.area)))
-          continue;
-        other                  = rank;
-        origins[cover].element = former;
-        WeightFunctions::values(former_cells.degree(),
-                                xi,
-                                origins[cover].weights);
-        remove_rounding(former_cells.n_covers_per_cell(),
-                        origins[cover].weights);
+        const unsigned int former = find_former(element, rule, q);
+        if (former != invalid_index)
+          for (const unsigned int cover : covers)
+            propose(cover, former, mesh.area(element));
       }
     }
     for (unsigned int cover = 0; cover < origins.size(); ++cover)
@@ -102,22 +125,32 @@ namespace NMM
   CarriedCovers::find_former(const unsigned int           element,
                              const dealii::Quadrature<2> &rule) const
   {
-    const ManifoldMesh &mesh = to->manifold_mesh();
-    const auto          find = [&](const unsigned int q) {
-      return from->manifold_mesh().find_element(
-        mesh.mathematical_mesh().reference_to_real(mesh.cell(element),
-                                                   rule.point(q)));
-    };
     // An element whose area is within rounding may have no points.
     if (rule.size() == 0)
-      return from->manifold_mesh().find_element(mesh.reference_point(element));
+      return from->manifold_mesh().find_element(
+        to->manifold_mesh().reference_point(element));
     // The point of the largest weight is likely to be farthest from the element's edges.
     const auto  &weights = rule.get_weights();
     unsigned int former =
-      find(std::max_element(weights.begin(), weights.end()) - weights.begin());
+      find_former(element,
+                  rule,
+                  std::max_element(weights.begin(), weights.end()) -
+                    weights.begin());
     for (unsigned int q = 0; former == invalid_index && q < rule.size(); ++q)
-      former = find(q);
+      former = find_former(element, rule, q);
     return former;
+  }
+
+
+  unsigned int
+  CarriedCovers::find_former(const unsigned int           element,
+                             const dealii::Quadrature<2> &rule,
+                             const unsigned int           q) const
+  {
+    const ManifoldMesh &mesh = to->manifold_mesh();
+    return from->manifold_mesh().find_element(
+      mesh.mathematical_mesh().reference_to_real(mesh.cell(element),
+                                                 rule.point(q)));
   }
 
 

@@ -83,8 +83,12 @@ namespace NMM
     std::vector<State>                 states;
     LoadStep                           current;
     Vector                             iterate;
-    double                             dissipated         = 0.;
-    bool                               has_initial_stress = false;
+    double                             dissipated = 0.;
+    /// Whether the first state is no equilibrium, and must not be used for extrapolation: the
+    /// undeformed state with initial stress, or that of a solid that was cut since.
+    bool begins_out_of_balance = false;
+    /// Whether a step was accepted since the first state.
+    bool has_equilibrium = false;
 
     void
     initialize(ElasticSystem &system, EquilibriumSearch &used_search)
@@ -94,8 +98,8 @@ namespace NMM
       states.push_back({0., system.elasticity().initial_solution()});
       for (const Material &material :
            system.elasticity().elasticity_problem().materials)
-        has_initial_stress =
-          has_initial_stress || material.initial_stress.norm() > 0.;
+        begins_out_of_balance =
+          begins_out_of_balance || material.initial_stress.norm() > 0.;
     }
   };
 
@@ -191,6 +195,23 @@ namespace NMM
   }
 
 
+  void
+  NonlinearStatics::continue_from(const double load_factor, const Vector &u)
+  {
+    Data &d = *data;
+    Assert(d.elasticity->inelastic_terms() == nullptr,
+           dealii::ExcNotImplemented());
+    Vector admissible(u);
+    d.elasticity->elasticity().affine_constraints().distribute(admissible);
+    Vector solution(d.states.back().solution);
+    solution = admissible;
+    d.states.clear();
+    d.states.push_back({load_factor, solution});
+    d.begins_out_of_balance = true;
+    d.has_equilibrium       = false;
+  }
+
+
   std::vector<LoadStep>
   NonlinearStatics::run(
     const LoadSteps                                             &steps,
@@ -201,6 +222,7 @@ namespace NMM
         d.states.back().load_factor >= steps.load_factors.front())
     {
       d.states.clear();
+      d.has_equilibrium = false;
       d.elasticity->forget_states();
       d.states.push_back({0., d.elasticity->elasticity().initial_solution()});
     }
@@ -224,11 +246,9 @@ namespace NMM
       }
       d.dissipated = d.elasticity->accept_step(u);
       d.search->accept(u);
-      // With initial stress the undeformed state is no equilibrium, and must not be used for
-      // extrapolation.
-      if (d.has_initial_stress && d.states.size() == 1 &&
-          d.states.front().load_factor == 0.)
+      if (d.begins_out_of_balance && !d.has_equilibrium)
         d.states.clear();
+      d.has_equilibrium = true;
       d.states.push_back({step.load_factor, u});
       if (d.states.size() > steps.extrapolation_degree + 1)
         d.states.erase(d.states.begin());

@@ -39,7 +39,33 @@ namespace NMM
       contact.begin_anew();
       loading =
         std::make_unique<ContactStatics>(system, contact.contact(), newton);
-      reached = friction_work = 0.;
+      if (first.load_factor > 0.)
+        loading->continue_from(first.load_factor,
+                               first.displacement,
+                               first.history);
+      reached       = first.load_factor;
+      friction_work = first.friction_work;
+    }
+
+
+    void
+    ContactLoading::continue_from(LoadingState carried)
+    {
+      loading.reset();
+      first = std::move(carried);
+    }
+
+
+    LoadingState
+    ContactLoading::state() const
+    {
+      LoadingState state{reached,
+                         Vector(covers.locally_owned_dofs(2),
+                                covers.communicator()),
+                         contact.contact().history(),
+                         friction_work};
+      state.displacement = loading->solution();
+      return state;
     }
 
 
@@ -48,17 +74,24 @@ namespace NMM
     {
       const LoadStepParameters &given = scene.parameters().load_steps;
       LoadSteps                 steps;
-      if (loading && load_factor > reached)
-        steps.load_factors = {load_factor};
-      else
+      steps.load_factors       = {load_factor};
+      steps.leaves_out_reached = false;
+      const bool is_further =
+        load_factor > reached
+          ? reached >= first.load_factor
+          : load_factor < reached && reached <= first.load_factor;
+      if (!loading || !is_further)
       {
         begin_anew();
-        if (!given.load_factors.empty() ||
-            given.n_steps != LoadStepParameters::default_n_steps)
-          steps = given.load_steps();
-        const double scale = load_factor / steps.largest();
-        for (double &factor : steps.load_factors)
-          factor *= scale;
+        if (first.load_factor == 0. &&
+            (!given.load_factors.empty() ||
+             given.n_steps != LoadStepParameters::default_n_steps))
+        {
+          steps.load_factors = given.load_steps().load_factors;
+          const double scale = load_factor / steps.largest();
+          for (double &factor : steps.load_factors)
+            factor *= scale;
+        }
       }
       constexpr double least_step = 0.5;
       steps.min_step              = std::max(given.min_step, least_step);
@@ -71,6 +104,8 @@ namespace NMM
                                    "load factor " + std::to_string(load_factor),
                                    "choose a higher 'Contact/Normal "
                                    "stiffness'"));
+      if (load_factor == first.load_factor)
+        first = state();
       return loading->solution();
     }
 
@@ -97,6 +132,7 @@ namespace NMM
                          problem,
                          quadrature,
                          contact.contact().parameters().reach);
+        loading.reset();
         AssertThrow(false,
                     NumericalFailure(error.description() + ". " +
                                        mechanism.description,

@@ -11,18 +11,35 @@ namespace NMM
 {
   namespace internal
   {
+    /// A state of a ContactLoading.
+    struct LoadingState
+    {
+      using Vector = dealii::TrilinosWrappers::MPI::Vector;
+
+      /// [-]; 0 for a solid without loads.
+      double load_factor = 0.;
+      /// Displacements of owned unknowns [m].
+      Vector         displacement;
+      ContactHistory history;
+      /// Energy that friction has dissipated so far [J/m].
+      double friction_work = 0.;
+    };
+
+
     /**
      * The loading of elastic blocks in contact, with small displacements, to load factors that are
-     * not known beforehand. A load factor above the last one continues the loading. A smaller one
-     * starts again from zero load, since friction depends on the history. It is reached in one
-     * step, unless the scene has load steps of its own.
+     * not known beforehand. It begins without loads, or with the state of a solid that was cut
+     * further since. Since friction depends on the history, a load factor between the first and the
+     * last one makes the loading begin again; one further away from the first one continues
+     * it. It is reached in one step, unless the loading begins without loads and the scene has load
+     * steps of its own.
      *
      * Lifetime: the arguments must outlive this object.
      */
     class ContactLoading
     {
     public:
-      using Vector = ElasticSystem::Vector;
+      using Vector = LoadingState::Vector;
 
       ContactLoading(const Scene                             &scene,
                      const CoverSystem                       &covers,
@@ -31,11 +48,20 @@ namespace NMM
                      const ElasticityProblem                 &problem,
                      ContactAnalysis                         &contact);
 
+      /// Makes the loading begin with @p carried. The solution at its load factor, once it was
+      /// asked for, takes its place.
+      void
+      continue_from(LoadingState carried);
+
       /// The displacements at the load factor @p load_factor [m], with relevant unknowns, valid
       /// until the next call. The contact analysis has taken the state. @throws NumericalFailure
       /// if there is no equilibrium, naming the block that moves.
       const Vector &
       solve(double load_factor);
+
+      /// The state of the last solution.
+      LoadingState
+      state() const;
 
     private:
       const Scene                &scene;
@@ -45,6 +71,8 @@ namespace NMM
       ContactAnalysis            &contact;
       FiniteElasticity            elasticity;
       ElasticSystem               system;
+      /// The state with which the loading begins.
+      LoadingState first;
       /// The present loading; null if none has begun.
       std::unique_ptr<ContactStatics> loading;
       /// The last load factor [-], and the energy that friction has dissipated so far [J/m].

@@ -1,4 +1,6 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/contact/carried_history.h>
+#include <nmm/mechanics/carried_covers.h>
 
 #include <algorithm>
 #include <boost/serialization/vector.hpp>
@@ -24,15 +26,46 @@ namespace NMM
     void
     CrackGrowthAnalysis::make_system()
     {
-      if (contact)
-        contact_loading = std::make_unique<ContactLoading>(
-          scene, *covers, *quadrature, constraints, problem, *contact);
-      else
-        StaticAnalysis::make_system();
-      if (earlier_path && states.empty() &&
-          fingerprint() != earlier_path->fingerprint)
+      const bool is_restart = earlier_path && states.empty();
+      if (is_restart && fingerprint() != earlier_path->fingerprint)
         refuse_checkpoint(
           "The checkpoint is of another mesh, geometry or material", restart);
+      if (!contact)
+      {
+        StaticAnalysis::make_system();
+        return;
+      }
+      contact_loading = std::make_unique<ContactLoading>(
+        scene, *covers, *quadrature, constraints, problem, *contact);
+      if (former)
+        carried = carry_over();
+      else if (is_restart && earlier_path->carried_factor > 0.)
+      {
+        carried = {earlier_path->carried_factor,
+                   LoadingState::Vector(covers->locally_owned_dofs(2),
+                                        communicator),
+                   earlier_path->history,
+                   earlier_path->friction_work};
+        std::copy(earlier_path->displacement.begin(),
+                  earlier_path->displacement.end(),
+                  carried.displacement.begin());
+      }
+      contact_loading->continue_from(carried);
+    }
+
+
+    LoadingState
+    CrackGrowthAnalysis::carry_over() const
+    {
+      const auto &[solid, state] = *former;
+      return {state.load_factor,
+              CarriedCovers(*solid.covers, *covers, *quadrature)
+                .carry(state.displacement),
+              carry_history(state.history,
+                            solid.contact->faces(),
+                            contact->faces(),
+                            contact->contact().parameters().slave_priority),
+              state.friction_work};
     }
 
 
@@ -48,9 +81,15 @@ namespace NMM
     CrackGrowthAnalysis::check_problem()
     {
       StaticAnalysis::check_problem();
+      const bool is_parallel =
+        dealii::Utilities::MPI::n_mpi_processes(communicator) > 1;
+      AssertThrow(!scene.parameters().contact.is_present() || !is_parallel,
+                  InputError("cracks with contact grow on one rank only",
+                             "parameter 'Fracture/Increments'",
+                             "run the scene on one rank"));
       AssertThrow(!can_start_cracks(scene.parameters().fracture,
                                     problem.materials) ||
-                    dealii::Utilities::MPI::n_mpi_processes(communicator) == 1,
+                    !is_parallel,
                   InputError("cracks start on one rank only",
                              "parameter 'Materials/.../Fracture strength'",
                              "run the scene on one rank, or set it to 0"));
@@ -134,7 +173,12 @@ namespace NMM
       const SavedPath path{increments.increments(),
                            states,
                            n_unturned,
-                           state_fingerprint};
+                           state_fingerprint,
+                           carried.load_factor,
+                           carried.friction_work,
+                           {carried.displacement.begin(),
+                            carried.displacement.end()},
+                           carried.history};
       CheckpointFile{kind_of_checkpoint,
                      dealii::Utilities::pack(path,
                                              /* allow_compression = */ false),
@@ -166,13 +210,23 @@ namespace NMM
       constexpr double       tolerance   = 1e-3;
       // These are the load factor and the drive of the previous trial.
       std::optional<std::pair<double, double>> before;
-      // The search begins below, since a load that increases needs few iterations.
-      double factor = 0.5 * (states.empty() ? 1. : states.back().load_factor);
+      // The crack grows at a constant load first.
+      const bool is_carried = carried.load_factor > 0.;
+      double     factor     = is_carried ? carried.load_factor : 0.5;
       for (unsigned int i = 0; i < most_trials; ++i)
       {
+        try
         {
           Stage stage(progress, "solution");
           show(contact_loading->solve(factor));
+        }
+        catch (const NumericalFailure &)
+        {
+          // With the longer crack the solid may not bear that load.
+          if (i > 0 || !is_carried)
+            throw;
+          factor *= 0.5;
+          continue;
         }
         const double driven = find_growing_tips();
         load_factor =
@@ -362,6 +416,13 @@ namespace NMM
       std::vector<GrowingTip> tips     = std::move(growing_tips);
       const Geometry          before   = geometry;
       const unsigned int      n_blocks = physical_mesh->n_blocks();
+      if (contact)
+      {
+        LoadingState state = contact_loading->state();
+        former.emplace(release_solid(), std::move(state));
+      }
+      const std::shared_ptr<void> forget(nullptr,
+                                         [this](void *) { former.reset(); });
       try
       {
         // Each turn reduces the residual by a factor of five and more.

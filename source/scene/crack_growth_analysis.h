@@ -26,9 +26,11 @@ namespace NMM
      * contact the secant method finds lambda up to an error of a thousandth in d, and fields,
      * pictures, probes and tips are those at that load factor.
      *
-     * After each increment the solid is cut and meshed again and loaded from zero. With friction
-     * this is the path of a crack whose faces slide in one direction only: slip that
-     * reverses or stops while the crack grows is not modelled.
+     * After each increment the solid is cut and meshed again. With contact its displacements and the
+     * history of contact are carried over, and the load continues from the load factor of the
+     * shorter crack, upwards or downwards. Slip that locks or reverses while the crack grows is a
+     * part of the path therefore.
+     * Limits: with contact one rank.
      */
     class CrackGrowthAnalysis : public StaticAnalysis
     {
@@ -49,7 +51,7 @@ namespace NMM
       void
       clear() override;
 
-      /// @throws InputError for cracks that start on several ranks.
+      /// @throws InputError for cracks that start, or have contact, on several ranks.
       void
       check_problem() override;
 
@@ -78,8 +80,8 @@ namespace NMM
         }
       };
 
-      /// What a checkpoint holds. The states follow from each other without memory, so the equations
-      /// of the last one are made again from the increments.
+      /// What a checkpoint holds. The equations of the last state are made again from the
+      /// increments.
       struct SavedPath
       {
         std::vector<Increment> increments;
@@ -87,19 +89,31 @@ namespace NMM
         unsigned int           n_unturned = 0;
         /// That of the last state's solid, see CrackGrowthAnalysis::fingerprint().
         std::uint64_t fingerprint = 0;
+        /// @{
+        /// With contact, the state that was carried over to that solid, see LoadingState.
+        double              carried_factor = 0., friction_work = 0.;
+        std::vector<double> displacement;
+        ContactHistory      history;
+        /// @}
 
         template <typename Archive>
         void
         serialize(Archive &archive, const unsigned int /*version*/)
         {
-          archive &increments &states &n_unturned &fingerprint;
+          archive &increments &states &n_unturned &fingerprint &carried_factor
+            &friction_work &displacement &history;
         }
       };
 
       /// Null without contact.
       std::unique_ptr<ContactLoading> contact_loading;
-      std::vector<State>              states;
-      GrowthTable                     increments{"load_factor"};
+      /// With contact, the solid before the increments that are tried, and its state.
+      std::optional<std::pair<FormerSolid, LoadingState>> former;
+      /// With contact, the state that was carried over to the present solid; without loads before
+      /// any increment.
+      LoadingState       carried;
+      std::vector<State> states;
+      GrowthTable        increments{"load_factor"};
       /// The tips that grow next from the last state.
       std::vector<GrowingTip> growing_tips;
       /// Load factor at which they grow [-]; not a number if no load makes a tip grow.
@@ -112,6 +126,10 @@ namespace NMM
       unsigned int n_unturned = 0;
       /// The path before the checkpoint from which this run continues, if it does.
       std::optional<SavedPath> earlier_path;
+
+      /// Carries the state of the former solid over.
+      LoadingState
+      carry_over() const;
 
       /// The solid and its materials as one number, by which a checkpoint recognizes them.
       std::uint64_t

@@ -133,20 +133,15 @@ namespace NMM
       grow();
 
       /// The solid before it was cut again, and its state.
-      struct FormerSolid
+      struct FormerState
       {
+        FormerSolid    solid;
         DynamicState   state;
         ContactHistory history;
         /// Kinetic and stored energy [J/m].
         double energy = 0.;
         /// See AccountedContactModel::friction_work() [J/m].
         double friction_work = 0.;
-        // Each object refers to those above it.
-        std::unique_ptr<PhysicalMesh>     physical_mesh;
-        std::unique_ptr<MathematicalMesh> mathematical_mesh;
-        std::unique_ptr<ManifoldMesh>     manifold_mesh;
-        std::unique_ptr<CoverSystem>      covers;
-        std::unique_ptr<ContactAnalysis>  contact;
       };
 
       /// Cuts the solid again, with the geometry @p grown, and goes on from the same state. Faces
@@ -157,7 +152,7 @@ namespace NMM
 
       /// Takes over the state of a solid that has been cut again since.
       void
-      carry_over(const FormerSolid &former, double duration);
+      carry_over(const FormerState &former, double duration);
 
       /// The terms of inelastic materials; null if all materials are elastic.
       InelasticTerms *

@@ -239,7 +239,7 @@ namespace NMM
     {
       can_be_saved = false;
       integrator->balance_accelerations();
-      FormerSolid former;
+      FormerState former;
       former.state  = integrator->state();
       former.energy = integrator->account().kinetic +
                       integrator->account().strain +
@@ -251,11 +251,7 @@ namespace NMM
       }
       // The solid remains until its state is carried over; what else refers to it does not.
       clear_equations();
-      former.physical_mesh     = std::move(physical_mesh);
-      former.mathematical_mesh = std::move(mathematical_mesh);
-      former.manifold_mesh     = std::move(manifold_mesh);
-      former.covers            = std::move(covers);
-      former.contact           = std::move(contact);
+      former.solid = release_solid();
 
       const Geometry before = geometry;
       std::string    fault, place;
@@ -288,10 +284,10 @@ namespace NMM
 
 
     void
-    DynamicAnalysis::carry_over(const FormerSolid &former,
+    DynamicAnalysis::carry_over(const FormerState &former,
                                 const double       duration)
     {
-      const CarriedCovers carried(*former.covers, *covers, *quadrature);
+      const CarriedCovers carried(*former.solid.covers, *covers, *quadrature);
       DynamicState        state = former.state;
       for (Vector *vector : {&state.u, &state.v, &state.a})
         *vector = carried.carry(*vector);
@@ -303,11 +299,11 @@ namespace NMM
           state.left_blocks.push_back(block);
       if (contact)
       {
-        contact->continue_from(*former.contact);
+        contact->continue_from(*former.solid.contact);
         contact_model->restore(
           former.friction_work,
           carry_history(former.history,
-                        former.contact->faces(),
+                        former.solid.contact->faces(),
                         contact->faces(),
                         contact->contact().parameters().slave_priority));
       }

@@ -383,6 +383,17 @@ namespace NMM
     }
 
 
+    SceneAnalysis::FormerSolid
+    SceneAnalysis::release_solid()
+    {
+      return {std::move(physical_mesh),
+              std::move(mathematical_mesh),
+              std::move(manifold_mesh),
+              std::move(covers),
+              std::move(contact)};
+    }
+
+
     void
     SceneAnalysis::print_report()
     {

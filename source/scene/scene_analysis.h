@@ -128,6 +128,21 @@ namespace NMM
       virtual void
       clear();
 
+      /// A solid that was replaced by one that is cut further. Each object refers to those above it.
+      struct FormerSolid
+      {
+        std::unique_ptr<PhysicalMesh>     physical_mesh;
+        std::unique_ptr<MathematicalMesh> mathematical_mesh;
+        std::unique_ptr<ManifoldMesh>     manifold_mesh;
+        std::unique_ptr<CoverSystem>      covers;
+        std::unique_ptr<ContactAnalysis>  contact;
+      };
+
+      /// Releases the solid, which outlives the next build() so that its state can be carried over.
+      /// The equations must have been destroyed before, or be destroyed by clear().
+      FormerSolid
+      release_solid();
+
       /// Computes the intensity factors of all crack tips from `field`, if the scene asks for them.
       /// Collective.
       void

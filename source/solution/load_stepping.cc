@@ -68,7 +68,9 @@ namespace NMM
     const auto   first =
       std::find_if(steps.load_factors.begin(),
                    steps.load_factors.end(),
-                   [&](const double factor) { return factor > begin; });
+                   [&](const double factor) {
+                     return factor > begin || !steps.leaves_out_reached;
+                   });
     AssertThrow(first != steps.load_factors.end(),
                 InputError("The load factor " + std::to_string(largest) +
                              " is not above " + std::to_string(begin) +
@@ -80,7 +82,7 @@ namespace NMM
     double       reached = begin;
     unsigned int n_cuts = 0, n_lost_iterations = 0;
     for (auto wanted = first; wanted != steps.load_factors.end(); ++wanted)
-      while (reached != *wanted)
+      do
       {
         // negative where loads are taken away
         const double way = *wanted - reached;
@@ -112,6 +114,6 @@ namespace NMM
                     NumericalFailure("No equilibrium: " + verdict.reason,
                                      where.str(),
                                      verdict.remedy));
-      }
+      } while (reached != *wanted);
   }
 } // namespace NMM

@@ -51,7 +51,9 @@ namespace NMM
             << (has_contact ? 0.2 : 0.1) + 0.2 * number()
             << "\nend\nsubsection Fracture\n  set Intensity factors = true\n"
                "  set Increments = "
-            << 1 + integer(has_contact ? 0 : 3)
+            << 1 + integer(!has_contact ? 3
+                           : moves      ? 0
+                                        : 2)
             << "\n  set Increment = " << std::pow(10., -2. * number() - 0.3)
             << "\n  set Grading = "
             << (has_contact ? 0.5 : 0.3) + 0.4 * number()

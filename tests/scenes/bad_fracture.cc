@@ -107,6 +107,24 @@ namespace
   }
 
 
+  // Only one rank can find cracks that start, or carry contact over to a longer crack.
+  TEST(BadInput, CracksThatGrowOnTwoRanksMPI)
+  {
+    if (n_ranks() != 2)
+      GTEST_SKIP() << "on 2 ranks";
+    const std::vector<std::string> growing =
+      cracked + std::vector<std::string>{"Fracture/Increments=2",
+                                         "Fracture/Increment=0.1",
+                                         "Materials/rock/Toughness=1"};
+    expect_rejected_with(growing,
+                         "Contact/Enforcement=penalty",
+                         {"contact", "one rank only"});
+    expect_rejected_with(growing,
+                         "Materials/rock/Fracture strength=1",
+                         {"start", "one rank only"});
+  }
+
+
   // A pressure needs faces, which a joint has that is open.
   TEST(BadInput, PressureInJoints)
   {

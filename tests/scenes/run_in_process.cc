@@ -58,6 +58,13 @@ run_in_process(const std::vector<std::string> &arguments)
 }
 
 
+unsigned int
+n_ranks()
+{
+  return dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+}
+
+
 bool
 is_first_rank()
 {

@@ -16,6 +16,10 @@ struct DriverResult
 DriverResult
 run_in_process(const std::vector<std::string> &arguments);
 
+/// Number of ranks of this process's run.
+unsigned int
+n_ranks();
+
 /// Whether messages are this process's to write.
 bool
 is_first_rank();

@@ -15,10 +15,12 @@ namespace
   std::vector<double>
   take(const std::vector<double> &load_factors,
        const double               begin,
-       const double               longest)
+       const double               longest,
+       const bool                 leaves_out_reached = true)
   {
     LoadSteps steps;
-    steps.load_factors = load_factors;
+    steps.load_factors       = load_factors;
+    steps.leaves_out_reached = leaves_out_reached;
     std::vector<double> accepted;
     double              reached = begin;
     LoadStep            last;
@@ -70,6 +72,11 @@ namespace
     EXPECT_THROW(take({0.5, 0.5}, 0., 10.), InputError);
     EXPECT_THROW(take({0., 0.5}, 0., 10.), InputError);
     EXPECT_THROW(take({0.5, -0.5}, 0., 10.), InputError);
+    // All load factors, also the present one: a solid that was cut further has another equilibrium.
+    EXPECT_EQ(take({0.5, 0.25}, 0.5, 10., false),
+              (std::vector<double>{0.5, 0.25}));
+    EXPECT_EQ(take({0.25, 0.5}, 0.5, 10., false),
+              (std::vector<double>{0.25, 0.5}));
     // a step that is shorter than a ten-thousandth is given up
     EXPECT_THROW(take({1.}, 0., 1e-5), NumericalFailure);
   }

@@ -98,6 +98,14 @@ namespace NMM
     static NewtonParameters
     default_newton_parameters();
 
+    /// Continue from the displacements @p u of owned unknowns [m] and the history of contact that a
+    /// solid had at @p load_factor before it was cut further, see NonlinearStatics::continue_from()
+    /// and carry_history(). The load factor must be positive.
+    void
+    continue_from(double                load_factor,
+                  const Vector         &u,
+                  const ContactHistory &history);
+
     /// Apply the load in @p steps, see NonlinearStatics::run(), and call @p after_step after each
     /// one that converged. @throws InputError for blocks that overlap an obstacle before the first
     /// step.

@@ -21,8 +21,10 @@ namespace NMM
    * quartered), covers get the value that the function before the cut has at their nodes. This is
    * the same function where quadratic functions on the former cells are quadratic on the new
    * ones, and an interpolation with an error of order h^3 at those few cells where the
-   * refinement ends. Cells must not have become larger: a former function would then be
-   * extrapolated over more than the size of its cells.
+   * refinement ends. Where cells have become larger, as behind a crack tip from which a graded
+   * mesh turns away, the value at the node comes from the nearest of the former elements at the
+   * quadrature points. This extrapolates over a few former cells, which is good enough for the first
+   * guess of an equilibrium; a motion needs cells that do not become larger.
    *
    * Functions that are carried over need not satisfy the constraints of covers that are aggregated
    * only after the cut; TimeIntegrator::continue_after_cut() sees to these.
@@ -71,6 +73,12 @@ namespace NMM
     /// is too small to be found.
     unsigned int
     find_former(unsigned int element, const dealii::Quadrature<2> &rule) const;
+
+    /// The same for the point @p q of the element's rule.
+    unsigned int
+    find_former(unsigned int                 element,
+                const dealii::Quadrature<2> &rule,
+                unsigned int                 q) const;
   };
 } // namespace NMM
 

@@ -75,6 +75,12 @@ namespace NMM
     NonlinearStatics(ElasticSystem &elasticity, EquilibriumSearch &search);
     ~NonlinearStatics();
 
+    /// Continue from the displacements @p u of owned unknowns [m], which were an equilibrium at
+    /// @p load_factor before the solid was cut further. They need not be one now, and they need not
+    /// satisfy the constraints of covers that are aggregated only since. For elastic materials.
+    void
+    continue_from(double load_factor, const Vector &u);
+
     /**
      * Take the given steps from the unloaded state, or from the last solution of an earlier call
      * if its load factor is below the first one requested. With an EquilibriumSearch of the

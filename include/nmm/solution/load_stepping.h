@@ -29,6 +29,10 @@ namespace NMM
      * without it (27 instead of 31).
      */
     unsigned int extrapolation_degree = 0;
+    /// Whether the load factors up to the first one above the present one are left out, which lets
+    /// steps continue after those taken before. Otherwise all of them are reached in turn, be they
+    /// above or below the present one.
+    bool leaves_out_reached = true;
 
     /// @p n equal steps up to the load factor @p last.
     static LoadSteps
@@ -85,15 +89,15 @@ namespace NMM
 
 
   /**
-   * The one loop over load steps: from @p begin to each of the requested load factors in turn, from
-   * the first one above @p begin on. The first step tries to reach that. A step that @p attempt rejects is divided, and after an
-   * accepted step the next one may be longer. Intermediate steps divide the remaining way to the
-   * next requested load factor into equal parts.
+   * The one loop over load steps: from @p begin to each of the requested load factors in turn,
+   * see LoadSteps::leaves_out_reached. The first step tries to reach the first of them. A step that
+   * @p attempt rejects is divided, and after an accepted step the next one may be longer.
+   * Intermediate steps divide the remaining way to the next requested load factor into equal parts.
    *
    * @p attempt is called with a step whose load factor and cuts are set. It computes the solution
    * there, fills in the rest of the step, and keeps the new state if it accepts the step.
    *
-   * @throws InputError if no load factor is above @p begin.
+   * @throws InputError if all load factors are left out.
    * @throws NumericalFailure if a step would be shorter than allowed, with the load factor and
    * the last reason; @p step is then the last one that was tried.
    */

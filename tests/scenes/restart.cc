@@ -1,80 +1,25 @@
 #include "cases.h"
-#include "run_driver.h"
+#include "result_files.h"
+#include "run_in_process.h"
 #include "table.h"
-#include <csignal>
-#include <cstdlib>
-#include <ctime>
-#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <map>
-#include <random>
-#include <regex>
 #include <sstream>
 #include <string>
-#include <sys/wait.h>
-#include <thread>
-#include <unistd.h>
 #include <vector>
 
-// Runs that are stopped, killed or fail, and are continued from their checkpoint.
+// Runs that are stopped or fail, and are continued from their checkpoint.
 namespace
 {
   namespace fs = std::filesystem;
 
-  using Arguments = std::vector<std::string>;
-
-  std::string
-  read_file(const fs::path &name)
-  {
-    std::ifstream     file(name, std::ios::binary);
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-  }
-
-
-  /// All files of a folder with what is in them.
-  std::map<std::string, std::string>
-  contents(const fs::path &folder)
-  {
-    std::map<std::string, std::string> files;
-    for (const auto &entry : fs::directory_iterator(folder))
-      files[entry.path().filename().string()] = read_file(entry.path());
-    return files;
-  }
-
-
-  Arguments
-  operator+(Arguments a, const Arguments &b)
-  {
-    a.insert(a.end(), b.begin(), b.end());
-    return a;
-  }
-
-
   void
-  run(const Arguments   &arguments,
-      const int          exit_code = 0,
-      const unsigned int n_ranks   = 1)
+  run(const Arguments &arguments, const int exit_code = 0)
   {
-    const DriverResult result = run_driver(arguments, n_ranks);
+    const DriverResult result = run_in_process(arguments);
     ASSERT_EQ(result.exit_code, exit_code) << result.output;
-  }
-
-
-  void
-  expect_same_histories(const std::string &a, const std::string &b)
-  {
-    for (const char *name : {"history.csv", "probes-history.csv"})
-    {
-      const std::string text = read_file(fs::path(a) / name);
-      EXPECT_GT(std::count(text.begin(), text.end(), '\n'), 10);
-      // Not EXPECT_EQ, which would print both.
-      EXPECT_TRUE(text == read_file(fs::path(b) / name))
-        << fs::path(a) / name << " and " << fs::path(b) / name << " differ";
-    }
   }
 
 
@@ -82,59 +27,50 @@ namespace
   void
   check_stop(const std::string &scene,
              const std::string &half,
-             const Arguments   &more,
-             const unsigned int n_ranks)
+             const Arguments   &more)
   {
-    SCOPED_TRACE(scene + " on " + std::to_string(n_ranks) + " rank(s)");
+    SCOPED_TRACE(scene);
     const Arguments settings =
       Arguments{"--set", "Output/Checkpoint every=7", cases_dir + scene} + more;
     const std::string straight = fresh_output_dir("straight");
     const std::string stopped  = fresh_output_dir("stopped");
-    run(settings + Arguments{"-o", straight}, 0, n_ranks);
-    run(settings + Arguments{"-o", stopped, "--set", "Time/End time=" + half},
-        0,
-        n_ranks);
+    run(settings + Arguments{"-o", straight});
+    run(settings + Arguments{"-o", stopped, "--set", "Time/End time=" + half});
     run(settings +
-          Arguments{"-o", stopped, "--restart", stopped + "/checkpoint.nmm"},
-        0,
-        n_ranks);
+        Arguments{"-o", stopped, "--restart", stopped + "/checkpoint.nmm"});
+    if (!is_first_rank())
+      return;
     expect_same_histories(straight, stopped);
-    EXPECT_TRUE(read_file(straight + "/checkpoint.nmm") ==
-                read_file(stopped + "/checkpoint.nmm"));
+    EXPECT_TRUE(read_text(straight + "/checkpoint.nmm") ==
+                read_text(stopped + "/checkpoint.nmm"));
     EXPECT_TRUE(fs::exists(stopped + "/fields.vtu") ||
                 fs::exists(stopped + "/fields.pvtu"));
   }
 
 
-  TEST(Restart, StoppedRunsGoOnWithTheSameBits)
+  TEST(Restart, StoppedRunsGoOnWithTheSameBitsMPI)
   {
+    if (n_ranks() > 1)
+    {
+      check_stop("released-bar/scene.prm",
+                 "0.35",
+                 {"--set", "Time/End time=0.6"});
+      check_stop("contact-incline/scene.prm",
+                 "0.05",
+                 {"--set", "Time/End time=0.1"});
+      return;
+    }
     // The release is in the second part.
-    check_stop("released-bar/scene.prm",
-               "0.4",
-               {"--set", "Time/End time=0.7"},
-               1);
+    check_stop("released-bar/scene.prm", "0.4", {"--set", "Time/End time=0.7"});
     check_stop("spinning-block/scene.prm",
                "0.5",
-               {"--set", "Time/End time=0.8"},
-               1);
+               {"--set", "Time/End time=0.8"});
     // It slides and hops.
     check_stop("contact-incline/scene.prm",
                "0.1",
-               {"--set", "Time/End time=0.2"},
-               1);
+               {"--set", "Time/End time=0.2"});
     // The first block leaves in the first part, the second one in the second.
-    check_stop("leaving-blocks/scene.prm", "0.9", {}, 1);
-#ifndef DEBUG
-    // In Debug other scenes pass the assertions of two ranks in a tenth of the time.
-    check_stop("released-bar/scene.prm",
-               "0.35",
-               {"--set", "Time/End time=0.6"},
-               2);
-    check_stop("contact-incline/scene.prm",
-               "0.05",
-               {"--set", "Time/End time=0.1"},
-               2);
-#endif
+    check_stop("leaving-blocks/scene.prm", "0.9", {});
   }
 
 
@@ -159,7 +95,7 @@ namespace
     const std::string straight = fresh_output_dir("straight-slope");
     const std::string stopped  = fresh_output_dir("stopped-slope");
     run(settings + Arguments{"-o", straight, "--set", "Time/End time=" + end});
-    const std::string history = read_file(straight + "/history.csv");
+    const std::string history = read_text(straight + "/history.csv");
     const auto n_lines = std::count(history.begin(), history.end(), '\n');
     // at the end of a step of that run, whose length contact has chosen, after half of
     // them
@@ -176,9 +112,9 @@ namespace
                              "--restart",
                              stopped + "/checkpoint.nmm"});
     EXPECT_GT(n_lines, 20);
-    EXPECT_TRUE(history == read_file(stopped + "/history.csv"));
-    EXPECT_TRUE(read_file(straight + "/checkpoint.nmm") ==
-                read_file(stopped + "/checkpoint.nmm"));
+    EXPECT_TRUE(history == read_text(stopped + "/history.csv"));
+    EXPECT_TRUE(read_text(straight + "/checkpoint.nmm") ==
+                read_text(stopped + "/checkpoint.nmm"));
   }
 
 
@@ -335,7 +271,7 @@ namespace
     run(settings +
         Arguments{"-o", second, "--restart", first + "/checkpoint.nmm"});
     EXPECT_TRUE(before == contents(first));
-    const std::string history = read_file(second + "/history.csv");
+    const std::string history = read_text(second + "/history.csv");
     // Two lines of names, the state it starts from, 25 steps.
     EXPECT_EQ(std::count(history.begin(), history.end(), '\n'), 28);
     EXPECT_NE(history.find(",25,0,0,0,"), std::string::npos) << history;
@@ -346,17 +282,17 @@ namespace
   expect_refused(const std::string              &checkpoint,
                  const std::string              &scene,
                  const Arguments                &more,
-                 const std::vector<std::string> &words,
-                 const unsigned int              n_ranks = 1)
+                 const std::vector<std::string> &words)
   {
     SCOPED_TRACE(scene + ": " + words.front());
     const std::string folder = fs::path(checkpoint).parent_path().string();
     const auto        before = contents(folder);
     const auto        result =
-      run_driver(Arguments{"-o", folder, "--restart", checkpoint} + more +
-                   Arguments{cases_dir + scene},
-                 n_ranks);
+      run_in_process(Arguments{"-o", folder, "--restart", checkpoint} + more +
+                     Arguments{cases_dir + scene});
     EXPECT_EQ(result.exit_code, 2) << result.output;
+    if (!is_first_rank())
+      return;
     for (const std::string &word : words)
       EXPECT_NE(result.output.find(word), std::string::npos)
         << "'" << word << "' is missing in: " << result.output;
@@ -364,7 +300,7 @@ namespace
   }
 
 
-  TEST(Restart, RefusesWhatDoesNotFit)
+  TEST(Restart, RefusesWhatDoesNotFitMPI)
   {
     const std::string folder     = fresh_output_dir("refused");
     const std::string checkpoint = folder + "/checkpoint.nmm";
@@ -382,11 +318,8 @@ namespace
                    scene,
                    {"--set", "Mathematical mesh/Cell size=0.4"},
                    {"another mesh", "checkpoint.nmm"});
-    expect_refused(checkpoint,
-                   scene,
-                   {"--set", "Mathematical mesh/Cell size=0.4"},
-                   {"another mesh", "checkpoint.nmm"},
-                   2);
+    if (n_ranks() > 1)
+      return;
     expect_refused(checkpoint,
                    scene,
                    {"--set", "Materials/rock/Density=900"},
@@ -431,7 +364,7 @@ namespace
                     "Probes/corner/To=1, 1"},
                    {"probes-history.csv", "columns"});
 
-    const std::string whole   = read_file(checkpoint);
+    const std::string whole   = read_text(checkpoint);
     std::string       damaged = whole;
     damaged[damaged.size() / 2] ^= 4;
     std::ofstream(folder + "/damaged.nmm", std::ios::binary) << damaged;
@@ -498,136 +431,10 @@ namespace
                      {"other probes"});
     }
     // What has grown is at the beginning of the file.
-    std::string damaged = read_file(checkpoint);
+    std::string damaged = read_text(checkpoint);
     damaged[100] ^= 1;
     std::ofstream(folder + "/damaged.nmm", std::ios::binary) << damaged;
     expect_refused(folder + "/damaged.nmm", scene, {}, {"damaged"});
-  }
-
-
-  /// Start the driver and come back at once.
-  pid_t
-  start(Arguments arguments)
-  {
-    arguments.insert(arguments.begin(), NMM_DRIVER);
-    std::vector<char *> words;
-    for (std::string &argument : arguments)
-      words.push_back(argument.data());
-    words.push_back(nullptr);
-    const pid_t child = fork();
-    if (child == 0)
-    {
-      const int null = ::open("/dev/null", O_WRONLY);
-      dup2(null, STDOUT_FILENO);
-      dup2(null, STDERR_FILENO);
-      execv(words[0], words.data());
-      _exit(127);
-    }
-    return child;
-  }
-
-
-  /// Let it run until it has written a checkpoint and a little longer, then
-  /// SIGKILL. False if it had ended before.
-  bool
-  kill_after_checkpoint(const pid_t                     child,
-                        const fs::path                 &checkpoint,
-                        const fs::file_time_type        not_before,
-                        const std::chrono::milliseconds longer)
-  {
-    const auto      deadline = time(nullptr) + 60;
-    std::error_code none;
-    while (time(nullptr) < deadline &&
-           !(fs::exists(checkpoint) &&
-             fs::last_write_time(checkpoint, none) > not_before))
-    {
-      int status = 0;
-      if (waitpid(child, &status, WNOHANG) == child)
-        return false;
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    std::this_thread::sleep_for(longer);
-    kill(child, SIGKILL);
-    int status = 0;
-    waitpid(child, &status, 0);
-    return WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
-  }
-
-
-  /// fields.pvd names only files that are there, and there are some.
-  void
-  check_series(const std::string &folder)
-  {
-    const std::string pvd = read_file(folder + "/fields.pvd");
-    EXPECT_NE(pvd.find("</VTKFile>"), std::string::npos) << pvd;
-    const std::regex file("file=\"([^\"]*)\"");
-    unsigned int     n = 0;
-    for (std::sregex_iterator i(pvd.begin(), pvd.end(), file), end; i != end;
-         ++i, ++n)
-    {
-      const std::string vtu = read_file(folder + "/" + (*i)[1].str());
-      EXPECT_NE(vtu.find("</VTKFile>"), std::string::npos) << (*i)[1];
-    }
-    EXPECT_GT(n, 1u);
-  }
-
-
-  TEST(Restart, KilledRunsGoOnWithTheSameBits)
-  {
-    const unsigned int seed = std::random_device()();
-    std::cout << "seed " << seed << std::endl;
-    std::mt19937                       generator(seed);
-    std::uniform_int_distribution<int> milliseconds(0, 150);
-    const Arguments                    settings{"--set",
-                             "Output/Checkpoint every=5",
-                             "--set",
-                             "Output/Fields every=20",
-                             "--set",
-                             "Time/Initial step=0.002",
-                             "--set",
-                             "Time/Largest step=0.004",
-                             "--set",
-                             "Time/Largest displacement=0.015",
-                             "--set",
-                             "Time/End time=2",
-                             cases_dir + "spinning-block/scene.prm"};
-    const std::string                  straight = fresh_output_dir("unbroken");
-    const std::string                  killed   = fresh_output_dir("killed");
-    run(settings + Arguments{"-o", straight});
-
-    const std::string  checkpoint = killed + "/checkpoint.nmm";
-    unsigned int       n_kills    = 0;
-    Arguments          restart;
-    fs::file_time_type last = fs::file_time_type::min();
-    for (unsigned int i = 0; i < 3; ++i)
-    {
-      const pid_t child = start(settings + Arguments{"-o", killed} + restart);
-      n_kills += kill_after_checkpoint(child,
-                                       checkpoint,
-                                       last,
-                                       std::chrono::milliseconds(
-                                         milliseconds(generator)));
-      ASSERT_TRUE(fs::exists(checkpoint));
-      last    = fs::last_write_time(checkpoint);
-      restart = {"--restart", checkpoint};
-      // What a run leaves in its last moments, see CsvSeries.
-      std::ofstream(killed + "/history.csv", std::ios::app) << "1.99,99999,0.0";
-      std::ofstream(killed + "/probes-history.csv", std::ios::app) << "1.9";
-    }
-    ASSERT_GE(n_kills, 1u);
-    EXPECT_FALSE(fs::exists(killed + "/summary.csv"));
-    run(settings + Arguments{"-o", killed} + restart);
-    expect_same_histories(straight, killed);
-    check_series(killed);
-    for (const auto &entry : fs::directory_iterator(killed))
-      EXPECT_NE(entry.path().extension(), ".part") << entry.path();
-
-    // The same fields, numbers and times.
-    const auto list = [](const std::string &folder) {
-      const std::string pvd = read_file(folder + "/fields.pvd");
-      return pvd.substr(pvd.find("<VTKFile"));
-    };
-    EXPECT_EQ(list(straight), list(killed));
   }
 
 
@@ -654,7 +461,7 @@ namespace
       EXPECT_TRUE(fs::exists(output + "/" + name)) << name;
     run(settings + Arguments{"--restart", output + "/checkpoint.nmm"});
     // A parabola, however steps are cut.
-    const std::string  history = read_file(output + "/probes-history.csv");
+    const std::string  history = read_text(output + "/probes-history.csv");
     std::istringstream row(
       history.substr(history.rfind('\n', history.size() - 2) + 1));
     double time = 0., x = 0., y = 0.;

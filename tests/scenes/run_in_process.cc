@@ -4,6 +4,7 @@
 
 #include "driver.h"
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <sstream>
 
@@ -55,6 +56,17 @@ run_in_process(const std::vector<std::string> &arguments)
     std::cerr << error.what();
   }
   return {exit_code, capture.text.str()};
+}
+
+
+std::string
+fresh_output_dir(const std::string &name)
+{
+  const std::string path = NMM_TEST_OUTPUT_DIR "/" + name;
+  if (is_first_rank())
+    std::filesystem::remove_all(path);
+  MPI_Barrier(MPI_COMM_WORLD);
+  return path;
 }
 
 

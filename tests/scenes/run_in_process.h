@@ -16,6 +16,10 @@ struct DriverResult
 DriverResult
 run_in_process(const std::vector<std::string> &arguments);
 
+/// A folder of that name for results, which does not exist. Collective.
+std::string
+fresh_output_dir(const std::string &name);
+
 /// Number of ranks of this process's run.
 unsigned int
 n_ranks();

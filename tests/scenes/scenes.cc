@@ -29,9 +29,7 @@ namespace
       GTEST_SKIP() << "only in Release";
 #endif
 
-    const std::string output = NMM_TEST_OUTPUT_DIR "/" + GetParam();
-    if (is_first_rank())
-      fs::remove_all(output);
+    const std::string        output    = fresh_output_dir(GetParam());
     std::vector<std::string> arguments = test_case.arguments;
     arguments.insert(arguments.end(), {"--output", output, test_case.scene});
     const DriverResult result = run_in_process(arguments);

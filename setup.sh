@@ -197,6 +197,7 @@ configure_and_build()
   if ! cmake --preset "$preset" \
          -DNMM_WARNINGS_AS_ERRORS="${NMM_WARNINGS_AS_ERRORS:-OFF}" \
          -DCMAKE_UNITY_BUILD="${NMM_UNITY_BUILD:-ON}" \
+         -DCMAKE_UNITY_BUILD_BATCH_SIZE=16 \
          >"$log" 2>&1; then
     cat "$log" >&2
     die "CMake could not configure the project (its message is above). If it" \

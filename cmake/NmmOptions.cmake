@@ -48,8 +48,10 @@ target_compile_options(
             $<$<CONFIG:Debug>:${NMM_FLAGS_DEBUG}>
             $<$<CONFIG:Release>:${NMM_FLAGS_RELEASE}>
             $<$<BOOL:${NMM_WARNINGS_AS_ERRORS}>:-Werror>)
+# Without MPI's C++ classes, which nobody uses, each source takes half a second less.
 target_compile_definitions(
-  nmm_options INTERFACE $<$<CONFIG:Debug>:_GLIBCXX_ASSERTIONS>)
+  nmm_options INTERFACE $<$<CONFIG:Debug>:_GLIBCXX_ASSERTIONS> OMPI_SKIP_MPICXX
+                        MPICH_SKIP_MPICXX)
 
 # A run ends at the first finding. Libraries are instrumented as far as they are headers;
 # CGAL's iterators cast the faces of an arrangement to a class that they are not of, hence

@@ -22,10 +22,10 @@ namespace NMM
 
     namespace
     {
-      namespace bg = boost::geometry;
-      using Corner = bg::model::point<double, 2, bg::cs::cartesian>;
-      using Box    = bg::model::box<Corner>;
-      using Entry  = std::pair<Box, unsigned int>;
+      namespace bg    = boost::geometry;
+      using BoxCorner = bg::model::point<double, 2, bg::cs::cartesian>;
+      using Box       = bg::model::box<BoxCorner>;
+      using Entry     = std::pair<Box, unsigned int>;
 
       /// Fraction of an edge beyond a corner within which a nearest point is as good as one on the
       /// edge.
@@ -59,8 +59,8 @@ namespace NMM
           }
         }
         bulge += margin;
-        return Box(Corner(lower[0] - bulge, lower[1] - bulge),
-                   Corner(upper[0] + bulge, upper[1] + bulge));
+        return Box(BoxCorner(lower[0] - bulge, lower[1] - bulge),
+                   BoxCorner(upper[0] + bulge, upper[1] + bulge));
       }
     } // namespace
 
@@ -174,8 +174,8 @@ namespace NMM
       inflated(const Box &box, const double reach)
       {
         const auto &lower = box.min_corner(), &upper = box.max_corner();
-        return Box(Corner(lower.get<0>() - reach, lower.get<1>() - reach),
-                   Corner(upper.get<0>() + reach, upper.get<1>() + reach));
+        return Box(BoxCorner(lower.get<0>() - reach, lower.get<1>() - reach),
+                   BoxCorner(upper.get<0>() + reach, upper.get<1>() + reach));
       }
     } // namespace
 
@@ -275,7 +275,7 @@ namespace NMM
             if (surface->is_absent(e) || !is_corner(e, end))
               continue;
             const Point<2> &x = known_positions[3 * e + 2 * end];
-            const Corner    corner(x[0], x[1]);
+            const BoxCorner corner(x[0], x[1]);
             find(e,
                  inflated(Box(corner, corner), broad_reach),
                  [](unsigned int) { return true; });

@@ -38,7 +38,10 @@ namespace NMM
       contact_loading = std::make_unique<ContactLoading>(
         scene, *covers, *quadrature, constraints, problem, *contact);
       if (former)
+      {
+        contact->continue_from(*former->first.contact);
         carried = carry_over();
+      }
       else if (is_restart && earlier_path->carried_factor > 0.)
       {
         carried = {earlier_path->carried_factor,

@@ -14,12 +14,6 @@ namespace
 {
   using Vector = CarriedCovers::Vector;
 
-  const std::vector<Point<2>> pentagon = {{0., 0.},
-                                          {1.1, 0.1},
-                                          {1.3, 0.9},
-                                          {0.4, 1.2},
-                                          {-0.2, 0.6}};
-
   /// The pentagon with a crack that has the given points.
   Geometry
   cracked(const std::vector<Point<2>> &crack)

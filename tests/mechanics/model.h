@@ -29,6 +29,13 @@ namespace NMM
     using dealii::SymmetricTensor;
     using dealii::Tensor;
 
+    /// A pentagon, so that no side is parallel to the mesh by accident.
+    const std::vector<Point<2>> pentagon = {{0., 0.},
+                                            {1.1, 0.1},
+                                            {1.3, 0.9},
+                                            {0.4, 1.2},
+                                            {-0.2, 0.6}};
+
     /// A vector function of position.
     class VectorFunction : public dealii::Function<2>
     {

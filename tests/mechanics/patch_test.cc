@@ -14,13 +14,6 @@ namespace
   // 1e5 on these meshes, with a margin of 10.
   constexpr double tolerance = 2e-10;
 
-  // A pentagon, so that no side is parallel to the mesh by accident.
-  const std::vector<Point<2>> pentagon = {{0., 0.},
-                                          {1.1, 0.1},
-                                          {1.3, 0.9},
-                                          {0.4, 1.2},
-                                          {-0.2, 0.6}};
-
   struct Setup
   {
     unsigned int  seed;

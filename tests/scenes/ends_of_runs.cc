@@ -16,9 +16,9 @@ namespace
 
 
   DriverResult
-  run(const Settings                 &settings,
-      const std::vector<std::string> &more  = {},
-      const std::string              &scene = base_scene)
+  run_with(const Settings                 &settings,
+           const std::vector<std::string> &more  = {},
+           const std::string              &scene = base_scene)
   {
     std::vector<std::string> arguments = {"--output", folder};
     for (const std::string &setting : settings)
@@ -63,15 +63,15 @@ namespace
   TEST(EndsOfRuns, GrowingCracksAreShownStepByStep)
   {
     const DriverResult result =
-      run({"Geometry/Text=" + square +
-             "; joint name=crack LINESTRING (0 0.5, 0.5 0.5)",
-           "Fracture/Intensity factors=true",
-           "Fracture/Grading=0.5",
-           "Fracture/Increments=4",
-           "Fracture/Increment=0.05",
-           "Materials/rock/Toughness=1",
-           "Boundary conditions/held/Value=0; y",
-           "Output/Fields every=2"});
+      run_with({"Geometry/Text=" + square +
+                  "; joint name=crack LINESTRING (0 0.5, 0.5 0.5)",
+                "Fracture/Intensity factors=true",
+                "Fracture/Grading=0.5",
+                "Fracture/Increments=4",
+                "Fracture/Increment=0.05",
+                "Materials/rock/Toughness=1",
+                "Boundary conditions/held/Value=0; y",
+                "Output/Fields every=2"});
     if (!is_first_rank())
       return;
     EXPECT_EQ(result.exit_code, 0) << result.output;
@@ -109,12 +109,12 @@ namespace
     for (const bool with_factors : {false, true})
     {
       const DriverResult result =
-        run({"Geometry/Text=" + square +
-               "; joint name=crack LINESTRING (0 0.5, 0.5 0.5)",
-             std::string("Fracture/Intensity factors=") +
-               (with_factors ? "true" : "false"),
-             "Fracture/Tips=as meshed",
-             "Boundary conditions/held/Value=0; y"});
+        run_with({"Geometry/Text=" + square +
+                    "; joint name=crack LINESTRING (0 0.5, 0.5 0.5)",
+                  std::string("Fracture/Intensity factors=") +
+                    (with_factors ? "true" : "false"),
+                  "Fracture/Tips=as meshed",
+                  "Boundary conditions/held/Value=0; y"});
       if (!is_first_rank())
         continue;
       EXPECT_EQ(result.exit_code, 0) << result.output;
@@ -135,7 +135,8 @@ namespace
     expect_rejected_override("Boundary conditions/held/Value=1/(x - x); 0",
                              {"held", "1/(x - x)", "inf at ("});
     // a singularity between the points that are used is none of ours
-    EXPECT_EQ(run({"Model/Body force=log(x); 0"}, {"--check"}).exit_code, 0);
+    EXPECT_EQ(run_with({"Model/Body force=log(x); 0"}, {"--check"}).exit_code,
+              0);
   }
 
 
@@ -153,7 +154,7 @@ namespace
          {std::make_pair("Contact/Largest penetration=0.01", "of 0.01"),
           std::make_pair("Contact/Reach=2", "cell size at faces of 0.5")})
     {
-      const DriverResult result = run(soft + Settings{setting});
+      const DriverResult result = run_with(soft + Settings{setting});
       EXPECT_EQ(result.exit_code, 3) << result.output;
       for (const char *word : {"penetration", limit})
         EXPECT_NE(result.output.find(word), std::string::npos) << result.output;
@@ -170,11 +171,11 @@ namespace
   TEST(EndsOfRuns, StressThatIsNotFiniteIsNoSolution)
   {
     const DriverResult result =
-      run({"Initial velocities/spin/Angular velocity=1e5",
-           "Time/End time=0.02",
-           "Time/Initial step=0.01"},
-          {},
-          cases_dir + "spinning-block/scene.prm");
+      run_with({"Initial velocities/spin/Angular velocity=1e5",
+                "Time/End time=0.02",
+                "Time/Initial step=0.01"},
+               {},
+               cases_dir + "spinning-block/scene.prm");
     EXPECT_EQ(result.exit_code, 3) << result.output;
     EXPECT_NE(result.output.find("not finite"), std::string::npos)
       << result.output;
@@ -186,7 +187,7 @@ namespace
   // taken for a failure.
   TEST(EndsOfRuns, WhatIncrementalStepsDoNotHaveIsEmpty)
   {
-    const DriverResult result = run({"Model/Kinematics=incremental"});
+    const DriverResult result = run_with({"Model/Kinematics=incremental"});
     ASSERT_EQ(result.exit_code, 0) << result.output;
     EXPECT_EQ(content("history.csv").find("nan"), std::string::npos);
     EXPECT_NE(content("history.csv").find(",,"), std::string::npos);
@@ -196,7 +197,7 @@ namespace
   // A kill between the last checkpoint and the last files loses nothing.
   TEST(EndsOfRuns, RestartAtTheEndWritesWhatIsMissing)
   {
-    const DriverResult whole = run(moving);
+    const DriverResult whole = run_with(moving);
     ASSERT_EQ(whole.exit_code, 0) << whole.output;
     const std::string fields = content("fields.vtu"),
                       probes = content("probes.csv"),
@@ -209,7 +210,7 @@ namespace
          {"fields.vtu", "probes.csv", "summary.csv", "animation.html"})
       fs::remove(folder + "/" + name);
     const DriverResult restarted =
-      run(moving, {"--restart", folder + "/checkpoint.nmm"});
+      run_with(moving, {"--restart", folder + "/checkpoint.nmm"});
     EXPECT_EQ(restarted.exit_code, 0) << restarted.output;
     EXPECT_TRUE(fs::exists(folder + "/summary.csv"));
     EXPECT_TRUE(content("fields.vtu") == fields);
@@ -227,7 +228,7 @@ namespace
         run_in_process({"--print-parameters=" + format});
       ASSERT_EQ(printed.exit_code, 0);
       const std::string name = write_scene("printed." + format, printed.output);
-      const DriverResult result = run({"Output/Picture=false"}, {}, name);
+      const DriverResult result = run_with({"Output/Picture=false"}, {}, name);
       EXPECT_EQ(result.exit_code, 0) << result.output;
     }
   }

@@ -1,6 +1,7 @@
 #ifndef nmm_tests_scenes_rejected_input_h
 #define nmm_tests_scenes_rejected_input_h
 
+#include "arguments.h"
 #include "cases.h"
 #include "run_in_process.h"
 #include <filesystem>
@@ -72,14 +73,6 @@ namespace rejected_input
                                             "Materials/rock/Density=1",
                                             "Time/End time=1",
                                             "Time/Initial step=0.1"};
-
-  inline std::vector<std::string>
-  operator+(std::vector<std::string> a, const std::vector<std::string> &b)
-  {
-    a.insert(a.end(), b.begin(), b.end());
-    return a;
-  }
-
 
   const std::vector<std::string> touching = {
     "Contact/Enforcement=penalty",

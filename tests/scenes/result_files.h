@@ -1,6 +1,7 @@
 #ifndef nmm_tests_scenes_result_files_h
 #define nmm_tests_scenes_result_files_h
 
+#include "arguments.h"
 #include "expected_values.h"
 #include <algorithm>
 #include <filesystem>
@@ -11,16 +12,6 @@
 #include <vector>
 
 // The files of runs that are stopped and continued.
-
-using Arguments = std::vector<std::string>;
-
-inline Arguments
-operator+(Arguments a, const Arguments &b)
-{
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
 
 /// All files of a folder with what is in them.
 inline std::map<std::string, std::string>

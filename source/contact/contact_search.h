@@ -4,6 +4,7 @@
 #include <nmm/contact/contact_surface.h>
 
 #include <algorithm>
+#include <base/cross.h>
 #include <contact/corner_rules.h>
 #include <limits>
 #include <memory>
@@ -38,9 +39,6 @@ namespace NMM
                  const dealii::Tensor<1, 2> &normal,
                  const dealii::Tensor<1, 2> &other_normal)
     {
-      const auto cross = [](const auto &a, const auto &b) {
-        return a[0] * b[1] - a[1] * b[0];
-      };
       const double turn = cross(normal, other_normal);
       if (turn == 0.)
         return true;

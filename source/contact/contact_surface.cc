@@ -2,6 +2,7 @@
 #include <nmm/contact/contact_surface.h>
 
 #include <algorithm>
+#include <base/cross.h>
 #include <cmath>
 #include <contact/corner_rules.h>
 
@@ -352,7 +353,7 @@ namespace NMM
       const Tensor<1, 2> here  = reference_place(e, 1.).a;
       const Tensor<1, 2> there = reference_place(edge.next, 0.).a;
       const double       angle =
-        std::atan2(here[0] * there[1] - here[1] * there[0], here * there);
+        std::atan2(internal::cross(here, there), here * there);
       // The two faces at the tip of a crack: rounding may give an angle of -pi or pi.
       const Edge &next   = all_edges[edge.next];
       const bool  is_tip = next.start == edge.end && next.end == edge.start &&

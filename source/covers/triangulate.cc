@@ -4,6 +4,7 @@
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
+#include <base/cross.h>
 #include <cmath>
 #include <map>
 
@@ -80,9 +81,6 @@ namespace NMM
     double
     curved_area(const QuadraticTriangle &t)
     {
-      const auto cross = [](const Tensor<1, 2> &a, const Tensor<1, 2> &b) {
-        return a[0] * b[1] - a[1] * b[0];
-      };
       double area = 0.5 * cross(t[1] - t[0], t[2] - t[0]);
       for (unsigned int i = 0; i < 3; ++i)
         area -= 2. / 3. * cross(t[(i + 1) % 3] - t[i], t[3 + i] - t[i]);

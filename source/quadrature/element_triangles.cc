@@ -1,6 +1,7 @@
 #include "element_triangles.h"
 
 #include <algorithm>
+#include <base/cross.h>
 
 namespace NMM
 {
@@ -26,8 +27,7 @@ namespace NMM
       double
       twice_the_area(const Point<2> &x, const Point<2> &y, const Point<2> &z)
       {
-        const Tensor<1, 2> a = y - x, b = z - x;
-        return a[0] * b[1] - a[1] * b[0];
+        return cross(y - x, z - x);
       }
 
 

@@ -3,6 +3,7 @@
 #include <deal.II/physics/transformations.h>
 
 #include <algorithm>
+#include <base/cross.h>
 #include <cmath>
 #include <scene/crack_growth.h>
 
@@ -158,7 +159,7 @@ namespace NMM
       const Tensor<1, 2> &e = tip.tip.direction,
                          d  = tip.extension.end - tip.tip.point;
       // An implicit criterion may have turned the increment once more after its last trial.
-      const double angle = std::atan2(e[0] * d[1] - e[1] * d[0], e * d);
+      const double angle = std::atan2(cross(e, d), e * d);
       add({step,
            value,
            tip.advance,

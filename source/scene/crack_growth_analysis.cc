@@ -421,6 +421,7 @@ namespace NMM
       const unsigned int      n_blocks = physical_mesh->n_blocks();
       if (contact)
       {
+        // The state is that of equations which refer to the solid, so it is taken first.
         LoadingState state = contact_loading->state();
         former.emplace(release_solid(), std::move(state));
       }

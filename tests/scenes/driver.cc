@@ -1,3 +1,4 @@
+#include "arguments.h"
 #include "cases.h"
 #include "expected_values.h"
 #include "run_driver.h"
@@ -173,29 +174,20 @@ namespace
       EXPECT_TRUE(exists(name)) << name;
 
     // Results of an earlier run must not survive a run that does not make them.
-    result = run_driver({"-o",
-                         output,
-                         "--set",
-                         "Output/Fields=false",
-                         "--set",
-                         "Output/Picture=false",
-                         "--set",
-                         "Probes/Names=inside",
-                         "--set",
-                         "Mathematical mesh/Cell size=0.5",
-                         scene});
+    const Arguments fewer{"-o",
+                          output,
+                          "--set",
+                          "Output/Fields=false",
+                          "--set",
+                          "Output/Picture=false",
+                          "--set",
+                          "Mathematical mesh/Cell size=0.5",
+                          scene};
+    result = run_driver(fewer + Arguments{"--set", "Probes/Names=inside"});
     // The sections of the probes no longer listed are now unknown.
     EXPECT_EQ(result.exit_code, 2) << result.output;
     EXPECT_TRUE(exists("picture.png"));
-    result = run_driver({"-o",
-                         output,
-                         "--set",
-                         "Output/Fields=false",
-                         "--set",
-                         "Output/Picture=false",
-                         "--set",
-                         "Mathematical mesh/Cell size=0.5",
-                         scene});
+    result = run_driver(fewer);
     ASSERT_EQ(result.exit_code, 0) << result.output;
     EXPECT_TRUE(exists("summary.csv"));
     for (const char *name : {"fields.vtu", "fields.pvd", "picture.png"})

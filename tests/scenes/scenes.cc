@@ -22,6 +22,8 @@ namespace
   {
     const Case test_case = read_case(GetParam());
     ASSERT_FALSE(test_case.rows.empty());
+    // This program is run on one rank and on two.
+    ASSERT_LE(test_case.n_ranks, 2u);
     if (test_case.n_ranks != n_ranks())
       GTEST_SKIP() << "on " << test_case.n_ranks << " rank(s)";
 #ifdef DEBUG

@@ -146,14 +146,16 @@ namespace NMM
                 body_force,
                 "Further force per volume: expressions 'fx; fy' of x and y "
                 "[N/m^3]. Empty: none.");
-    for (const auto &[key, amplitude] :
-         {std::make_pair("Gravity amplitude", &gravity_amplitude),
-          std::make_pair("Body force amplitude", &body_force_amplitude)})
+    const auto add_amplitude = [&entries](const std::string &key,
+                                          std::string       &amplitude) {
       entries.add(
         key,
-        *amplitude,
+        amplitude,
         "Dynamic analysis: factor on it, an expression of the time t, or "
         "'file: name' of a file with lines of time and factor. Empty: 1.");
+    };
+    add_amplitude("Gravity amplitude", gravity_amplitude);
+    add_amplitude("Body force amplitude", body_force_amplitude);
     entries.add(
       "Base acceleration",
       base_acceleration,

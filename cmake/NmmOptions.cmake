@@ -45,6 +45,8 @@ target_compile_options(
             -Wall
             -Wextra
             -Wpedantic
+            # g++ 13 and 14 take a loop over a list of pairs for a reference to nothing.
+            $<$<CXX_COMPILER_ID:GNU>:-Wno-dangling-reference>
             $<$<CONFIG:Debug>:${NMM_FLAGS_DEBUG}>
             $<$<CONFIG:Release>:${NMM_FLAGS_RELEASE}>
             $<$<BOOL:${NMM_WARNINGS_AS_ERRORS}>:-Werror>)

@@ -98,6 +98,12 @@ namespace NMM
      * Search for the equilibrium of a load step. Newton's method finds displacements and contact
      * states together. Then candidate pairs and contact points are updated at the solution and,
      * with a penetration tolerance, multipliers, too. This is repeated until nothing changes.
+     *
+     * Where faces that touch open one after the other, |r| rises and falls for long, and Newton's
+     * method takes that for cycles of contact states. The arms of a double cantilever open by a
+     * wave length of a beam on the springs behind in each iteration: 26 iterations for arms of five
+     * times their height, 51 for eleven. That is the same for all loads, so smaller steps do not
+     * help; a second, patient search does, in which |r| need not fall.
      */
     class ContactEquilibrium : public EquilibriumSearch
     {
@@ -109,6 +115,7 @@ namespace NMM
         , contact(&contact)
         , system(elasticity, contact)
         , newton(parameters)
+        , patient_newton(patient(parameters))
         , parameters(parameters)
       {
       }
@@ -139,13 +146,27 @@ namespace NMM
       ContactStep found;
 
     private:
+      static NewtonParameters
+      patient(NewtonParameters parameters)
+      {
+        parameters.max_iterations *= 4;
+        parameters.stops_cycles = false;
+        return parameters;
+      }
+
+      std::string
+      find_by(NewtonSolver &solver,
+              LoadStep     &step,
+              Vector       &u,
+              const Vector *change);
+
       bool
       break_bonds();
 
       ElasticSystem   *elasticity;
       Contact         *contact;
       ContactSystem    system;
-      NewtonSolver     newton;
+      NewtonSolver     newton, patient_newton;
       NewtonParameters parameters;
       ContactHistory   history;
       unsigned int     n_breaks = 0;
@@ -168,6 +189,25 @@ namespace NMM
     std::string
     ContactEquilibrium::find(LoadStep &step, Vector &u, const Vector *change)
     {
+      history = contact->history();
+      const Vector start(u);
+      std::string  failure = find_by(newton, step, u, change);
+      if (!failure.empty() && step.n_cuts == 0)
+      {
+        reject();
+        u       = start;
+        failure = find_by(patient_newton, step, u, change);
+      }
+      return failure;
+    }
+
+
+    std::string
+    ContactEquilibrium::find_by(NewtonSolver &solver,
+                                LoadStep     &step,
+                                Vector       &u,
+                                const Vector *change)
+    {
       const double tolerance    = contact->parameters().penetration_tolerance;
       const bool   is_augmented = tolerance > 0.;
       // Candidate pairs and divisions follow the solution, which they hardly change.
@@ -178,7 +218,6 @@ namespace NMM
       const unsigned int n =
         is_augmented ? contact->parameters().max_augmentations + 1 : n_plain;
 
-      history = contact->history();
       contact->set_time(step.load_factor);
       found              = ContactStep();
       n_breaks           = 0;
@@ -194,7 +233,7 @@ namespace NMM
         if (i == 0 && change != nullptr && !contact->is_idle())
           contact->assemble(detected, /* with_tangent = */ false);
         step.newton =
-          newton.solve(system,
+          solver.solve(system,
                        elasticity->elasticity().affine_constraints(),
                        u,
                        i == 0 ? change : nullptr);

@@ -30,15 +30,12 @@ namespace NMM
     void
     ContactLoading::begin_anew()
     {
-      // Contact without gaps is proportional to the load, so that smaller steps do not help where
-      // an iteration does not converge, but more iterations may.
-      constexpr unsigned int most_iterations = 40;
-      NewtonParameters       newton          = contact_newton_parameters(scene);
-      newton.max_iterations = std::max(newton.max_iterations, most_iterations);
       loading.reset();
       contact.begin_anew();
       loading =
-        std::make_unique<ContactStatics>(system, contact.contact(), newton);
+        std::make_unique<ContactStatics>(system,
+                                         contact.contact(),
+                                         contact_newton_parameters(scene));
       if (first.load_factor > 0.)
         loading->continue_from(first.load_factor,
                                first.displacement,

@@ -351,7 +351,8 @@ namespace NMM
         k > n_young && group.energies[k - 1] > group.energies[k - 2];
       use_increment = use_increment && !is_late;
       group.is_cycling =
-        group.is_cycling || is_cycling_among_states(group.squares);
+        parameters.stops_cycles &&
+        (group.is_cycling || is_cycling_among_states(group.squares));
       group.search.begin(group.is_cycling        ? LineSearch::Mode::descend
                          : is_late || use_slopes ? LineSearch::Mode::slope
                                                  : LineSearch::Mode::none,

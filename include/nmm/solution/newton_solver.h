@@ -160,6 +160,9 @@ namespace NMM
     /// Whether to search from the first iteration on, for forces that are stiff on one side only,
     /// such as contact. Otherwise the search begins with the fifth iteration, if |r . du| grows.
     bool always_search = false;
+    /// Whether |r| has to fall once states seem to cycle (see NewtonSolver). It must not where
+    /// faces that touch open one after the other.
+    bool stops_cycles = true;
     /// Whether the last increment is passed to NonlinearSystem::assemble(). Five steps of
     /// step-nmm-2 then take 20 iterations instead of 31 (34 with a follower load).
     bool use_increment = true;

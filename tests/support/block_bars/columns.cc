@@ -229,6 +229,7 @@ namespace NMM
       // a little beyond the limit, and after a longer way, where no column hesitates
       constexpr double beyond     = 1.02;
       relaxation.max_displacement = 0.1 * width;
+      relaxation.max_steps        = 10000;
       (void)try_factor(beyond * factor.moves_at);
       run.seconds = timer.wall_time();
 

@@ -24,6 +24,15 @@ namespace NMM
                ? size.ws_col
                : 80;
     }
+
+
+    double
+    seconds_since(const std::chrono::steady_clock::time_point time)
+    {
+      return std::chrono::duration<double>(std::chrono::steady_clock::now() -
+                                           time)
+        .count();
+    }
   } // namespace
 
 
@@ -80,10 +89,14 @@ namespace NMM
     , is_part(progress.n_running++ > 0)
     , name(std::move(name))
     , start(std::chrono::steady_clock::now())
-    , last_update(start)
+    , last_shown(start)
+    , last_news(start)
     , n_exceptions(std::uncaught_exceptions())
   {
-    if (!is_part && progress.prints && progress.is_terminal)
+    if (is_part)
+      return;
+    progress.running = this;
+    if (progress.prints && progress.is_terminal)
       progress.out << "  " << this->name << " ..." << std::flush;
   }
 
@@ -97,9 +110,8 @@ namespace NMM
     --progress.n_running;
     if (is_part)
       return;
-    const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
-        .count();
+    progress.running     = nullptr;
+    const double seconds = seconds_since(start);
     progress.stage_times.emplace_back(name, seconds);
     if (!progress.prints)
       return;
@@ -129,16 +141,20 @@ namespace NMM
   Progress::Stage::update(
     const std::function<std::string(double seconds)> &words)
   {
+    last_news = std::chrono::steady_clock::now();
+    if (seconds_since(last_shown) >= (progress.is_terminal ? 0.2 : 10.))
+      show(words);
+  }
+
+
+  /// Show the progress of the stage, on rank 0, unless it is a part of another one.
+  void
+  Progress::Stage::show(const std::function<std::string(double seconds)> &words)
+  {
+    last_shown = last_news = std::chrono::steady_clock::now();
     if (is_part || !progress.prints)
       return;
-    const auto   now = std::chrono::steady_clock::now();
-    const double since =
-      std::chrono::duration<double>(now - last_update).count();
-    if (since < (progress.is_terminal ? 0.2 : 10.))
-      return;
-    last_update = now;
-    const std::string line =
-      words(std::chrono::duration<double>(now - start).count());
+    const std::string line  = words(seconds_since(start));
     const std::size_t width = terminal_width();
     // The last column is left empty, since some terminals would begin a new line.
     if (progress.is_terminal)
@@ -151,8 +167,18 @@ namespace NMM
 
 
   void
+  Progress::show_alive(const std::function<std::string()> &text)
+  {
+    if (running != nullptr && seconds_since(running->last_news) >= 5.)
+      running->show([&](double) { return text(); });
+  }
+
+
+  void
   Progress::message(const std::string &text)
   {
+    if (running != nullptr)
+      running->last_news = std::chrono::steady_clock::now();
     // On a terminal the message overwrites the line of a running stage.
     if (prints)
       out << (is_terminal ? "\r\033[K" : "") << text << std::endl;

@@ -491,7 +491,23 @@ namespace NMM
 
 
     NewtonParameters
-    contact_newton_parameters(const Scene &scene)
+    show_iterations(NewtonParameters parameters, Progress &progress)
+    {
+      parameters.after_iteration = [&progress](const NewtonReport &report) {
+        progress.show_alive([&]() {
+          std::ostringstream line;
+          line << "iteration " << report.iterations.size()
+               << " of a step, residual " << std::setprecision(2)
+               << report.relative_residual;
+          return line.str();
+        });
+      };
+      return parameters;
+    }
+
+
+    NewtonParameters
+    contact_newton_parameters(const Scene &scene, Progress &progress)
     {
       const NewtonParameters &given    = scene.parameters().newton.newton;
       const NewtonParameters  defaults = NewtonParameters();
@@ -501,7 +517,7 @@ namespace NMM
         newton.energy_tolerance = given.energy_tolerance;
       if (given.max_iterations != defaults.max_iterations)
         newton.max_iterations = given.max_iterations;
-      return newton;
+      return show_iterations(newton, progress);
     }
 
 

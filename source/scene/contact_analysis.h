@@ -5,6 +5,7 @@
 #include <nmm/dynamics/contact_model.h>
 #include <nmm/fracture/intensity_factors.h>
 #include <nmm/output/contact_output.h>
+#include <nmm/output/progress.h>
 #include <nmm/scene/scene.h>
 
 #include <deal.II/lac/affine_constraints.h>
@@ -177,10 +178,16 @@ namespace NMM
     };
 
 
-    /// Parameters of Newton's method for static contact. Values that the scene leaves at their
-    /// defaults are replaced by those for contact.
+    /// @p parameters with a sign of life from each iteration, for steps that take long.
+    /// @p progress must outlive them.
     NewtonParameters
-    contact_newton_parameters(const Scene &scene);
+    show_iterations(NewtonParameters parameters, Progress &progress);
+
+
+    /// Parameters of Newton's method for static contact, with show_iterations(). Values that the
+    /// scene leaves at their defaults are replaced by those for contact.
+    NewtonParameters
+    contact_newton_parameters(const Scene &scene, Progress &progress);
 
 
     /// A contact model that sums the energy dissipated by contact and reports each accepted state

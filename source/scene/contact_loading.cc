@@ -14,12 +14,14 @@ namespace NMM
       const QuadratureCollection              &quadrature,
       const dealii::AffineConstraints<double> &constraints,
       const ElasticityProblem                 &problem,
-      ContactAnalysis                         &contact)
+      ContactAnalysis                         &contact,
+      Progress                                &progress)
       : scene(scene)
       , covers(covers)
       , quadrature(quadrature)
       , problem(problem)
       , contact(contact)
+      , progress(progress)
       // Blocks without supports are allowed, since contact may hold them.
       , elasticity(covers, quadrature, constraints, problem, true)
       , system(elasticity, /* is_linearized = */ true)
@@ -32,10 +34,8 @@ namespace NMM
     {
       loading.reset();
       contact.begin_anew();
-      loading =
-        std::make_unique<ContactStatics>(system,
-                                         contact.contact(),
-                                         contact_newton_parameters(scene));
+      loading = std::make_unique<ContactStatics>(
+        system, contact.contact(), contact_newton_parameters(scene, progress));
       if (first.load_factor > 0.)
         loading->continue_from(first.load_factor,
                                first.displacement,

@@ -46,7 +46,8 @@ namespace NMM
                      const QuadratureCollection              &quadrature,
                      const dealii::AffineConstraints<double> &constraints,
                      const ElasticityProblem                 &problem,
-                     ContactAnalysis                         &contact);
+                     ContactAnalysis                         &contact,
+                     Progress                                &progress);
 
       /// Makes the loading begin with @p carried. The solution at its load factor, once it was
       /// asked for, takes its place.
@@ -69,6 +70,7 @@ namespace NMM
       const QuadratureCollection &quadrature;
       const ElasticityProblem    &problem;
       ContactAnalysis            &contact;
+      Progress                   &progress;
       FiniteElasticity            elasticity;
       ElasticSystem               system;
       /// The state with which the loading begins.

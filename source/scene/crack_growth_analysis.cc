@@ -36,7 +36,7 @@ namespace NMM
         return;
       }
       contact_loading = std::make_unique<ContactLoading>(
-        scene, *covers, *quadrature, constraints, problem, *contact);
+        scene, *covers, *quadrature, constraints, problem, *contact, progress);
       if (former)
       {
         contact->continue_from(*former->first.contact);

@@ -138,7 +138,7 @@ namespace NMM
         *moved,
         parameters.time.time_scheme(kind, kinematics, contact != nullptr),
         damping,
-        motion_newton_parameters(scene));
+        motion_newton_parameters(scene, progress));
       make_leaving();
       if (parameters.time.sleep.speed > 0.)
         integrator->let_blocks_sleep(parameters.time.sleep);
@@ -277,7 +277,6 @@ namespace NMM
     DynamicAnalysis::run_start()
     {
       last_good = integrator->state();
-      Stage start_stage(progress, "start");
       if (contact)
         contact->hold_obstacles(true);
       const Vector u = find_start({scene,
@@ -287,7 +286,7 @@ namespace NMM
                                    constraints,
                                    problem,
                                    contact.get(),
-                                   start_stage},
+                                   progress},
                                   start);
       if (contact)
         contact->hold_obstacles(false);

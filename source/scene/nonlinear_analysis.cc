@@ -103,8 +103,9 @@ namespace NMM
       // The stiffness of materials that yield depends on the direction, as that of contact.
       NonlinearStatics statics(*system,
                                inelastic_terms() == nullptr
-                                 ? parameters.newton.newton
-                                 : contact_newton_parameters(scene));
+                                 ? show_iterations(parameters.newton.newton,
+                                                   progress)
+                                 : contact_newton_parameters(scene, progress));
       const auto       after_step = [&](const LoadStep &step,
                                   const Vector   &solution) {
         HistoryRow row;
@@ -136,7 +137,7 @@ namespace NMM
       const SceneParameters &parameters = scene.parameters();
       ContactStatics         statics(*system,
                              contact->contact(),
-                             contact_newton_parameters(scene));
+                             contact_newton_parameters(scene, progress));
       double                 friction_work = 0.;
       const auto             after_step    = [&](const ContactStep &step,
                                   const Vector      &solution) {

@@ -56,7 +56,6 @@ namespace NMM
     void
     SafetyFactorAnalysis::settle()
     {
-      Stage       start_stage(progress, "start");
       StartReport report;
       settled           = find_start({scene,
                                       *covers,
@@ -65,7 +64,7 @@ namespace NMM
                                       constraints,
                                       problem,
                                       contact.get(),
-                                      start_stage},
+                                      progress},
                            report);
       n_start_steps     = report.n_steps;
       settled_materials = report.material_state;
@@ -100,7 +99,7 @@ namespace NMM
                                     parameters.model.kinematics,
                                     /* has_contact = */ true),
         {},
-        motion_newton_parameters(scene));
+        motion_newton_parameters(scene, progress));
       if (parameters.safety_factor.start == Start::settled)
       {
         if (contact)

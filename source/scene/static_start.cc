@@ -70,11 +70,11 @@ namespace NMM
 
 
       void
-      show_load(const StartInput  &input,
+      show_load(Progress::Stage   &stage,
                 const StartReport &report,
                 const double       load_factor)
       {
-        input.stage.update([&](double) {
+        stage.update([&](double) {
           std::ostringstream line;
           line << "load step " << report.n_steps << ", load factor "
                << std::setprecision(3) << load_factor;
@@ -84,7 +84,9 @@ namespace NMM
 
 
       Vector
-      solve_statics(const StartInput &input, StartReport &report)
+      solve_statics(const StartInput &input,
+                    Progress::Stage  &stage,
+                    StartReport      &report)
       {
         const Scene     &scene = input.scene;
         FiniteElasticity elasticity(input.covers,
@@ -103,22 +105,25 @@ namespace NMM
         };
         if (input.contact == nullptr)
         {
-          NonlinearStatics statics(system, scene.parameters().newton.newton);
+          NonlinearStatics statics(
+            system,
+            show_iterations(scene.parameters().newton.newton, input.progress));
           statics.run(steps, [&](const LoadStep &step, const Vector &) {
             ++report.n_steps;
             report.n_iterations += step.n_iterations + step.n_lost_iterations;
-            show_load(input, report, step.load_factor);
+            show_load(stage, report, step.load_factor);
           });
           keep_materials();
           return owned_part(input, statics.solution());
         }
         ContactStatics statics(system,
                                input.contact->contact(),
-                               contact_newton_parameters(scene));
+                               contact_newton_parameters(scene,
+                                                         input.progress));
         statics.run(steps, [&](const ContactStep &step, const Vector &) {
           ++report.n_steps;
           report.n_iterations += step.n_iterations + step.n_lost_iterations;
-          show_load(input, report, step.load_factor);
+          show_load(stage, report, step.load_factor);
         });
         keep_materials();
         return owned_part(input, statics.solution());
@@ -126,7 +131,9 @@ namespace NMM
 
 
       Vector
-      relax_to_rest(const StartInput &input, StartReport &report)
+      relax_to_rest(const StartInput &input,
+                    Progress::Stage  &stage,
+                    StartReport      &report)
       {
         const Scene           &scene      = input.scene;
         const SceneParameters &parameters = scene.parameters();
@@ -163,14 +170,15 @@ namespace NMM
                                                    parameters.model.kinematics,
                                                    input.contact != nullptr),
                                   {},
-                                  motion_newton_parameters(scene));
+                                  motion_newton_parameters(scene,
+                                                           input.progress));
         relax(integrator,
               parameters.relaxation.relaxation,
               [&](const StepRecord &record) {
                 ++report.n_steps;
                 report.n_iterations +=
                   record.report.n_iterations + record.n_lost_iterations;
-                input.stage.update([&](double) {
+                stage.update([&](double) {
                   std::ostringstream line;
                   line << "relaxation step " << report.n_steps << ", imbalance "
                        << std::setprecision(2)
@@ -194,7 +202,7 @@ namespace NMM
 
 
     NewtonParameters
-    motion_newton_parameters(const Scene &scene)
+    motion_newton_parameters(const Scene &scene, Progress &progress)
     {
       const NewtonParameters &given = scene.parameters().newton.newton;
       NewtonParameters newton   = TimeIntegrator::default_newton_parameters();
@@ -203,7 +211,7 @@ namespace NMM
       if (given.max_iterations != NewtonParameters().max_iterations ||
           !scene.parameters().is_nonlinear())
         newton.max_iterations = given.max_iterations;
-      return newton;
+      return show_iterations(newton, progress);
     }
 
 
@@ -214,10 +222,11 @@ namespace NMM
       const bool             is_relaxed =
         parameters.model.analysis == Analysis::safety_factor ||
         parameters.time.start == TimeParameters::Start::relaxation;
+      Progress::Stage stage(input.progress, "start");
       try
       {
-        return is_relaxed ? relax_to_rest(input, report)
-                          : solve_statics(input, report);
+        return is_relaxed ? relax_to_rest(input, stage, report)
+                          : solve_statics(input, stage, report);
       }
       catch (const NumericalFailure &error)
       {

@@ -29,8 +29,8 @@ namespace NMM
       const ElasticityProblem                 &problem;
       /// Null without contact.
       ContactAnalysis *contact;
-      /// Shows the progress of the start.
-      Progress::Stage &stage;
+      /// The start is a stage of it.
+      Progress &progress;
     };
 
 
@@ -51,7 +51,7 @@ namespace NMM
     /// Parameters of Newton's method for time steps and relaxation. With contact or materials that
     /// yield there are more iterations than by default, unless the scene gives a number.
     NewtonParameters
-    motion_newton_parameters(const Scene &scene);
+    motion_newton_parameters(const Scene &scene, Progress &progress);
 
 
     /**

@@ -571,6 +571,8 @@ namespace NMM
     {
       if (!d.iterate(u, increment))
         break;
+      if (d.parameters.after_iteration)
+        d.parameters.after_iteration(report);
       largest_energy =
         std::max(largest_energy, report.iterations.back().energy);
       report.converged = d.settle(u, largest_energy);

@@ -49,12 +49,23 @@ namespace NMM
       update(const std::function<std::string(double seconds)> &text);
 
     private:
+      friend class Progress;
+
+      void
+      show(const std::function<std::string(double seconds)> &text);
+
       Progress                             &progress;
       bool                                  is_part;
       std::string                           name, text;
-      std::chrono::steady_clock::time_point start, last_update;
+      std::chrono::steady_clock::time_point start, last_shown, last_news;
       int                                   n_exceptions;
     };
+
+    /// Shows @p text beside the running stage, as Stage::update() does, if five seconds have passed
+    /// since the last call of this function that showed something, of Stage::update() or of
+    /// message(): a sign of life from the inside of a long step.
+    void
+    show_alive(const std::function<std::string()> &text);
 
     /// Prints a line of its own on rank 0.
     void
@@ -65,11 +76,13 @@ namespace NMM
     times() const;
 
   private:
-    std::ostream                               &out;
-    bool                                        is_terminal;
-    MPI_Comm                                    communicator;
-    bool                                        prints;
-    unsigned int                                n_running = 0;
+    std::ostream &out;
+    bool          is_terminal;
+    MPI_Comm      communicator;
+    bool          prints;
+    unsigned int  n_running = 0;
+    /// The stage that runs and is no part of another one, or null.
+    Stage                                      *running = nullptr;
     std::vector<std::pair<std::string, double>> stage_times;
   };
 

@@ -9,6 +9,7 @@
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -145,6 +146,9 @@ namespace NMM
   };
 
 
+  struct NewtonReport;
+
+
   /// Tolerances and strategy of NewtonSolver.
   struct NewtonParameters
   {
@@ -171,6 +175,8 @@ namespace NMM
     /// Number of corrections with the last factorization after convergence. Each reduces the
     /// residual, down to rounding, for the cost of a residual and a substitution.
     unsigned int n_refinements = 0;
+    /// Called after each iteration, if given, to show that a long solution is alive.
+    std::function<void(const NewtonReport &)> after_iteration;
   };
 
 

@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <linear_algebra/direct_solver.h>
 #include <linear_algebra/linear_solver.h>
+#include <linear_algebra/matrix_rows.h>
 #include <linear_algebra/two_level_preconditioner.h>
 #include <memory>
 #include <ml_MultiLevelPreconditioner.h>
+#include <random>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -23,7 +26,6 @@ namespace NMM
       using Matrix = dealii::TrilinosWrappers::SparseMatrix;
       using Vector = dealii::TrilinosWrappers::MPI::Vector;
       using AllRhs = std::vector<const Vector *>;
-
       /// |b - A x| / |b| [-]; |A x| if b = 0.
       double
       relative_residual(const Matrix &matrix,
@@ -38,10 +40,60 @@ namespace NMM
       }
 
 
+      /// See solve_linear_system(). Sets the report's rounding_effect.
+      std::vector<Vector>
+      effects_of_rounding(const Matrix       &matrix,
+                          const Vector       &rhs,
+                          const Vector       &x,
+                          DirectSolver       &solver,
+                          LinearSolverReport &report)
+      {
+        constexpr double       epsilon = std::numeric_limits<double>::epsilon();
+        constexpr double       worth_a_look = 1e-8;
+        constexpr unsigned int n_samples    = 4;
+
+        const auto magnitudes = [](auto begin, const auto end) {
+          std::transform(begin, end, begin, [](const double value) {
+            return std::abs(value);
+          });
+        };
+        Matrix of_matrix;
+        of_matrix.copy_from(matrix);
+        const MatrixRows rows(of_matrix);
+        magnitudes(rows.values,
+                   rows.values + rows.begins[of_matrix.local_size()]);
+        Vector of_x(x), of_rhs(rhs), rounding(rhs), sample(rhs);
+        magnitudes(of_x.begin(), of_x.end());
+        magnitudes(of_rhs.begin(), of_rhs.end());
+        of_matrix.vmult(rounding, of_x);
+        rounding += of_rhs;
+        rounding *= epsilon;
+
+        const double                size = x.l2_norm();
+        std::mt19937                generator(matrix.local_range().first);
+        std::bernoulli_distribution is_positive;
+        std::vector<Vector>         effects;
+        while (effects.size() < n_samples)
+        {
+          sample = rounding;
+          for (double &value : sample)
+            value *= is_positive(generator) ? 1. : -1.;
+          effects.emplace_back(rhs);
+          solver.solve(sample, effects.back());
+          const double share     = effects.back().l2_norm() / size;
+          report.rounding_effect = std::max(report.rounding_effect, share);
+          if (share <= worth_a_look && effects.size() == 1)
+            return {};
+        }
+        return effects;
+      }
+
+
       void
       solve_direct(const Matrix        &matrix,
                    const AllRhs        &rhs,
                    std::vector<Vector> &solutions,
+                   std::vector<Vector> &effects,
                    LinearSolverReport  &report)
       {
         dealii::Timer timer;
@@ -54,6 +106,8 @@ namespace NMM
         timer.restart();
         for (unsigned int i = 0; i < rhs.size(); ++i)
           solver.solve(*rhs[i], solutions[i]);
+        effects =
+          effects_of_rounding(matrix, *rhs[0], solutions[0], solver, report);
         report.solution_time = timer.wall_time();
       }
 
@@ -146,13 +200,15 @@ namespace NMM
                         const CoverSystem                       &covers,
                         const dealii::AffineConstraints<double> &constraints,
                         const LinearSolverParameters            &parameters,
-                        std::vector<Vector>                     &solutions)
+                        std::vector<Vector>                     &solutions,
+                        std::vector<Vector>                     &effects)
     {
       using Type = LinearSolverParameters::Type;
       LinearSolverReport report;
       solutions.assign(rhs.size(), *rhs.front());
       for (Vector &solution : solutions)
         solution = 0.;
+      effects.clear();
       // Without loads the solution is zero, and the relative residual is undefined.
       if (std::all_of(rhs.begin(), rhs.end(), [](const Vector *b) {
             return b->l2_norm() == 0.;
@@ -162,7 +218,7 @@ namespace NMM
       if (parameters.type == Type::direct ||
           (parameters.type == Type::automatic &&
            matrix.m() <= parameters.direct_limit))
-        solve_direct(matrix, rhs, solutions, report);
+        solve_direct(matrix, rhs, solutions, effects, report);
       else
       {
         const auto solve =
@@ -178,7 +234,7 @@ namespace NMM
                                      "iterations, or aggregation of covers if "
                                      "it is off"));
         if (!failure.empty())
-          solve_direct(matrix, rhs, solutions, report);
+          solve_direct(matrix, rhs, solutions, effects, report);
       }
 
       report.relative_residual = 0.;

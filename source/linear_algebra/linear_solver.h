@@ -18,6 +18,13 @@ namespace NMM
      * Solve the symmetric positive definite systems A x = b for all right-hand sides b, with one
      * factorization or preconditioner; see LinearSolverParameters. The report has the iterations
      * and the residual of the system that had most.
+     *
+     * @p effects become samples e of how much rounding changes the first solution x: if each
+     * product A_ij x_j and each b_i is wrong by its rounding, x is off by e with A e = r,
+     * r_i = +-epsilon (sum_j |A_ij x_j| + |b_i|) (Higham, Accuracy and Stability of Numerical
+     * Algorithms, section 7.2: componentwise errors). Signs are random, since roundings add up
+     * as random numbers do. If the first sample has |e| <= 1e-8 |x|, or with the iterative solver,
+     * there are none. LinearSolverReport::rounding_effect is the largest |e| / |x|.
      * @throws NumericalFailure if the factorization fails or the iteration does
      * not converge.
      */
@@ -28,7 +35,8 @@ namespace NMM
       const CoverSystem                                                &covers,
       const dealii::AffineConstraints<double>            &constraints,
       const LinearSolverParameters                       &parameters,
-      std::vector<dealii::TrilinosWrappers::MPI::Vector> &solutions);
+      std::vector<dealii::TrilinosWrappers::MPI::Vector> &solutions,
+      std::vector<dealii::TrilinosWrappers::MPI::Vector> &effects);
   } // namespace internal
 } // namespace NMM
 

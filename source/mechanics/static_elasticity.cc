@@ -1,5 +1,9 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/mechanics/displacement_field.h>
+#include <nmm/mechanics/error_norms.h>
 #include <nmm/mechanics/static_elasticity.h>
 
+#include <algorithm>
 #include <base/in_order.h>
 #include <linear_algebra/cover_matrix_assembler.h>
 #include <linear_algebra/linear_solver.h>
@@ -159,9 +163,10 @@ namespace NMM
     std::vector<const dealii::TrilinosWrappers::MPI::Vector *> all_rhs = {&rhs};
     for (const auto &coupling : disks->couplings())
       all_rhs.push_back(&coupling);
-    std::vector<dealii::TrilinosWrappers::MPI::Vector> solutions;
-    const LinearSolverReport report = internal::solve_linear_system(
-      matrix, all_rhs, *covers, *constraints, parameters, solutions);
+    std::vector<dealii::TrilinosWrappers::MPI::Vector> solutions, effects;
+    dealii::TrilinosWrappers::MPI::Vector              effect;
+    LinearSolverReport report = internal::solve_linear_system(
+      matrix, all_rhs, *covers, *constraints, parameters, solutions, effects);
     dealii::TrilinosWrappers::MPI::Vector distributed_solution =
       std::move(solutions.front());
     solutions.erase(solutions.begin());
@@ -172,7 +177,45 @@ namespace NMM
                              covers->locally_relevant_dofs(2),
                              covers->communicator());
     relevant_solution = distributed_solution;
+
+    // Unknowns of thin strips may be far off without changing displacements.
+    constexpr double limit = 0.01;
+    if (!effects.empty())
+      report.rounding_effect = 0.;
+    for (auto &effect : effects)
+    {
+      constraints->distribute(effect);
+      dealii::TrilinosWrappers::MPI::Vector relevant(relevant_solution);
+      relevant = effect;
+      report.rounding_effect =
+        std::max(report.rounding_effect,
+                 norm_of(relevant) / norm_of(solution()));
+    }
+    AssertThrow(report.rounding_effect <= limit,
+                NumericalFailure("The linear system is singular to rounding, "
+                                 "which changes the displacements by " +
+                                   std::to_string(report.rounding_effect) +
+                                   " of them",
+                                 "",
+                                 "look for strips that are thinner than "
+                                 "numbers can resolve, or for materials of "
+                                 "extreme stiffness contrast"));
     return report;
+  }
+
+
+  /// L2 norm of the displacements with the unknowns @p u [m^2].
+  double
+  StaticElasticity::norm_of(
+    const dealii::TrilinosWrappers::MPI::Vector &u) const
+  {
+    return compute_errors(
+             DisplacementField(*covers, *problem, u),
+             [](const dealii::Point<2> &) { return dealii::Tensor<1, 2>(); },
+             [](const dealii::Point<2> &) {
+               return dealii::SymmetricTensor<2, 2>();
+             })
+      .displacement;
   }
 
 

@@ -84,6 +84,18 @@ namespace NMM
         summary.add("solver_direct", report.direct ? 1. : 0.);
         summary.add("solver_iterations", report.n_iterations);
         summary.add("solver_relative_residual", report.relative_residual);
+        if (report.direct)
+          summary.add("rounding_effect", report.rounding_effect);
+        constexpr double worth_a_warning = 1e-5;
+        if (report.rounding_effect > worth_a_warning)
+        {
+          std::ostringstream text;
+          text << "  warning: rounding may change displacements by "
+               << std::setprecision(1) << report.rounding_effect
+               << " of them: look for strips that are much thinner than the "
+                  "rest, or for large contrasts of stiffness";
+          progress.message(text.str());
+        }
       }
       if (scene.parameters().solver.estimate_condition)
         estimate_condition();

@@ -79,6 +79,15 @@ TEST(Fuzz, StripsTiedToTheTraceOfAnother)
 }
 
 
+// Strips so thin that rounding decides about 1e-5 of the displacements, or all of them: the
+// estimate of its effect has to say so, and the solver to refuse the last one.
+TEST(Fuzz, StripsThatRoundingMoves)
+{
+  for (const unsigned int seed : {36846, 225623, 400036, 400057})
+    expect_good("geometry", seed);
+}
+
+
 // An arc of a crack's face that is shorter than coordinates can tell has no direction: the
 // intensity factors were no numbers, and the run ended with exit code 0.
 TEST(Fuzz, FacesThatAreShorterThanCoordinatesCanTell)

@@ -80,8 +80,8 @@ namespace NMM
     assemble(dealii::TimerOutput *timer = nullptr);
 
     /// Solve the assembled system.
-    /// @throws NumericalFailure for a singular system or if the iteration does
-    /// not converge.
+    /// @throws NumericalFailure for a singular system, also if rounding changes the displacements
+    /// by more than a hundredth of them, or if the iteration does not converge.
     LinearSolverReport
     solve(const LinearSolverParameters &parameters);
 
@@ -107,6 +107,9 @@ namespace NMM
     system_rhs() const;
 
   private:
+    double
+    norm_of(const dealii::TrilinosWrappers::MPI::Vector &u) const;
+
     const CoverSystem                       *covers;
     const QuadratureCollection              *quadrature;
     const dealii::AffineConstraints<double> *constraints;

@@ -164,7 +164,6 @@ namespace NMM
     for (const auto &coupling : disks->couplings())
       all_rhs.push_back(&coupling);
     std::vector<dealii::TrilinosWrappers::MPI::Vector> solutions, effects;
-    dealii::TrilinosWrappers::MPI::Vector              effect;
     LinearSolverReport report = internal::solve_linear_system(
       matrix, all_rhs, *covers, *constraints, parameters, solutions, effects);
     dealii::TrilinosWrappers::MPI::Vector distributed_solution =

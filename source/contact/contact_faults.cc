@@ -131,4 +131,12 @@ namespace NMM
       return {text.str(), "", 0.};
     return d.find_crossing(motion);
   }
+
+
+  StepFault
+  Contact::find_crossing(const Vector &end)
+  {
+    data->move_to(end);
+    return data->find_crossing(data->search.motion());
+  }
 } // namespace NMM

@@ -192,7 +192,7 @@ namespace NMM
       history = contact->history();
       const Vector start(u);
       std::string  failure = find_by(newton, step, u, change);
-      if (!failure.empty() && step.n_cuts == 0)
+      if (!step.newton.converged && step.n_cuts == 0)
       {
         reject();
         u       = start;
@@ -241,6 +241,9 @@ namespace NMM
         step.relative_residual = step.newton.relative_residual;
         if (!step.newton.converged)
           return step.newton.reason;
+        const StepFault fault = contact->find_crossing(u);
+        if (!fault.reason.empty())
+          return fault.reason;
         found.contact = contact->report();
         // If everything has moved far, there may be candidate pairs now.
         if (contact->is_idle() &&

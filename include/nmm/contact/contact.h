@@ -414,6 +414,11 @@ namespace NMM
     StepFault
     find_fault(const Vector &end);
 
+    /// The last of these reasons alone: a load step may go further than the reach, since faces are
+    /// looked for again at its end.
+    StepFault
+    find_crossing(const Vector &end);
+
     /// The history of the last accepted state. Collective.
     ContactHistory
     history() const;

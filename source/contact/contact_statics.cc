@@ -127,6 +127,7 @@ namespace NMM
       accept(const Vector &) override
       {
         found.dissipated = contact->accept();
+        reached          = tried;
       }
 
       void
@@ -144,6 +145,8 @@ namespace NMM
 
       /// Data of the last step beside its LoadStep.
       ContactStep found;
+      /// Load factor of the last accepted step, at which the next one begins.
+      double reached = 0.;
 
     private:
       static NewtonParameters
@@ -170,6 +173,7 @@ namespace NMM
       NewtonParameters parameters;
       ContactHistory   history;
       unsigned int     n_breaks = 0;
+      double           tried    = 0.;
     };
 
 
@@ -218,17 +222,20 @@ namespace NMM
       const unsigned int n =
         is_augmented ? contact->parameters().max_augmentations + 1 : n_plain;
 
-      contact->set_time(step.load_factor);
+      tried              = step.load_factor;
       found              = ContactStep();
       n_breaks           = 0;
       double penetration = 0.;
       for (unsigned int i = 0; i < n; ++i)
       {
-        // Search at the end of the last step, not at the predicted displacements.
+        // Search at the end of the last step, not at the predicted displacements, and with obstacles
+        // where they were then, so that the whole way of the step is looked at.
         Vector detected(u);
         if (i == 0 && change != nullptr)
           detected -= *change;
+        contact->set_time(i == 0 ? reached : step.load_factor);
         contact->detect(detected);
+        contact->set_time(step.load_factor);
         // Linearized geometry is that of the first assembly.
         if (i == 0 && change != nullptr && !contact->is_idle())
           contact->assemble(detected, /* with_tangent = */ false);
@@ -334,6 +341,7 @@ namespace NMM
   {
     Assert(load_factor > 0., dealii::ExcMessage("Nothing is to be continued."));
     data->contact->restore_history(history);
+    data->search.reached = load_factor;
     data->statics.continue_from(load_factor, u);
   }
 

@@ -434,7 +434,7 @@ namespace NMM
         retry = entered + part * (left - entered);
         what  = is_inside ? "beyond the middle of" : "through";
       }
-      else if (!was_inside && is_inside && -end.gap > tau &&
+      else if (-begin.gap < tau && is_inside && -end.gap > tau &&
                !is_in_contact(edge, other_number) &&
                !(s == 0. && edges[edge].previous != invalid_index &&
                  is_in_contact(edges[edge].previous, other_number)))

@@ -124,8 +124,11 @@ namespace NMM
       find(LoadStep &step, Vector &u, const Vector *change) override;
 
       void
-      accept(const Vector &) override
+      accept(const Vector &u) override
       {
+        // Newton's method leaves contact out where nothing is near.
+        if (contact->is_idle())
+          contact->assemble(u, /* with_tangent = */ false);
         found.dissipated = contact->accept();
         reached          = tried;
       }

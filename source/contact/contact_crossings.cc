@@ -401,6 +401,8 @@ namespace NMM
       constexpr double arc = 2.;
       // Fraction of the path inside the body after which the repeated step ends.
       constexpr double part = 0.25;
+      // Part of tau: a point that is less deep than that begins at the face.
+      constexpr double at_face = 0.1;
 
       const auto        &edges        = surface->edges();
       const Body        &body         = bodies[edges[edge].body];
@@ -434,7 +436,7 @@ namespace NMM
         retry = entered + part * (left - entered);
         what  = is_inside ? "beyond the middle of" : "through";
       }
-      else if (-begin.gap < tau && is_inside && -end.gap > tau &&
+      else if (-begin.gap < at_face * tau && is_inside && -end.gap > tau &&
                !is_in_contact(edge, other_number) &&
                !(s == 0. && edges[edge].previous != invalid_index &&
                  is_in_contact(edges[edge].previous, other_number)))

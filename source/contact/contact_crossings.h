@@ -39,9 +39,9 @@ namespace NMM
      * body if E and X are connected along the boundary by faces that look the same way as E (or X)
      * to within 32 degrees and at most a length tau of other faces, because points may pass by a
      * corner when blocks slide. tau is half of the reach of the contact,
-     * and at most a fortieth of the body's circumference. A point that begins outside or less deep
-     * than tau, ends deeper, and is in contact with none of the body's faces then has been missed by
-     * the contact, and is treated as a crossing.
+     * and at most a fortieth of the body's circumference. A point that begins outside or at a face
+     * (less than tau/10 deep), ends deeper than tau, and is in contact with none of the body's
+     * faces then has been missed by the contact, and is treated as a crossing.
      *
      * A cheap test comes first. To cross a body, a point must move relative to it by the relevant
      * thickness: the smallest chord between places that are further apart than

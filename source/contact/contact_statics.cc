@@ -97,7 +97,9 @@ namespace NMM
     /**
      * Search for the equilibrium of a load step. Newton's method finds displacements and contact
      * states together. Then candidate pairs and contact points are updated at the solution and,
-     * with a penetration tolerance, multipliers, too. This is repeated until nothing changes.
+     * with a penetration tolerance, multipliers, too. This is repeated until nothing changes. A
+     * step fails if faces, or obstacles that move with the load factor, pass through something on
+     * the straight way to its solution.
      *
      * Where faces that touch open one after the other, |r| rises and falls for long, and Newton's
      * method takes that for cycles of contact states. The arms of a double cantilever open by a
@@ -115,7 +117,6 @@ namespace NMM
         , contact(&contact)
         , system(elasticity, contact)
         , newton(parameters)
-        , patient_newton(patient(parameters))
         , parameters(parameters)
       {
       }
@@ -130,7 +131,7 @@ namespace NMM
         if (contact->is_idle())
           contact->assemble(u, /* with_tangent = */ false);
         found.dissipated = contact->accept();
-        reached          = tried;
+        reached          = found.load_factor;
       }
 
       void
@@ -142,6 +143,8 @@ namespace NMM
       std::string
       remedy() const override
       {
+        if (!fault.remedy.empty())
+          return fault.remedy;
         return "look at the last state that converged for what gives way, or "
                "allow smaller steps";
       }
@@ -152,14 +155,6 @@ namespace NMM
       double reached = 0.;
 
     private:
-      static NewtonParameters
-      patient(NewtonParameters parameters)
-      {
-        parameters.max_iterations *= 4;
-        parameters.stops_cycles = false;
-        return parameters;
-      }
-
       std::string
       find_by(NewtonSolver &solver,
               LoadStep     &step,
@@ -172,11 +167,12 @@ namespace NMM
       ElasticSystem   *elasticity;
       Contact         *contact;
       ContactSystem    system;
-      NewtonSolver     newton, patient_newton;
+      NewtonSolver     newton;
       NewtonParameters parameters;
       ContactHistory   history;
       unsigned int     n_breaks = 0;
-      double           tried    = 0.;
+      /// What the last solution passed through on its way.
+      StepFault fault;
     };
 
 
@@ -201,6 +197,10 @@ namespace NMM
       std::string  failure = find_by(newton, step, u, change);
       if (!step.newton.converged && step.n_cuts == 0)
       {
+        NewtonParameters patient = parameters;
+        patient.max_iterations *= 4;
+        patient.stops_cycles = false;
+        NewtonSolver patient_newton(patient);
         reject();
         u       = start;
         failure = find_by(patient_newton, step, u, change);
@@ -225,8 +225,9 @@ namespace NMM
       const unsigned int n =
         is_augmented ? contact->parameters().max_augmentations + 1 : n_plain;
 
-      tried              = step.load_factor;
       found              = ContactStep();
+      found.load_factor  = step.load_factor;
+      fault              = StepFault();
       n_breaks           = 0;
       double penetration = 0.;
       for (unsigned int i = 0; i < n; ++i)
@@ -251,7 +252,7 @@ namespace NMM
         step.relative_residual = step.newton.relative_residual;
         if (!step.newton.converged)
           return step.newton.reason;
-        const StepFault fault = contact->find_crossing(u);
+        fault = contact->find_crossing(u);
         if (!fault.reason.empty())
           return fault.reason;
         found.contact = contact->report();

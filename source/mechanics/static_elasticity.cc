@@ -177,19 +177,9 @@ namespace NMM
                              covers->communicator());
     relevant_solution = distributed_solution;
 
-    // Unknowns of thin strips may be far off without changing displacements.
     constexpr double limit = 0.01;
     if (!effects.empty())
-      report.rounding_effect = 0.;
-    for (auto &effect : effects)
-    {
-      constraints->distribute(effect);
-      dealii::TrilinosWrappers::MPI::Vector relevant(relevant_solution);
-      relevant = effect;
-      report.rounding_effect =
-        std::max(report.rounding_effect,
-                 norm_of(relevant) / norm_of(solution()));
-    }
+      report.rounding_effect = largest_share(effects);
     AssertThrow(report.rounding_effect <= limit,
                 NumericalFailure("The linear system is singular to rounding, "
                                  "which changes the displacements by " +
@@ -203,18 +193,30 @@ namespace NMM
   }
 
 
-  /// L2 norm of the displacements with the unknowns @p u [m^2].
+  /// The largest L2 norm of the displacements with the unknowns of one of @p changes, over that of
+  /// the solution [-]. Unknowns of thin strips may be far off without changing displacements.
   double
-  StaticElasticity::norm_of(
-    const dealii::TrilinosWrappers::MPI::Vector &u) const
+  StaticElasticity::largest_share(
+    const std::vector<dealii::TrilinosWrappers::MPI::Vector> &changes) const
   {
-    return compute_errors(
-             DisplacementField(*covers, *problem, u),
-             [](const dealii::Point<2> &) { return dealii::Tensor<1, 2>(); },
-             [](const dealii::Point<2> &) {
-               return dealii::SymmetricTensor<2, 2>();
-             })
-      .displacement;
+    const auto norm = [&](const dealii::TrilinosWrappers::MPI::Vector &u) {
+      return compute_errors(
+               DisplacementField(*covers, *problem, u),
+               [](const dealii::Point<2> &) { return dealii::Tensor<1, 2>(); },
+               [](const dealii::Point<2> &) {
+                 return dealii::SymmetricTensor<2, 2>();
+               })
+        .displacement;
+    };
+    double largest = 0.;
+    for (dealii::TrilinosWrappers::MPI::Vector change : changes)
+    {
+      constraints->distribute(change);
+      dealii::TrilinosWrappers::MPI::Vector relevant(relevant_solution);
+      relevant = change;
+      largest  = std::max(largest, norm(relevant));
+    }
+    return largest / norm(relevant_solution);
   }
 
 

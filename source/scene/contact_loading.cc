@@ -121,6 +121,11 @@ namespace NMM
       }
       catch (const NumericalFailure &error)
       {
+        if (loading->last_attempt().newton.converged)
+        {
+          loading.reset();
+          throw;
+        }
         const Mechanism mechanism =
           find_mechanism(*loading,
                          system,

@@ -175,6 +175,9 @@ namespace NMM
       {
         n_last_cuts       = statics.last_attempt().n_cuts;
         n_last_iterations = statics.last_attempt().n_lost_iterations;
+        // A solution that was found and not accepted, such as one behind a wall, has no mechanism.
+        if (statics.last_attempt().newton.converged)
+          throw;
         explain(error, statics);
       }
     }

@@ -149,7 +149,7 @@ namespace NMM
       const double tolerance =
         1e-7 + 1e3 * epsilon * coordinate / size +
         16. * epsilon * size / least_width(model.manifold_mesh) +
-        8. * report.rounding_effect;
+        4. * report.rounding_effect;
       if (!(errors.displacement <= tolerance))
       {
         std::ostringstream text;

@@ -108,7 +108,8 @@ namespace NMM
 
   private:
     double
-    norm_of(const dealii::TrilinosWrappers::MPI::Vector &u) const;
+    largest_share(
+      const std::vector<dealii::TrilinosWrappers::MPI::Vector> &changes) const;
 
     const CoverSystem                       *covers;
     const QuadratureCollection              *quadrature;

@@ -117,12 +117,13 @@ namespace NMM
           e = edges[e].next;
           ++n;
         } while (e != invalid_index && e != first[body] && n <= n_edges[body]);
-        const double tau   = std::min(reach_part * reach,
+        const double tau           = std::min(reach_part * reach,
                                     circumference_part * circumference[body]);
-        bodies[body].tau   = tau;
-        bodies[body].width = area[body] > 0. && n == n_edges[body]
-                               ? 2. * area[body] / circumference[body]
-                               : circumference[body];
+        bodies[body].tau           = tau;
+        bodies[body].circumference = circumference[body];
+        bodies[body].width         = area[body] > 0. && n == n_edges[body]
+                                       ? 2. * area[body] / circumference[body]
+                                       : circumference[body];
         // A straight line is the boundary of a half-plane.
         if (n_edges[body] == 1 && edges[first[body]].next == invalid_index &&
             edges[first[body]].radius == 0.)
@@ -431,10 +432,21 @@ namespace NMM
       const double tau         = std::min(body.tau, other.tau);
       double       retry       = 0.;
       std::string  what;
-      if (!is_same_side(in, out, other.tau))
+      const auto   would_pass = [&](const std::string &where) {
+        return "that would pass " + where + " '" + surface->name(in.edge) +
+               "' without being stopped";
+      };
+      if (out.edge == invalid_index)
+      {
+        retry = part;
+        what  = "near '" + surface->name(in.edge) +
+               "', from which it would move so far that the ends of a face "
+               "there are one and the same number";
+      }
+      else if (!is_same_side(in, out, other.tau))
       {
         retry = entered + part * (left - entered);
-        what  = is_inside ? "beyond the middle of" : "through";
+        what  = would_pass(is_inside ? "beyond the middle of" : "through");
       }
       else if (-begin.gap < at_face * tau && is_inside && -end.gap > tau &&
                !is_in_contact(edge, other_number) &&
@@ -442,15 +454,14 @@ namespace NMM
                  is_in_contact(edges[edge].previous, other_number)))
       {
         retry = entered + 0.5 * tau / -end.gap * (1. - entered);
-        what  = "into";
+        what  = would_pass("into");
       }
       if (retry == 0. || (fault.retry > 0. && fault.retry <= retry))
         return;
       fault.retry = retry;
       std::ostringstream text;
       text << "a point of '" << surface->name(edge) << "', at (" << x_0
-           << ") m when the step begins, that would pass " << what << " '"
-           << surface->name(in.edge) << "' without being stopped";
+           << ") m when the step begins, " << what;
       fault.reason = text.str();
       fault.remedy =
         "allow smaller steps, make what is hit thicker, or contact stiffer";
@@ -458,9 +469,32 @@ namespace NMM
 
 
     StepFault
+    ContactCrossings::find_excessive_deformation() const
+    {
+      for (unsigned int e = 0; e < surface->edges().size(); ++e)
+      {
+        const Body &body = bodies[surface->edges()[e].body];
+        // This is true for NaN, too.
+        if (!(body.radius <= body.circumference))
+        {
+          std::ostringstream text;
+          text << "a body with the face '" << surface->name(e)
+               << "' that deforms by " << body.radius
+               << " m in the step, more than its circumference";
+          return {text.str(), "allow smaller steps, or reduce the loads", 0.};
+        }
+      }
+      return {};
+    }
+
+
+    StepFault
     ContactCrossings::find(std::vector<Pair>  pairs,
                            const IsInContact &is_in_contact) const
     {
+      const StepFault excessive = find_excessive_deformation();
+      if (!excessive.reason.empty())
+        return excessive;
       const auto &edges = surface->edges();
       const auto  key   = [&](const Pair &pair) {
         return std::make_tuple(pair.first,

@@ -98,7 +98,7 @@ namespace NMM
     private:
       struct Body
       {
-        double tau = 0., thickness = 0., width = 0.;
+        double tau = 0., thickness = 0., width = 0., circumference = 0.;
         /// Motion in the last step: mean position, translation, largest other motion of a point,
         /// and rotation.
         dealii::Point<2>     center;
@@ -134,6 +134,12 @@ namespace NMM
       /// Number of chords of an edge.
       unsigned int
       n_chords(unsigned int edge) const;
+
+      /// The fault of a body whose points move relative to each other by more than its
+      /// circumference in the step; rotations move them by less. Its boundary may be so curved
+      /// that the search would take minutes, and is no solution of a step anyway.
+      StepFault
+      find_excessive_deformation() const;
 
       /// Position of a place on an edge at a time of the step, from 0 to 1.
       dealii::Point<2>

@@ -6,7 +6,9 @@
 #include <deal.II/base/numbers.h>
 
 #include "physical_edges.h"
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace NMM
 {
@@ -92,103 +94,49 @@ namespace NMM
 
     namespace
     {
-      enum class ParallelogramState : unsigned char
+      /// For each row of @p box, the parallelograms within one lattice step of a curve, ascending.
+      /// Samples are at most a quarter of a step apart (in lattice coordinates), so that every
+      /// point of the curve lies in the 3 x 3 neighbourhood of some sample's parallelogram.
+      std::vector<std::vector<std::int64_t>>
+      find_near_curves(const PhysicalMesh &physical_mesh,
+                       const Lattice      &lattice,
+                       const double        cell_size,
+                       const LatticeBox   &box)
       {
-        unknown,
-        near_curve,
-        inside,
-        outside
-      };
-
-
-      /// States of the parallelograms of a box.
-      class ParallelogramStates
-      {
-      public:
-        ParallelogramStates(const LatticeBox        &box,
-                            const ParallelogramState initial)
-          : box(box)
-          , states((box.upper[0] - box.lower[0]) *
-                     (box.upper[1] - box.lower[1]),
-                   initial)
-        {
-        }
-
-        ParallelogramState &
-        operator()(const std::int64_t i, const std::int64_t j)
-        {
-          return states[(j - box.lower[1]) * (box.upper[0] - box.lower[0]) +
-                        (i - box.lower[0])];
-        }
-
-        const LatticeBox box;
-
-      private:
-        std::vector<ParallelogramState> states;
-      };
-
-
-      /**
-       * Mark the parallelograms within one lattice step of a curve. Samples are at most a quarter
-       * of a step apart (in lattice coordinates), so that every point of the curve lies in the 3 x
-       * 3 neighbourhood of some sample's parallelogram.
-       */
-      void
-      mark_near_curves(const PhysicalMesh  &physical_mesh,
-                       const Lattice       &lattice,
-                       const double         cell_size,
-                       ParallelogramStates &state)
-      {
+        std::vector<std::vector<std::int64_t>> rows(box.upper[1] -
+                                                    box.lower[1]);
         for (const ElementEdge &edge : internal::solid_edges(physical_mesh))
+        {
+          LatticeNode last = {{std::numeric_limits<std::int64_t>::max(), 0}};
           for_each_sample(edge, 0.25 * cell_size, [&](const Point<2> &x) {
             const Tensor<1, 2> s = lattice.coordinates(x);
-            const auto         i = static_cast<std::int64_t>(std::floor(s[0])),
-                       j         = static_cast<std::int64_t>(std::floor(s[1]));
-            for (std::int64_t dj = -1; dj <= 1; ++dj)
-              for (std::int64_t di = -1; di <= 1; ++di)
-                if (state.box.contains({{i + di, j + dj}}))
-                  state(i + di, j + dj) = ParallelogramState::near_curve;
+            const LatticeNode  node{
+              {static_cast<std::int64_t>(std::floor(s[0])),
+                static_cast<std::int64_t>(std::floor(s[1]))}};
+            if (node == last)
+              return;
+            last = node;
+            for (std::int64_t j = node[1] - 1; j <= node[1] + 1; ++j)
+              for (std::int64_t i = node[0] - 1; i <= node[0] + 1; ++i)
+                if (box.contains({{i, j}}))
+                  rows[j - box.lower[1]].push_back(i);
           });
+        }
+        for (auto &row : rows)
+        {
+          std::sort(row.begin(), row.end());
+          row.erase(std::unique(row.begin(), row.end()), row.end());
+        }
+        return rows;
       }
 
 
-      /// Determine the unmarked parallelograms. They form connected sets that no curve crosses, so
-      /// that one point decides for each set.
-      void
-      classify_rest(const PhysicalMesh  &physical_mesh,
-                    const Lattice       &lattice,
-                    ParallelogramStates &state)
+      /// Neighbouring parallelograms of a row that no curve is near, first and past-the-end.
+      struct Gap
       {
-        std::vector<LatticeNode> stack;
-        for (std::int64_t j = state.box.lower[1]; j < state.box.upper[1]; ++j)
-          for (std::int64_t i = state.box.lower[0]; i < state.box.upper[0]; ++i)
-          {
-            if (state(i, j) != ParallelogramState::unknown)
-              continue;
-            const Point<2> center =
-              lattice.node(i, j) + 0.5 * (lattice.a + lattice.b);
-            const ParallelogramState result = is_in_solid(physical_mesh, center)
-                                                ? ParallelogramState::inside
-                                                : ParallelogramState::outside;
-            state(i, j)                     = result;
-            stack.push_back({{i, j}});
-            while (!stack.empty())
-            {
-              const auto [k, l] = stack.back();
-              stack.pop_back();
-              for (const LatticeNode &next : {LatticeNode{{k - 1, l}},
-                                              LatticeNode{{k + 1, l}},
-                                              LatticeNode{{k, l - 1}},
-                                              LatticeNode{{k, l + 1}}})
-                if (state.box.contains(next) &&
-                    state(next[0], next[1]) == ParallelogramState::unknown)
-                {
-                  state(next[0], next[1]) = result;
-                  stack.push_back(next);
-                }
-            }
-          }
-      }
+        std::int64_t begin, end;
+        bool         is_inside;
+      };
     } // namespace
 
 
@@ -198,20 +146,57 @@ namespace NMM
                                const RegularMeshParameters &parameters,
                                const LatticeBox            &box)
     {
-      ParallelogramStates state(box,
-                                parameters.whole_box
-                                  ? ParallelogramState::inside
-                                  : ParallelogramState::unknown);
-      if (!parameters.whole_box)
-      {
-        mark_near_curves(physical_mesh, lattice, parameters.cell_size, state);
-        classify_rest(physical_mesh, lattice, state);
-      }
       std::vector<LatticeNode> needed;
+      const auto               add = [&](const std::int64_t begin,
+                           const std::int64_t end,
+                           const std::int64_t row) {
+        for (std::int64_t i = begin; i < end; ++i)
+          needed.push_back({{i, row}});
+      };
+      if (parameters.whole_box)
+      {
+        for (std::int64_t j = box.lower[1]; j < box.upper[1]; ++j)
+          add(box.lower[0], box.upper[0], j);
+        return needed;
+      }
+      const auto near_curves =
+        find_near_curves(physical_mesh, lattice, parameters.cell_size, box);
+      std::vector<Gap> gaps, gaps_of_last_row;
       for (std::int64_t j = box.lower[1]; j < box.upper[1]; ++j)
-        for (std::int64_t i = box.lower[0]; i < box.upper[0]; ++i)
-          if (state(i, j) != ParallelogramState::outside)
-            needed.push_back({{i, j}});
+      {
+        // No curve lies between parallelograms of gaps that have a common side, so that one
+        // point decides for all of them.
+        const auto is_inside = [&](const std::int64_t begin,
+                                   const std::int64_t end) {
+          const auto below = std::partition_point(gaps_of_last_row.begin(),
+                                                  gaps_of_last_row.end(),
+                                                  [&](const Gap &gap) {
+                                                    return gap.end <= begin;
+                                                  });
+          if (below != gaps_of_last_row.end() && below->begin < end)
+            return below->is_inside;
+          return is_in_solid(physical_mesh,
+                             lattice.node(begin, j) +
+                               0.5 * (lattice.a + lattice.b));
+        };
+        std::int64_t begin   = box.lower[0];
+        const auto   add_gap = [&](const std::int64_t end) {
+          if (begin == end)
+            return;
+          gaps.push_back({begin, end, is_inside(begin, end)});
+          if (gaps.back().is_inside)
+            add(begin, end, j);
+        };
+        gaps.clear();
+        for (const std::int64_t i : near_curves[j - box.lower[1]])
+        {
+          add_gap(i);
+          add(i, i + 1, j);
+          begin = i + 1;
+        }
+        add_gap(box.upper[0]);
+        std::swap(gaps, gaps_of_last_row);
+      }
       return needed;
     }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <iomanip>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
@@ -293,6 +294,17 @@ namespace NMM
       if (sorted.size() > 1)
         text << " and " << describe(curves[sorted[1].second]);
       text << "; if these are meant to be one line, draw one of them only";
+      // Boundaries of the face are off by rounding, so that the strain of a sliver is known to
+      // rounding over width. Its stress moves what is around it by that part.
+      const double rounding =
+        std::numeric_limits<double>::epsilon() *
+        std::max(std::abs(face.inside[0]), std::abs(face.inside[1]));
+      if (rounding > 1e-5 * width_of_strip(face))
+        text << ". Coordinates there are rounded by "
+             << describe_length(rounding)
+             << ", so that displacements around it may be wrong by parts of up "
+                "to "
+             << std::setprecision(1) << rounding / width_of_strip(face);
       return text.str();
     }
   } // namespace internal

@@ -88,7 +88,7 @@ namespace NMM
       multiplier_space = std::make_unique<MultiplierSpace>(surface);
       memory.multipliers.assign(multiplier_space->size(), 0.);
     }
-    nodal.assign(2 * surface.cover_system().n_covers(), 0.);
+    nodal.resize(surface.cover_system().n_covers());
     surface.set_displacements(&nodal);
   }
 

@@ -440,8 +440,8 @@ namespace NMM
     struct Step
     {
       /// Displacements at detect(), where the step begins, and its time [s].
-      std::vector<double> nodal_begin;
-      double              time_detected = 0.;
+      std::vector<dealii::Tensor<1, 2>> nodal_begin;
+      double                            time_detected = 0.;
       /// Time of begin_step(), and time from there to the end of the step [s].
       double time_begin = 0., length = 0.;
       /// Faces at the end and in the middle of the step, and displacements of obstacles in the step
@@ -449,7 +449,7 @@ namespace NMM
       ContactSurface::State             end, middle;
       std::vector<dealii::Tensor<1, 2>> obstacle_changes;
       /// Displacements of Contact::expect(); empty if there are none.
-      std::vector<double> nodal_expected;
+      std::vector<dealii::Tensor<1, 2>> nodal_expected;
       /// Active points that touch at the beginning or the end of the step.
       std::vector<unsigned int> near_points;
       /// Energy lost between the last accepted state and the beginning of the step [J/m].
@@ -486,9 +486,9 @@ namespace NMM
     /// Search for crossings; null until it is needed.
     std::unique_ptr<internal::ContactCrossings> crossings;
 
-    std::vector<double>       nodal;
-    std::vector<ContactPoint> points;
-    std::vector<PointData>    point_data;
+    std::vector<dealii::Tensor<1, 2>> nodal;
+    std::vector<ContactPoint>         points;
+    std::vector<PointData>            point_data;
     /// Faces that each point is beside, see ContactSearch::append_faces_beside(). They are found
     /// when points are made, so that they do not change within a step.
     std::vector<unsigned int> faces_beside;

@@ -63,11 +63,13 @@ namespace NMM
     ContactMemory::save(const MPI_Comm  communicator,
                         ContactHistory &history) const
     {
-      history.has_accepted_state     = has_accepted_state;
-      history.multipliers            = multipliers;
-      history.searched_displacements = searched_nodal;
-      history.searched_time          = searched_time;
-      history.searched_reach         = searched_reach;
+      history.has_accepted_state = has_accepted_state;
+      history.multipliers        = multipliers;
+      history.searched_time      = searched_time;
+      history.searched_reach     = searched_reach;
+      for (const dealii::Tensor<1, 2> &u : searched_nodal)
+        history.searched_displacements.insert(
+          history.searched_displacements.end(), {u[0], u[1]});
       stick_places.for_each(
         [&](const unsigned int key, const std::vector<StickPlace> &places) {
           for (const StickPlace &place : places)
@@ -97,7 +99,10 @@ namespace NMM
         multipliers = history.multipliers;
       if (!history.searched_displacements.empty())
       {
-        searched_nodal = history.searched_displacements;
+        const std::vector<double> &values = history.searched_displacements;
+        searched_nodal.resize(values.size() / 2);
+        for (unsigned int i = 0; i < values.size(); ++i)
+          searched_nodal[i / 2][i % 2] = values[i];
         searched_time  = history.searched_time;
         searched_reach = history.searched_reach;
       }

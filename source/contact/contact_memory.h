@@ -43,8 +43,8 @@ namespace NMM
       std::vector<unsigned int> former_bodies;
       /// Displacements [m], time [s] and reach [m] of the last search for candidate pairs. A
       /// computation that continues from a checkpoint repeats this search to find the same pairs.
-      std::vector<double> searched_nodal;
-      double              searched_time = 0., searched_reach = 0.;
+      std::vector<dealii::Tensor<1, 2>> searched_nodal;
+      double                            searched_time = 0., searched_reach = 0.;
 
       /// Remove the history of bodies that are absent from the surface.
       void

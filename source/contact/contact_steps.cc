@@ -125,10 +125,8 @@ namespace NMM
                                        (surface->n_bodies() - n_obstacles)];
       const auto covers = surface->covers(edge);
       for (unsigned int i = 0; i < f.n; ++i)
-        for (unsigned int c = 0; c < 2; ++c)
-          motion[c] += sign * f.w[i] *
-                       (step.end.nodal[2 * covers[i] + c] -
-                        step.nodal_begin[2 * covers[i] + c]);
+        motion += sign * f.w[i] *
+                  (step.end.nodal[covers[i]] - step.nodal_begin[covers[i]]);
     };
     ContactSurface::Weights master;
     surface->weights(projection.master, projection.t, master);
@@ -279,9 +277,8 @@ namespace NMM
     Tensor<1, 2>       stretch;
     surface->weights(projection.master, projection.t, weights);
     for (unsigned int i = 0; i < weights.n; ++i)
-      for (unsigned int c = 0; c < 2; ++c)
-        stretch[c] -= weights.dw[i] * (step.end.nodal[2 * covers[i] + c] -
-                                       step.nodal_begin[2 * covers[i] + c]);
+      stretch -= weights.dw[i] *
+                 (step.end.nodal[covers[i]] - step.nodal_begin[covers[i]]);
     const double along = motion * f.tangent, across = motion * f.normal;
     const double by_foot_along  = stretch * f.tangent,
                  by_foot_across = stretch * f.normal;
@@ -419,20 +416,19 @@ namespace NMM
   void
   Contact::Data::set_step_states(const Vector &end)
   {
-    std::vector<double> &at_end = step.end.nodal;
+    std::vector<Tensor<1, 2>> &at_end = step.end.nodal;
     if (Parallel::n_mpi_processes(communicator) > 1)
       read_nodal_values(surface->cover_system(), end, at_end);
     else
     {
       const auto from = end.begin();
-      active.for_each_cover(at_end.size() / 2, [&](const unsigned int k) {
-        at_end[2 * k]     = from[2 * k];
-        at_end[2 * k + 1] = from[2 * k + 1];
+      active.for_each_cover(at_end.size(), [&](const unsigned int k) {
+        for (unsigned int c = 0; c < 2; ++c)
+          at_end[k][c] = from[2 * k + c];
       });
     }
-    active.for_each_cover(at_end.size() / 2, [&](const unsigned int k) {
-      for (const unsigned int i : {2 * k, 2 * k + 1})
-        step.middle.nodal[i] = 0.5 * (step.nodal_begin[i] + at_end[i]);
+    active.for_each_cover(at_end.size(), [&](const unsigned int k) {
+      step.middle.nodal[k] = 0.5 * (step.nodal_begin[k] + at_end[k]);
     });
     update_faces();
   }
@@ -452,10 +448,9 @@ namespace NMM
   void
   Contact::Data::move_as_expected()
   {
-    active.for_each_cover(step.nodal_expected.size() / 2,
+    active.for_each_cover(step.nodal_expected.size(),
                           [&](const unsigned int k) {
-                            for (const unsigned int i : {2 * k, 2 * k + 1})
-                              step.end.nodal[i] = step.nodal_expected[i];
+                            step.end.nodal[k] = step.nodal_expected[k];
                           });
     update_faces();
   }

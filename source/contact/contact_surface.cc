@@ -434,7 +434,8 @@ namespace NMM
 
 
   void
-  ContactSurface::set_displacements(const std::vector<double> *displacements)
+  ContactSurface::set_displacements(
+    const std::vector<Tensor<1, 2>> *displacements)
   {
     nodal   = displacements;
     current = edge_displacements.data();
@@ -444,8 +445,8 @@ namespace NMM
 
 
   void
-  ContactSurface::find_displacement(const unsigned int         e,
-                                    const std::vector<double> &from,
+  ContactSurface::find_displacement(const unsigned int               e,
+                                    const std::vector<Tensor<1, 2>> &from,
                                     EdgeDisplacement &displacement) const
   {
     const unsigned int begin = start_weights_begin[e],
@@ -456,14 +457,11 @@ namespace NMM
     Tensor<1, 2> value, slope, bend;
     for (unsigned int i = 0; i < n; ++i)
     {
-      const double                *u = from.data() + 2 * edge_covers[i];
+      const Tensor<1, 2>          &u = from[edge_covers[i]];
       const std::array<double, 3> &f = start_weights[begin + i];
-      for (unsigned int c = 0; c < 2; ++c)
-      {
-        value[c] += f[0] * u[c];
-        slope[c] += f[1] * u[c];
-        bend[c] += f[2] * u[c];
-      }
+      value += f[0] * u;
+      slope += f[1] * u;
+      bend += f[2] * u;
     }
     displacement = {{value, slope, bend}};
   }
@@ -581,13 +579,10 @@ namespace NMM
     const auto edge_covers = covers(e);
     for (unsigned int i = 0; i < f.n; ++i)
     {
-      const double *u = nodal->data() + 2 * edge_covers[i];
-      for (unsigned int c = 0; c < 2; ++c)
-      {
-        place.x[c] += f.w[i] * u[c];
-        place.a[c] += f.dw[i] * u[c];
-        place.b[c] += f.ddw[i] * u[c];
-      }
+      const Tensor<1, 2> &u = (*nodal)[edge_covers[i]];
+      place.x += f.w[i] * u;
+      place.a += f.dw[i] * u;
+      place.b += f.ddw[i] * u;
     }
     return place;
   }
@@ -609,8 +604,7 @@ namespace NMM
     const auto   edge_covers = covers(e);
     Tensor<1, 2> result;
     for (unsigned int i = 0; i < f.n; ++i)
-      for (unsigned int c = 0; c < 2; ++c)
-        result[c] += f.w[i] * (*nodal)[2 * edge_covers[i] + c];
+      result += f.w[i] * (*nodal)[edge_covers[i]];
     return result;
   }
 
@@ -657,8 +651,7 @@ namespace NMM
       return x + obstacle_displacements[all_edges[e].body - n_blocks];
     const auto edge_covers = covers(e);
     for (unsigned int i = 0; i < f.n; ++i)
-      for (unsigned int c = 0; c < 2; ++c)
-        x[c] += f.w[i] * (*nodal)[2 * edge_covers[i] + c];
+      x += f.w[i] * (*nodal)[edge_covers[i]];
     return x;
   }
 

@@ -270,11 +270,9 @@ namespace NMM
         {
           cover_to_entry[cover] = load.covers.size();
           load.covers.push_back(cover);
-          load.forces.insert(load.forces.end(), {0., 0.});
+          load.forces.emplace_back();
         }
-        double *f = load.forces.data() + 2 * cover_to_entry[cover];
-        f[0] += weight * force[0];
-        f[1] += weight * force[1];
+        load.forces[cover_to_entry[cover]] += weight * force;
       }
 
       /// Return the forces collected so far, and begin the next load.

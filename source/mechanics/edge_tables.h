@@ -141,8 +141,8 @@ namespace NMM
       struct Load
       {
         std::vector<unsigned int> covers;
-        /// Two components for each cover, per unit thickness [N/m].
-        std::vector<double> forces;
+        /// The force on each cover, per unit thickness [N/m].
+        std::vector<dealii::Tensor<1, 2>> forces;
       };
 
       std::vector<Load> boundary_conditions, point_forces;
@@ -169,12 +169,7 @@ namespace NMM
       {
         for_each_load([&](const Load &load) {
           for (unsigned int i = 0; i < load.covers.size(); ++i)
-          {
-            dealii::Tensor<1, 2> force;
-            force[0] = load.forces[2 * i];
-            force[1] = load.forces[2 * i + 1];
-            action(load.covers[i], force);
-          }
+            action(load.covers[i], load.forces[i]);
         });
       }
 

@@ -64,8 +64,7 @@ namespace NMM
     d.read(end, d.nodal_end);
     d.nodal.resize(d.nodal_begin.size());
     d.active_covers.for_each(d.covers->n_covers(), [&](const unsigned int k) {
-      for (const unsigned int i : {2 * k, 2 * k + 1})
-        d.nodal[i] = 0.5 * (d.nodal_begin[i] + d.nodal_end[i]);
+      d.nodal[k] = 0.5 * (d.nodal_begin[k] + d.nodal_end[k]);
     });
     Data::Task task{load_factor,
                     tangent,

@@ -136,21 +136,20 @@ namespace NMM
 
 
   void
-  FiniteElasticity::Data::read(const Vector &u, std::vector<double> &to) const
+  FiniteElasticity::Data::read(const Vector                      &u,
+                               std::vector<dealii::Tensor<1, 2>> &to) const
   {
     // ties also need the displacements of blocks next to active ones
     if (active_covers.all() || !edges->ties.empty() ||
-        to.size() != 2 * covers->n_covers())
+        to.size() != covers->n_covers())
     {
       read_nodal_values(*covers, u, to);
       return;
     }
     const auto from = u.begin();
     for (const unsigned int k : active_covers.chosen())
-    {
-      to[2 * k]     = *(from + 2 * k);
-      to[2 * k + 1] = *(from + 2 * k + 1);
-    }
+      for (unsigned int c = 0; c < 2; ++c)
+        to[k][c] = *(from + 2 * k + c);
   }
 
 
@@ -413,11 +412,10 @@ namespace NMM
         const unsigned int k = load.covers[i];
         if (!absent_covers.empty() && absent_covers[k])
           return;
-        const double f[2] = {-factor * load.forces[2 * i],
-                             -factor * load.forces[2 * i + 1]};
-        assembler.add({&k, 1}, nullptr, f);
-        square += f[0] * f[0] + f[1] * f[1];
-        work += f[0] * nodal[2 * k] + f[1] * nodal[2 * k + 1];
+        const dealii::Tensor<1, 2> f = -factor * load.forces[i];
+        assembler.add({&k, 1}, nullptr, &f[0]);
+        square += f.norm_square();
+        work += f * nodal[k];
       };
       if (active_elements.all())
         for (unsigned int i = 0; i < load.covers.size(); ++i)

@@ -137,7 +137,7 @@ namespace NMM
 
     /// Read the displacements that are needed for active blocks from a vector.
     void
-    read(const Vector &u, std::vector<double> &to) const;
+    read(const Vector &u, std::vector<dealii::Tensor<1, 2>> &to) const;
 
     /// Add the squares of the changes of the local forces since the last call to the force scale.
     void
@@ -153,9 +153,9 @@ namespace NMM
 
     /// Read the displacements of the covers of a site's element, then those of its neighbor.
     void
-    gather(const EdgeTables::Site    &site,
-           const std::vector<double> &from,
-           LocalDisplacement         &u) const
+    gather(const EdgeTables::Site                  &site,
+           const std::vector<dealii::Tensor<1, 2>> &from,
+           LocalDisplacement                       &u) const
     {
       u.gather(covers->covers(site.element), from);
       if (site.neighbor != invalid_index)
@@ -195,8 +195,9 @@ namespace NMM
     std::vector<internal::ActiveItems> active_loads;
 
     /// For each weak point, the factor of its penalty [-]; see adapt_penalties().
-    std::vector<double> penalty_growth;
-    std::vector<double> nodal, nodal_increment, nodal_begin, nodal_end;
+    std::vector<double>               penalty_growth;
+    std::vector<dealii::Tensor<1, 2>> nodal, nodal_increment, nodal_begin,
+      nodal_end;
 
     dealii::TrilinosWrappers::SparseMatrix matrix;
     Vector                                 residual;

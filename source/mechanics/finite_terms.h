@@ -23,18 +23,16 @@ namespace NMM
     {
       double values[LocalSystem::max_covers][2];
 
-      /// Read the displacements of @p covers from @p nodal (two values per cover) and store them
+      /// Read the displacements of @p covers from @p nodal and store them
       /// from position @p first on.
       void
       gather(const dealii::ArrayView<const unsigned int> &covers,
-             const std::vector<double>                   &nodal,
+             const std::vector<dealii::Tensor<1, 2>>     &nodal,
              const unsigned int                           first = 0)
       {
         for (unsigned int i = 0; i < covers.size(); ++i)
-        {
-          values[first + i][0] = nodal[2 * covers[i]];
-          values[first + i][1] = nodal[2 * covers[i] + 1];
-        }
+          for (unsigned int c = 0; c < 2; ++c)
+            values[first + i][c] = nodal[covers[i]][c];
       }
     };
 

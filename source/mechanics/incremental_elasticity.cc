@@ -142,9 +142,9 @@ namespace NMM
 
     /// The covers of a site (of both elements of a tie), and their displacements.
     dealii::ArrayView<const unsigned int>
-    gather(const EdgeTables::Site    &site,
-           const std::vector<double> &nodal,
-           LocalDisplacement         &u,
+    gather(const EdgeTables::Site          &site,
+           const std::vector<Tensor<1, 2>> &nodal,
+           LocalDisplacement               &u,
            unsigned int (&both)[LocalSystem::max_covers]) const;
 
     const CoverSystem                       *covers;
@@ -164,7 +164,7 @@ namespace NMM
     /// Cauchy stress at each quadrature point of elements, and on both sides of each weak point
     /// [Pa].
     std::vector<SymmetricTensor<2, 2>> stress, weak_stress;
-    std::vector<double>                nodal, nodal_increment;
+    std::vector<Tensor<1, 2>>          nodal, nodal_increment;
 
     dealii::TrilinosWrappers::SparseMatrix matrix;
     Vector residual, correction, owned, solution;
@@ -210,7 +210,7 @@ namespace NMM
                                          curve_conditions,
                                          trace_constants);
     LocalDisplacement none;
-    nodal.assign(2 * covers.n_covers(), 0.);
+    nodal.resize(covers.n_covers());
     unsigned int both[LocalSystem::max_covers];
     for (const EdgeTables::Site &tie : edges->ties)
       assembler.couple(gather(tie, nodal, none, both));
@@ -243,9 +243,9 @@ namespace NMM
 
   dealii::ArrayView<const unsigned int>
   IncrementalElasticity::Data::gather(
-    const EdgeTables::Site    &site,
-    const std::vector<double> &nodal,
-    LocalDisplacement         &u,
+    const EdgeTables::Site          &site,
+    const std::vector<Tensor<1, 2>> &nodal,
+    LocalDisplacement               &u,
     unsigned int (&both)[LocalSystem::max_covers]) const
   {
     unsigned int n = 0;
@@ -586,9 +586,8 @@ namespace NMM
 
     double largest = 0.;
     for (const auto k : d.covers->locally_owned_covers())
-      largest = std::max(largest,
-                         std::hypot(d.nodal_increment[2 * k],
-                                    d.nodal_increment[2 * k + 1]));
+      largest =
+        std::max(largest, d.nodal_increment[d.covers->local_cover(k)].norm());
     StepResult result;
     result.largest_displacement =
       dealii::Utilities::MPI::max(largest, communicator);
@@ -615,8 +614,7 @@ namespace NMM
     double work = 0.;
     dead_loads.for_each_force(
       [&](const unsigned int k, const Tensor<1, 2> &force) {
-        work += load_factor * (force[0] * nodal_increment[2 * k] +
-                               force[1] * nodal_increment[2 * k + 1]);
+        work += load_factor * force * nodal_increment[k];
       });
     work_of_loads += dealii::Utilities::MPI::sum(work, covers->communicator());
   }
@@ -656,8 +654,8 @@ namespace NMM
   double
   IncrementalElasticity::strain_energy() const
   {
-    const Data         &d = *data;
-    std::vector<double> nodal;
+    const Data               &d = *data;
+    std::vector<Tensor<1, 2>> nodal;
     read_nodal_values(*d.covers, d.solution, nodal);
     LocalDisplacement u;
     double            energy = 0.;

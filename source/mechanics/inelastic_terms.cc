@@ -89,11 +89,11 @@ namespace NMM
     /// Whether laws had a stress at all points of the last assembly.
     bool is_admissible = true;
 
-    CoverMatrixAssembler assembler;
-    std::vector<double>  nodal;
-    Matrix               matrix, sum;
-    Vector               residual;
-    Totals               totals;
+    CoverMatrixAssembler              assembler;
+    std::vector<dealii::Tensor<1, 2>> nodal;
+    Matrix                            matrix, sum;
+    Vector                            residual;
+    Totals                            totals;
   };
 
 

@@ -69,7 +69,7 @@ namespace
     std::vector<Point<2>>
     positions(const Motion &motion)
     {
-      const std::vector<double> nodal = move(bodies, {motion});
+      const std::vector<Tensor<1, 2>> nodal = move(bodies, {motion});
       bodies.surface.set_displacements(&nodal);
       std::vector<Point<2>> result;
       for (unsigned int e = 0; e < bodies.surface.edges().size(); ++e)

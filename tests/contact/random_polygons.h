@@ -26,18 +26,14 @@ namespace NMM
     };
 
 
-    inline std::vector<double>
+    inline std::vector<Tensor<1, 2>>
     move(Bodies &bodies, const std::vector<Motion> &motions)
     {
-      std::vector<double> nodal(2 * bodies.covers.n_covers(), 0.);
+      std::vector<Tensor<1, 2>> nodal(bodies.covers.n_covers());
       for (unsigned int e = 0; e < bodies.mesh.n_elements(); ++e)
         for (const unsigned int cover : bodies.covers.covers(e))
-        {
-          const Tensor<1, 2> u =
+          nodal[cover] =
             motions[bodies.mesh.block(e)](bodies.covers.node(cover));
-          nodal[2 * cover]     = u[0];
-          nodal[2 * cover + 1] = u[1];
-        }
       return nodal;
     }
 

@@ -268,7 +268,7 @@ namespace
       {
         SCOPED_TRACE("seed " + std::to_string(seed) + ", motion " +
                      std::to_string(k));
-        const std::vector<double> nodal =
+        const std::vector<Tensor<1, 2>> nodal =
           move(bodies, random_motions(bodies, generator));
         bodies.surface.set_displacements(&nodal);
         search.update(reach);
@@ -315,8 +315,8 @@ namespace
       const unsigned int upper = bodies.mesh.block(
         bodies.mesh.find_element({0.5, 1.5 * thickness + 0.01}));
       std::vector<Motion> motions(2);
-      motions[upper].shift            = Tensor<1, 2>({0., opening - 0.01});
-      const std::vector<double> nodal = move(bodies, motions);
+      motions[upper].shift = Tensor<1, 2>({0., opening - 0.01});
+      const std::vector<Tensor<1, 2>> nodal = move(bodies, motions);
       bodies.surface.set_displacements(&nodal);
       for (const bool upper_is_slave : {false, true})
       {
@@ -384,8 +384,8 @@ namespace
         options.degree    = degree;
         options.cell_size = 0.17;
         options.rotation  = rotation;
-        Bodies              bodies(Geometry(geometry), options);
-        std::vector<double> nodal(2 * bodies.covers.n_covers(), 0.);
+        Bodies                    bodies(Geometry(geometry), options);
+        std::vector<Tensor<1, 2>> nodal(bodies.covers.n_covers());
         bodies.surface.set_displacements(&nodal);
         ContactSearch search(bodies.surface, {});
         search.update(0.05);
@@ -615,7 +615,7 @@ namespace
           0.02 * Tensor<1, 2>({random(generator), random(generator)});
         centers[i] = c[i] + motions[b].shift;
       }
-      const std::vector<double> nodal = move(bodies, motions);
+      const std::vector<Tensor<1, 2>> nodal = move(bodies, motions);
       bodies.surface.set_displacements(&nodal);
       ContactSearch search(bodies.surface, {});
       search.update(0.1);
@@ -659,8 +659,8 @@ namespace
                         Point<2>(1.02 * i + 0.31 * j + 1., 0.52 * j + 0.5));
       Bodies::Options options;
       options.cell_size = 0.4;
-      Bodies              bodies(std::move(geometry), options);
-      std::vector<double> nodal(2 * bodies.covers.n_covers(), 0.);
+      Bodies                    bodies(std::move(geometry), options);
+      std::vector<Tensor<1, 2>> nodal(bodies.covers.n_covers());
       bodies.surface.set_displacements(&nodal);
       ContactSearch search(bodies.surface, {});
       search.update(0.05);

@@ -97,12 +97,11 @@ namespace
       SCOPED_TRACE("seed " + std::to_string(seed) + ", degree " +
                    std::to_string(degree));
       auto                      bodies = cracked_box(degree);
-      std::vector<double>       nodal(2 * bodies->covers.n_covers());
       std::vector<Tensor<1, 2>> values(bodies->covers.n_covers());
       for (unsigned int k = 0; k < values.size(); ++k)
         for (unsigned int c = 0; c < 2; ++c)
-          nodal[2 * k + c] = values[k][c] = random(generator);
-      bodies->surface.set_displacements(&nodal);
+          values[k][c] = random(generator);
+      bodies->surface.set_displacements(&values);
       const DisplacementField field(bodies->covers, bodies->problem, values);
       const ContactSurface   &surface   = bodies->surface;
       unsigned int            n_samples = 0;
@@ -180,7 +179,7 @@ namespace
     const auto overlap = [&](const Tensor<1, 2> &of_plate,
                              const Tensor<1, 2> &of_inner,
                              const Tensor<1, 2> &of_beside) {
-      std::vector<double> nodal(2 * bodies.covers.n_covers());
+      std::vector<Tensor<1, 2>> nodal(bodies.covers.n_covers());
       for (unsigned int e = 0; e < bodies.mesh.n_elements(); ++e)
       {
         const unsigned int  block = bodies.mesh.block(e);
@@ -188,8 +187,7 @@ namespace
                                     : block == beside ? of_beside
                                                       : of_plate;
         for (const unsigned int cover : bodies.covers.covers(e))
-          for (unsigned int c = 0; c < 2; ++c)
-            nodal[2 * cover + c] = u[c];
+          nodal[cover] = u;
       }
       bodies.surface.set_displacements(&nodal);
       return bodies.surface.largest_overlap();

@@ -242,16 +242,16 @@ namespace NMM
     double
     largest_overlap() const;
 
-    /// Set the displacements: two for each cover of the whole system [m]. Call this again whenever
+    /// Set the displacement of each cover of the whole system [m]. Call this again whenever
     /// they change. The vector must outlive its use.
     void
-    set_displacements(const std::vector<double> *nodal);
+    set_displacements(const std::vector<dealii::Tensor<1, 2>> *nodal);
 
     /// Displacements as set_displacements() stores them, for callers that need several states.
     struct State
     {
-      /// Two displacements for each cover of the whole system [m].
-      std::vector<double> nodal;
+      /// Displacement of each cover of the whole system [m].
+      std::vector<dealii::Tensor<1, 2>> nodal;
       /// Displacements along edges, by edge; valid for straight edges of blocks only.
       std::vector<EdgeDisplacement> edges;
     };
@@ -341,9 +341,9 @@ namespace NMM
     set_start_weights();
 
     void
-    find_displacement(unsigned int               edge,
-                      const std::vector<double> &nodal,
-                      EdgeDisplacement          &displacement) const;
+    find_displacement(unsigned int                             edge,
+                      const std::vector<dealii::Tensor<1, 2>> &nodal,
+                      EdgeDisplacement &displacement) const;
 
     CoverSystem                      *cover_pointer;
     std::vector<RigidObstacle>        rigid_obstacles;
@@ -352,10 +352,10 @@ namespace NMM
     /// See set_absent_bodies().
     std::vector<bool> is_body_absent;
     /// First edge of each obstacle, and the number of all edges.
-    std::vector<unsigned int>             obstacle_begins;
-    std::pair<unsigned int, unsigned int> owned;
-    unsigned int                          degree, n_blocks;
-    const std::vector<double>            *nodal = nullptr;
+    std::vector<unsigned int>                obstacle_begins;
+    std::pair<unsigned int, unsigned int>    owned;
+    unsigned int                             degree, n_blocks;
+    const std::vector<dealii::Tensor<1, 2>> *nodal = nullptr;
     /// Displacements along edges that set_displacements() computes.
     std::vector<EdgeDisplacement> edge_displacements;
     /// Displacements along edges in use: edge_displacements or those of set_state().

@@ -169,7 +169,7 @@ namespace NMM
      */
     Deformation
     add_conserving_weak_point(
-      const EdgeTables::WeakPoint               &point,
+      const WeakPoint                           &point,
       const std::vector<ConservingLaw>          &region_to_law,
       unsigned int                               n_per_cell,
       const std::array<dealii::Tensor<1, 2>, 2> &prescribed,

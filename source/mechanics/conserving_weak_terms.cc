@@ -32,9 +32,9 @@ namespace NMM
 
 
       Deformation
-      evaluate(const ConservingLaw    &law,
-               const EdgeTables::Side &side,
-               const unsigned int      n_per_cell,
+      evaluate(const ConservingLaw   &law,
+               const WeakPoint::Side &side,
+               const unsigned int     n_per_cell,
                const double (*begin)[2],
                const double (*end)[2],
                const Tensor<1, 2> &d_0,
@@ -91,9 +91,9 @@ namespace NMM
 
       /// Add the columns of the matrix for the unknowns of side @p of.
       void
-      add_columns(const EdgeTables::WeakPoint &point,
-                  const unsigned int           n_per_cell,
-                  const double                 penalty,
+      add_columns(const WeakPoint   &point,
+                  const unsigned int n_per_cell,
+                  const double       penalty,
                   const SideState (&states)[2],
                   const unsigned int  of,
                   const Tensor<1, 2> &d_1,
@@ -111,8 +111,8 @@ namespace NMM
             Tensor<1, 2>       force = penalty * jump;
             for (unsigned int s = 0; s < point.n_sides; ++s)
             {
-              const EdgeTables::Side &side = point.sides[s];
-              Tensor<2, 2>            H;
+              const WeakPoint::Side &side = point.sides[s];
+              Tensor<2, 2>           H;
               if (s == of)
                 for (unsigned int L = 0; L < 2; ++L)
                   H[e][L] = side.gradients[j][L];
@@ -136,7 +136,7 @@ namespace NMM
 
 
     Deformation
-    add_conserving_weak_point(const EdgeTables::WeakPoint       &point,
+    add_conserving_weak_point(const WeakPoint                   &point,
                               const std::vector<ConservingLaw>  &region_to_law,
                               const unsigned int                 n_per_cell,
                               const std::array<Tensor<1, 2>, 2> &prescribed,
@@ -171,8 +171,8 @@ namespace NMM
       SideState    states[2];
       for (unsigned int s = 0; s < point.n_sides; ++s)
       {
-        const EdgeTables::Side &side  = point.sides[s];
-        SideState              &state = states[s];
+        const WeakPoint::Side &side  = point.sides[s];
+        SideState             &state = states[s];
         if (evaluate(region_to_law[side.region],
                      side,
                      n_per_cell,

@@ -10,37 +10,6 @@ namespace NMM
     namespace
     {
       using Type = BoundaryCondition::Type;
-
-      /// Factor of the penalties [-]. Coercivity requires more than 1; see EdgeTerms.
-      constexpr double penalty_safety = 4.;
-
-      /// Compute B and B g of a displacement condition at a point with the outward normal @p n.
-      void
-      evaluate_condition(const BoundaryCondition       &condition,
-                         const dealii::Point<2>        &x,
-                         const dealii::Tensor<1, 2>    &n,
-                         dealii::SymmetricTensor<2, 2> &projection,
-                         dealii::Tensor<1, 2>          &prescribed)
-      {
-        projection = 0.;
-        prescribed = 0.;
-        if (condition.type == Type::normal_displacement)
-        {
-          projection[0][0] = n[0] * n[0];
-          projection[0][1] = n[0] * n[1];
-          projection[1][1] = n[1] * n[1];
-          if (condition.value != nullptr)
-            prescribed = condition.value->value(x) * n;
-          return;
-        }
-        for (unsigned int c = 0; c < 2; ++c)
-          if (condition.components[c])
-          {
-            projection[c][c] = 1.;
-            if (condition.value != nullptr)
-              prescribed[c] = condition.value->value(x, c);
-          }
-      }
     } // namespace
 
 
@@ -50,16 +19,11 @@ namespace NMM
                            TraceConstants          &trace_constants)
       : covers(&covers)
       , problem(&problem)
-      , trace_constants(&trace_constants)
+      , maker(covers, problem, trace_constants)
       , degree(covers.manifold_mesh().mathematical_mesh().degree())
       , n_per_cell(WeightFunctions::n_per_cell(degree))
     {
       const ManifoldMesh &mesh = covers.manifold_mesh();
-      for (const unsigned int m :
-           problem.region_to_material(mesh.physical_mesh()))
-        region_to_elasticity.push_back(
-          problem.materials[m].plane_elasticity(problem.plane_state));
-
       const auto [first, last] = covers.locally_owned_elements();
       for (unsigned int e = first; e < last; ++e)
         add_conditions(e, curve_conditions);
@@ -96,7 +60,7 @@ namespace NMM
             add_follower(c, element, rule);
           else if (type == Type::displacement ||
                    type == Type::normal_displacement)
-            add_displacement(c, element, rule);
+            maker.append_condition(c, element, rule, weak_points);
         }
       }
       weak.last_point     = weak_points.size();
@@ -105,65 +69,6 @@ namespace NMM
         conditions.push_back(weak);
       if (follower.last_point > follower.first_point)
         followers.push_back(follower);
-    }
-
-
-    void
-    EdgeTables::set_side(WeakPoint              &point,
-                         const unsigned int      side,
-                         const unsigned int      element,
-                         const dealii::Point<2> &xi,
-                         const double            share) const
-    {
-      const ManifoldMesh        &mesh = covers->manifold_mesh();
-      const dealii::Tensor<2, 2> T    = dealii::transpose(
-        dealii::invert(mesh.mathematical_mesh().jacobian(mesh.cell(element))));
-      double w[WeightFunctions::max_per_cell];
-      double g[WeightFunctions::max_per_cell][2];
-      WeightFunctions::values(degree, xi, w);
-      WeightFunctions::gradients(degree, xi, g);
-      Side &s  = point.sides[side];
-      s.region = mesh.region(element);
-      s.share  = share;
-      for (unsigned int i = 0; i < n_per_cell; ++i)
-      {
-        for (unsigned int d = 0; d < 2; ++d)
-          s.gradients[i][d] = T[d][0] * g[i][0] + T[d][1] * g[i][1];
-        point.jump[side * n_per_cell + i] = side == 0 ? w[i] : -w[i];
-      }
-    }
-
-
-    void
-    EdgeTables::add_displacement(const unsigned int condition,
-                                 const unsigned int element,
-                                 const EdgeRule    &rule)
-    {
-      const ManifoldMesh &mesh = covers->manifold_mesh();
-      const double        bound =
-        region_to_elasticity[mesh.region(element)].largest_eigenvalue() *
-        (*trace_constants)(element);
-      // an element without area has no energy; the conditions of its neighbours suffice
-      if (!std::isfinite(bound))
-        return;
-      for (unsigned int q = 0; q < rule.points.size(); ++q)
-      {
-        WeakPoint point;
-        point.condition      = condition;
-        point.n_sides        = 1;
-        point.weight         = rule.weights[q];
-        point.penalty        = penalty_safety * bound;
-        point.trace_constant = (*trace_constants)(element);
-        point.normal         = rule.normals[q];
-        evaluate_condition(problem->boundary_conditions[condition],
-                           mesh.mathematical_mesh().reference_to_real(
-                             mesh.cell(element), rule.points[q]),
-                           rule.normals[q],
-                           point.projection,
-                           point.prescribed);
-        set_side(point, 0, element, rule.points[q], 1.);
-        weak_points.push_back(point);
-      }
     }
 
 
@@ -203,52 +108,19 @@ namespace NMM
     void
     EdgeTables::add_tie(const unsigned int element, const ElementEdge &edge)
     {
-      const ManifoldMesh     &mesh              = covers->manifold_mesh();
-      const MathematicalMesh &mathematical_mesh = mesh.mathematical_mesh();
-      const unsigned int      elements[2]       = {element, edge.neighbor};
-
-      double bound[2];
-      for (unsigned int side = 0; side < 2; ++side)
-        bound[side] = region_to_elasticity[mesh.region(elements[side])]
-                        .largest_eigenvalue() *
-                      (*trace_constants)(elements[side]);
-      if (!std::isfinite(bound[0]) && !std::isfinite(bound[1]))
-        return;
-      const double share[2] = {
-        std::isfinite(bound[0]) ? 1. / (1. + bound[0] / bound[1]) : 0.,
-        std::isfinite(bound[1]) ? 1. / (1. + bound[1] / bound[0]) : 0.};
-
-      const EdgeRule rule =
-        make_edge_rule(edge,
-                       cell_frame(mathematical_mesh, mesh.cell(element)),
-                       2 * degree);
-      Site site{element, edge.neighbor, 0, 0};
+      const ManifoldMesh &mesh = covers->manifold_mesh();
+      Site                site{element, edge.neighbor, 0, 0};
       site.first_point = weak_points.size();
-      for (unsigned int q = 0; q < rule.points.size(); ++q)
-      {
-        WeakPoint point;
-        point.condition      = invalid_index;
-        point.n_sides        = 2;
-        point.weight         = rule.weights[q];
-        point.penalty        = penalty_safety / (1. / bound[0] + 1. / bound[1]);
-        point.trace_constant = std::max((*trace_constants)(elements[0]),
-                                        (*trace_constants)(elements[1]));
-        point.normal         = rule.normals[q];
-        point.projection     = dealii::unit_symmetric_tensor<2>();
-        const dealii::Point<2> x =
-          mathematical_mesh.reference_to_real(mesh.cell(element),
-                                              rule.points[q]);
-        for (unsigned int side = 0; side < 2; ++side)
-          set_side(
-            point,
-            side,
-            elements[side],
-            mathematical_mesh.real_to_reference(mesh.cell(elements[side]), x),
-            share[side]);
-        weak_points.push_back(point);
-      }
+      maker.append_tie(element,
+                       edge,
+                       make_edge_rule(edge,
+                                      cell_frame(mesh.mathematical_mesh(),
+                                                 mesh.cell(element)),
+                                      2 * degree),
+                       weak_points);
       site.last_point = weak_points.size();
-      ties.push_back(site);
+      if (site.last_point > site.first_point)
+        ties.push_back(site);
     }
 
 

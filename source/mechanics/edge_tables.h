@@ -7,7 +7,7 @@
 
 #include <mechanics/curve_conditions.h>
 #include <mechanics/local_system.h>
-#include <mechanics/trace_constant.h>
+#include <mechanics/weak_points.h>
 #include <vector>
 
 namespace NMM
@@ -19,7 +19,7 @@ namespace NMM
      * reference configuration, computed once. Points of displacement conditions and
      * of ties are called *weak points*; the others are those of follower pressure.
      *
-     * Penalties and the shares of averages are those of EdgeTerms.
+     * Penalties and the shares of averages are those of WeakPointMaker.
      */
     class EdgeTables
     {
@@ -28,39 +28,6 @@ namespace NMM
                  const ElasticityProblem &problem,
                  const CurveConditions   &conditions,
                  TraceConstants          &trace_constants);
-
-      /// One side of a weak point: the region of its element, the share of its stress in the mean
-      /// stress [-], and gradients of its weight functions.
-      struct Side
-      {
-        unsigned int region;
-        double       share;
-        /// Gradients dw_i/dX_J [1/m].
-        double gradients[WeightFunctions::max_per_cell][2];
-      };
-
-      /// A point of a displacement condition (one side) or of a tie (two).
-      struct WeakPoint
-      {
-        /// Index into boundary_conditions, or invalid_index for a tie.
-        unsigned int condition;
-        unsigned int n_sides;
-        /// Quadrature weight in the reference configuration [m].
-        double weight;
-        /// Penalty gamma [Pa/m].
-        double penalty;
-        /// Lambda of TraceConstants; for a tie the larger one of both sides [1/m].
-        double               trace_constant;
-        dealii::Tensor<1, 2> normal;
-        /// The projection B onto the components that are held.
-        dealii::SymmetricTensor<2, 2> projection;
-        /// Prescribed displacement B g at the load factor 1 [m].
-        dealii::Tensor<1, 2> prescribed;
-        Side                 sides[2];
-        /// Coefficients of the displacements in their jump, for the covers of the first side and
-        /// then of the second one [-].
-        double jump[LocalSystem::max_covers];
-      };
 
       /// A point of follower pressure, of the boundary condition with the index `condition`.
       struct FollowerPoint
@@ -103,24 +70,10 @@ namespace NMM
                    unsigned int    element,
                    const EdgeRule &rule);
 
-      void
-      add_displacement(unsigned int    condition,
-                       unsigned int    element,
-                       const EdgeRule &rule);
-
-      /// Set one side of a weak point, and its coefficients in the jump.
-      void
-      set_side(WeakPoint              &point,
-               unsigned int            side,
-               unsigned int            element,
-               const dealii::Point<2> &xi,
-               double                  share) const;
-
-      const CoverSystem           *covers;
-      const ElasticityProblem     *problem;
-      TraceConstants              *trace_constants;
-      unsigned int                 degree, n_per_cell;
-      std::vector<PlaneElasticity> region_to_elasticity;
+      const CoverSystem       *covers;
+      const ElasticityProblem *problem;
+      WeakPointMaker           maker;
+      unsigned int             degree, n_per_cell;
     };
 
 

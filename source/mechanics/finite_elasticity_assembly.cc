@@ -167,8 +167,8 @@ namespace NMM
     }
     for (unsigned int q = site.first_point; q < site.last_point; ++q)
     {
-      const EdgeTables::WeakPoint &point  = edges->weak_points[q];
-      std::array<double, 2>        factor = {};
+      const WeakPoint      &point  = edges->weak_points[q];
+      std::array<double, 2> factor = {};
       if (point.condition != invalid_index)
       {
         if (!amplitudes.released_conditions.empty() &&

@@ -151,16 +151,16 @@ namespace NMM
 
 
     Deformation
-    add_weak_point(const EdgeTables::WeakPoint &point,
-                   const RegionLaws            &region_to_law,
-                   const unsigned int           n_per_cell,
-                   const Tensor<1, 2>          &prescribed,
-                   const double                 growth,
-                   const LocalDisplacement     &u,
-                   const Tangent                tangent,
-                   LocalSystem                 &local,
-                   double                      &energy,
-                   double                      &largest_jump)
+    add_weak_point(const WeakPoint         &point,
+                   const RegionLaws        &region_to_law,
+                   const unsigned int       n_per_cell,
+                   const Tensor<1, 2>      &prescribed,
+                   const double             growth,
+                   const LocalDisplacement &u,
+                   const Tangent            tangent,
+                   LocalSystem             &local,
+                   double                  &energy,
+                   double                  &largest_jump)
     {
       const unsigned int n = point.n_sides * n_per_cell;
       AssertDimension(n, local.n_covers);
@@ -188,7 +188,7 @@ namespace NMM
       double       flux[LocalSystem::max_covers][2][2];
       for (unsigned int s = 0; s < point.n_sides; ++s)
       {
-        const EdgeTables::Side   &side = point.sides[s];
+        const WeakPoint::Side    &side = point.sides[s];
         const HyperelasticLaw    &law  = *region_to_law[side.region];
         const Tensor<2, 2>        F    = deformation_gradient(n_per_cell,
                                                     u.values + s * n_per_cell,
@@ -262,10 +262,10 @@ namespace NMM
 
 
     double
-    growth_of_moduli(const EdgeTables::WeakPoint &point,
-                     const RegionLaws            &region_to_law,
-                     const unsigned int           n_per_cell,
-                     const LocalDisplacement     &u)
+    growth_of_moduli(const WeakPoint         &point,
+                     const RegionLaws        &region_to_law,
+                     const unsigned int       n_per_cell,
+                     const LocalDisplacement &u)
     {
       const auto largest_row = [](const double(&A)[4][4]) {
         double largest = 0.;
@@ -278,7 +278,7 @@ namespace NMM
       double result = 1.;
       for (unsigned int s = 0; s < point.n_sides; ++s)
       {
-        const EdgeTables::Side   &side = point.sides[s];
+        const WeakPoint::Side    &side = point.sides[s];
         const HyperelasticLaw    &law  = *region_to_law[side.region];
         HyperelasticLaw::Response now, at_rest;
         if (law.evaluate(deformation_gradient(n_per_cell,

@@ -94,26 +94,26 @@ namespace NMM
      * @p energy [J/m]. @p largest_jump becomes |d| Lambda [-] if that is larger.
      */
     Deformation
-    add_weak_point(const EdgeTables::WeakPoint &point,
-                   const RegionLaws            &region_to_law,
-                   unsigned int                 n_per_cell,
-                   const dealii::Tensor<1, 2>  &prescribed,
-                   double                       growth,
-                   const LocalDisplacement     &u,
-                   Tangent                      tangent,
-                   LocalSystem                 &local,
-                   double                      &energy,
-                   double                      &largest_jump);
+    add_weak_point(const WeakPoint            &point,
+                   const RegionLaws           &region_to_law,
+                   unsigned int                n_per_cell,
+                   const dealii::Tensor<1, 2> &prescribed,
+                   double                      growth,
+                   const LocalDisplacement    &u,
+                   Tangent                     tangent,
+                   LocalSystem                &local,
+                   double                     &energy,
+                   double                     &largest_jump);
 
 
     /// Norm of the moduli A at a weak point divided by that of the undeformed state [-], the
     /// largest ratio of all sides. The norm is the largest sum of absolute values in a row. 1 if
     /// the deformation is not admissible.
     double
-    growth_of_moduli(const EdgeTables::WeakPoint &point,
-                     const RegionLaws            &region_to_law,
-                     unsigned int                 n_per_cell,
-                     const LocalDisplacement     &u);
+    growth_of_moduli(const WeakPoint         &point,
+                     const RegionLaws        &region_to_law,
+                     unsigned int             n_per_cell,
+                     const LocalDisplacement &u);
 
 
     /**

@@ -111,9 +111,9 @@ namespace NMM
 
     /// Compute the current geometry. Returns false if a side is turned inside out.
     bool
-    locate(const EdgeTables::WeakPoint &point,
-           const LocalDisplacement     &u,
-           CurrentPoint                &current) const;
+    locate(const WeakPoint         &point,
+           const LocalDisplacement &u,
+           CurrentPoint            &current) const;
 
     bool
     add_element(unsigned int             element,
@@ -224,7 +224,7 @@ namespace NMM
         stress.end(),
         tables(e).n_points,
         problem.materials[region_to_material[mesh.region(e)]].initial_stress);
-    for (const EdgeTables::WeakPoint &point : edges->weak_points)
+    for (const WeakPoint &point : edges->weak_points)
       for (unsigned int s = 0; s < 2; ++s)
         weak_stress.push_back(
           problem
@@ -293,9 +293,9 @@ namespace NMM
 
 
   bool
-  IncrementalElasticity::Data::locate(const EdgeTables::WeakPoint &point,
-                                      const LocalDisplacement     &u,
-                                      CurrentPoint &current) const
+  IncrementalElasticity::Data::locate(const WeakPoint         &point,
+                                      const LocalDisplacement &u,
+                                      CurrentPoint            &current) const
   {
     for (unsigned int s = 0; s < point.n_sides; ++s)
     {
@@ -330,60 +330,29 @@ namespace NMM
                                                LocalSystem &local) const
   {
     CurrentPoint current;
-    double       flux[LocalSystem::max_covers][2][2];
     for (unsigned int q = site.first_point; q < site.last_point; ++q)
     {
-      const EdgeTables::WeakPoint &point = edges->weak_points[q];
+      const WeakPoint &point = edges->weak_points[q];
       if (!locate(point, u, current))
         return false;
-      const Tensor<1, 2> &n        = current.normal;
-      const unsigned int  n_covers = point.n_sides * n_per_cell;
-      Tensor<1, 2>        jump, traction;
-      for (unsigned int k = 0; k < n_covers; ++k)
-      {
-        const unsigned int      s    = k / n_per_cell;
-        const EdgeTables::Side &side = point.sides[s];
-        const PlaneElasticity  &e    = region_to_elasticity[side.region];
-        const double           *g    = current.gradients[s][k % n_per_cell];
-        const double            gn   = g[0] * n[0] + g[1] * n[1];
+      Tensor<1, 2> jump, traction;
+      for (unsigned int k = 0; k < local.n_covers; ++k)
         for (unsigned int a = 0; a < 2; ++a)
-        {
           jump[a] += point.jump[k] * u.values[k][a];
-          for (unsigned int c = 0; c < 2; ++c)
-            flux[k][a][c] =
-              side.share * (e.lambda * n[a] * g[c] + e.mu * g[a] * n[c] +
-                            (a == c ? e.mu * gn : 0.));
-        }
-      }
       for (unsigned int s = 0; s < point.n_sides; ++s)
-        traction += point.sides[s].share * (weak_stress[2 * q + s] * n);
-
-      const auto        &B      = point.projection;
-      const Tensor<1, 2> d      = B * jump - load_factor * point.prescribed;
-      const Tensor<1, 2> force  = point.penalty * d - B * traction;
-      const double       weight = point.weight * current.length_ratio;
-      double             projected[LocalSystem::max_covers][2][2];
-      for (unsigned int k = 0; k < n_covers; ++k)
-        for (unsigned int c = 0; c < 2; ++c)
-        {
-          local.rhs[2 * k + c] +=
-            weight * (point.jump[k] * force[c] - flux[k][0][c] * d[0] -
-                      flux[k][1][c] * d[1]);
-          for (unsigned int a = 0; a < 2; ++a)
-            projected[k][a][c] =
-              B[a][0] * flux[k][0][c] + B[a][1] * flux[k][1][c];
-        }
-      for (unsigned int k = 0; k < n_covers; ++k)
-        for (unsigned int c = 0; c < 2; ++c)
-        {
-          double *row = local.row(k, c);
-          for (unsigned int j = 0; j < n_covers; ++j)
-            for (unsigned int e = 0; e < 2; ++e)
-              row[2 * j + e] += weight * (-projected[k][e][c] * point.jump[j] -
-                                          point.jump[k] * projected[j][c][e] +
-                                          point.penalty * point.jump[k] *
-                                            point.jump[j] * B[c][e]);
-        }
+        traction +=
+          point.sides[s].share * (weak_stress[2 * q + s] * current.normal);
+      add_nitsche(point,
+                  WeakTraction(point,
+                               n_per_cell,
+                               region_to_elasticity,
+                               current.normal,
+                               {{current.gradients[0], current.gradients[1]}}),
+                  point.projection * jump - load_factor * point.prescribed,
+                  traction,
+                  point.weight * current.length_ratio,
+                  1.,
+                  local);
     }
     return true;
   }
@@ -458,7 +427,7 @@ namespace NMM
     CurrentPoint current;
     for (unsigned int q = site.first_point; q < site.last_point; ++q)
     {
-      const EdgeTables::WeakPoint &point = edges->weak_points[q];
+      const WeakPoint &point = edges->weak_points[q];
       locate(point, u, current);
       for (unsigned int s = 0; s < point.n_sides; ++s)
       {

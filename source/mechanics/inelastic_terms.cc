@@ -289,7 +289,7 @@ namespace NMM
     elastic->gather(site, nodal, u);
     for (unsigned int q = site.first_point; q < site.last_point; ++q)
     {
-      const EdgeTables::WeakPoint &point = edges.weak_points[q];
+      const WeakPoint &point = edges.weak_points[q];
       if (is_absent || (point.condition != invalid_index && !released.empty() &&
                         released[point.condition]))
       {
@@ -299,7 +299,7 @@ namespace NMM
       const dealii::Tensor<1, 2> &N = point.normal;
       for (unsigned int s = 0; s < point.n_sides; ++s, ++state)
       {
-        const EdgeTables::Side &side = point.sides[s];
+        const WeakPoint::Side &side = point.sides[s];
         if (!is_inelastic(side.region))
           continue;
         Excess                 excess;

@@ -189,6 +189,53 @@ TEST(FiniteTerms, TangentAgainstDifferencesMPI)
 }
 
 
+// At zero displacements the tangent is the matrix of small displacements, penalties and averages
+// of ties included: also at a block that is small compared with the cells, whose ties would be too
+// soft with the bounds of elements alone.
+TEST(FiniteTerms, TangentAtRestIsThatOfSmallDisplacements)
+{
+  Geometry geometry;
+  add_box(geometry, {0., 0.}, {1., 1.});
+  geometry.add_polyline(
+    {{0.52, 0.43}, {0.523, 0.43}, {0.523, 0.433}, {0.52, 0.433}, {0.52, 0.43}},
+    "small",
+    CurveRole::joint,
+    JointState::closed);
+  Model model(std::move(geometry), mesh_parameters(0.4, {}, 9.), 2);
+  model.problem.materials           = {material()};
+  model.problem.boundary_conditions = {
+    condition(BoundaryCondition::Type::displacement, "left", nullptr)};
+  StaticElasticity small(model.covers,
+                         *model.quadrature,
+                         model.constraints,
+                         model.problem);
+  small.assemble();
+  const auto elasticity = finite_elasticity(model);
+  const auto rest =
+    interpolate(model, [](const Point<2> &) { return Tensor<1, 2>(); });
+  ASSERT_TRUE(elasticity->assemble(rest, 1., Tangent::consistent) ==
+              Deformation::admissible);
+
+  // Rounding of sums whose terms are the penalties, in the order of assembly.
+  std::mt19937 generator(7);
+  for (unsigned int n = 0; n < 3; ++n)
+  {
+    const Vector v = random_displacement(model, 1., generator);
+    Vector       direction(model.covers.locally_owned_dofs(2),
+                     model.covers.communicator());
+    direction = v;
+    for (const auto k : model.covers.locally_owned_dofs(2))
+      if (model.constraints.is_constrained(k))
+        direction(k) = 0.;
+    direction.compress(dealii::VectorOperation::insert);
+    Vector expected(direction), product(direction);
+    small.system_matrix().vmult(expected, direction);
+    elasticity->tangent().vmult(product, direction);
+    EXPECT_LT(relative_difference(product, expected), 1e-12);
+  }
+}
+
+
 // A body turned by 90 degrees, prescribed displacements and springs turned
 // with it: no force at all, on cut elements, interfaces and Nitsche's terms alike.
 TEST(FiniteTerms, RigidRotationHasNoForceMPI)

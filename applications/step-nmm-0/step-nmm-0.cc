@@ -230,8 +230,7 @@ namespace StepNMM0
           continue;
         const NMM::EdgeRule rule =
           NMM::make_edge_rule(edge,
-                              NMM::cell_frame(triangles,
-                                              elements.cell(element)),
+                              NMM::cell_frame(elements, element),
                               /* degree = */ 6);
         if (rule.points.empty())
           continue;

@@ -540,8 +540,7 @@ namespace NMM
     const auto [entry, is_new] = rules.try_emplace(element);
     if (is_new)
       entry->second =
-        builder.build(mesh.edges(element),
-                      cell_frame(mesh.mathematical_mesh(), mesh.cell(element)));
+        builder.build(mesh.edges(element), cell_frame(mesh, element));
     return entry->second;
   }
 

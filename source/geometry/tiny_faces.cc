@@ -302,9 +302,9 @@ namespace NMM
       if (rounding > 1e-5 * width_of_strip(face))
         text << ". Coordinates there are rounded by "
              << describe_length(rounding)
-             << ", so that displacements around it may be wrong by parts of up "
-                "to "
-             << std::setprecision(1) << rounding / width_of_strip(face);
+             << ", so that displacements around it may be wrong by up to "
+             << std::setprecision(1) << rounding / width_of_strip(face)
+             << " of their size";
       return text.str();
     }
   } // namespace internal

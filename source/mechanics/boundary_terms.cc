@@ -56,9 +56,7 @@ namespace NMM
         if (on_edge.empty())
           continue;
         const EdgeRule rule =
-          make_edge_rule(edge,
-                         cell_frame(mesh.mathematical_mesh(), cell),
-                         2 * degree);
+          make_edge_rule(edge, cell_frame(mesh, element), 2 * degree);
         for (const unsigned int c : on_edge)
         {
           const BoundaryCondition &condition = problem->boundary_conditions[c];
@@ -121,8 +119,7 @@ namespace NMM
       maker.append_tie(element,
                        edge,
                        make_edge_rule(edge,
-                                      cell_frame(mesh.mathematical_mesh(),
-                                                 mesh.cell(element)),
+                                      cell_frame(mesh, element),
                                       2 * degree),
                        points);
       add_weak_points(system);
@@ -157,10 +154,9 @@ namespace NMM
 
       // The functions are no polynomials.
       const unsigned int further_degree = 4;
-      const EdgeRule     rule =
-        make_edge_rule(edge,
-                       cell_frame(mathematical_mesh, mesh.cell(element)),
-                       2 * degree + further_degree);
+      const EdgeRule     rule           = make_edge_rule(edge,
+                                           cell_frame(mesh, element),
+                                           2 * degree + further_degree);
       points.clear();
       maker.append_tie(element, edge, rule, points);
       DiskPoint functions;

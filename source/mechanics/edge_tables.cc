@@ -49,10 +49,7 @@ namespace NMM
         if (on_edge.empty())
           continue;
         const EdgeRule rule =
-          make_edge_rule(edge,
-                         cell_frame(mesh.mathematical_mesh(),
-                                    mesh.cell(element)),
-                         2 * degree);
+          make_edge_rule(edge, cell_frame(mesh, element), 2 * degree);
         for (const unsigned int c : on_edge)
         {
           const Type type = problem->boundary_conditions[c].type;
@@ -114,8 +111,7 @@ namespace NMM
       maker.append_tie(element,
                        edge,
                        make_edge_rule(edge,
-                                      cell_frame(mesh.mathematical_mesh(),
-                                                 mesh.cell(element)),
+                                      cell_frame(mesh, element),
                                       2 * degree),
                        weak_points);
       site.last_point = weak_points.size();
@@ -251,9 +247,7 @@ namespace NMM
               continue;
             const unsigned int cell = mesh.cell(e);
             const EdgeRule     rule =
-              make_edge_rule(edge,
-                             cell_frame(mathematical_mesh, cell),
-                             2 * degree);
+              make_edge_rule(edge, cell_frame(mesh, e), 2 * degree);
             for (unsigned int q = 0; q < rule.points.size(); ++q)
             {
               const dealii::Point<2> x =

@@ -244,7 +244,7 @@ namespace NMM
           if (!conditions.has_displacement(element, edge))
             continue;
           const EdgeRule rule =
-            make_edge_rule(edge, cell_frame(mathematical_mesh, cell), 2);
+            make_edge_rule(edge, cell_frame(mesh, element), 2);
           for (const unsigned int c : conditions.conditions(element, edge))
             for (unsigned int q = 0; q < rule.points.size(); ++q)
             {

@@ -67,7 +67,7 @@ namespace NMM
             continue;
           const EdgeRule edge_rule =
             make_edge_rule(edge,
-                           cell_frame(mathematical_mesh, cell),
+                           cell_frame(mesh, e),
                            2 * mathematical_mesh.degree());
           for (const unsigned int c : conditions.conditions(e, edge))
           {

@@ -49,7 +49,7 @@ namespace NMM
       else
       {
         const auto [first, last]          = covers->locally_owned_elements();
-        const CellFrame             frame = cell_frame(mathematical_mesh, cell);
+        const CellFrame             frame = cell_frame(mesh, element);
         const dealii::Quadrature<2> rule =
           (element >= first && element < last)
             ? quadrature->rule(element)
@@ -89,7 +89,7 @@ namespace NMM
       const ManifoldMesh     &mesh              = covers->manifold_mesh();
       const MathematicalMesh &mathematical_mesh = mesh.mathematical_mesh();
       const unsigned int      cell              = mesh.cell(element);
-      const CellFrame         frame = cell_frame(mathematical_mesh, cell);
+      const CellFrame         frame             = cell_frame(mesh, element);
 
       BoundaryPoints result;
       for (const ElementEdge &edge : mesh.edges(element))

@@ -25,9 +25,12 @@ namespace NMM
 
 
   CellFrame
-  cell_frame(const MathematicalMesh &mesh, const unsigned int cell)
+  cell_frame(const ManifoldMesh &mesh, const unsigned int element)
   {
-    return {mesh.vertices()[mesh.cell_vertices(cell)[0]], mesh.jacobian(cell)};
+    const MathematicalMesh &cells = mesh.mathematical_mesh();
+    const unsigned int      cell  = mesh.cell(element);
+    return {cells.vertices()[cells.cell_vertices(cell)[0]],
+            cells.jacobian(cell)};
   }
 
 

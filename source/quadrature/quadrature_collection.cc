@@ -117,9 +117,8 @@ namespace NMM
                                const unsigned int begin,
                                const unsigned int end)
   {
-    const MathematicalMesh &cells     = mesh->mathematical_mesh();
-    const unsigned int      dimension = (degree + 1) * (degree + 2) / 2;
-    const unsigned int      max_triangles =
+    const unsigned int dimension = (degree + 1) * (degree + 2) / 2;
+    const unsigned int max_triangles =
       triangle_rule.size() == 0 ? 0 : dimension / triangle_rule.size();
     for (unsigned int i = begin; i < end; ++i)
     {
@@ -128,7 +127,7 @@ namespace NMM
         continue;
       const internal::Triangles kind =
         internal::find_triangles(mesh->edges(element),
-                                 cell_frame(cells, mesh->cell(element)),
+                                 cell_frame(*mesh, element),
                                  max_triangles);
       element_to_rule[i] = kind == internal::Triangles::none
                              ? to_be_made
@@ -147,19 +146,18 @@ namespace NMM
         element_to_rule[i] = elements.size();
         elements.push_back(first_element + i);
       }
-    const MathematicalMesh            &cells = mesh->mathematical_mesh();
     std::vector<dealii::Quadrature<2>> rules(elements.size());
     std::atomic<unsigned int>          n_bad(0);
-    for_each_range(
-      elements.size(), [&](const unsigned int begin, const unsigned int end) {
-        ElementRuleBuilder builder(degree);
-        for (unsigned int i = begin; i < end; ++i)
-        {
-          rules[i] = builder.build(mesh->edges(elements[i]),
-                                   cell_frame(cells, mesh->cell(elements[i])));
-          n_bad += builder.last_was_fallback();
-        }
-      });
+    for_each_range(elements.size(),
+                   [&](const unsigned int begin, const unsigned int end) {
+                     ElementRuleBuilder builder(degree);
+                     for (unsigned int i = begin; i < end; ++i)
+                     {
+                       rules[i] = builder.build(mesh->edges(elements[i]),
+                                                cell_frame(*mesh, elements[i]));
+                       n_bad += builder.last_was_fallback();
+                     }
+                   });
     fallbacks = n_bad;
 
     first_point.reserve(rules.size() + 1);
@@ -199,11 +197,12 @@ namespace NMM
     result.points   = ordinary.get_points().data();
     result.weights  = ordinary.get_weights().data();
     if (index != invalid_index)
-      result.n_triangles = internal::set_triangles(
-        static_cast<internal::Triangles>(index - divided),
-        mesh->edges(element),
-        cell_frame(mesh->mathematical_mesh(), mesh->cell(element)),
-        result.triangles);
+      result.n_triangles =
+        internal::set_triangles(static_cast<internal::Triangles>(index -
+                                                                 divided),
+                                mesh->edges(element),
+                                cell_frame(*mesh, element),
+                                result.triangles);
     return result;
   }
 

@@ -231,7 +231,7 @@ namespace
         if (edge.curve_set != invalid_index && edge.neighbor == invalid_index)
         {
           const EdgeRule rule =
-            make_edge_rule(edge, cell_frame(mesh, manifold.cell(e)), 8);
+            make_edge_rule(edge, cell_frame(manifold, e), 8);
           for (unsigned int q = 0; q < rule.points.size(); ++q)
             for (unsigned int i = 0; i < 6; ++i)
               local_rhs(i) +=

@@ -53,6 +53,21 @@ namespace
   }
 
 
+  /// Owned values of @p v, 0 for constrained unknowns.
+  Vector
+  free_part(const Model &model, const Vector &v)
+  {
+    Vector result(model.covers.locally_owned_dofs(2),
+                  model.covers.communicator());
+    result = v;
+    for (const auto k : model.covers.locally_owned_dofs(2))
+      if (model.constraints.is_constrained(k))
+        result(k) = 0.;
+    result.compress(dealii::VectorOperation::insert);
+    return result;
+  }
+
+
   double
   potential(const FiniteElasticity &elasticity)
   {
@@ -76,14 +91,8 @@ namespace
     unsigned int n = 0;
     for (; n < 3; ++n)
     {
-      const Vector v = random_displacement(model, 1., generator);
-      Vector       direction(model.covers.locally_owned_dofs(2),
-                       model.covers.communicator());
-      direction = v;
-      for (const auto k : model.covers.locally_owned_dofs(2))
-        if (model.constraints.is_constrained(k))
-          direction(k) = 0.;
-      direction.compress(dealii::VectorOperation::insert);
+      const Vector v         = random_displacement(model, 1., generator);
+      const Vector direction = free_part(model, v);
 
       EXPECT_TRUE(elasticity->assemble(u, load_factor, Tangent::consistent) ==
                   Deformation::admissible);
@@ -220,14 +229,8 @@ TEST(FiniteTerms, TangentAtRestIsThatOfSmallDisplacements)
   std::mt19937 generator(7);
   for (unsigned int n = 0; n < 3; ++n)
   {
-    const Vector v = random_displacement(model, 1., generator);
-    Vector       direction(model.covers.locally_owned_dofs(2),
-                     model.covers.communicator());
-    direction = v;
-    for (const auto k : model.covers.locally_owned_dofs(2))
-      if (model.constraints.is_constrained(k))
-        direction(k) = 0.;
-    direction.compress(dealii::VectorOperation::insert);
+    const Vector direction =
+      free_part(model, random_displacement(model, 1., generator));
     Vector expected(direction), product(direction);
     small.system_matrix().vmult(expected, direction);
     elasticity->tangent().vmult(product, direction);

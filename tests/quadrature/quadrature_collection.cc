@@ -133,7 +133,7 @@ namespace
       if (!mesh.is_whole(e))
       {
         const unsigned int   cell  = mesh.cell(e);
-        const CellFrame      frame = cell_frame(cells, cell);
+        const CellFrame      frame = cell_frame(mesh, e);
         dealii::Tensor<1, 2> closed;
         double               twice_area = 0.;
         for (const ElementEdge &edge : mesh.edges(e))

@@ -49,9 +49,9 @@ namespace NMM
     dealii::Tensor<2, 2> jacobian;
   };
 
-  /// The frame of a cell of the mathematical mesh.
+  /// The frame of the cell of a manifold element.
   CellFrame
-  cell_frame(const MathematicalMesh &mesh, unsigned int cell);
+  cell_frame(const ManifoldMesh &mesh, unsigned int element);
 
   /**
    * A quadrature rule on one manifold element E of the cell with @p frame.

@@ -474,6 +474,19 @@ namespace NMM
   }
 
 
+  double
+  estimate_length(const std::vector<JointSet> &sets, const Geometry &geometry)
+  {
+    double sum = 0.;
+    for (const JointSet &set : sets)
+    {
+      set.check();
+      sum += estimate_area(set, geometry) * set.persistence / set.spacing;
+    }
+    return sum;
+  }
+
+
   std::vector<Curve>
   make_joints(const JointSet &set, const Geometry &geometry)
   {

@@ -93,20 +93,17 @@ namespace NMM
       const double h = mesh.cell_size;
       if (!(h > 0.))
         return;
-      double       area     = 0.;
-      const double box_area = physical_mesh.bounding_box().volume();
-      for (const PhysicalMesh::Region &region : physical_mesh.regions())
-        area += region.area;
+      double area = 0.;
       if (mesh.whole_box)
-        area = box_area;
+        area = physical_mesh.bounding_box().volume();
+      else
+        for (const PhysicalMesh::Region &region : physical_mesh.regions())
+          area += region.area;
       const double of_triangle =
         h * h *
         (mesh.pattern == MeshPattern::equilateral ? 0.25 * std::sqrt(3.) : 0.5);
       const double n_cells = area / of_triangle;
-      // Each triangle of the box is visited once, which takes this memory.
-      constexpr double of_lattice = 2.5; // [bytes]
-      double           needed     = estimate_memory(parameters, n_cells) +
-                      of_lattice * box_area / of_triangle;
+      double       needed  = estimate_memory(parameters, n_cells);
       if (parameters.covers.is_distributed)
         needed /= dealii::Utilities::MPI::n_mpi_processes(communicator);
       std::ostringstream number;

@@ -47,25 +47,36 @@ namespace NMM
 
   namespace
   {
-    /// Checks the memory for the blocks that joint sets make. @throws InputError if they cross so
-    /// often that it does not suffice.
+    /// Checks the memory for the blocks that joint sets make, and for the cells that they cut,
+    /// which are of the size @p cell_size [m] (0: unknown). @throws InputError if joints cross so
+    /// often, or are so long, that it does not suffice.
     void
-    check_crossings(const std::vector<JointSet> &sets, const Geometry &geometry)
+    check_joint_sets(const std::vector<JointSet> &sets,
+                     const Geometry              &geometry,
+                     const double                 cell_size)
     {
       // Memory per crossing for a block and its own mesh [bytes], measured on
       // tests/scenes/network-square with 1e4 to 1.6e5 crossings (`peak_memory` in the summary).
-      constexpr double   of_crossing = 3e4;
-      const double       n_crossings = estimate_crossings(sets, geometry);
+      constexpr double of_crossing = 3e4;
+      // Memory of a cell without factors [bytes], see estimate_memory() in scene.cc.
+      constexpr double of_cell     = 2e3;
+      const double     n_crossings = estimate_crossings(sets, geometry);
+      const double     n_cells =
+        cell_size > 0. ? estimate_length(sets, geometry) / cell_size : 0.;
       std::ostringstream number;
       number << std::setprecision(2) << n_crossings
-             << " crossings of joint sets";
-      require_memory(of_crossing * n_crossings,
+             << " crossings of joint sets and " << n_cells
+             << " cells that joints cut";
+      require_memory(of_crossing * n_crossings + of_cell * n_cells,
                      available_memory(1u),
                      number.str(),
                      "the spacings in section 'Joint sets'",
                      [&](const double excess) {
                        // The advice is a little larger than the value that just fits.
-                       const double       factor = 1.05 * std::sqrt(excess);
+                       const double factor =
+                         1.05 * (of_crossing * n_crossings > of_cell * n_cells
+                                   ? std::sqrt(excess)
+                                   : excess);
                        std::ostringstream text;
                        text << std::setprecision(2)
                             << "choose spacings of at least";
@@ -73,7 +84,9 @@ namespace NMM
                          text << (i == 0 ? " " : ", ")
                               << factor * sets[i].spacing << " m for '"
                               << sets[i].name << '\'';
-                       text << ", or a machine or limit with more memory";
+                       text
+                         << ", larger cells, or a machine or limit with more "
+                            "memory";
                        return text.str();
                      });
     }
@@ -156,7 +169,9 @@ namespace NMM
     for (const TraceParameters &traces : scene_parameters.traces)
       add_traces(traces, relative_to_scene(traces.file), geometry);
     add_regions(geometry);
-    check_crossings(scene_parameters.joint_sets, geometry);
+    check_joint_sets(scene_parameters.joint_sets,
+                     geometry,
+                     scene_parameters.mathematical_mesh.regular.cell_size);
     for (const JointSet &set : scene_parameters.joint_sets)
       for (Curve &joint : make_joints(set, geometry))
         geometry.add(std::move(joint));

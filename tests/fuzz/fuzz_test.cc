@@ -107,6 +107,14 @@ TEST(Fuzz, LongBlockAcrossItsBox)
 }
 
 
+// 150,000 joints of 300 km through cells of 2 m: it took minutes to cut the solid before its
+// mesh was refused.
+TEST(Fuzz, JointsThroughTooManyCells)
+{
+  expect_good("scene", 749448);
+}
+
+
 // An arc of a crack's face that is shorter than coordinates can tell has no direction: the
 // intensity factors were no numbers, and the run ended with exit code 0.
 TEST(Fuzz, FacesThatAreShorterThanCoordinatesCanTell)

@@ -136,15 +136,21 @@ namespace
         set.persistence  = persistence;
         set.trace_length = persistence < 1. ? 3. : 0.;
       }
-      const auto a   = make_joints(sets[0], geometry),
-                 b   = make_joints(sets[1], geometry);
-      unsigned int n = 0;
+      const auto a        = make_joints(sets[0], geometry),
+                 b        = make_joints(sets[1], geometry);
+      unsigned int n      = 0;
+      double       length = 0.;
       for (const Curve &flat : a)
+      {
+        const double y = flat.start()[1];
+        if (y >= 0. && y <= 100.)
+          length += std::max(0.,
+                             std::min(flat.end()[0], y <= 50. ? 100. : 50.) -
+                               std::max(flat.start()[0], 0.));
         for (const Curve &steep : b)
         {
           // where the second one is at the height of the first one
-          const double y = flat.start()[1],
-                       t = (y - steep.start()[1]) /
+          const double t = (y - steep.start()[1]) /
                            (steep.end()[1] - steep.start()[1]),
                        x = steep.start()[0] +
                            t * (steep.end()[0] - steep.start()[0]);
@@ -152,6 +158,8 @@ namespace
                x <= flat.end()[0] && x >= 0. && y >= 0. && x <= 100. &&
                y <= 100. && (x <= 50. || y <= 50.);
         }
+      }
+      EXPECT_NEAR(estimate_length({sets[0]}, geometry), length, 0.04 * length);
       EXPECT_NEAR(estimate_crossings(sets, geometry), n, 0.04 * n);
     }
     sets[1].dip = sets[0].dip;

@@ -16,7 +16,7 @@ namespace
     };
     rejects("Spacing=0", {"'beds'", "spacing", "0 m", "positive"});
     rejects("Spacing=-1", {"'beds'", "spacing", "-1 m"});
-    rejects("Spacing=1e-9", {"'beds'", "traces", "larger"});
+    rejects("Spacing=1e-9", {"'beds'", "memory", "spacings", "larger"});
     rejects("Spacing scatter=1", {"'beds'", "spacing", "below 1"});
     rejects("Persistence=0", {"'beds'", "persistence", "above 0"});
     rejects("Persistence=1.2", {"'beds'", "persistence", "1.2"});
@@ -43,6 +43,11 @@ namespace
                           "Joint sets/steep/Dip=90"},
                          "Joint sets/steep/Spacing=1e-5",
                          {"1e+10 crossings", "memory", "'flat'", "'steep'"});
+    // 1e5 lines through 1e6 cells each
+    expect_rejected_with({"Joint sets/Names=flat",
+                          "Mathematical mesh/Cell size=1e-6"},
+                         "Joint sets/flat/Spacing=1e-5",
+                         {"1e+11 cells", "memory", "'flat'", "larger cells"});
   }
 
 

@@ -78,6 +78,13 @@ namespace NMM
                      const Geometry              &geometry);
 
 
+  /// Expected length of the joints of all sets [m], the sum of A p / s of estimate_crossings(),
+  /// before any joint is made.
+  /// @throws InputError for a set with bad values or a geometry without boundary.
+  double
+  estimate_length(const std::vector<JointSet> &sets, const Geometry &geometry);
+
+
   /**
    * Make the joints of a set that may meet the solid of @p geometry: segments in its
    * bounding box (or that of the region to which they are confined), which PhysicalMesh

@@ -99,14 +99,6 @@ TEST(Fuzz, PathsFurtherThanNumbersResolve)
 }
 
 
-// A block 14 km long and 1 m wide that lies at 45 degrees to a mesh of 0.5 m: 4e8 triangles of its
-// box were searched with a list of all that are next to each other, for a minute.
-TEST(Fuzz, LongBlockAcrossItsBox)
-{
-  expect_good("scene", 627236);
-}
-
-
 // 150,000 joints of 300 km through cells of 2 m: it took minutes to cut the solid before its
 // mesh was refused.
 TEST(Fuzz, JointsThroughTooManyCells)

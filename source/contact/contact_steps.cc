@@ -417,16 +417,10 @@ namespace NMM
   Contact::Data::set_step_states(const Vector &end)
   {
     std::vector<Tensor<1, 2>> &at_end = step.end.nodal;
-    if (Parallel::n_mpi_processes(communicator) > 1)
-      read_nodal_values(surface->cover_system(), end, at_end);
-    else
-    {
-      const auto from = end.begin();
-      active.for_each_cover(at_end.size(), [&](const unsigned int k) {
-        for (unsigned int c = 0; c < 2; ++c)
-          at_end[k][c] = from[2 * k + c];
-      });
-    }
+    read_nodal_values(surface->cover_system(),
+                      end,
+                      active.active_covers(),
+                      at_end);
     active.for_each_cover(at_end.size(), [&](const unsigned int k) {
       step.middle.nodal[k] = 0.5 * (step.nodal_begin[k] + at_end[k]);
     });

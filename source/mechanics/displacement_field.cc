@@ -2,6 +2,7 @@
 #include <nmm/mechanics/displacement_field.h>
 
 #include <limits>
+#include <mechanics/nodal_values.h>
 
 namespace NMM
 {
@@ -13,9 +14,7 @@ namespace NMM
     , degree(covers.manifold_mesh().mathematical_mesh().degree())
     , nodal_values(covers.n_covers(), unknown_value())
   {
-    for (const unsigned int cover : covers.locally_relevant_covers())
-      for (unsigned int c = 0; c < 2; ++c)
-        nodal_values[covers.local_cover(cover)][c] = solution(2 * cover + c);
+    internal::read_nodal_values(covers, solution, nodal_values);
     set_materials(problem);
   }
 

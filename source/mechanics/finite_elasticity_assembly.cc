@@ -140,16 +140,10 @@ namespace NMM
                                std::vector<dealii::Tensor<1, 2>> &to) const
   {
     // ties also need the displacements of blocks next to active ones
-    if (active_covers.all() || !edges->ties.empty() ||
-        to.size() != covers->n_covers())
-    {
+    if (!edges->ties.empty())
       read_nodal_values(*covers, u, to);
-      return;
-    }
-    const auto from = u.begin();
-    for (const unsigned int k : active_covers.chosen())
-      for (unsigned int c = 0; c < 2; ++c)
-        to[k][c] = *(from + 2 * k + c);
+    else
+      read_nodal_values(*covers, u, active_covers, to);
   }
 
 

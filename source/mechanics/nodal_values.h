@@ -5,6 +5,7 @@
 
 #include <deal.II/lac/trilinos_vector.h>
 
+#include <linear_algebra/active_items.h>
 #include <vector>
 
 namespace NMM
@@ -30,6 +31,26 @@ namespace NMM
       for (const auto cover : covers.locally_relevant_covers())
         for (unsigned int c = 0; c < 2; ++c)
           nodal[covers.local_cover(cover)][c] = vector(2 * cover + c);
+    }
+
+
+    /// The same for @p active covers alone, where one rank owns all covers.
+    inline void
+    read_nodal_values(const CoverSystem                           &covers,
+                      const dealii::TrilinosWrappers::MPI::Vector &vector,
+                      const ActiveItems                           &active,
+                      std::vector<dealii::Tensor<1, 2>>           &nodal)
+    {
+      if (active.all() || nodal.size() != covers.n_covers() ||
+          covers.locally_owned_covers().n_elements() != covers.n_covers())
+      {
+        read_nodal_values(covers, vector, nodal);
+        return;
+      }
+      const auto values = vector.begin();
+      for (const unsigned int k : active.chosen())
+        for (unsigned int c = 0; c < 2; ++c)
+          nodal[k][c] = values[2 * k + c];
     }
   } // namespace internal
 } // namespace NMM

@@ -124,6 +124,27 @@ TEST(ContactCrossings, StraightThroughAPlate)
 }
 
 
+// The circumference of the square is 4 m. Stretched by 8, its corners go 7 times their distance
+// from the middle, 5.0 m; by 6, 3.5 m; turned by a half, 1.4 m.
+TEST(ContactCrossings, DeformationBeyondTheCircumference)
+{
+  Crossing   crossing(square, box({-3., -50.}, {3., -49.}));
+  const auto moved = [](const double stretch, const double angle) {
+    Motion motion;
+    motion.center  = Point<2>(0.5, 0.5);
+    motion.stretch = stretch;
+    motion.angle   = angle;
+    return motion;
+  };
+  const auto reason = [&](const Motion &end) {
+    return crossing.find(moved(1., 0.), end).reason;
+  };
+  EXPECT_NE(reason(moved(8., 0.)).find("circumference"), std::string::npos);
+  EXPECT_EQ(reason(moved(6., 0.)), "");
+  EXPECT_EQ(reason(moved(1., dealii::numbers::PI)), "");
+}
+
+
 // The plate is between the corners of the square: its own corners pass through that.
 TEST(ContactCrossings, CornersOfObstacles)
 {

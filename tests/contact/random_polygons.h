@@ -8,18 +8,19 @@ namespace NMM
 {
   namespace Test
   {
-    /// Displacements of the surface: a rigid motion of each block.
+    /// Displacements of the surface: a motion of each block, rigid unless stretch is not 1.
     struct Motion
     {
       Point<2>     center;
-      double       angle = 0.;
+      double       angle = 0., stretch = 1.;
       Tensor<1, 2> shift;
 
       Tensor<1, 2>
       operator()(const Point<2> &X) const
       {
         const Tensor<1, 2> d = X - center;
-        const double       c = std::cos(angle), s = std::sin(angle);
+        const double       c = stretch * std::cos(angle),
+                     s       = stretch * std::sin(angle);
         return Tensor<1, 2>({c * d[0] - s * d[1], s * d[0] + c * d[1]}) - d +
                shift;
       }

@@ -144,7 +144,7 @@ namespace NMM
         });
       // Coordinates are rounded by epsilon |X|, so that the strain of an element of the width w is
       // known to epsilon |X| / w, and its stress moves the rest by that part of u at most (0.2
-      // times that in the worst of 35,000 cases). Sums of its equations are rounded by epsilon
+      // times that in one of 50,000 cases). Sums of its equations are rounded by epsilon
       // size / w (the error was 6.8 times that in one of 900 cases, 0.3 times in most). The
       // solution is rounded as well; the error was at most 2.2 times the estimate of that in 500
       // cases above 1e-9.

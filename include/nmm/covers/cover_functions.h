@@ -22,6 +22,9 @@ namespace NMM
    * covers of a constant; for functions of a crack tip it has DiskCover, which needs fewer unknowns
    * and keeps the order of accuracy.
    *
+   * deal.II's FE_Enriched does the same for the cells of a DoFHandler; here functions belong to
+   * physical covers, of which a cell may have several sets.
+   *
    * Basis functions of an element are numbered by weight functions i, for each of them by
    * functions f. The unknowns of a cover follow one another, and covers are in the order of their
    * global numbers: component c of function f of the cover k is the unknown

@@ -15,7 +15,7 @@
 #include <nmm/covers/own_meshes.h>
 #include <nmm/dynamics/contact_model.h>
 #include <nmm/dynamics/elastic_models.h>
-#include <nmm/dynamics/step_control.h>
+#include <nmm/dynamics/relaxation.h>
 #include <nmm/dynamics/time_integrator.h>
 #include <nmm/geometry/joint_network.h>
 #include <nmm/geometry/physical_mesh.h>

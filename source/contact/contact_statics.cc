@@ -121,7 +121,7 @@ namespace NMM
       {
       }
 
-      std::string
+      StepFault
       find(LoadStep &step, Vector &u, const Vector *change) override;
 
       void
@@ -140,22 +140,13 @@ namespace NMM
         contact->restore_history(history);
       }
 
-      std::string
-      remedy() const override
-      {
-        if (!fault.remedy.empty())
-          return fault.remedy;
-        return "look at the last state that converged for what gives way, or "
-               "allow smaller steps";
-      }
-
       /// Data of the last step beside its LoadStep.
       ContactStep found;
       /// Load factor of the last accepted step, at which the next one begins.
       double reached = 0.;
 
     private:
-      std::string
+      StepFault
       find_by(NewtonSolver &solver,
               LoadStep     &step,
               Vector       &u,
@@ -171,8 +162,6 @@ namespace NMM
       NewtonParameters parameters;
       ContactHistory   history;
       unsigned int     n_breaks = 0;
-      /// What the last solution passed through on its way.
-      StepFault fault;
     };
 
 
@@ -189,12 +178,12 @@ namespace NMM
     }
 
 
-    std::string
+    StepFault
     ContactEquilibrium::find(LoadStep &step, Vector &u, const Vector *change)
     {
       history = contact->history();
       const Vector start(u);
-      std::string  failure = find_by(newton, step, u, change);
+      StepFault    fault = find_by(newton, step, u, change);
       if (!step.newton.converged && step.n_cuts == 0)
       {
         NewtonParameters patient = parameters;
@@ -202,14 +191,14 @@ namespace NMM
         patient.stops_cycles = false;
         NewtonSolver patient_newton(patient);
         reject();
-        u       = start;
-        failure = find_by(patient_newton, step, u, change);
+        u     = start;
+        fault = find_by(patient_newton, step, u, change);
       }
-      return failure;
+      return fault;
     }
 
 
-    std::string
+    StepFault
     ContactEquilibrium::find_by(NewtonSolver &solver,
                                 LoadStep     &step,
                                 Vector       &u,
@@ -227,7 +216,6 @@ namespace NMM
 
       found              = ContactStep();
       found.load_factor  = step.load_factor;
-      fault              = StepFault();
       n_breaks           = 0;
       double penetration = 0.;
       for (unsigned int i = 0; i < n; ++i)
@@ -251,15 +239,15 @@ namespace NMM
         step.n_iterations += step.newton.iterations.size();
         step.relative_residual = step.newton.relative_residual;
         if (!step.newton.converged)
-          return step.newton.reason;
-        fault = contact->find_crossing(u);
-        if (!fault.reason.empty())
-          return fault.reason;
+          return {step.newton.reason};
+        const StepFault crossing = contact->find_crossing(u);
+        if (!crossing.reason.empty())
+          return crossing;
         found.contact = contact->report();
         // If everything has moved far, there may be candidate pairs now.
         if (contact->is_idle() &&
             (i > 0 || contact->find_fault(u).reason.empty()))
-          return "";
+          return {};
         if (contact->is_idle())
           continue;
         const bool is_settled =
@@ -273,7 +261,7 @@ namespace NMM
           if (!is_settled && i + 1 < n)
             continue;
           if (!break_bonds())
-            return "";
+            return {};
           i = 0;
           continue;
         }
@@ -284,13 +272,13 @@ namespace NMM
           continue;
         }
         if (!break_bonds())
-          return "";
+          return {};
         i = 0;
       }
       std::ostringstream text;
       text << "a penetration of " << penetration << " m is left after "
            << found.n_augmentations << " augmentations";
-      return text.str();
+      return {text.str()};
     }
   } // namespace internal
 

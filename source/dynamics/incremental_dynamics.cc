@@ -5,6 +5,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <linear_algebra/direct_solver.h>
 
@@ -141,44 +142,41 @@ namespace NMM
                              " s is reached already",
                            "step-by-step dynamics",
                            "choose a later end"));
+    // fraction of the bound at which the next step aims
     constexpr double aim = 0.9;
-    double  h = d.next_step > 0. ? std::min(d.next_step, control.max_step)
-                                 : control.max_step;
-    Advance advance;
-    for (;; ++advance.n_cuts)
-    {
-      const bool   is_last = d.time + h >= end * (1. - 1e-12);
-      const double tried   = is_last ? end - d.time : h;
+
+    Advance      advance;
+    StepSequence sequence({"time", "s", control.min_step, control.max_step},
+                          d.time,
+                          d.next_step > 0.
+                            ? std::min(d.next_step, control.max_step)
+                            : control.max_step);
+    const auto   attempt = [&](const StepTrial &trial) {
       const IncrementalElasticity::StepResult result =
-        try_step(tried,
-                 load_factor ? load_factor(d.time + tried) : 1.,
+        try_step(trial.length,
+                 load_factor ? load_factor(trial.end) : 1.,
                  control.max_displacement);
-      advance.step                 = tried;
+      advance.step                 = trial.length;
       advance.largest_displacement = result.largest_displacement;
-      const double ratio           = aim * control.max_displacement /
-                           std::max(result.largest_displacement,
-                                    1e-3 * aim * control.max_displacement);
+      double ratio                 = 2.;
+      if (std::isfinite(control.max_displacement) &&
+          result.largest_displacement > 0.)
+        ratio = std::min(ratio,
+                         aim * control.max_displacement /
+                           result.largest_displacement);
       if (result.is_taken)
-      {
-        if (is_last)
-          d.time = end;
-        // a last step that was short only to meet the end does not limit the next one
-        d.next_step =
-          std::max(is_last ? h : 0.,
-                   std::max(control.min_step, tried * std::min(2., ratio)));
-        return advance;
-      }
-      h = tried * std::max(0.1, std::min(aim, ratio));
-      AssertThrow(h >= control.min_step,
-                  NumericalFailure(
-                    "A step of " + std::to_string(tried) +
-                      " s moves a cover by " +
-                      std::to_string(result.largest_displacement) +
-                      " m, and a smaller step than " +
-                      std::to_string(control.min_step) + " s is not allowed",
-                    "the time " + std::to_string(d.time) + " s",
-                    "allow larger displacements or smaller steps"));
-    }
+        return StepVerdict::accepted(ratio);
+      return StepVerdict::rejected(
+        {"displacements of " + std::to_string(result.largest_displacement) +
+           " m in a step",
+         "allow larger displacements or smaller steps",
+         std::max(0.1, ratio)},
+        1);
+    };
+    sequence.advance(end, attempt, advance);
+    d.time      = sequence.position();
+    d.next_step = sequence.length();
+    return advance;
   }
 
 

@@ -46,9 +46,7 @@ namespace NMM
     const auto                   attempt = [&](LoadStep &step) {
       const IncrementalElasticity::StepResult result =
         elasticity->try_step(step.load_factor, steps.max_displacement);
-      StepVerdict verdict;
-      verdict.is_accepted = result.is_taken;
-      step.n_iterations   = 1;
+      step.n_iterations = 1;
       const bool   is_bounded = std::isfinite(steps.max_displacement);
       const double ratio =
         is_bounded && result.largest_displacement > 0.
@@ -56,26 +54,23 @@ namespace NMM
                             : 2.;
       if (!result.is_taken)
       {
-        verdict.ratio = std::max(0.1, ratio);
         std::ostringstream reason;
         reason << "a step of " << step.load_factor - reached
                << " in the load factor moves a cover by "
                << result.largest_displacement << " m, more than "
                << steps.max_displacement << " m";
-        verdict.reason = reason.str();
-        verdict.remedy = "allow larger displacements or smaller steps";
-        return verdict;
+        return StepVerdict::rejected(
+          {reason.str(),
+           "allow larger displacements or smaller steps",
+           std::max(0.1, ratio)});
       }
-      // without a bound, steps reach from one requested load factor to the next
-      if (is_bounded)
-        verdict.ratio = std::min(2., ratio);
       reached = step.load_factor;
       taken.emplace_back();
       static_cast<LoadStep &>(taken.back()) = step;
       taken.back().largest_displacement = result.largest_displacement;
       if (after_step)
         after_step(taken.back(), elasticity->solution());
-      return verdict;
+      return StepVerdict::accepted(std::min(2., ratio));
     };
     take_load_steps(steps, reached, attempt, last);
     return taken;

@@ -33,7 +33,7 @@ namespace NMM
       {
       }
 
-      std::string
+      StepFault
       find(LoadStep &step, Vector &u, const Vector *change) override
       {
         step.newton =
@@ -43,14 +43,11 @@ namespace NMM
                        change);
         step.n_iterations      = step.newton.iterations.size();
         step.relative_residual = step.newton.relative_residual;
-        return step.newton.converged ? "" : step.newton.reason;
-      }
-
-      std::string
-      remedy() const override
-      {
-        return "the solid may have reached its limit load or be unstable; else "
-               "allow smaller steps";
+        if (step.newton.converged)
+          return {};
+        return {step.newton.reason,
+                "the solid may have reached its limit load or be unstable; "
+                "else allow smaller steps"};
       }
 
     private:
@@ -73,7 +70,7 @@ namespace NMM
     Vector
     predict(double load_factor, unsigned int degree) const;
 
-    StepVerdict
+    StepFault
     try_step(const LoadSteps &steps, LoadStep &step, Vector &u);
 
     std::unique_ptr<ElasticSystem>     own_system;
@@ -163,7 +160,7 @@ namespace NMM
   }
 
 
-  StepVerdict
+  StepFault
   NonlinearStatics::Data::try_step(const LoadSteps &steps,
                                    LoadStep        &step,
                                    Vector          &u)
@@ -178,20 +175,16 @@ namespace NMM
       change -= states.back().solution;
     elasticity->set_load_factor(step.load_factor);
 
-    StepVerdict verdict;
-    verdict.reason = search->find(step, u, is_extrapolated ? &change : nullptr);
-    if (verdict.reason.empty() && elasticity->largest_jump() > steps.max_jump)
-      verdict.reason =
+    StepFault fault =
+      search->find(step, u, is_extrapolated ? &change : nullptr);
+    if (fault.reason.empty() && elasticity->largest_jump() > steps.max_jump)
+      fault.reason =
         "displacement conditions or ties are missed by a good part of an "
         "element";
-    verdict.is_accepted = verdict.reason.empty();
-    if (!verdict.is_accepted)
-    {
-      verdict.reason +=
+    if (!fault.reason.empty())
+      fault.reason +=
         "; relative residuals of the last iterations: " + history(step.newton);
-      verdict.remedy = search->remedy();
-    }
-    return verdict;
+    return fault;
   }
 
 
@@ -236,13 +229,13 @@ namespace NMM
           (step.load_factor > d.states[n - 1].load_factor) !=
             (d.states[n - 1].load_factor > d.states[n - 2].load_factor))
         d.states.erase(d.states.begin(), d.states.end() - 1);
-      Vector            u(d.states.back().solution);
-      const StepVerdict verdict = d.try_step(steps, step, u);
-      if (!verdict.is_accepted)
+      Vector          u(d.states.back().solution);
+      const StepFault fault = d.try_step(steps, step, u);
+      if (!fault.reason.empty())
       {
         d.iterate = u;
         d.search->reject();
-        return verdict;
+        return StepVerdict::rejected(fault);
       }
       d.dissipated = d.elasticity->accept_step(u);
       d.search->accept(u);
@@ -256,7 +249,7 @@ namespace NMM
       report.push_back(step);
       if (after_step)
         after_step(step, u);
-      return verdict;
+      return StepVerdict::accepted();
     };
     take_load_steps(steps, d.states.back().load_factor, attempt, d.current);
     return report;

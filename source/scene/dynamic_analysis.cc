@@ -426,38 +426,23 @@ namespace NMM
     void
     DynamicAnalysis::run_incremental()
     {
-      const TimeParameters &parameters = scene.parameters().time;
-      const double          h          = parameters.initial_step;
-      const double          bound      = parameters.max_displacement;
-      // A remainder of the size of rounding errors is not a step.
-      while (parameters.end_time - incremental_time > 1e-9 * h)
+      const TimeParameters              &parameters = scene.parameters().time;
+      const double                       h          = parameters.initial_step;
+      const double                       bound   = parameters.max_displacement;
+      const IncrementalDynamics::Control control = {
+        h,
+        parameters.min_step > 0. ? parameters.min_step : 1e-6 * h,
+        bound > 0. ? bound : std::numeric_limits<double>::infinity()};
+      while (incremental_dynamics->time() < parameters.end_time)
       {
+        const IncrementalDynamics::Advance taken =
+          incremental_dynamics->advance(parameters.end_time, control);
         StepRecord record;
-        record.report.n_iterations = 1;
-        if (bound > 0.)
-        {
-          const double least =
-            parameters.min_step > 0. ? parameters.min_step : 1e-6 * h;
-          const IncrementalDynamics::Advance taken =
-            incremental_dynamics->advance(parameters.end_time,
-                                          {h, least, bound});
-          record.report.step             = taken.step;
-          record.report.max_displacement = taken.largest_displacement;
-          record.n_cuts = record.n_lost_iterations = taken.n_cuts;
-          incremental_time = incremental_dynamics->time();
-          ++incremental_step;
-        }
-        else
-        {
-          record.report.step =
-            std::min(h, parameters.end_time - incremental_time);
-          record.report.max_displacement =
-            incremental_dynamics->step(record.report.step);
-          ++incremental_step;
-          // A product has smaller rounding errors than a sum of steps.
-          incremental_time =
-            std::min(incremental_step * h, parameters.end_time);
-        }
+        static_cast<LostSteps &>(record) = taken;
+        record.report.n_iterations       = 1;
+        record.report.step               = taken.step;
+        record.report.max_displacement   = taken.largest_displacement;
+        ++incremental_step;
         after_step(record);
       }
     }
@@ -466,7 +451,8 @@ namespace NMM
     double
     DynamicAnalysis::time() const
     {
-      return incremental ? incremental_time : integrator->state().time;
+      return incremental ? incremental_dynamics->time()
+                         : integrator->state().time;
     }
 
 

@@ -5,7 +5,7 @@
 #include <nmm/dynamics/elastic_models.h>
 #include <nmm/dynamics/incremental_dynamics.h>
 #include <nmm/dynamics/leaving_blocks.h>
-#include <nmm/dynamics/step_control.h>
+#include <nmm/dynamics/relaxation.h>
 #include <nmm/output/csv_series.h>
 
 #include <memory>
@@ -62,7 +62,6 @@ namespace NMM
       /// The objects for incremental kinematics; null otherwise.
       std::unique_ptr<IncrementalElasticity> incremental;
       std::unique_ptr<IncrementalDynamics>   incremental_dynamics;
-      double                                 incremental_time = 0.;
       unsigned int                           incremental_step = 0;
 
       /// Null if cracks do not grow.

@@ -2,7 +2,7 @@
 #include <nmm/contact/contact_statics.h>
 #include <nmm/dynamics/contact_model.h>
 #include <nmm/dynamics/elastic_models.h>
-#include <nmm/dynamics/step_control.h>
+#include <nmm/dynamics/relaxation.h>
 #include <nmm/mechanics/elastic_system.h>
 #include <nmm/mechanics/nonlinear_statics.h>
 

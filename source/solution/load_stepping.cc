@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace NMM
 {
@@ -77,43 +76,22 @@ namespace NMM
                              ", which is reached already",
                            "the load steps",
                            "go on with larger load factors"));
-    const double least   = steps.min_step * largest;
-    double       length  = largest;
-    double       reached = begin;
-    unsigned int n_cuts = 0, n_lost_iterations = 0;
+    StepSequence sequence(
+      {"load factor", "", steps.min_step * largest, largest}, begin, largest);
     for (auto wanted = first; wanted != steps.load_factors.end(); ++wanted)
       do
       {
-        // negative where loads are taken away
-        const double way = *wanted - reached;
-        const double n_parts =
-          std::max(1., std::ceil(std::abs(way) / length * (1. - 1e-9)));
-        step             = LoadStep();
-        step.is_asked    = n_parts <= 1.;
-        step.load_factor = step.is_asked ? *wanted : reached + way / n_parts;
-        step.n_cuts      = n_cuts;
-        step.n_lost_iterations    = n_lost_iterations;
-        const StepVerdict verdict = attempt(step);
-        const double      taken   = std::abs(step.load_factor - reached);
-        if (verdict.is_accepted)
-        {
-          length  = verdict.ratio > 0. ? std::max(least, verdict.ratio * taken)
-                                       : std::max(length, 2. * taken);
-          reached = step.load_factor;
-          n_cuts = n_lost_iterations = 0;
-          continue;
-        }
-        length      = taken * (verdict.ratio > 0. ? verdict.ratio : 0.5);
-        step.n_cuts = ++n_cuts;
-        step.n_lost_iterations = n_lost_iterations += step.n_iterations;
-        if (length >= least)
-          continue;
-        std::ostringstream where;
-        where << "load factor " << step.load_factor << ", after " << reached;
-        AssertThrow(false,
-                    NumericalFailure("No equilibrium: " + verdict.reason,
-                                     where.str(),
-                                     verdict.remedy));
-      } while (reached != *wanted);
+        const auto try_step = [&](const StepTrial &trial) {
+          const LostSteps lost           = step;
+          step                           = LoadStep();
+          static_cast<LostSteps &>(step) = lost;
+          step.load_factor               = trial.end;
+          step.is_asked                  = trial.reaches_target;
+          StepVerdict verdict            = attempt(step);
+          verdict.n_iterations           = step.n_iterations;
+          return verdict;
+        };
+        sequence.advance(*wanted, try_step, step);
+      } while (sequence.position() != *wanted);
   }
 } // namespace NMM

@@ -1,7 +1,7 @@
 // Choice of the step, failure below the least one, relaxation to rest.
 
 #include <nmm/base/program.h>
-#include <nmm/dynamics/step_control.h>
+#include <nmm/dynamics/relaxation.h>
 #include <nmm/materials/material_law.h>
 #include <nmm/mechanics/nonlinear_statics.h>
 

@@ -139,8 +139,8 @@ TEST(IncrementalStatics, FailsWithAReason)
   }
   catch (const NumericalFailure &failure)
   {
-    EXPECT_NE(std::string(failure.what()).find("moves a cover"),
-              std::string::npos);
+    EXPECT_NE(failure.message().find("moves a cover"), std::string::npos)
+      << failure.message();
   }
   EXPECT_EQ(statics.load_factor(), 0.);
 

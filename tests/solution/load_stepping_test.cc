@@ -28,15 +28,11 @@ namespace
       steps,
       begin,
       [&](LoadStep &step) {
-        StepVerdict verdict;
-        verdict.is_accepted =
-          std::abs(step.load_factor - reached) <= longest * (1. + 1e-12);
-        if (verdict.is_accepted)
-        {
-          reached = step.load_factor;
-          accepted.push_back(reached);
-        }
-        return verdict;
+        if (std::abs(step.load_factor - reached) > longest * (1. + 1e-12))
+          return StepVerdict::rejected({"the step is too long"});
+        reached = step.load_factor;
+        accepted.push_back(reached);
+        return StepVerdict::accepted();
       },
       last);
     EXPECT_EQ(last.load_factor, load_factors.back());

@@ -191,10 +191,9 @@ namespace
     const auto attempt = [&](LoadStep &step) {
       system.set_load_factor(step.load_factor);
       step.newton = solver.solve(system, constraints, u);
-      StepVerdict verdict;
-      verdict.is_accepted = step.newton.converged;
-      verdict.reason      = step.newton.reason;
-      return verdict;
+      if (step.newton.converged)
+        return StepVerdict::accepted();
+      return StepVerdict::rejected({step.newton.reason});
     };
     LoadStep step;
     take_load_steps(LoadSteps::equal(10), 0., attempt, step);

@@ -2,6 +2,7 @@
 #define nmm_dynamics_incremental_dynamics_h
 
 #include <nmm/mechanics/incremental_elasticity.h>
+#include <nmm/solution/step_sequence.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -64,28 +65,26 @@ namespace NMM
       /// Largest step, which is also the first one tried, and smallest step [s].
       double max_step, min_step;
       /// @}
-      /// Largest displacement of a cover in a step [m].
+      /// Largest displacement of a cover in a step [m]; infinite: no bound.
       double max_displacement;
     };
 
-    /// The step that advance() took.
-    struct Advance
+    /// The step that advance() took, and those it tried before.
+    struct Advance : LostSteps
     {
       /// Length of the step [s].
       double step = 0.;
       /// Largest displacement of a cover in the step [m].
       double largest_displacement = 0.;
-      /// Number of longer steps that were tried and given up before.
-      unsigned int n_cuts = 0;
     };
 
     /**
-     * Take one step towards the time @p end [s], as large as @p control allows. The step is
-     * reduced and tried again from the same state until no cover moves by more than allowed. The
-     * next step is at most twice as large. Loads are multiplied by @p load_factor at the end of
-     * the step; an empty function stands for 1.
+     * Take one step (StepSequence) towards the time @p end [s], as large as @p control allows.
+     * The step is reduced and tried again from the same state until no cover moves by more than
+     * allowed. The next step is at most twice as large. Loads are multiplied by @p load_factor at
+     * the end of the step; an empty function stands for 1.
      * @throws InputError for bounds that are not positive or an end that is reached already.
-     * @throws NumericalFailure if a step would be smaller than allowed.
+     * @throws NumericalFailure as StepSequence::advance().
      */
     Advance
     advance(double                                 end,

@@ -2,6 +2,7 @@
 #define nmm_dynamics_step_control_h
 
 #include <nmm/dynamics/time_integrator.h>
+#include <nmm/solution/step_sequence.h>
 
 #include <functional>
 #include <limits>
@@ -35,19 +36,15 @@ namespace NMM
 
 
   /// Effort of one accepted step.
-  struct StepRecord
+  struct StepRecord : LostSteps
   {
     /// Report on the accepted step.
     StepReport report;
-    /// @{
-    /// Steps that were tried and given up since the last accepted one, and their iterations.
-    unsigned int n_cuts = 0, n_lost_iterations = 0;
-    /// @}
   };
 
 
   /**
-   * Chooses the lengths of time steps. A step that fails, or whose displacement or error is larger
+   * Steps through time (StepSequence). A step that fails, or whose displacement or error is larger
    * than allowed, is reduced and tried again from the last accepted state. Steps grow by a factor
    * of at most 1.5 while Newton's method needs few iterations and results are well within their
    * bounds. Steps end at events of the model and at the end of the run.
@@ -61,8 +58,8 @@ namespace NMM
     /**
      * Take one accepted step towards the time @p end [s], and describe it in @p record. Returns
      * false without a step if the end is reached already.
-     * @throws NumericalFailure if a step would be smaller than allowed, with time,
-     * step and reason; the integrator is then in the last accepted state.
+     * @throws NumericalFailure as StepSequence::advance(); the integrator is then in the last
+     * accepted state.
      */
     bool
     advance(TimeIntegrator &integrator, double end, StepRecord &record) const;
@@ -74,66 +71,23 @@ namespace NMM
         double                                         end,
         const std::function<bool(const StepRecord &)> &after_step = {}) const;
 
+    /// Factor by which steps may change after one with @p n_iterations (see
+    /// StepReport::n_full_iterations): @p largest up to few_iterations, then 1. It is 0.7 beyond
+    /// twice as many, because shorter steps cost less then.
+    static double
+    growth_after(double       n_iterations,
+                 unsigned int few_iterations,
+                 double       largest);
+
   private:
     double
     next_target(const TimeIntegrator &integrator, double end) const;
 
+    StepVerdict
+    try_step(TimeIntegrator &integrator, double h, StepReport &report) const;
+
     StepControlParameters parameters;
   };
-
-
-  /// Steps, tolerance and bounds of a dynamic relaxation; see relax().
-  struct RelaxationParameters
-  {
-    /// First step [s]. The longest natural period of the solid is a good choice.
-    double step = std::numeric_limits<double>::signaling_NaN();
-    /// Largest Account::imbalance that counts as rest [-].
-    double tolerance = 1e-8;
-    /// Number of steps after which the relaxation is given up.
-    unsigned int max_steps = 1000;
-    /// Factor by which steps grow after each accepted step [-].
-    double growth = 1.2;
-    /// Steps may grow as long as Newton's method needs at most this many iterations, and shrink
-    /// if it needs more than twice as many; see StepControlParameters.
-    unsigned int few_iterations = 12;
-    /// The relaxation ends once an unknown has changed by more than this since its beginning [m];
-    /// 0: no bound.
-    double max_displacement = 0.;
-    /// Largest displacement of a cover in a step [m]; 0: a hundredth of max_displacement, or no
-    /// bound if that is 0 as well. Longer steps may jump over states in which blocks fail, to an
-    /// equilibrium that the true motion does not reach.
-    double max_step_displacement = 0.;
-  };
-
-
-  /// Result of relax().
-  struct RelaxationReport
-  {
-    /// @{
-    /// Accepted steps, iterations of all steps (also of those given up), and times at which the
-    /// motion was stopped.
-    unsigned int n_steps = 0, n_iterations = 0, n_stops = 0;
-    /// @}
-    /// Account::imbalance at the end [-].
-    double imbalance = 0.;
-    /// Whether the relaxation ended because of RelaxationParameters::max_displacement, and not at
-    /// rest.
-    bool moves_away = false;
-  };
-
-
-  /**
-   * Dynamic relaxation to static equilibrium: the motion is stopped whenever the
-   * kinetic energy has passed a peak (kinetic damping, Cundall 1976), and
-   * steps grow. Loads must not depend on time, because time goes on. @p after_step, if given, is
-   * called after each step, before the motion is stopped.
-   * @throws NumericalFailure if rest is not reached within the steps allowed, or steps become
-   * shorter than a millionth of the first one.
-   */
-  RelaxationReport
-  relax(TimeIntegrator                                &integrator,
-        const RelaxationParameters                    &parameters,
-        const std::function<void(const StepRecord &)> &after_step = {});
 } // namespace NMM
 
 #endif

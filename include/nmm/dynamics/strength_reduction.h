@@ -2,7 +2,7 @@
 #define nmm_dynamics_strength_reduction_h
 
 #include <nmm/contact/contact.h>
-#include <nmm/dynamics/step_control.h>
+#include <nmm/dynamics/relaxation.h>
 #include <nmm/materials/material.h>
 
 #include <functional>

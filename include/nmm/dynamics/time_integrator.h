@@ -29,7 +29,8 @@
  * | loading.h | loads, releases and base acceleration as functions of time |
  * | time_scheme.h | coefficients of the time integration schemes |
  * | time_integrator.h | one time step, energy account, sleeping and leaving blocks |
- * | step_control.h | lengths of steps; dynamic relaxation to static equilibrium |
+ * | step_control.h | lengths of time steps |
+ * | relaxation.h | dynamic relaxation to static equilibrium |
  * | strength_reduction.h | search for the factor of safety |
  * | leaving_blocks.h | finds blocks that have left the scene |
  * | checkpoint.h | saves and restores the state |

@@ -26,9 +26,9 @@ namespace NMM
     /**
      * Find the equilibrium at the load factor of @p step, starting from @p u, and report the
      * iterations in @p step. @p change, or null, is the change by which @p u was extrapolated from
-     * the last solution. Returns the reason why no equilibrium was found; empty if it was.
+     * the last solution. Returns why no equilibrium was found, without a reason if it was.
      */
-    virtual std::string
+    virtual StepFault
     find(LoadStep &step, Vector &u, const Vector *change) = 0;
 
     /// Accept the equilibrium at @p u.
@@ -42,10 +42,6 @@ namespace NMM
     reject()
     {
     }
-
-    /// Advice to the user if there is no equilibrium, as part of a message.
-    virtual std::string
-    remedy() const = 0;
   };
 
 

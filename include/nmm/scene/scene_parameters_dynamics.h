@@ -1,7 +1,7 @@
 #ifndef nmm_scene_scene_parameters_dynamics_h
 #define nmm_scene_scene_parameters_dynamics_h
 
-#include <nmm/dynamics/step_control.h>
+#include <nmm/dynamics/relaxation.h>
 #include <nmm/dynamics/strength_reduction.h>
 #include <nmm/dynamics/time_scheme.h>
 

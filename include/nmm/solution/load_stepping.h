@@ -2,6 +2,7 @@
 #define nmm_solution_load_stepping_h
 
 #include <nmm/solution/newton_solver.h>
+#include <nmm/solution/step_sequence.h>
 
 #include <functional>
 #include <string>
@@ -53,17 +54,13 @@ namespace NMM
 
 
   /// A load step that is tried, or was accepted.
-  struct LoadStep
+  struct LoadStep : LostSteps
   {
     /// Load factor at the end of the step [-].
     double load_factor = 0.;
     /// Whether load_factor is one of LoadSteps::load_factors. Other steps are intermediate ones,
     /// made because a longer step failed.
     bool is_asked = false;
-    /// @{
-    /// Steps that were tried and given up since the last accepted one, and their iterations.
-    unsigned int n_cuts = 0, n_lost_iterations = 0;
-    /// @}
     /// Iterations of Newton's method in this step.
     unsigned int n_iterations = 0;
     /// Residual over the force scale after the last iteration [-].
@@ -73,33 +70,17 @@ namespace NMM
   };
 
 
-  /// Result of a step that was tried.
-  struct StepVerdict
-  {
-    /// Whether the step is accepted, so that the next one starts at its end.
-    bool is_accepted = false;
-    /// @{
-    /// For a step that was not accepted: why, as part of a message, and what the user can do.
-    std::string reason, remedy;
-    /// @}
-    /// Length of the next step divided by the length of this one, if the attempt can tell. 0: half
-    /// the length after a rejected step, at least twice the length after an accepted one.
-    double ratio = 0.;
-  };
-
-
   /**
-   * The one loop over load steps: from @p begin to each of the requested load factors in turn,
-   * see LoadSteps::leaves_out_reached. The first step tries to reach the first of them. A step that
-   * @p attempt rejects is divided, and after an accepted step the next one may be longer.
-   * Intermediate steps divide the remaining way to the next requested load factor into equal parts.
+   * Steps (StepSequence) from @p begin to each of the requested load factors in turn, see
+   * LoadSteps::leaves_out_reached. The first step tries to reach the first of them. After an
+   * accepted step the next one may be StepVerdict::ratio times as long.
    *
    * @p attempt is called with a step whose load factor and cuts are set. It computes the solution
    * there, fills in the rest of the step, and keeps the new state if it accepts the step.
    *
    * @throws InputError if all load factors are left out.
-   * @throws NumericalFailure if a step would be shorter than allowed, with the load factor and
-   * the last reason; @p step is then the last one that was tried.
+   * @throws NumericalFailure as StepSequence::advance(); @p step is then the last one that was
+   * tried.
    */
   void
   take_load_steps(const LoadSteps                              &steps,

@@ -17,7 +17,7 @@
 /**
  * @defgroup solution Solution
  *
- * Newton's method and load stepping for an abstract system of equations. This module does not
+ * Newton's method and steps for an abstract system of equations. This module does not
  * know mechanics or contact.
  *
  * **In**: a NonlinearSystem, which assembles residual and tangent and tells which blocks its
@@ -28,7 +28,8 @@
  * | nmm/solution/newton_solver.h | interface of systems, and Newton's method |
  * | newton_groups.h | groups of blocks that Newton's method solves separately |
  * | line_search.h | step length of a correction |
- * | nmm/solution/load_stepping.h | the loop over load steps, with cuts and growth |
+ * | nmm/solution/step_sequence.h | the one loop that steps, with cuts and growth |
+ * | nmm/solution/load_stepping.h | steps from one requested load factor to the next |
  *
  * Order of calls:
  * @code
@@ -36,10 +37,9 @@
  * const auto attempt = [&](LoadStep &step) {
  *   system.set_load_factor(step.load_factor);
  *   step.newton = solver.solve(system, constraints, u);
- *   StepVerdict verdict;
- *   verdict.is_accepted = step.newton.converged;        // then keep u, otherwise restore it
- *   verdict.reason      = step.newton.reason;
- *   return verdict;
+ *   if (step.newton.converged)
+ *     return StepVerdict::accepted();                   // keep u
+ *   return StepVerdict::rejected({step.newton.reason}); // restore u
  * };
  * LoadStep step;
  * take_load_steps(LoadSteps::equal(10), 0., attempt, step);

@@ -3,7 +3,7 @@
 
 #include <nmm/dynamics/contact_model.h>
 #include <nmm/dynamics/elastic_models.h>
-#include <nmm/dynamics/step_control.h>
+#include <nmm/dynamics/relaxation.h>
 
 #include <contact/contact_model.h>
 

@@ -1,0 +1,102 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/dynamics/relaxation.h>
+
+namespace NMM
+{
+  namespace
+  {
+    /// Try a step of length @p h [s], in which no cover may move by more than @p furthest [m]
+    /// (0: no bound), and accept it if it is good.
+    StepVerdict
+    try_to_relax(TimeIntegrator             &integrator,
+                 const RelaxationParameters &parameters,
+                 const double                h,
+                 const double                furthest,
+                 StepReport                 &report)
+    {
+      report = integrator.try_step(h);
+      if (!report.converged)
+        return StepVerdict::rejected(
+          {report.reason, report.remedy, report.retry}, report.n_iterations);
+      if (furthest > 0. && report.max_displacement > furthest)
+        return StepVerdict::rejected(
+          {"displacements of " + std::to_string(report.max_displacement) +
+             " m in a step",
+           "",
+           0.},
+          report.n_iterations);
+      integrator.accept();
+      const double growth = StepControl::growth_after(report.n_full_iterations,
+                                                      parameters.few_iterations,
+                                                      parameters.growth);
+      const bool   is_near =
+        furthest > 0. && report.max_displacement >= 0.5 * furthest;
+      return StepVerdict::accepted(is_near ? std::min(growth, 1.) : growth);
+    }
+  } // namespace
+
+
+  RelaxationReport
+  relax(TimeIntegrator                                &integrator,
+        const RelaxationParameters                    &parameters,
+        const std::function<void(const StepRecord &)> &after_step)
+  {
+    RelaxationReport             report;
+    const TimeIntegrator::Vector begin = integrator.state().u;
+    TimeIntegrator::Vector       motion(begin);
+    const double furthest = parameters.max_step_displacement > 0.
+                              ? parameters.max_step_displacement
+                              : 0.01 * parameters.max_displacement;
+    double       previous = integrator.account().kinetic;
+    report.imbalance      = integrator.account().imbalance;
+    StepSequence sequence({"time", "s", 1e-6 * parameters.step},
+                          integrator.state().time,
+                          parameters.step);
+    while (report.n_steps < parameters.max_steps)
+    {
+      StepRecord record;
+      sequence.advance(
+        std::numeric_limits<double>::infinity(),
+        [&](const StepTrial &trial) {
+          return try_to_relax(
+            integrator, parameters, trial.length, furthest, record.report);
+        },
+        record);
+      ++report.n_steps;
+      report.n_iterations +=
+        record.report.n_iterations + record.n_lost_iterations;
+      if (after_step)
+        after_step(record);
+      if (parameters.max_displacement > 0.)
+      {
+        motion = integrator.state().u;
+        motion -= begin;
+        if (motion.linfty_norm() > parameters.max_displacement)
+        {
+          report.moves_away = true;
+          report.imbalance  = integrator.account().imbalance;
+          return report;
+        }
+      }
+      const double kinetic = integrator.account().kinetic;
+      if (kinetic <= previous)
+      {
+        integrator.stop_motion();
+        ++report.n_stops;
+        report.imbalance = integrator.account().imbalance;
+        if (report.imbalance <= parameters.tolerance)
+          return report;
+      }
+      previous = integrator.account().kinetic;
+    }
+    AssertThrow(
+      false,
+      NumericalFailure("No rest after " + std::to_string(report.n_steps) +
+                         " steps of relaxation: the imbalance is " +
+                         std::to_string(report.imbalance) + " of the forces",
+                       "",
+                       "allow more steps, or look for parts that "
+                       "nothing holds"));
+    return report;
+  }
+} // namespace NMM

@@ -11,6 +11,7 @@ namespace NMM
     void
     NewtonGroups::reinit(const std::vector<unsigned int> &blocks,
                          const std::vector<bool>         &is_held,
+                         const bool                       are_separate,
                          const Vector                    &like)
     {
       if (blocks != block_of)
@@ -34,6 +35,17 @@ namespace NMM
            ++b)
         if (is_held[b])
           states[b] = State::held;
+      if (!are_separate)
+      {
+        unsigned int first = invalid_index;
+        for (unsigned int b = 0; b < n; ++b)
+          if (states[b] != State::active)
+            continue;
+          else if (first == invalid_index)
+            first = b;
+          else
+            join(first, b);
+      }
       update_roots();
     }
 

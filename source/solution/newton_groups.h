@@ -52,10 +52,12 @@ namespace NMM
       };
 
       /// Begin a solution: all blocks are active except those that @p is_held names (empty: none).
-      /// @p blocks gives the block of each owned unknown, or is empty.
+      /// @p blocks gives the block of each owned unknown, or is empty. All active blocks are one
+      /// group unless @p are_separate.
       void
       reinit(const std::vector<unsigned int> &blocks,
              const std::vector<bool>         &is_held,
+             bool                             are_separate,
              const Vector                    &like);
 
       /// Record that the rows of @p blocks (empty: all) of the tangent @p matrix have been

@@ -560,7 +560,10 @@ namespace NMM
     if (d.use_increment)
       d.last_increment.reinit(u);
     d.scale = 0.;
-    d.groups.reinit(system.blocks_of_unknowns(), system.held_blocks(), d.owned);
+    d.groups.reinit(system.blocks_of_unknowns(),
+                    system.held_blocks(),
+                    d.parameters.solves_groups_separately,
+                    d.owned);
 
     double largest_energy = 0.;
     // if all blocks are held, only the forces are assembled

@@ -112,8 +112,7 @@ namespace NMM
             break;
           double t;
           Place  place;
-          if (is_convex && find_nearest(e, x, t, place) &&
-              t >= -beyond_end_beside && t <= 1. + beyond_end_beside &&
+          if (is_convex && find_nearest(e, x, t, place) && t >= 0. && t <= 1. &&
               std::abs((x - place.x) * place.normal()) < depth &&
               length_behind(edge, place) < longest_overlap_beside * depth)
             return true;

@@ -336,7 +336,7 @@ namespace NMM
       const Point<2>     start = surface->place(edge, 0.).x;
       const Tensor<1, 2> chord = surface->place(edge, 1.).x - start;
       t                        = ((x - start) * chord) / chord.norm_square();
-      t = std::min(1. + beyond_concave_end, std::max(-beyond_concave_end, t));
+      t = std::min(1. + beyond_end, std::max(-beyond_end, t));
 
       constexpr unsigned int max_iterations = 30;
       // Rounding of positions relative to the length, and of the parameter.
@@ -585,9 +585,8 @@ namespace NMM
       switch (corner)
       {
         case ContactSurface::Corner::smooth:
-          return beyond_smooth_end;
         case ContactSurface::Corner::concave:
-          return beyond_concave_end;
+          return beyond_end;
         default:
           return slack;
       }
@@ -657,8 +656,8 @@ namespace NMM
         if (surface->is_further(master,
                                 slave_place.x,
                                 largest_gap,
-                                std::max(before, beyond_smooth_end),
-                                std::max(after, beyond_smooth_end)))
+                                std::max(before, beyond_end),
+                                std::max(after, beyond_end)))
           continue;
         ContactProjection now;
         now.master = master;
@@ -667,8 +666,8 @@ namespace NMM
         now.normal          = now.place.normal();
         const double facing = -(now.normal * slave_normal);
         now.gap             = (slave_place.x - now.place.x) * now.normal;
-        if (facing < far_side_facing && now.t >= -beyond_smooth_end &&
-            now.t <= 1. + beyond_smooth_end)
+        if (facing < far_side_facing && now.t >= -beyond_end &&
+            now.t <= 1. + beyond_end)
           outside.emplace_back(master, now.gap);
         if (facing <= admitted.least_facing ||
             std::abs(now.gap) > largest_gap || !admitted.holds(now) ||

@@ -9,9 +9,7 @@
  * "Facing" of two faces is minus the product of their unit normals: 1 if they lie on each other,
  * 0 if they are at a right angle, -1 if they look the same way. Lengths are relative to the length
  * that the comment names. After the reason for a number, "Test:" names a test of nmm_test_contact
- * or nmm_test_dynamics that fails with the value or the omission in parentheses. "Test: none" means
- * that both pass without the rule; it can be removed if the scenes of tests/performance do not need
- * it either.
+ * or nmm_test_dynamics that fails with the value or the omission in parentheses.
  */
 namespace NMM
 {
@@ -26,8 +24,8 @@ namespace NMM
        * Faces touch along their length up to an angle of 18 degrees, and corners touch as points
        * from 37 degrees on. In between both are blended smoothly, so that forces do not jump when a
        * block turns.
-       * Test: none for where the blend begins and ends (0.94 and 0.81 pass); without the blend of
-       * both edges of a corner ContactPatch.InclinedJointsWithFriction.
+       * Test: ContactDetection.AlongUpTo18DegreesAtCornersFrom37 for where the blend begins and
+       * ends; without the blend of both edges of a corner ContactPatch.InclinedJointsWithFriction.
        * @verbatim
        *    ___________            \        /
        *    ___________  along      \______/   at the corner
@@ -54,18 +52,17 @@ namespace NMM
       constexpr double largest_smooth_angle = 1e-3;
 
       /**
-       * Fractions of a face by which it is continued beyond its ends. On a smooth boundary this
+       * Fraction of a face by which it is continued beyond its ends. On a smooth boundary this
        * closes the gap between the nearest points on two edges. At a concave corner the face is
        * continued inside the body, for points that are pressed into the corner.
-       * Test: ContactPatch.InclinedJointsUnderHydrostaticPressure (0 for smooth ends); none for
-       * concave ones.
+       * Test: ContactPatch.InclinedJointsUnderHydrostaticPressure (0).
        * @verbatim
        *       x                       |  x
        *    ___:____  ____        _____|..:      concave: the face on the left goes on
        *        smooth                 (body below and on the right)
        * @endverbatim
        */
-      constexpr double beyond_smooth_end = 0.1, beyond_concave_end = 0.5;
+      constexpr double beyond_end = 0.1;
 
       /**
        * Fraction of a face by which it is continued at convex corners for a point at which a piece
@@ -136,7 +133,8 @@ namespace NMM
       constexpr double entrance_border = 0.01;
 
       /// Faces of one body that look the same way within 60 degrees do not turn to face each other
-      /// before candidates are searched for again. Test: none; it keeps candidates few.
+      /// before candidates are searched for again. Test: ContactDetection.ThinPlates and
+      /// LeavingBlocks.AreTouchedByNobodyMPI (without).
       constexpr double same_way_of_body = 0.5;
 
       /// A point on a piece of a slave that is deeper behind a face than this many lengths of the
@@ -148,10 +146,10 @@ namespace NMM
        * Where corners pass each other by the side, the overlap is much narrower than deep. Such a
        * point is beside the face, and has come in through the next face round the corner. The
        * conditions are: the point is deeper behind the face than a fraction of a cell; the next
-       * face begins within three depths round the corner; the overlap with the next face, which is
-       * continued by a fraction beyond its ends, is shorter than half of the depth.
+       * face begins within three depths round the corner; the overlap with the next face is shorter
+       * than half of the depth.
        * Test: FacesBeside.DoNotTouch (without), Crossings.ThinPlates (0 depths),
-       * ContactBars.VertexOnVertex (overlaps of any length); none for the part beyond its ends.
+       * ContactBars.VertexOnVertex (overlaps of any length).
        * @verbatim
        *            |  slave's body
        *    ________|_
@@ -160,7 +158,7 @@ namespace NMM
        * @endverbatim
        */
       constexpr double least_depth_beside = 0.02, around_corner_beside = 3.,
-                       longest_overlap_beside = 0.5, beyond_end_beside = 0.1;
+                       longest_overlap_beside = 0.5;
       /// @}
 
       /*

@@ -364,6 +364,34 @@ namespace
 
 
   /// Both faces of a crack meet at its tips, and touch each other up to there.
+  // Forces must not jump when a block turns: the share of the contact along faces falls from all to
+  // none between the angles that the documentation names, and its slope is at most 1.5 times that
+  // of a straight line.
+  TEST(ContactDetection, AlongUpTo18DegreesAtCornersFrom37)
+  {
+    const auto along = [](const double degrees) {
+      return ContactSearch::along_face(
+        std::cos(degrees * dealii::numbers::PI / 180.));
+    };
+    EXPECT_EQ(along(0.), 1.);
+    EXPECT_EQ(along(18.), 1.);
+    EXPECT_EQ(along(37.), 0.);
+    EXPECT_EQ(along(90.), 0.);
+    EXPECT_LT(along(18.5), 1.);
+    EXPECT_GT(along(36.5), 0.);
+    constexpr double step = 0.1;
+    for (double angle = 18.; angle < 37.; angle += step)
+    {
+      const double facing_step =
+        std::cos(angle * dealii::numbers::PI / 180.) -
+        std::cos((angle + step) * dealii::numbers::PI / 180.);
+      EXPECT_LE(along(angle + step), along(angle));
+      EXPECT_LE(along(angle) - along(angle + step),
+                1.5 * facing_step / 0.15 * (1. + 1e-9));
+    }
+  }
+
+
   TEST(ContactDetection, CrackTips)
   {
     Geometry geometry;

@@ -318,7 +318,8 @@ TEST(FiniteStatics, FailureSaysWhereAndWhyMPI)
   catch (const NumericalFailure &failure)
   {
     const std::string message = failure.message();
-    EXPECT_NE(message.find("load factor 0.2, after 0"), std::string::npos) << message;
+    EXPECT_NE(message.find("load factor 0.2, after 0"), std::string::npos)
+      << message;
     EXPECT_NE(message.find("no convergence in 2 iterations"), std::string::npos)
       << message;
     EXPECT_NE(message.find("residuals"), std::string::npos) << message;

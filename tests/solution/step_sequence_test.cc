@@ -137,8 +137,10 @@ namespace
       EXPECT_EQ(lost.n_cuts, 3u);
       EXPECT_EQ(sequence.position(), position);
       const std::string message = failure.message();
-      for (const std::string part :
-           {"at least 0.1 ", "it slides", "load factor 3, after 2.9", "hold it"})
+      for (const std::string part : {"at least 0.1 ",
+                                     "it slides",
+                                     "load factor 3, after 2.9",
+                                     "hold it"})
         EXPECT_NE(message.find(part), std::string::npos) << message;
     }
   }

@@ -3,6 +3,8 @@
 #include <deal.II/base/timer.h>
 #include <deal.II/lac/solver_cg.h>
 
+#include <Epetra_Import.h>
+#include <Epetra_MultiVector.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -40,6 +42,35 @@ namespace NMM
       }
 
 
+      /// What rounding may change in each equation [N/m]: epsilon (|K| |x| + |f|). It reads the
+      /// entries of K in place, because a copy would take as long as a substitution.
+      Vector
+      rounding_of_equations(const Matrix &matrix,
+                            const Vector &rhs,
+                            const Vector &x)
+      {
+        const Epetra_CrsMatrix &K = matrix.trilinos_matrix();
+        Epetra_MultiVector      imported(K.ColMap(), 1);
+        const double           *x_of_columns = x.begin();
+        if (K.Importer() != nullptr)
+        {
+          imported.Import(x.trilinos_vector(), *K.Importer(), Insert);
+          x_of_columns = imported[0];
+        }
+        const MatrixRows rows(K);
+        Vector           rounding(rhs);
+        auto             sum = rounding.begin();
+        for (int r = 0; r < K.NumMyRows(); ++r, ++sum)
+        {
+          *sum = std::abs(*sum);
+          for (int j = rows.begins[r]; j < rows.begins[r + 1]; ++j)
+            *sum += std::abs(rows.values[j] * x_of_columns[rows.columns[j]]);
+          *sum *= std::numeric_limits<double>::epsilon();
+        }
+        return rounding;
+      }
+
+
       /// See solve_linear_system(). Sets the report's rounding_effect.
       std::vector<Vector>
       effects_of_rounding(const Matrix       &matrix,
@@ -48,29 +79,13 @@ namespace NMM
                           DirectSolver       &solver,
                           LinearSolverReport &report)
       {
-        constexpr double       epsilon = std::numeric_limits<double>::epsilon();
         constexpr double       worth_a_look = 1e-8;
         constexpr unsigned int n_samples    = 4;
 
-        const auto magnitudes = [](auto begin, const auto end) {
-          std::transform(begin, end, begin, [](const double value) {
-            return std::abs(value);
-          });
-        };
-        Matrix of_matrix;
-        of_matrix.copy_from(matrix);
-        const MatrixRows rows(of_matrix);
-        magnitudes(rows.values,
-                   rows.values + rows.begins[of_matrix.local_size()]);
-        Vector of_x(x), of_rhs(rhs), rounding(rhs), sample(rhs);
-        magnitudes(of_x.begin(), of_x.end());
-        magnitudes(of_rhs.begin(), of_rhs.end());
-        of_matrix.vmult(rounding, of_x);
-        rounding += of_rhs;
-        rounding *= epsilon;
-
-        const double                size = x.l2_norm();
-        std::mt19937                generator(matrix.local_range().first);
+        const Vector rounding = rounding_of_equations(matrix, rhs, x);
+        Vector       sample(rhs);
+        const double size = x.l2_norm();
+        std::mt19937 generator(matrix.local_range().first);
         std::bernoulli_distribution is_positive;
         std::vector<Vector>         effects;
         while (effects.size() < n_samples)

@@ -1,6 +1,8 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/dynamics/relaxation.h>
 
+#include <algorithm>
+
 namespace NMM
 {
   namespace
@@ -19,12 +21,10 @@ namespace NMM
         return StepVerdict::rejected(
           {report.reason, report.remedy, report.retry}, report.n_iterations);
       if (furthest > 0. && report.max_displacement > furthest)
-        return StepVerdict::rejected(
-          {"displacements of " + std::to_string(report.max_displacement) +
-             " m in a step",
-           "",
-           0.},
-          report.n_iterations);
+        return StepVerdict::rejected({"displacements of " +
+                                      std::to_string(report.max_displacement) +
+                                      " m in a step"},
+                                     report.n_iterations);
       integrator.accept();
       const double growth = StepControl::growth_after(report.n_full_iterations,
                                                       parameters.few_iterations,

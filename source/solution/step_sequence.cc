@@ -74,8 +74,7 @@ namespace NMM
     }
     if (way < 1.5 * next_length)
       trial.length = 0.5 * way;
-    trial.end = target > reached ? reached + trial.length : // upwards
-                  reached - trial.length;
+    trial.end = reached + std::copysign(trial.length, target - reached);
     return trial;
   }
 

@@ -22,7 +22,7 @@ namespace NMM
   /// A step that is to be tried, in the unit of what the steps go through.
   struct StepTrial
   {
-    /// Length of the step, above 0 in both directions.
+    /// Length of the step, at least 0 in both directions.
     double length = 0.;
     /// Where the step ends; bitwise the target, if reaches_target.
     double end = 0.;

@@ -32,6 +32,15 @@ namespace NMM
       solve(const Vector            &rhs,
             Vector                  &solution,
             const std::vector<bool> &bodies) = 0;
+
+      /// Solve A x = b for all selected rows and several right-hand sides: each of @p vectors is b
+      /// before and x afterwards.
+      virtual void
+      solve_all(std::vector<Vector> &vectors)
+      {
+        for (Vector &vector : vectors)
+          solve(vector, vector, {});
+      }
     };
 
 

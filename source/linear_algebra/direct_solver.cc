@@ -86,6 +86,14 @@ namespace NMM
     }
 
 
+    void
+    DirectSolver::solve_all(std::vector<Vector> &vectors)
+    {
+      Assert(factors != nullptr, dealii::ExcMessage("Call factorize() first."));
+      factors->solve_all(vectors);
+    }
+
+
     double
     DirectSolver::analysis_time() const
     {

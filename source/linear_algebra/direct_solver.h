@@ -73,6 +73,10 @@ namespace NMM
             Vector                  &solution,
             const std::vector<bool> &bodies = {});
 
+      /// See Factors::solve_all().
+      void
+      solve_all(std::vector<Vector> &vectors);
+
       /// Wall time of MUMPS' last analysis [s].
       double
       analysis_time() const;

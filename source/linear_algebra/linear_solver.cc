@@ -42,12 +42,13 @@ namespace NMM
       }
 
 
-      /// What rounding may change in each equation [N/m]: epsilon (|K| |x| + |f|). It reads the
-      /// entries of K in place, because a copy would take as long as a substitution.
-      Vector
-      rounding_of_equations(const Matrix &matrix,
-                            const Vector &rhs,
-                            const Vector &x)
+      /// Samples of +-epsilon (sum_j |K_ij x_j| + |f_i|) [N], see solve_linear_system(). It reads
+      /// the entries of K in place, because a copy would take as long as a substitution.
+      std::vector<Vector>
+      samples_of_rounding(const Matrix      &matrix,
+                          const Vector      &rhs,
+                          const Vector      &x,
+                          const unsigned int n_samples)
       {
         const Epetra_CrsMatrix &K = matrix.trilinos_matrix();
         Epetra_MultiVector      imported(K.ColMap(), 1);
@@ -57,53 +58,25 @@ namespace NMM
           imported.Import(x.trilinos_vector(), *K.Importer(), Insert);
           x_of_columns = imported[0];
         }
-        const MatrixRows rows(K);
-        Vector           rounding(rhs);
-        auto             sum = rounding.begin();
-        for (int r = 0; r < K.NumMyRows(); ++r, ++sum)
-        {
-          *sum = std::abs(*sum);
-          for (int j = rows.begins[r]; j < rows.begins[r + 1]; ++j)
-            *sum += std::abs(rows.values[j] * x_of_columns[rows.columns[j]]);
-          *sum *= std::numeric_limits<double>::epsilon();
-        }
-        return rounding;
-      }
-
-
-      /// See solve_linear_system(). Sets the report's rounding_effect.
-      std::vector<Vector>
-      effects_of_rounding(const Matrix       &matrix,
-                          const Vector       &rhs,
-                          const Vector       &x,
-                          DirectSolver       &solver,
-                          LinearSolverReport &report)
-      {
-        constexpr double       worth_a_look = 1e-8;
-        constexpr unsigned int n_samples    = 4;
-
-        const Vector rounding = rounding_of_equations(matrix, rhs, x);
-        Vector       sample(rhs);
-        const double size = x.l2_norm();
-        std::mt19937 generator(matrix.local_range().first);
+        const MatrixRows            rows(K);
+        std::vector<Vector>         samples(n_samples, rhs);
+        std::mt19937                generator(matrix.local_range().first);
         std::bernoulli_distribution is_positive;
-        std::vector<Vector>         effects;
-        while (effects.size() < n_samples)
+        for (int r = 0; r < K.NumMyRows(); ++r)
         {
-          sample = rounding;
-          for (double &value : sample)
-            value *= is_positive(generator) ? 1. : -1.;
-          effects.emplace_back(rhs);
-          solver.solve(sample, effects.back());
-          const double share     = effects.back().l2_norm() / size;
-          report.rounding_effect = std::max(report.rounding_effect, share);
-          if (share <= worth_a_look && effects.size() == 1)
-            return {};
+          double sum = std::abs(*(rhs.begin() + r));
+          for (int j = rows.begins[r]; j < rows.begins[r + 1]; ++j)
+            sum += std::abs(rows.values[j] * x_of_columns[rows.columns[j]]);
+          sum *= std::numeric_limits<double>::epsilon();
+          for (Vector &sample : samples)
+            *(sample.begin() + r) = is_positive(generator) ? sum : -sum;
         }
-        return effects;
+        return samples;
       }
 
 
+      /// Solve for all right-hand sides and estimate the effect of rounding. For the bound that
+      /// does not need the solution see solve_linear_system().
       void
       solve_direct(const Matrix        &matrix,
                    const AllRhs        &rhs,
@@ -111,6 +84,9 @@ namespace NMM
                    std::vector<Vector> &effects,
                    LinearSolverReport  &report)
       {
+        constexpr double       worth_a_look = 1e-8;
+        constexpr unsigned int n_samples    = 4;
+
         dealii::Timer timer;
         DirectSolver  solver;
         solver.factorize(matrix);
@@ -119,10 +95,29 @@ namespace NMM
         report.factorization_time = timer.wall_time() - report.analysis_time;
         report.n_factor_entries   = solver.n_factor_entries();
         timer.restart();
-        for (unsigned int i = 0; i < rhs.size(); ++i)
-          solver.solve(*rhs[i], solutions[i]);
-        effects =
-          effects_of_rounding(matrix, *rhs[0], solutions[0], solver, report);
+        Vector zero(*rhs[0]), one(*rhs[0]);
+        zero = 0.;
+        one  = 1.;
+        solutions.clear();
+        for (const Vector *b : rhs)
+          solutions.push_back(*b);
+        solutions.push_back(samples_of_rounding(matrix, zero, one, 1)[0]);
+        solver.solve_all(solutions);
+        const double size = solutions[0].l2_norm();
+        if (size > 0.)
+          report.rounding_effect =
+            2. * solutions[0].linfty_norm() * solutions.back().l2_norm() / size;
+        solutions.pop_back();
+        if (report.rounding_effect > worth_a_look)
+        {
+          effects =
+            samples_of_rounding(matrix, *rhs[0], solutions[0], n_samples);
+          solver.solve_all(effects);
+          report.rounding_effect = 0.;
+          for (const Vector &effect : effects)
+            report.rounding_effect =
+              std::max(report.rounding_effect, effect.l2_norm() / size);
+        }
         report.solution_time = timer.wall_time();
       }
 

@@ -23,8 +23,12 @@ namespace NMM
      * product A_ij x_j and each b_i is wrong by its rounding, x is off by e with A e = r,
      * r_i = +-epsilon (sum_j |A_ij x_j| + |b_i|) (Higham, Accuracy and Stability of Numerical
      * Algorithms, section 7.2: componentwise errors). Signs are random, since roundings add up
-     * as random numbers do. If the first sample has |e| <= 1e-8 |x|, or with the iterative solver,
-     * there are none. LinearSolverReport::rounding_effect is the largest |e| / |x|.
+     * as random numbers do. LinearSolverReport::rounding_effect is the largest |e| / |x|.
+     *
+     * With x_j = 1 for all j and b = 0 in the formula of r, 2 max_j |x_j| |e| is an estimate that
+     * is rather too large. It needs no x, so that it is found together with x, which takes hardly
+     * more time than x alone. If it is at most 1e-8 |x|, it is the rounding_effect, and there are
+     * no samples; nor are there any with the iterative solver.
      * @throws NumericalFailure if the factorization fails or the iteration does
      * not converge.
      */

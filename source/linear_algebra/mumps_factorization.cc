@@ -427,27 +427,53 @@ namespace NMM
       {
         if (&rhs != &solution)
           std::copy(rhs.begin(), rhs.end(), solution.begin());
-        d.mumps->data.rhs = &*solution.begin();
+        d.mumps->data.rhs  = &*solution.begin();
+        d.mumps->data.nrhs = 1;
         d.run(3, "solution");
         return;
       }
-      // right-hand side and solution are on the first rank
-      std::vector<double> local(rhs.begin(), rhs.end()), global(1);
-      gather(local, MPI_DOUBLE, d.communicator, global);
+      std::vector<Vector> vectors(1, rhs);
+      solve_all(vectors);
+      solution = vectors[0];
+    }
+
+
+    void
+    MumpsFactorization::solve_all(std::vector<Vector> &vectors)
+    {
+      Data &d = *data;
+      // right-hand sides and solutions are on the first rank
+      std::vector<double> all, global(1);
+      for (const Vector &vector : vectors)
+      {
+        gather(std::vector<double>(vector.begin(), vector.end()),
+               MPI_DOUBLE,
+               d.communicator,
+               global);
+        all.insert(all.end(), global.begin(), global.end());
+      }
       if (d.mumps)
-        d.mumps->data.rhs = global.data();
+      {
+        d.mumps->data.rhs  = all.data();
+        d.mumps->data.nrhs = vectors.size();
+        d.mumps->data.lrhs = d.n;
+      }
       d.run(3, "solution");
-      const Layout layout(local.size(), d.communicator);
-      MPI_Scatterv(global.data(),
-                   layout.counts.data(),
-                   layout.offsets.data(),
-                   MPI_DOUBLE,
-                   local.data(),
-                   local.size(),
-                   MPI_DOUBLE,
-                   0,
-                   d.communicator);
-      std::copy(local.begin(), local.end(), solution.begin());
+      for (unsigned int i = 0; i < vectors.size(); ++i)
+      {
+        std::vector<double> local(vectors[i].locally_owned_size());
+        const Layout        layout(local.size(), d.communicator);
+        MPI_Scatterv(all.data() + i * global.size(),
+                     layout.counts.data(),
+                     layout.offsets.data(),
+                     MPI_DOUBLE,
+                     local.data(),
+                     local.size(),
+                     MPI_DOUBLE,
+                     0,
+                     d.communicator);
+        std::copy(local.begin(), local.end(), vectors[i].begin());
+      }
     }
   } // namespace internal
 } // namespace NMM

@@ -70,6 +70,11 @@ namespace NMM
             Vector                  &solution,
             const std::vector<bool> &bodies) override;
 
+      /// The factors are read once for all vectors, which is what takes the time: two systems take
+      /// as long as one, five 1.5 times as long (92,584 unknowns).
+      void
+      solve_all(std::vector<Vector> &vectors) override;
+
     private:
       struct Data;
       std::unique_ptr<Data> data;

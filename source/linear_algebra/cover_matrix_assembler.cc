@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <linear_algebra/cover_matrix_assembler.h>
+#include <set>
 #include <string>
 
 namespace NMM
@@ -22,6 +23,92 @@ namespace NMM
         AssertThrow(error_code >= 0,
                     dealii::ExcMessage("Epetra returned the error code " +
                                        std::to_string(error_code)));
+      }
+
+
+      /// The local numbers of columns of entries: first the covers of this rank, then those of
+      /// other ranks with which they are coupled, both in ascending order.
+      class LocalColumns
+      {
+      public:
+        LocalColumns(const dealii::IndexSet               &owned,
+                     const dealii::DynamicSparsityPattern &pattern)
+          : owned(owned)
+          , others(owned.size())
+        {
+          std::set<dealii::types::global_dof_index> numbers;
+          for (const auto row : owned)
+            for (unsigned int j = 0; j < pattern.row_length(row); ++j)
+              if (const auto column = pattern.column_number(row, j);
+                  !owned.is_element(column))
+                numbers.insert(column);
+          others.add_indices(numbers.begin(), numbers.end());
+        }
+
+        /// invalid_index if there is no such column.
+        unsigned int
+        operator()(const dealii::types::global_dof_index cover) const
+        {
+          return owned.is_element(cover) ? owned.index_within_set(cover)
+                 : others.is_element(cover)
+                   ? owned.n_elements() + others.index_within_set(cover)
+                   : invalid_index;
+        }
+
+        /// The global number of each column of unknowns, two for a cover.
+        Epetra_Map
+        map(const Epetra_Comm &communicator) const
+        {
+          std::vector<int> unknowns;
+          for (const dealii::IndexSet *covers : {&owned, &others})
+            for (const auto cover : *covers)
+              for (unsigned int c = 0; c < 2; ++c)
+                unknowns.push_back(2 * cover + c);
+          return {-1,
+                  static_cast<int>(unknowns.size()),
+                  unknowns.data(),
+                  0,
+                  communicator};
+        }
+
+      private:
+        const dealii::IndexSet &owned;
+        dealii::IndexSet        others;
+      };
+
+
+      /// The pattern of unknowns, two for each cover of @p pattern. The columns are given, because
+      /// Epetra would take twice as long for the graph if it had to find them, and would not keep
+      /// the two columns of a cover together.
+      Epetra_CrsGraph
+      make_graph(const dealii::IndexSet               &owned,
+                 const dealii::DynamicSparsityPattern &pattern,
+                 const LocalColumns                   &local,
+                 const Epetra_Map                     &row_map)
+      {
+        std::vector<int> lengths;
+        for (const auto cover : owned)
+          lengths.insert(lengths.end(), 2, 2 * pattern.row_length(cover));
+        Epetra_CrsGraph  graph(::Copy,
+                              row_map,
+                              local.map(row_map.Comm()),
+                              lengths.data(),
+                              /* StaticProfile = */ true);
+        std::vector<int> columns;
+        int              row = 0;
+        for (const auto cover : owned)
+        {
+          columns.clear();
+          for (unsigned int j = 0; j < pattern.row_length(cover); ++j)
+          {
+            const int column = local(pattern.column_number(cover, j));
+            columns.insert(columns.end(), {2 * column, 2 * column + 1});
+          }
+          for (unsigned int c = 0; c < 2; ++c, ++row)
+            check(graph.InsertMyIndices(row, columns.size(), columns.data()));
+        }
+        check(graph.FillComplete(row_map, row_map));
+        return graph;
       }
     } // namespace
 
@@ -118,34 +205,11 @@ namespace NMM
       const dealii::IndexSet unknowns = covers->locally_owned_dofs(2);
       const Epetra_Map       row_map =
         unknowns.make_trilinos_map(communicator, false);
-      std::vector<int> lengths;
       for (const auto cover : owned)
-      {
         pattern.add(cover, cover);
-        lengths.insert(lengths.end(), 2, 2 * pattern.row_length(cover));
-      }
-      Epetra_CrsGraph graph(::Copy,
-                            row_map,
-                            lengths.data(),
-                            /* StaticProfile = */ true);
-      // Without this, which TrilinosWrappers::SparseMatrix::reinit() omits, the two columns of a
-      // cover of another rank are not always consecutive.
-      graph.SortGhostsAssociatedWithEachProcessor(true);
-      std::vector<int> columns;
-      for (const auto cover : owned)
-      {
-        columns.clear();
-        for (auto entry = pattern.begin(cover); entry != pattern.end(cover);
-             ++entry)
-          for (unsigned int c = 0; c < 2; ++c)
-            columns.push_back(2 * entry->column() + c);
-        for (unsigned int c = 0; c < 2; ++c)
-          check(graph.InsertGlobalIndices(static_cast<int>(2 * cover + c),
-                                          columns.size(),
-                                          columns.data()));
-      }
+      const LocalColumns    local(owned, pattern);
+      const Epetra_CrsGraph graph = make_graph(owned, pattern, local, row_map);
       pattern.reinit(0, 0);
-      check(graph.FillComplete(row_map, row_map));
       Epetra_CrsMatrix trilinos_matrix(::Copy, graph);
       check(trilinos_matrix.FillComplete(row_map, row_map));
       matrix->reinit(trilinos_matrix);
@@ -154,14 +218,9 @@ namespace NMM
 
       rows       = MatrixRows(*matrix);
       rhs_values = rhs->begin();
-      cover_to_column.assign(covers->n_covers(), invalid_index);
+      cover_to_column.resize(covers->n_covers());
       for (unsigned int k = 0; k < covers->n_covers(); ++k)
-      {
-        const int column = matrix->trilinos_matrix().ColMap().LID(
-          static_cast<int>(2 * covers->global_cover(k)));
-        if (column >= 0)
-          cover_to_column[k] = column / 2;
-      }
+        cover_to_column[k] = local(covers->global_cover(k));
     }
 
 

@@ -29,7 +29,7 @@ namespace NMM
       {
       }
 
-      /// See Contact::set_active_bodies().
+      /// See ContactTimeStep::set_active_bodies().
       void
       select(const std::vector<bool> &is_active,
              const std::vector<bool> &is_held);
@@ -113,7 +113,7 @@ namespace NMM
         }
       }
 
-      /// See Contact::take_touched().
+      /// See ContactTimeStep::take_touched().
       std::vector<unsigned int>
       take_touched()
       {
@@ -139,7 +139,7 @@ namespace NMM
         coupled_pairs.clear();
       }
 
-      /// See Contact::coupled_bodies().
+      /// See ContactTimeStep::coupled_bodies().
       const std::vector<BlockPair> &
       coupled() const
       {

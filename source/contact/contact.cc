@@ -550,12 +550,22 @@ namespace NMM
   }
 
 
-  void
-  Contact::set_active_bodies(const std::vector<bool> &is_active,
-                             const std::vector<bool> &is_held)
+  double
+  Contact::largest_motion(const Vector &from, const Vector &to)
   {
-    data->active.select(is_active, is_held);
-    data->list_points_of_bodies();
+    Data                         &d = *data;
+    const unsigned int            n = 3 * d.surface->edges().size();
+    std::vector<dealii::Point<2>> positions(n);
+    d.move_to(to);
+    for (unsigned int i = 0; i < n; ++i)
+      positions[i] = d.surface->place(i / 3, 0.5 * (i % 3)).x;
+    d.move_to(from);
+    double square = 0.;
+    for (unsigned int i = 0; i < n; ++i)
+      square = std::max(
+        square,
+        d.surface->place(i / 3, 0.5 * (i % 3)).x.distance_square(positions[i]));
+    return std::sqrt(square);
   }
 
 
@@ -580,20 +590,6 @@ namespace NMM
             add(q, last = edges[master].body);
       }
     });
-  }
-
-
-  const std::vector<BlockPair> &
-  Contact::coupled_bodies() const
-  {
-    return data->active.coupled();
-  }
-
-
-  std::vector<unsigned int>
-  Contact::take_touched()
-  {
-    return data->active.take_touched();
   }
 
 

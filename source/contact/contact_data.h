@@ -32,10 +32,10 @@ namespace NMM
       detected,
       assembled,
       step_begun,
-      /// assemble_between() has been called. Assemblies are those of the step, or of its end.
+      /// ContactTimeStep::assemble() has been called. Assemblies are those of the step, or of its end.
       step_assembled,
       accepted,
-      /// The end of a step with assemble_between() has been accepted.
+      /// The end of a step with ContactTimeStep::assemble() has been accepted.
       step_accepted
     };
 
@@ -46,7 +46,7 @@ namespace NMM
       statics_of_frozen_geometry,
       /// A time step has begun.
       motion,
-      /// A time step with assemble_between() has been tried.
+      /// A time step with ContactTimeStep::assemble() has been tried.
       conserving_motion
     };
 
@@ -63,7 +63,7 @@ namespace NMM
       stage = next;
     }
 
-    /// Whether contact points are those of a step with assemble_between(), or of its end.
+    /// Whether contact points are those of a step with ContactTimeStep::assemble(), or of its end.
     bool
     is_between() const
     {
@@ -123,7 +123,7 @@ namespace NMM
       /// the shear, and energy that the dashpot has dissipated [J/m].
       double gap_begin = 0., gap_end = 0., shear_begin = 0., shear_work = 0.,
              normal_loss = 0.;
-      /// Gap at which the spring is at rest [m], see Contact::begin_step(), and the same at the end
+      /// Gap at which the spring is at rest [m], see ContactTimeStep::begin(), and the same at the end
       /// of the step. Both differ if the master has changed to a face that is not the continuation
       /// of the first.
       double offset = 0., offset_end = 0.;
@@ -181,13 +181,13 @@ namespace NMM
     void
     update_faces();
 
-    /// Move the faces of active bodies to the displacements of Contact::expect().
+    /// Move the faces of active bodies to the displacements of ContactTimeStep::expect().
     void
     move_as_expected();
 
     /// Put the points that touch at the present end of the step into the sparsity pattern, and no
     /// others. The faces must be at the end of the step as its first assembly, or
-    /// Contact::expect(), has it. The pattern depends only on the state at the beginning of the
+    /// ContactTimeStep::expect(), has it. The pattern depends only on the state at the beginning of the
     /// step, so that a computation that continues from a checkpoint has the same one.
     void
     couple_expected();
@@ -436,19 +436,19 @@ namespace NMM
     void
     keep_energies();
 
-    /// Data of a time step, from begin_step() to accept().
+    /// Data of a time step, from ContactTimeStep::begin() to accept().
     struct Step
     {
       /// Displacements at detect(), where the step begins, and its time [s].
       std::vector<dealii::Tensor<1, 2>> nodal_begin;
       double                            time_detected = 0.;
-      /// Time of begin_step(), and time from there to the end of the step [s].
+      /// Time of ContactTimeStep::begin(), and time from there to the end of the step [s].
       double time_begin = 0., length = 0.;
       /// Faces at the end and in the middle of the step, and displacements of obstacles in the step
       /// [m].
       ContactSurface::State             end, middle;
       std::vector<dealii::Tensor<1, 2>> obstacle_changes;
-      /// Displacements of Contact::expect(); empty if there are none.
+      /// Displacements of ContactTimeStep::expect(); empty if there are none.
       std::vector<dealii::Tensor<1, 2>> nodal_expected;
       /// Active points that touch at the beginning or the end of the step.
       std::vector<unsigned int> near_points;
@@ -500,7 +500,7 @@ namespace NMM
 
     Stage   stage   = Stage::created;
     Problem problem = Problem::statics;
-    /// Whether dilation is that of the last accepted state, in begin_step().
+    /// Whether dilation is that of the last accepted state, in ContactTimeStep::begin().
     bool slip_is_frozen = false;
 
     /// Report of the last assembly, and the largest penetration of its springs without offsets [m].

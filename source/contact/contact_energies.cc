@@ -1,4 +1,4 @@
-// Energies of the springs between pairs of bodies, and their conservation in begin_step().
+// Energies of the springs between pairs of bodies, and their conservation in ContactTimeStep::begin().
 #include <nmm/contact/contact.h>
 
 #include <deal.II/base/mpi.h>

@@ -1,3 +1,4 @@
+#include <nmm/contact/contact_time_step.h>
 #include <nmm/dynamics/contact_model.h>
 
 #include <deal.II/base/mpi.h>
@@ -211,11 +212,12 @@ namespace NMM
       d.has_body_matrix = false;
     if (state != Deformation::admissible || d.contact->is_idle())
       return state;
-    d.contact->assemble_between(end,
-                                t_1,
-                                with_tangent,
-                                d.tangent_factor,
-                                with_tangent ? d.begin_body_matrix() : nullptr);
+    ContactTimeStep(*d.contact)
+      .assemble(end,
+                t_1,
+                with_tangent,
+                d.tangent_factor,
+                with_tangent ? d.begin_body_matrix() : nullptr);
     d.add_contact(with_tangent, d.tangent_factor);
     return state;
   }
@@ -303,7 +305,7 @@ namespace NMM
   {
     double work = data->supports->work_of_supports(u, t, t_0, t_1);
     if (!data->contact->is_idle())
-      work += data->contact->work_of_obstacles(t_0, t_1);
+      work += ContactTimeStep(*data->contact).work_of_obstacles(t_0, t_1);
     return work;
   }
 
@@ -318,7 +320,7 @@ namespace NMM
     double work =
       data->supports->work_of_supports_between(begin, end, mean, t_0, t_1);
     if (!data->contact->is_idle())
-      work += data->contact->work_of_obstacles(t_0, t_1);
+      work += ContactTimeStep(*data->contact).work_of_obstacles(t_0, t_1);
     return work;
   }
 
@@ -346,8 +348,9 @@ namespace NMM
     d.is_detected = true;
     if (!d.contact->is_idle())
     {
-      d.contact->begin_step(begin, t);
-      d.contact->expect(predicted);
+      ContactTimeStep step(*d.contact);
+      step.begin(begin, t);
+      step.expect(predicted);
     }
     d.step_end = t + h;
     d.contact->set_time(d.step_end);
@@ -442,7 +445,7 @@ namespace NMM
   {
     if (blocks_of_unknowns().empty() || data->contact->is_idle())
       return {};
-    std::vector<bool> result = data->contact->pressed_bodies();
+    std::vector<bool> result = ContactTimeStep(*data->contact).pressed_bodies();
     // remove the entries of obstacles, which come last
     result.resize(n_blocks());
     return result;
@@ -461,7 +464,7 @@ namespace NMM
                                   const std::vector<bool> &is_held)
   {
     data->blocks->set_active_blocks(is_active, is_held);
-    data->contact->set_active_bodies(is_active, is_held);
+    ContactTimeStep(*data->contact).set_active_bodies(is_active, is_held);
     data->active = is_active;
     if (!is_active.empty() && data->active_rows.empty())
       data->active_rows.reinit(blocks_of_unknowns());
@@ -472,7 +475,7 @@ namespace NMM
   std::vector<unsigned int>
   ContactModel::take_touched_blocks()
   {
-    return data->contact->take_touched();
+    return ContactTimeStep(*data->contact).take_touched();
   }
 
 
@@ -482,7 +485,9 @@ namespace NMM
     if (!data->is_block_diagonal)
       return nullptr;
     static const std::vector<BlockPair> none;
-    return data->contact->is_idle() ? &none : &data->contact->coupled_bodies();
+    return data->contact->is_idle()
+             ? &none
+             : &ContactTimeStep(*data->contact).coupled_bodies();
   }
 
 

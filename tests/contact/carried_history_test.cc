@@ -1,6 +1,7 @@
 // The history of contact after a solid has been cut anew.
 
 #include <nmm/contact/carried_history.h>
+#include <nmm/contact/contact_time_step.h>
 
 #include <contact/contact_model.h>
 #include <support/contact_bars/moving_bodies.h>
@@ -374,8 +375,8 @@ namespace
       after.contact.restore_history(history);
       const Vector u = after.displacements(tilted);
       after.contact.detect(u);
-      after.contact.begin_step(u, 0.);
-      after.contact.assemble_between(u, 1e-3, false);
+      ContactTimeStep(after.contact).begin(u, 0.);
+      ContactTimeStep(after.contact).assemble(u, 1e-3, false);
       double largest = 0., error = 0., shear_error = 0.;
       for (const ContactPoint &point : after.closed_points())
       {

@@ -1,5 +1,7 @@
 // Detection against brute force, and what it costs.
 
+#include <nmm/contact/contact_time_step.h>
+
 #include <contact/contact_model.h>
 #include <contact/contact_search.h>
 #include <contact/random_polygons.h>
@@ -492,7 +494,7 @@ namespace
           return block == above ? Point<2>(0., gap - 0.1) : Point<2>();
         });
       bodies.contact->detect(u);
-      bodies.contact->begin_step(u, 0.);
+      ContactTimeStep(*bodies.contact).begin(u, 0.);
       double nearest = 1.;
       for (const ContactPoint &point : bodies.contact->points())
         if (point.master != invalid_index && point.weight > 0. &&
@@ -550,7 +552,7 @@ namespace
                                    : Tensor<1, 2>();
           });
         bodies.contact->detect(u);
-        bodies.contact->begin_step(u, 0.);
+        ContactTimeStep(*bodies.contact).begin(u, 0.);
         double gap_at_right = 1., gap_at_left = 1.;
         for (const ContactPoint &point : bodies.contact->points())
           if (point.master != invalid_index && point.weight > 0. &&

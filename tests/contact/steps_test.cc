@@ -1,5 +1,7 @@
 // Contact in steps: what is coupled, and that forces do not jump.
 
+#include <nmm/contact/contact_time_step.h>
+
 #include <contact/contact_model.h>
 #include <set>
 #include <support/coulomb.h>
@@ -55,7 +57,7 @@ namespace
     {
       const Vector begin = sunk_by(0.);
       bodies->contact->detect(begin, reach);
-      bodies->contact->begin_step(begin, 0.);
+      ContactTimeStep(*bodies->contact).begin(begin, 0.);
       bodies->contact->set_time(h);
     }
 
@@ -81,21 +83,21 @@ namespace
     const auto n_all = contact.tangent().n_nonzero_elements();
 
     begin_step();
-    contact.assemble_between(sunk_by(1e-4), h, true);
+    ContactTimeStep(contact).assemble(sunk_by(1e-4), h, true);
     const unsigned int first  = contact.pattern_version();
     const auto         n_none = contact.tangent().n_nonzero_elements();
     EXPECT_EQ(n_touching(), 0U);
     // three blocks of twelve unknowns, each with itself
     EXPECT_EQ(n_none, 3U * 12U * 12U);
-    contact.assemble_between(sunk_by(2e-4), h, true);
+    ContactTimeStep(contact).assemble(sunk_by(2e-4), h, true);
     EXPECT_EQ(contact.pattern_version(), first);
 
     // without a tangent nothing is coupled
     const Vector deep = sunk_by(1.2 * gap);
-    contact.assemble_between(deep, h, false);
+    ContactTimeStep(contact).assemble(deep, h, false);
     EXPECT_GT(n_touching(), 0U);
     EXPECT_EQ(contact.pattern_version(), first);
-    contact.assemble_between(deep, h, true);
+    ContactTimeStep(contact).assemble(deep, h, true);
     EXPECT_EQ(contact.pattern_version(), first + 1);
     const auto n_two = contact.tangent().n_nonzero_elements();
     EXPECT_EQ(n_two, n_none + 2U * 12U * 12U);
@@ -113,10 +115,10 @@ namespace
     contact.tangent().vmult(product, direction);
     owned = deep;
     owned.add(step, direction);
-    contact.assemble_between(bodies->relevant(owned), h, false);
+    ContactTimeStep(contact).assemble(bodies->relevant(owned), h, false);
     Vector difference(contact.residual());
     owned.add(-2. * step, direction);
-    contact.assemble_between(bodies->relevant(owned), h, false);
+    ContactTimeStep(contact).assemble(bodies->relevant(owned), h, false);
     difference -= contact.residual();
     difference *= 2. * 0.5 / step;
     difference -= product;
@@ -124,7 +126,7 @@ namespace
     EXPECT_LE(difference.l2_norm(), 1e-6 * product.l2_norm());
 
     begin_step();
-    contact.assemble_between(sunk_by(1e-4), h, true);
+    ContactTimeStep(contact).assemble(sunk_by(1e-4), h, true);
     EXPECT_EQ(contact.tangent().n_nonzero_elements(), n_none);
   }
 
@@ -165,18 +167,18 @@ namespace
           Contact   &contact = *bodies.contact;
           const auto begin   = [&](const Vector &u) {
             contact.detect(u, reach);
-            contact.begin_step(u, 0.);
+            ContactTimeStep(contact).begin(u, 0.);
             contact.set_time(h);
           };
           // in contact from the first step's end on
           begin(moved_by(0., 0.));
-          contact.assemble_between(moved_by(depth, 0.), h, false);
+          ContactTimeStep(contact).assemble(moved_by(depth, 0.), h, false);
           contact.assemble(moved_by(depth, 0.), false);
           contact.accept();
           begin(moved_by(depth, 0.));
           const Vector end = moved_by(1.05 * depth, slide);
-          contact.assemble_between(end, h, false);
-          contact.assemble_between(end, h, true, factor);
+          ContactTimeStep(contact).assemble(end, h, false);
+          ContactTimeStep(contact).assemble(end, h, true, factor);
           ASSERT_GT(contact.report().n_stick + contact.report().n_slip, 2U);
           EXPECT_EQ(contact.report().n_stick > 0, slide < 0.01);
 
@@ -190,10 +192,10 @@ namespace
           constexpr double step = 1e-8;
           owned                 = end;
           owned.add(step, direction);
-          contact.assemble_between(bodies.relevant(owned), h, false);
+          ContactTimeStep(contact).assemble(bodies.relevant(owned), h, false);
           Vector difference(contact.residual());
           owned.add(-2. * step, direction);
-          contact.assemble_between(bodies.relevant(owned), h, false);
+          ContactTimeStep(contact).assemble(bodies.relevant(owned), h, false);
           difference -= contact.residual();
           // by displacements in the middle of the step
           difference *= 2. * factor * 0.5 / step;
@@ -217,14 +219,14 @@ namespace
     {
       begin_step();
       if (is_expected)
-        contact.expect(deep);
-      contact.assemble_between(sunk_by(0.), h, true);
+        ContactTimeStep(contact).expect(deep);
+      ContactTimeStep(contact).assemble(sunk_by(0.), h, true);
       EXPECT_EQ(n_touching(), 0U);
       const unsigned int first = contact.pattern_version();
       // three blocks of twelve unknowns each with itself, and two with each other
       EXPECT_EQ(contact.tangent().n_nonzero_elements(),
                 (is_expected ? 5U : 3U) * 12U * 12U);
-      contact.assemble_between(deep, h, true);
+      ContactTimeStep(contact).assemble(deep, h, true);
       EXPECT_GT(n_touching(), 0U);
       EXPECT_EQ(contact.pattern_version(), is_expected ? first : first + 1);
     }
@@ -237,7 +239,7 @@ namespace
     Contact &contact = *bodies->contact;
     begin_step();
     const Vector deep = sunk_by(1.2 * gap);
-    contact.assemble_between(deep, h, true);
+    ContactTimeStep(contact).assemble(deep, h, true);
     const Vector d = bodies->interpolate(
       [&](const Point<2> &X, const unsigned int) { return X * X[0]; });
     Vector direction(contact.residual()), of_contact(direction),
@@ -257,7 +259,7 @@ namespace
     of_both -= of_elasticity;
     // rounding of the larger one
     EXPECT_LE(of_both.l2_norm(), 1e-13 * of_contact.l2_norm());
-    contact.assemble_between(deep, h, true);
+    ContactTimeStep(contact).assemble(deep, h, true);
     contact.tangent().vmult(of_both, direction);
     of_both -= of_contact;
     EXPECT_EQ(of_both.l2_norm(), 0.);
@@ -273,22 +275,22 @@ namespace
     const unsigned int below =
       bodies->mesh.block(bodies->mesh.find_element({1.5, 0.5}));
     begin_step();
-    contact.assemble_between(deep, h, true);
-    ASSERT_GT(contact.coupled_bodies().size(), 0U);
-    for (const auto &[a, b] : contact.coupled_bodies())
+    ContactTimeStep(contact).assemble(deep, h, true);
+    ASSERT_GT(ContactTimeStep(contact).coupled_bodies().size(), 0U);
+    for (const auto &[a, b] : ContactTimeStep(contact).coupled_bodies())
       EXPECT_EQ(std::minmax(a, b), std::minmax(above, below));
     Contact::Matrix all, half;
     all.reinit(contact.tangent());
     all.copy_from(contact.tangent());
 
-    contact.assemble_between(deep, h, true, 0.5);
+    ContactTimeStep(contact).assemble(deep, h, true, 0.5);
     half.reinit(contact.tangent());
     half.copy_from(contact.tangent());
     std::vector<bool> active(3, false);
     active[above] = true;
-    contact.set_active_bodies(active, {});
-    contact.assemble_between(deep, h, true);
-    contact.set_active_bodies({}, {});
+    ContactTimeStep(contact).set_active_bodies(active, {});
+    ContactTimeStep(contact).assemble(deep, h, true);
+    ContactTimeStep(contact).set_active_bodies({}, {});
     std::set<unsigned int> of_above;
     for (unsigned int e = 0; e < bodies->mesh.n_elements(); ++e)
       if (bodies->mesh.block(e) == above)
@@ -336,9 +338,9 @@ namespace
       const Vector deep = sunk_by(1.2 * gap);
       const auto   step = [&](BodyMatrix *body_matrix) {
         contact.detect(sunk_by(0.), reach);
-        contact.begin_step(sunk_by(0.), 0.);
+        ContactTimeStep(contact).begin(sunk_by(0.), 0.);
         contact.set_time(h);
-        contact.assemble_between(deep, h, true, 0.5, body_matrix);
+        ContactTimeStep(contact).assemble(deep, h, true, 0.5, body_matrix);
       };
       step(nullptr);
       Contact::Matrix sparse;
@@ -406,12 +408,12 @@ namespace
       };
       const Vector begin = moved_by(0.);
       bodies.contact->detect(begin, reach);
-      bodies.contact->begin_step(begin, 0.);
+      ContactTimeStep(*bodies.contact).begin(begin, 0.);
       bodies.contact->set_time(h);
       double last = 0., largest_jump = 0., largest = 0.;
       for (double way = gap; way < 3. * gap; way += 0.01 * gap)
       {
-        bodies.contact->assemble_between(moved_by(way), h, false);
+        ContactTimeStep(*bodies.contact).assemble(moved_by(way), h, false);
         const double force = bodies.contact->report().force.norm();
         largest_jump       = std::max(largest_jump, std::abs(force - last));
         largest            = std::max(largest, force);
@@ -456,9 +458,9 @@ namespace
       {
         const Vector begin = moved_by(way), end = moved_by(way + 1e-3);
         bodies.contact->detect(begin, reach);
-        bodies.contact->begin_step(begin, 0.);
+        ContactTimeStep(*bodies.contact).begin(begin, 0.);
         bodies.contact->set_time(h);
-        bodies.contact->assemble_between(end, h, false);
+        ContactTimeStep(*bodies.contact).assemble(end, h, false);
         const double height = corner[1] - way * std::tan(slope);
         if (height >= 0.)
           continue;
@@ -533,9 +535,9 @@ namespace
           const Vector begin = sunk_by(1e-3, is_there),
                        end   = sunk_by(depth, is_there);
           bodies.contact->detect(begin, reach);
-          bodies.contact->begin_step(begin, 0.);
+          ContactTimeStep(*bodies.contact).begin(begin, 0.);
           bodies.contact->set_time(h);
-          bodies.contact->assemble_between(end, h, false);
+          ContactTimeStep(*bodies.contact).assemble(end, h, false);
           force[is_there] = 0.;
           for (const ContactPoint &point : bodies.contact->points())
             if (point.pressure > 0. && is_between_them(point))
@@ -580,9 +582,9 @@ namespace
       {std::sin(40. * degree), -std::cos(40. * degree)});
     const Vector begin = tip_at(before), end = tip_at(after);
     bodies.contact->detect(begin, reach);
-    bodies.contact->begin_step(begin, 0.);
+    ContactTimeStep(*bodies.contact).begin(begin, 0.);
     bodies.contact->set_time(h);
-    bodies.contact->assemble_between(end, h, false);
+    ContactTimeStep(*bodies.contact).assemble(end, h, false);
     // of a spring that is met on the way: the energy at the end over the way
     const double gap_before = -(before * normal), gap_after = -(after * normal);
     ASSERT_GT(gap_before, 0.);
@@ -634,9 +636,9 @@ namespace
     Contact   &contact = *bodies.contact;
     const auto step    = [&](const Vector &begin, const Vector &end) {
       contact.detect(begin, reach);
-      contact.begin_step(begin, 0.);
+      ContactTimeStep(contact).begin(begin, 0.);
       contact.set_time(h);
-      contact.assemble_between(end, h, false);
+      ContactTimeStep(contact).assemble(end, h, false);
       contact.assemble(end, false);
     };
     step(edge_at(0.6, 0.), edge_at(0.6, -0.2));

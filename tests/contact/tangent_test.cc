@@ -2,6 +2,7 @@
 // two bodies' forces are in balance.
 
 #include <nmm/contact/barton_bandis_law.h>
+#include <nmm/contact/contact_time_step.h>
 #include <nmm/contact/slip_weakening_law.h>
 
 #include <contact/contact_model.h>
@@ -302,10 +303,10 @@ namespace
       const double h     = 0.01;
       const Vector begin = motion(0.), u = motion(1.);
       contact.detect(begin, 0.1);
-      contact.begin_step(begin, 0.);
+      ContactTimeStep(contact).begin(begin, 0.);
       contact.set_time(h);
-      contact.assemble_between(u, h, true);
-      contact.assemble_between(u, h, true);
+      ContactTimeStep(contact).assemble(u, h, true);
+      ContactTimeStep(contact).assemble(u, h, true);
       n_stick += contact.report().n_stick;
       n_slip += c.friction > 0. ? contact.report().n_slip : 0;
       ASSERT_GE(contact.report().n_stick + contact.report().n_slip, 3U);
@@ -318,16 +319,16 @@ namespace
           d(i) = random(generator);
         d.compress(dealii::VectorOperation::insert);
         bodies->constraints.distribute(d);
-        contact.assemble_between(u, h, true);
+        ContactTimeStep(contact).assemble(u, h, true);
         contact.tangent().vmult(product, d);
         bodies->constraints.set_zero(product);
         const double step = 1e-8;
         owned             = u;
         owned.add(step, d);
-        contact.assemble_between(bodies->relevant(owned), h, false);
+        ContactTimeStep(contact).assemble(bodies->relevant(owned), h, false);
         difference = contact.residual();
         owned.add(-2. * step, d);
-        contact.assemble_between(bodies->relevant(owned), h, false);
+        ContactTimeStep(contact).assemble(bodies->relevant(owned), h, false);
         difference -= contact.residual();
         // the tangent is that by displacements in the middle of the step
         difference *= 2. * 0.5 / step;

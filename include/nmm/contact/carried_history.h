@@ -49,7 +49,7 @@ namespace NMM
    * piece at the corner's anchor, or else by the piece nearest to the corner in the reference
    * configuration. Faces that touch each other are replaced by all of their pieces.
    *
-   * **Energies of springs.** Contact::begin_step() scales down springs that store more than their
+   * **Energies of springs.** ContactTimeStep::begin() scales down springs that store more than their
    * pair of bodies did before, and counts what is missing as dissipated. If a crack has divided a
    * body, the history does not tell how much of the energy belongs to which part. Without an energy
    * a pair would lose all its forces, and with a wrong one a part of them. Therefore only the sum

@@ -6,7 +6,6 @@
 #include <nmm/contact/contact_integration.h>
 #include <nmm/contact/contact_law.h>
 #include <nmm/contact/contact_surface.h>
-#include <nmm/linear_algebra/body_matrix.h>
 
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
@@ -143,7 +142,7 @@ namespace NMM
     unsigned int n_bonded = 0;
     /// Largest penetration over all closed points, from the nearest face of the other body [m].
     double largest_penetration = 0.;
-    /// Whether the assembly was one of Contact::assemble_between(), whose penetrations are those in
+    /// Whether the assembly was one of ContactTimeStep::assemble(), whose penetrations are those in
     /// the mean position of the step, or one at the end of such a step.
     bool is_between = false;
     /// Energy that is stored in springs [J/m].
@@ -192,20 +191,21 @@ namespace NMM
    *   created <------------------------- set_absent_bodies(), from any stage
    *      | detect()
    *   detected <------------------------ detect(), from any stage
-   *      |      \ begin_step()
+   *      |      \ ContactTimeStep::begin()
    *      |       step_begun ----------------------------.
-   *      |           | assemble()                       | assemble_between()
+   *      |           | assemble()                       | ContactTimeStep::assemble()
    *      | assemble()|                                  |
-   *   assembled <----'  (assemble(), augment(): stays)  step_assembled  (assemble(),
-   *      | accept()                                     |  assemble_between(): stays)
+   *   assembled <----'  (assemble(), augment(): stays)  step_assembled  (either
+   *      | accept()                                     |  assemble(): stays)
    *      |                                              | accept()
    *   accepted          (assemble(): assembled)         step_accepted   (assemble(): stays)
    * @endverbatim
    * Statics: detect(), then assemble() in each iteration, with detect() between them where
-   * faces have moved far; accept() at the solution. Time steps: detect() and begin_step() at the
-   * beginning of the step, then assemble_between() (schemes that conserve energy) or assemble() in
-   * each iteration; at the end of the step assemble() and accept(), or begin_step() again if the
-   * step is repeated. ContactStatics and ContactModel make these calls:
+   * faces have moved far; accept() at the solution. Time steps: detect() and
+   * ContactTimeStep::begin() at the beginning of the step, then ContactTimeStep::assemble()
+   * (schemes that conserve energy) or assemble() in each iteration; at the end of the step
+   * assemble() and accept(), or begin() again if the step is repeated. ContactStatics and
+   * ContactModel make these calls:
    * @code
    * ContactSurface surface(covers);
    * CoulombLaw     law;
@@ -323,89 +323,9 @@ namespace NMM
     double
     accept();
 
-    /// @name Time steps that conserve energy
-    /// @{
-
-    /**
-     * Begin a step at the displacements @p u and the time @p time [s], where detect() was called.
-     * The new contact points must not create energy: where the springs between two bodies would
-     * store more than at the end of the step before, because positions and weights of points
-     * have changed or faces are found that penetrate each other already, their gaps at rest are
-     * shifted so that they store the same. Where they store less, the difference is dissipated.
-     */
-    void
-    begin_step(const Vector &u, double time);
-
-    /// For each body, whether it had a closed contact point of this rank in the last assembly.
-    std::vector<bool>
-    pressed_bodies() const;
-
-    /// Set @p u as the expected displacements at the end of the step that has begun. The sparsity
-    /// pattern of the tangent then has the couplings of all pairs that may touch on the way there,
-    /// and need not be rebuilt within the step. Otherwise it has those of pairs that may touch
-    /// on the way to the displacements of the first assembly with a tangent.
-    void
-    expect(const Vector &u);
-
     /// Largest distance that a point of a face moves between two displacements [m].
     double
     largest_motion(const Vector &from, const Vector &to);
-
-    /**
-     * Assemble the forces of the step from its beginning to the displacements @p end at @p time
-     * [s]. They act in the mean position, so that they exert no moment. The pressure
-     * @f[ \hat p = -\frac{V(g_1) - V(g_0)}{\delta},\quad
-     *     V = \tfrac{\epsilon_n}{2}\langle -g\rangle_+^2,\quad
-     *     \delta = n\cdot(\Delta x_s - \Delta x_m) @f]
-     * does the work by which the energy of the springs changes (Laursen & Chawla, Int.
-     * J. Numer. Methods Eng. 40 (1997) 863; Gonzalez 2000). Dashpots add
-     * @f[ c\,(\langle -g_1\rangle - \langle -g_0\rangle)/h @f]
-     * as far as there is no tension, so that they only dissipate. Likewise, the shear of a point
-     * that sticks is the sum of the spring's mean shear during the slip
-     * @f$s=\tau\cdot(\Delta x_s - \Delta x_m)@f$ and the dashpot's,
-     * @f[ \hat q = q_0 + \tfrac{\epsilon_t}{2}s + \tfrac{c_t}{h}s, @f]
-     * with q_0 = 0 where faces come into contact. The point slides where this exceeds the strength.
-     * tangent() is the derivative by the mean displacement with the beginning of the step fixed.
-     * It is not symmetric, because forces depend on the mean position and on the gaps at the end.
-     * Multipliers are not used.
-     * tangent() is multiplied by @p tangent_factor. If @p body_matrix is not null, the tangent is
-     * added to it instead, and tangent() is undefined. This needs one rank and constraints that
-     * couple no unknowns; the bodies of the matrix are the blocks of the mesh.
-     */
-    void
-    assemble_between(const Vector &end,
-                     double        time,
-                     bool          with_tangent,
-                     double        tangent_factor = 1.,
-                     BodyMatrix   *body_matrix    = nullptr);
-
-    /// @name Inactive blocks, which do not move for a while
-    /// @{
-
-    /// Let assemblies skip points between two inactive blocks; these points stay as the last
-    /// assembly found them, and the rows of inactive blocks are undefined. Blocks that are held are
-    /// not returned by take_touched(). Both vectors have one entry for each block; if they are
-    /// empty, all blocks are active, and none is held.
-    void
-    set_active_bodies(const std::vector<bool> &is_active,
-                      const std::vector<bool> &is_held);
-
-    /// Blocks that are neither active nor held and that touched an active one in an assembly
-    /// since the last call of this function.
-    std::vector<unsigned int>
-    take_touched();
-
-    /// Pairs of bodies with unknowns that the last assemble_between() with a tangent has coupled
-    /// in rows of active bodies; a pair may occur several times. For one rank.
-    const std::vector<BlockPair> &
-    coupled_bodies() const;
-    /// @}
-
-    /// Work that moving obstacles do [J/m] with the forces of the last assembly
-    /// from @p time_begin to @p time_end.
-    double
-    work_of_obstacles(double time_begin, double time_end);
-    /// @}
 
     /// The reason why a step from detect() to @p end, at the time that is set, must not be
     /// accepted, or an empty one: a point has moved further than the reach of the search,
@@ -445,6 +365,7 @@ namespace NMM
     surface() const;
 
   private:
+    friend class ContactTimeStep;
     struct Data;
     std::unique_ptr<Data> data;
   };

@@ -32,7 +32,7 @@ namespace NMM
    * Energies: the energy of the contacts' penalty springs counts as `conditions`, friction as
    * dissipated energy, the work of moving obstacles as work of supports. With
    * TimeScheme::energy_momentum() contact forces conserve energy, too (see
-   * Contact::assemble_between()). With other schemes, points that come into contact gain or lose
+   * ContactTimeStep::assemble()). With other schemes, points that come into contact gain or lose
    * energy, as usual with penalties.
    *
    * Lifetime: model and contact must outlive this object. Multipliers of the contact

@@ -1,5 +1,5 @@
 // Contact in time steps: forces that conserve energy.
-#include <nmm/contact/contact.h>
+#include <nmm/contact/contact_time_step.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -44,8 +44,15 @@ namespace NMM
   } // namespace
 
 
+  ContactTimeStep::ContactTimeStep(Contact &contact)
+    : contact(&contact)
+    , data(contact.data.get())
+  {
+  }
+
+
   void
-  Contact::begin_step(const Vector &u, const double time)
+  ContactTimeStep::begin(const Vector &u, const double time)
   {
     Data &d = *data;
     d.enter(Data::Stage::step_begun,
@@ -58,10 +65,10 @@ namespace NMM
     d.matrix.begin_step();
     d.step.nodal_expected.clear();
     d.step.time_begin = time;
-    set_time(time);
+    contact->set_time(time);
     // Points that have moved between the last step and this one do not dilate.
     d.slip_is_frozen = true;
-    assemble(u, false);
+    contact->assemble(u, false);
     d.slip_is_frozen = false;
     if (!d.memory.has_accepted_state)
       d.memory.energies_of_pairs = d.pair_energies();
@@ -88,25 +95,6 @@ namespace NMM
           point.shear / (d.point_data[q].law->shear_spring() * length);
     }
     d.stage = Data::Stage::step_begun;
-  }
-
-
-  double
-  Contact::largest_motion(const Vector &from, const Vector &to)
-  {
-    Data                         &d = *data;
-    const unsigned int            n = 3 * d.surface->edges().size();
-    std::vector<dealii::Point<2>> positions(n);
-    d.move_to(to);
-    for (unsigned int i = 0; i < n; ++i)
-      positions[i] = d.surface->place(i / 3, 0.5 * (i % 3)).x;
-    d.move_to(from);
-    double square = 0.;
-    for (unsigned int i = 0; i < n; ++i)
-      square = std::max(
-        square,
-        d.surface->place(i / 3, 0.5 * (i % 3)).x.distance_square(positions[i]));
-    return std::sqrt(square);
   }
 
 
@@ -481,7 +469,7 @@ namespace NMM
 
 
   std::vector<bool>
-  Contact::pressed_bodies() const
+  ContactTimeStep::pressed_bodies() const
   {
     const Data       &d     = *data;
     const auto       &edges = d.surface->edges();
@@ -495,7 +483,7 @@ namespace NMM
 
 
   void
-  Contact::expect(const Vector &u)
+  ContactTimeStep::expect(const Vector &u)
   {
     read_nodal_values(data->surface->cover_system(),
                       u,
@@ -504,7 +492,7 @@ namespace NMM
 
 
   void
-  Contact::assemble_between(const Vector &end,
+  ContactTimeStep::assemble(const Vector &end,
                             const double  time,
                             const bool    with_tangent,
                             const double  tangent_factor,
@@ -562,8 +550,32 @@ namespace NMM
   }
 
 
+  void
+  ContactTimeStep::set_active_bodies(const std::vector<bool> &is_active,
+                                     const std::vector<bool> &is_held)
+  {
+    data->active.select(is_active, is_held);
+    data->list_points_of_bodies();
+  }
+
+
+  const std::vector<BlockPair> &
+  ContactTimeStep::coupled_bodies() const
+  {
+    return data->active.coupled();
+  }
+
+
+  std::vector<unsigned int>
+  ContactTimeStep::take_touched()
+  {
+    return data->active.take_touched();
+  }
+
+
   double
-  Contact::work_of_obstacles(const double time_begin, const double time_end)
+  ContactTimeStep::work_of_obstacles(const double time_begin,
+                                     const double time_end)
   {
     Data              &d      = *data;
     const unsigned int n      = d.surface->obstacles().size();

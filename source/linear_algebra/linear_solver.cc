@@ -75,8 +75,8 @@ namespace NMM
       }
 
 
-      /// Solve for all right-hand sides and estimate the effect of rounding. For the bound that
-      /// does not need the solution see solve_linear_system().
+      /// Solve for all right-hand sides and estimate the effect of rounding, see
+      /// solve_linear_system().
       void
       solve_direct(const Matrix        &matrix,
                    const AllRhs        &rhs,

@@ -25,10 +25,10 @@ namespace NMM
      * Algorithms, section 7.2: componentwise errors). Signs are random, since roundings add up
      * as random numbers do. LinearSolverReport::rounding_effect is the largest |e| / |x|.
      *
-     * With x_j = 1 for all j and b = 0 in the formula of r, 2 max_j |x_j| |e| is an estimate that
-     * is rather too large. It needs no x, so that it is found together with x, which takes hardly
-     * more time than x alone. If it is at most 1e-8 |x|, it is the rounding_effect, and there are
-     * no samples; nor are there any with the iterative solver.
+     * A cautious estimate needs no x in r, so that it is found together with x, which takes hardly
+     * more time than x alone: 2 max_j |x_j| |e| / |x|, where e is the sample for x_j = 1 and b = 0,
+     * and the factor 2 is for b_i = sum_j A_ij x_j. If it is at most 1e-8, it is the
+     * rounding_effect, and there are no samples; nor are there any with the iterative solver.
      * @throws NumericalFailure if the factorization fails or the iteration does
      * not converge.
      */

@@ -73,7 +73,10 @@ namespace
                            are_all ? std::vector<unsigned int>() : rows);
           EXPECT_EQ(solver.analysis_time() > 0.,
                     rows.size() > internal::KluFactorization::max_group);
-          // in place
+          // two systems at once, and then one in place
+          std::vector<Vector> both(2, rhs);
+          both[1] *= -3.;
+          solver.solve_all(both);
           solver.solve(solution, solution);
 
           Eigen::MatrixXd dense(rows.size(), rows.size());
@@ -87,7 +90,11 @@ namespace
           const Eigen::VectorXd expected = dense.partialPivLu().solve(right);
           // rounding, with conditions of some 10
           for (unsigned int i = 0; i < rows.size(); ++i)
+          {
             EXPECT_NEAR(solution(rows[i]), expected(i), 1e-13) << rows[i];
+            EXPECT_NEAR(both[0](rows[i]), expected(i), 1e-13) << rows[i];
+            EXPECT_NEAR(both[1](rows[i]), -3. * expected(i), 3e-13) << rows[i];
+          }
         }
   }
 

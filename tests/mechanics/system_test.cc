@@ -1,7 +1,9 @@
 // The linear system: symmetry, solvers, ranks, and problems without a solution.
 
 #include <gtest/gtest.h>
+#include <linear_algebra/direct_solver.h>
 #include <mechanics/model.h>
+#include <random>
 
 using namespace NMM;
 using namespace NMM::Test;
@@ -202,6 +204,35 @@ TEST(System, DirectAndIterativeAgreeMPI)
   }
   // residual 1e-11 times the condition number that is left
   EXPECT_LT(maximum_over_ranks(difference), 1e-7 * maximum_over_ranks(largest));
+}
+
+
+// The cautious estimate is larger than the effect of products that are each wrong by their rounding,
+// since it has the largest displacement everywhere and counts loads as a second sum of products;
+// but not 20 times as large, where most displacements are above a fifth of the largest.
+TEST(System, RoundingEffectIsCautious)
+{
+  const auto             model    = loaded_jointed_box(MPI_COMM_WORLD);
+  const double           cautious = model->solve().rounding_effect;
+  const auto            &matrix   = model->system->system_matrix();
+  const auto            &rhs      = model->system->system_rhs();
+  internal::DirectSolver solver;
+  solver.factorize(matrix);
+  auto x = rhs, rounding = rhs;
+  solver.solve(rhs, x);
+  std::mt19937                generator(7);
+  std::bernoulli_distribution is_positive;
+  for (unsigned int i = 0; i < matrix.m(); ++i)
+  {
+    double sum = std::abs(rhs(i));
+    for (auto entry = matrix.begin(i); entry != matrix.end(i); ++entry)
+      sum += std::abs(entry->value() * x(entry->column()));
+    rounding(i) = (is_positive(generator) ? 2.2e-16 : -2.2e-16) * sum;
+  }
+  solver.solve(rounding, rounding);
+  const double effect = rounding.l2_norm() / x.l2_norm();
+  EXPECT_LT(effect, cautious);
+  EXPECT_GT(effect, 0.05 * cautious);
 }
 
 

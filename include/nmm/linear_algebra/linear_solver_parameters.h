@@ -68,7 +68,7 @@ namespace NMM
     /// |b - A x| / |b| [-].
     double relative_residual = 0.;
     /// Estimate of how much rounding changes the displacement, in the L2 norm and relative to it
-    /// [-]; 0 with the iterative solver.
+    /// [-]. Up to 1e-8 it is rather too large. 0 with the iterative solver.
     double rounding_effect = 0.;
     /// Number of entries of the factors, summed over ranks; 0 for the iterative solver.
     double n_factor_entries = 0.;

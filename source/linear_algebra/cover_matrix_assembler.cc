@@ -26,72 +26,36 @@ namespace NMM
       }
 
 
-      /// The local numbers of columns of entries: first the covers of this rank, then those of
-      /// other ranks with which they are coupled, both in ascending order.
-      class LocalColumns
-      {
-      public:
-        LocalColumns(const dealii::IndexSet               &owned,
-                     const dealii::DynamicSparsityPattern &pattern)
-          : owned(owned)
-          , others(owned.size())
-        {
-          std::set<dealii::types::global_dof_index> numbers;
-          for (const auto row : owned)
-            for (unsigned int j = 0; j < pattern.row_length(row); ++j)
-              if (const auto column = pattern.column_number(row, j);
-                  !owned.is_element(column))
-                numbers.insert(column);
-          others.add_indices(numbers.begin(), numbers.end());
-        }
-
-        /// invalid_index if there is no such column.
-        unsigned int
-        operator()(const dealii::types::global_dof_index cover) const
-        {
-          return owned.is_element(cover) ? owned.index_within_set(cover)
-                 : others.is_element(cover)
-                   ? owned.n_elements() + others.index_within_set(cover)
-                   : invalid_index;
-        }
-
-        /// The global number of each column of unknowns, two for a cover.
-        Epetra_Map
-        map(const Epetra_Comm &communicator) const
-        {
-          std::vector<int> unknowns;
-          for (const dealii::IndexSet *covers : {&owned, &others})
-            for (const auto cover : *covers)
-              for (unsigned int c = 0; c < 2; ++c)
-                unknowns.push_back(2 * cover + c);
-          return {-1,
-                  static_cast<int>(unknowns.size()),
-                  unknowns.data(),
-                  0,
-                  communicator};
-        }
-
-      private:
-        const dealii::IndexSet &owned;
-        dealii::IndexSet        others;
-      };
-
-
-      /// The pattern of unknowns, two for each cover of @p pattern. The columns are given, because
-      /// Epetra would take twice as long for the graph if it had to find them, and would not keep
-      /// the two columns of a cover together.
+      /// The pattern of unknowns, two for each cover of @p pattern. Epetra is given the columns of
+      /// this rank, first the owned ones, then those of other ranks in ascending order: it would
+      /// take as long again to find them, and would not keep the two columns of a cover together.
       Epetra_CrsGraph
       make_graph(const dealii::IndexSet               &owned,
                  const dealii::DynamicSparsityPattern &pattern,
-                 const LocalColumns                   &local,
                  const Epetra_Map                     &row_map)
       {
-        std::vector<int> lengths;
+        std::vector<int>       lengths, unknowns;
+        std::set<unsigned int> of_other_ranks;
         for (const auto cover : owned)
-          lengths.insert(lengths.end(), 2, 2 * pattern.row_length(cover));
+        {
+          const unsigned int n = pattern.row_length(cover);
+          lengths.insert(lengths.end(), 2, 2 * n);
+          for (const unsigned int c : {0, 1})
+            unknowns.push_back(2 * cover + c);
+          for (unsigned int j = 0; j < n; ++j)
+            if (const auto column = pattern.column_number(cover, j);
+                !owned.is_element(column))
+              of_other_ranks.insert(column);
+        }
+        for (const unsigned int cover : of_other_ranks)
+          for (const unsigned int c : {0, 1})
+            unknowns.push_back(2 * cover + c);
+        const Epetra_Map column_map(
+          -1, unknowns.size(), unknowns.data(), 0, row_map.Comm());
+
         Epetra_CrsGraph  graph(::Copy,
                               row_map,
-                              local.map(row_map.Comm()),
+                              column_map,
                               lengths.data(),
                               /* StaticProfile = */ true);
         std::vector<int> columns;
@@ -101,8 +65,9 @@ namespace NMM
           columns.clear();
           for (unsigned int j = 0; j < pattern.row_length(cover); ++j)
           {
-            const int column = local(pattern.column_number(cover, j));
-            columns.insert(columns.end(), {2 * column, 2 * column + 1});
+            const int column = column_map.LID(
+              static_cast<int>(2 * pattern.column_number(cover, j)));
+            columns.insert(columns.end(), {column, column + 1});
           }
           for (unsigned int c = 0; c < 2; ++c, ++row)
             check(graph.InsertMyIndices(row, columns.size(), columns.data()));
@@ -207,8 +172,7 @@ namespace NMM
         unknowns.make_trilinos_map(communicator, false);
       for (const auto cover : owned)
         pattern.add(cover, cover);
-      const LocalColumns    local(owned, pattern);
-      const Epetra_CrsGraph graph = make_graph(owned, pattern, local, row_map);
+      const Epetra_CrsGraph graph = make_graph(owned, pattern, row_map);
       pattern.reinit(0, 0);
       Epetra_CrsMatrix trilinos_matrix(::Copy, graph);
       check(trilinos_matrix.FillComplete(row_map, row_map));
@@ -218,9 +182,14 @@ namespace NMM
 
       rows       = MatrixRows(*matrix);
       rhs_values = rhs->begin();
-      cover_to_column.resize(covers->n_covers());
+      cover_to_column.assign(covers->n_covers(), invalid_index);
       for (unsigned int k = 0; k < covers->n_covers(); ++k)
-        cover_to_column[k] = local(covers->global_cover(k));
+      {
+        const int column =
+          graph.ColMap().LID(static_cast<int>(2 * covers->global_cover(k)));
+        if (column >= 0)
+          cover_to_column[k] = column / 2;
+      }
     }
 
 

@@ -98,9 +98,8 @@ namespace NMM
         Vector zero(*rhs[0]), one(*rhs[0]);
         zero = 0.;
         one  = 1.;
-        solutions.clear();
-        for (const Vector *b : rhs)
-          solutions.push_back(*b);
+        for (unsigned int i = 0; i < rhs.size(); ++i)
+          solutions[i] = *rhs[i];
         solutions.push_back(samples_of_rounding(matrix, zero, one, 1)[0]);
         solver.solve_all(solutions);
         const double size = solutions[0].l2_norm();

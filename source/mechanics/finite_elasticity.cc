@@ -20,11 +20,6 @@ namespace NMM
                                   problem,
                                   may_float))
   {
-    AssertThrow(covers.manifold_mesh().exchange() == nullptr,
-                InputError("a distributed mathematical mesh is for linear "
-                           "static problems only",
-                           "FiniteElasticity",
-                           "use make_regular_mesh()"));
   }
 
 

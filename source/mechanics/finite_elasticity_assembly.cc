@@ -5,9 +5,7 @@
 #include <base/in_order.h>
 #include <cmath>
 #include <mechanics/finite_elasticity_data.h>
-#include <mechanics/floating_blocks.h>
 #include <mechanics/nodal_values.h>
-#include <mechanics/trace_constant.h>
 
 // Assembly of elements, displacement conditions, ties and loads.
 namespace NMM
@@ -20,21 +18,8 @@ namespace NMM
     const dealii::AffineConstraints<double> &constraints,
     const ElasticityProblem                 &problem,
     const bool                               may_float)
-    : covers(&covers)
-    , constraints(&constraints)
-    , problem(&problem)
-    , degree(covers.manifold_mesh().mathematical_mesh().degree())
-    , n_per_cell(WeightFunctions::n_per_cell(degree))
-    , curve_conditions((problem.check(covers.manifold_mesh().physical_mesh()),
-                        covers.manifold_mesh()),
-                       problem)
-    , points(covers, problem)
-    , tables(covers, quadrature)
-    , dead_loads(covers, quadrature, problem, curve_conditions)
-    , assembler(covers, constraints)
+    : ReferenceTables(covers, quadrature, constraints, problem, may_float)
   {
-    if (!may_float)
-      check_no_block_floats(covers, problem, curve_conditions, points);
     for (const unsigned int m :
          problem.region_to_material(covers.manifold_mesh().physical_mesh()))
     {
@@ -49,16 +34,9 @@ namespace NMM
       region_to_conserving_law.emplace_back(region_to_law.back(),
                                             material.initial_stress);
     }
-    TraceConstants trace_constants(covers,
-                                   quadrature,
-                                   constraints,
-                                   curve_conditions);
-    edges = std::make_unique<EdgeTables>(covers,
-                                         problem,
-                                         curve_conditions,
-                                         trace_constants);
     penalty_growth.assign(edges->weak_points.size(), 1.);
-    make_pattern();
+    assembler.restrict_to(active_covers);
+    assembler.build(matrix, residual);
     least_force_scale = forces_at_small_strain();
   }
 
@@ -81,25 +59,6 @@ namespace NMM
     }
     return std::sqrt(
       dealii::Utilities::MPI::sum(square, covers->communicator()));
-  }
-
-
-  void
-  FiniteElasticity::Data::make_pattern()
-  {
-    std::vector<unsigned int> both;
-    for (const EdgeTables::Site &tie : edges->ties)
-    {
-      both.clear();
-      for (const unsigned int e : {tie.element, tie.neighbor})
-        both.insert(both.end(),
-                    covers->covers(e).begin(),
-                    covers->covers(e).end());
-      assembler.couple({both.data(), both.size()});
-    }
-    assembler.ignore_inhomogeneities();
-    assembler.restrict_to(active_covers);
-    assembler.build(matrix, residual);
   }
 
 
@@ -372,25 +331,16 @@ namespace NMM
   {
     LocalSystem       local;
     LocalDisplacement u;
-    unsigned int      both[LocalSystem::max_covers];
     for (const EdgeTables::Site &tie : edges->ties)
     {
       if (is_absent(tie.element) || is_absent(tie.neighbor) ||
           !(is_active(tie.element) || is_active(tie.neighbor)))
         continue;
-      for (unsigned int side = 0; side < 2; ++side)
-      {
-        const auto side_covers =
-          covers->covers(side == 0 ? tie.element : tie.neighbor);
-        std::copy(side_covers.begin(),
-                  side_covers.end(),
-                  both + side * n_per_cell);
-      }
       gather(tie, nodal, u);
       local.reset(2 * n_per_cell);
       if (add_weak_points(tie, task, u, local) != Deformation::admissible)
         return Deformation::inverted;
-      add_local({both, 2 * n_per_cell}, task, local);
+      add_local({covers_of_tie(tie).data(), 2 * n_per_cell}, task, local);
     }
     return Deformation::admissible;
   }

@@ -4,31 +4,18 @@
 #include <nmm/mechanics/finite_elasticity.h>
 
 #include <array>
-#include <linear_algebra/cover_matrix_assembler.h>
 #include <mechanics/conserving_terms.h>
-#include <mechanics/curve_conditions.h>
-#include <mechanics/edge_tables.h>
-#include <mechanics/element_tables.h>
-#include <mechanics/finite_terms.h>
-#include <mechanics/point_terms.h>
-#include <memory>
+#include <mechanics/reference_tables.h>
 #include <vector>
 
 namespace NMM
 {
-  /// Tables of elements and edges, the linear system, and its assembly
-  /// (finite_elasticity_assembly.cc).
-  struct FiniteElasticity::Data
+  /// The linear system and its assembly (finite_elasticity_assembly.cc).
+  struct FiniteElasticity::Data : internal::ReferenceTables
   {
-    using LocalDisplacement    = internal::LocalDisplacement;
-    using LocalSystem          = internal::LocalSystem;
-    using EdgeTables           = internal::EdgeTables;
-    using CurveConditions      = internal::CurveConditions;
-    using PointTerms           = internal::PointTerms;
-    using ElementTables        = internal::ElementTables;
-    using DeadLoads            = internal::DeadLoads;
-    using CoverMatrixAssembler = internal::CoverMatrixAssembler;
-    using ConservingLaw        = internal::ConservingLaw;
+    using LocalDisplacement = internal::LocalDisplacement;
+    using LocalSystem       = internal::LocalSystem;
+    using EdgeTables        = internal::EdgeTables;
 
     Data(const CoverSystem                       &covers,
          const QuadratureCollection              &quadrature,
@@ -75,9 +62,6 @@ namespace NMM
 
     double
     forces_at_small_strain() const;
-
-    void
-    make_pattern();
 
     Deformation
     add_elements(const Task &task);
@@ -151,17 +135,6 @@ namespace NMM
       }
     }
 
-    /// Read the displacements of the covers of a site's element, then those of its neighbor.
-    void
-    gather(const EdgeTables::Site                  &site,
-           const std::vector<dealii::Tensor<1, 2>> &from,
-           LocalDisplacement                       &u) const
-    {
-      u.gather(covers->covers(site.element), from);
-      if (site.neighbor != invalid_index)
-        u.gather(covers->covers(site.neighbor), from, n_per_cell);
-    }
-
     void
     add_local(dealii::ArrayView<const unsigned int> covers,
               const Task                           &task,
@@ -172,20 +145,10 @@ namespace NMM
                     local.rhs);
     }
 
-    const CoverSystem                       *covers;
-    const dealii::AffineConstraints<double> *constraints;
-    const ElasticityProblem                 *problem;
-    bool                                     is_inelastic = false;
-    unsigned int                             degree, n_per_cell;
-    internal::RegionLaws                     region_to_law;
-    std::vector<ConservingLaw>               region_to_conserving_law;
-    CurveConditions                          curve_conditions;
-    PointTerms                               points;
-    ElementTables                            tables;
-    std::unique_ptr<EdgeTables>              edges;
-    DeadLoads                                dead_loads;
-    CoverMatrixAssembler                     assembler;
-    LoadAmplitudes                           amplitudes;
+    bool                                 is_inelastic = false;
+    internal::RegionLaws                 region_to_law;
+    std::vector<internal::ConservingLaw> region_to_conserving_law;
+    LoadAmplitudes                       amplitudes;
     /// For each block whether it is absent, for each cover whether it belongs to an absent block,
     /// and for each block whether it is active. Empty: no block is absent, all are active.
     std::vector<bool> absent_blocks, absent_covers, active_blocks;

@@ -55,21 +55,6 @@ namespace NMM
       std::vector<PlaneElasticity> region_to_elasticity;
       std::vector<double>          region_to_density;
     };
-
-
-    /// The covers of an element, followed by those of its neighbor.
-    inline std::array<unsigned int, LocalSystem::max_covers>
-    covers_of_pair(const CoverSystem &covers,
-                   const unsigned int element,
-                   const unsigned int neighbor)
-    {
-      std::array<unsigned int, LocalSystem::max_covers> result{};
-      unsigned int                                      n = 0;
-      for (const unsigned int e : {element, neighbor})
-        for (const unsigned int k : covers.covers(e))
-          result[n++] = k;
-      return result;
-    }
   } // namespace internal
 } // namespace NMM
 

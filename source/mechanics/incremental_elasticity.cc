@@ -5,16 +5,9 @@
 
 #include <cmath>
 #include <limits>
-#include <linear_algebra/cover_matrix_assembler.h>
 #include <linear_algebra/direct_solver.h>
-#include <mechanics/curve_conditions.h>
-#include <mechanics/edge_tables.h>
-#include <mechanics/element_tables.h>
-#include <mechanics/finite_terms.h>
-#include <mechanics/floating_blocks.h>
 #include <mechanics/nodal_values.h>
-#include <mechanics/point_terms.h>
-#include <mechanics/trace_constant.h>
+#include <mechanics/reference_tables.h>
 
 namespace NMM
 {
@@ -72,7 +65,7 @@ namespace NMM
   } // namespace
 
 
-  struct IncrementalElasticity::Data
+  struct IncrementalElasticity::Data : ReferenceTables
   {
     Data(const CoverSystem                       &covers,
          const QuadratureCollection              &quadrature,
@@ -140,26 +133,9 @@ namespace NMM
     void
     add_work(double load_factor);
 
-    /// The covers of a site (of both elements of a tie), and their displacements.
-    dealii::ArrayView<const unsigned int>
-    gather(const EdgeTables::Site          &site,
-           const std::vector<Tensor<1, 2>> &nodal,
-           LocalDisplacement               &u,
-           unsigned int (&both)[LocalSystem::max_covers]) const;
-
-    const CoverSystem                       *covers;
-    const dealii::AffineConstraints<double> *constraints;
-    const ElasticityProblem                 *problem;
-    unsigned int                             n_per_cell;
-    std::vector<PlaneElasticity>             region_to_elasticity;
-    std::vector<Moduli>                      region_to_moduli;
-    CurveConditions                          curve_conditions;
-    PointTerms                               points;
-    ElementTables                            tables;
-    std::unique_ptr<EdgeTables>              edges;
-    DeadLoads                                dead_loads;
-    CoverMatrixAssembler                     assembler;
-    DirectSolver                             direct_solver;
+    std::vector<PlaneElasticity> region_to_elasticity;
+    std::vector<Moduli>          region_to_moduli;
+    DirectSolver                 direct_solver;
 
     /// Cauchy stress at each quadrature point of elements, and on both sides of each weak point
     /// [Pa].
@@ -178,22 +154,10 @@ namespace NMM
     const dealii::AffineConstraints<double> &constraints,
     const ElasticityProblem                 &problem,
     const bool                               may_float)
-    : covers(&covers)
-    , constraints(&constraints)
-    , problem(&problem)
-    , n_per_cell(covers.manifold_mesh().mathematical_mesh().n_covers_per_cell())
-    , curve_conditions((problem.check(covers.manifold_mesh().physical_mesh()),
-                        covers.manifold_mesh()),
-                       problem)
-    , points(covers, problem)
-    , tables(covers, quadrature)
-    , dead_loads(covers, quadrature, problem, curve_conditions)
-    , assembler(covers, constraints)
+    : ReferenceTables(covers, quadrature, constraints, problem, may_float)
   {
     const ManifoldMesh &mesh = covers.manifold_mesh();
-    if (!may_float)
-      check_no_block_floats(covers, problem, curve_conditions, points);
-    const auto region_to_material =
+    const auto          region_to_material =
       problem.region_to_material(mesh.physical_mesh());
     for (const unsigned int m : region_to_material)
     {
@@ -201,20 +165,6 @@ namespace NMM
         problem.materials[m].plane_elasticity(problem.plane_state));
       region_to_moduli.emplace_back(region_to_elasticity.back());
     }
-    TraceConstants trace_constants(covers,
-                                   quadrature,
-                                   constraints,
-                                   curve_conditions);
-    edges = std::make_unique<EdgeTables>(covers,
-                                         problem,
-                                         curve_conditions,
-                                         trace_constants);
-    LocalDisplacement none;
-    nodal.resize(covers.n_covers());
-    unsigned int both[LocalSystem::max_covers];
-    for (const EdgeTables::Site &tie : edges->ties)
-      assembler.couple(gather(tie, nodal, none, both));
-    assembler.ignore_inhomogeneities();
     assembler.build(matrix, residual);
 
     const auto [first, last] = covers.locally_owned_elements();
@@ -238,25 +188,6 @@ namespace NMM
                     covers.locally_relevant_dofs(2),
                     covers.communicator());
     solution = owned;
-  }
-
-
-  dealii::ArrayView<const unsigned int>
-  IncrementalElasticity::Data::gather(
-    const EdgeTables::Site          &site,
-    const std::vector<Tensor<1, 2>> &nodal,
-    LocalDisplacement               &u,
-    unsigned int (&both)[LocalSystem::max_covers]) const
-  {
-    unsigned int n = 0;
-    for (const unsigned int e : {site.element, site.neighbor})
-      if (e != invalid_index)
-      {
-        u.gather(covers->covers(e), nodal, n);
-        for (const unsigned int k : covers->covers(e))
-          both[n++] = k;
-      }
-    return {both, n};
   }
 
 
@@ -364,7 +295,6 @@ namespace NMM
   {
     LocalSystem       local;
     LocalDisplacement u;
-    unsigned int      both[LocalSystem::max_covers];
     auto              condition = edges->conditions.begin();
     auto              follower  = edges->followers.begin();
     const auto [first, last]    = covers->locally_owned_elements();
@@ -403,11 +333,13 @@ namespace NMM
     }
     for (const EdgeTables::Site &tie : edges->ties)
     {
-      const auto tie_covers = gather(tie, nodal, u, both);
+      gather(tie, nodal, u);
       local.reset(2 * n_per_cell);
       if (!add_weak_points(tie, load_factor, u, local))
         return false;
-      assembler.add(tie_covers, local.matrix, local.rhs);
+      assembler.add({covers_of_tie(tie).data(), 2 * n_per_cell},
+                    local.matrix,
+                    local.rhs);
     }
     dead_loads.for_each_force(
       [&](const unsigned int k, const Tensor<1, 2> &force) {
@@ -446,7 +378,6 @@ namespace NMM
   IncrementalElasticity::Data::update_stress()
   {
     LocalDisplacement u, increment;
-    unsigned int      both[LocalSystem::max_covers];
     double            g[WeightFunctions::max_per_cell][2];
     const auto [first, last] = covers->locally_owned_elements();
     for (unsigned int e = first; e < last; ++e)
@@ -473,8 +404,8 @@ namespace NMM
     for (const auto *sites : {&edges->conditions, &edges->ties})
       for (const EdgeTables::Site &site : *sites)
       {
-        gather(site, nodal, u, both);
-        gather(site, nodal_increment, increment, both);
+        gather(site, nodal, u);
+        gather(site, nodal_increment, increment);
         update_weak_stress(site, u, increment);
       }
   }
@@ -492,11 +423,6 @@ namespace NMM
                                   problem,
                                   may_float))
   {
-    AssertThrow(covers.manifold_mesh().exchange() == nullptr,
-                InputError("a distributed mathematical mesh is for linear "
-                           "static problems only",
-                           "IncrementalElasticity",
-                           "use make_regular_mesh()"));
   }
 
 

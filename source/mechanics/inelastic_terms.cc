@@ -105,18 +105,11 @@ namespace NMM
     Assert(elasticity.is_inelastic, dealii::ExcInternalError());
     number_states();
 
-    std::vector<unsigned int> both;
     for (const Element &item : elements)
       for (const Site *site : item.sites)
         if (site->neighbor != invalid_index)
-        {
-          both.clear();
-          for (const unsigned int e : {site->element, site->neighbor})
-            both.insert(both.end(),
-                        elastic->covers->covers(e).begin(),
-                        elastic->covers->covers(e).end());
-          assembler.couple({both.data(), both.size()});
-        }
+          assembler.couple(
+            {elastic->covers_of_tie(*site).data(), 2 * elastic->n_per_cell});
     assembler.ignore_inhomogeneities();
     assembler.leave_empty_rows();
     assembler.build(matrix, residual);

@@ -1,9 +1,11 @@
 #ifndef nmm_source_mechanics_local_system_h
 #define nmm_source_mechanics_local_system_h
 
+#include <nmm/covers/cover_system.h>
 #include <nmm/covers/weight_functions.h>
 
 #include <algorithm>
+#include <array>
 
 namespace NMM
 {
@@ -39,6 +41,21 @@ namespace NMM
         return matrix + (2 * i + c) * 2 * n_covers;
       }
     };
+
+
+    /// The covers of an element, followed by those of its neighbor.
+    inline std::array<unsigned int, LocalSystem::max_covers>
+    covers_of_pair(const CoverSystem &covers,
+                   const unsigned int element,
+                   const unsigned int neighbor)
+    {
+      std::array<unsigned int, LocalSystem::max_covers> result{};
+      unsigned int                                      n = 0;
+      for (const unsigned int e : {element, neighbor})
+        for (const unsigned int k : covers.covers(e))
+          result[n++] = k;
+      return result;
+    }
   } // namespace internal
 } // namespace NMM
 

@@ -139,6 +139,7 @@ namespace NMM
              Data::Stage::assembled,
              Data::Stage::step_begun,
              Data::Stage::step_assembled,
+             Data::Stage::step_ended,
              Data::Stage::accepted,
              Data::Stage::step_accepted});
     d.move_to(u);
@@ -523,12 +524,12 @@ namespace NMM
   Contact::assemble(const Vector &u, const bool with_tangent)
   {
     Data &d = *data;
-    d.enter(d.is_between() ? Data::Stage::step_assembled
-                           : Data::Stage::assembled,
+    d.enter(d.is_between() ? Data::Stage::step_ended : Data::Stage::assembled,
             {Data::Stage::detected,
              Data::Stage::assembled,
              Data::Stage::step_begun,
              Data::Stage::step_assembled,
+             Data::Stage::step_ended,
              Data::Stage::accepted,
              Data::Stage::step_accepted});
     d.report  = ContactReport();

@@ -32,8 +32,11 @@ namespace NMM
       detected,
       assembled,
       step_begun,
-      /// ContactTimeStep::assemble() has been called. Assemblies are those of the step, or of its end.
+      /// The last assembly was ContactTimeStep::assemble().
       step_assembled,
+      /// The last assembly was Contact::assemble() at the end of a step of
+      /// ContactTimeStep::assemble().
+      step_ended,
       accepted,
       /// The end of a step with ContactTimeStep::assemble() has been accepted.
       step_accepted
@@ -67,7 +70,8 @@ namespace NMM
     bool
     is_between() const
     {
-      return stage == Stage::step_assembled || stage == Stage::step_accepted;
+      return stage == Stage::step_assembled || stage == Stage::step_ended ||
+             stage == Stage::step_accepted;
     }
 
     bool

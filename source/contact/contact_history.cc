@@ -20,8 +20,7 @@ namespace NMM
   Contact::augment()
   {
     Data &d = *data;
-    Assert(d.stage == Data::Stage::assembled,
-           dealii::ExcMessage("There is no assembly at a solution."));
+    d.enter(Data::Stage::assembled, {Data::Stage::assembled});
     Assert(d.multiplier_space != nullptr,
            dealii::ExcMessage("There is no penetration tolerance."));
     const MultiplierSpace &space  = *d.multiplier_space;
@@ -275,9 +274,8 @@ namespace NMM
   Contact::accept()
   {
     Data &d = *data;
-    Assert(d.stage == Data::Stage::assembled ||
-             d.stage == Data::Stage::step_assembled,
-           dealii::ExcMessage("There is no assembly that could be accepted."));
+    d.enter(d.is_between() ? Data::Stage::step_accepted : Data::Stage::accepted,
+            {Data::Stage::assembled, Data::Stage::step_ended});
     d.memory.stick_places.clear();
     d.memory.entrances.clear();
     d.memory.former_bodies.clear();
@@ -301,8 +299,6 @@ namespace NMM
     if (!d.has_friction)
     {
       d.memory.energies_of_pairs = d.pair_energies();
-      d.stage =
-        d.is_between() ? Data::Stage::step_accepted : Data::Stage::accepted;
       return Parallel::sum(dissipated, d.communicator);
     }
     (void)break_bonds();
@@ -312,8 +308,6 @@ namespace NMM
       if (d.point_data[q].law != nullptr && d.point_data[q].law->has_friction())
         dissipated += d.accept_shear(q);
     d.memory.energies_of_pairs = d.pair_energies();
-    d.stage =
-      d.is_between() ? Data::Stage::step_accepted : Data::Stage::accepted;
     return Parallel::sum(dissipated, d.communicator);
   }
 
@@ -345,6 +339,7 @@ namespace NMM
   Contact::restore_history(const ContactHistory &history)
   {
     Data &d = *data;
+    d.stage = Data::Stage::created;
     if (history.is_conserving)
       d.problem = Data::Problem::conserving_motion;
     d.memory.restore(history, *d.surface);

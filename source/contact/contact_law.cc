@@ -11,6 +11,8 @@ namespace NMM
   void
   ContactLaw::check(const std::string &where) const
   {
+    Assert(has_friction() || !is_bond,
+           dealii::ExcMessage("The points of a bond need anchors."));
     check_law_value(
       normal_stiffness > 0. && std::isfinite(normal_stiffness),
       "the normal spring's stiffness",
@@ -44,6 +46,12 @@ namespace NMM
                     dilation,
                     where,
                     "give a number that is at least 0");
+    check_law_value(dilation == 0. || !depends_on_slip(),
+                    "the tangent of the dilation angle",
+                    dilation,
+                    where,
+                    "leave it out: faces whose strength depends on the slip "
+                    "have no angle of dilation here");
     check_law_value(dilation_limit >= 0. && std::isfinite(dilation_limit),
                     "the slip that dilates",
                     dilation_limit,

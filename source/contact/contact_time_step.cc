@@ -59,7 +59,8 @@ namespace NMM
             {Data::Stage::detected,
              Data::Stage::assembled,
              Data::Stage::step_begun,
-             Data::Stage::step_assembled});
+             Data::Stage::step_assembled,
+             Data::Stage::step_ended});
     if (!d.is_moving())
       d.problem = Data::Problem::motion;
     d.matrix.begin_step();
@@ -500,7 +501,9 @@ namespace NMM
   {
     Data &d = *data;
     d.enter(Data::Stage::step_assembled,
-            {Data::Stage::step_begun, Data::Stage::step_assembled});
+            {Data::Stage::step_begun,
+             Data::Stage::step_assembled,
+             Data::Stage::step_ended});
     d.report  = ContactReport();
     d.deepest = 0.;
     if (with_tangent)

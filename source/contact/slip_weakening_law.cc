@@ -77,12 +77,5 @@ namespace NMM
                     weakening_length,
                     where,
                     "give a positive length");
-    check_law_value(
-      dilation == 0.,
-      "the tangent of the dilation angle",
-      dilation,
-      where,
-      "leave it out: faces whose strength weakens with slip have no "
-      "angle of dilation here");
   }
 } // namespace NMM

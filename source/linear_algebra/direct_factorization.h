@@ -45,8 +45,10 @@ namespace NMM
 
 
     /**
-     * The interface of a direct solver for one type of matrix. DirectSolver selects one of them.
-     * To add a solver, implement this interface in a file of its own and extend DirectSolver.
+     * The interface of a direct solver for one type of matrix. DirectSolver asks its solvers in
+     * turn, until factorize() of one returns true; the last one must be suitable for any matrix.
+     * To add a solver, implement this interface in a file of its own and extend DirectSolver. Its
+     * functions forget_analysis() and analysis_time() concern MUMPS alone.
      */
     template <typename MatrixType>
     class DirectFactorization : public Factors

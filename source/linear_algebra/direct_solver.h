@@ -30,8 +30,10 @@ namespace NMM
       using Matrix = dealii::TrilinosWrappers::SparseMatrix;
       using Vector = Factors::Vector;
 
+      /// All entries of a matrix are stored in both cases.
       enum class Symmetry
       {
+        /// Symmetric, whether positive definite or not.
         symmetric,
         unsymmetric
       };

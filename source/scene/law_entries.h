@@ -38,15 +38,21 @@ namespace NMM
         {
           const std::unique_ptr<Law> law = named.law->clone();
           for (const LawParameter &parameter : law->parameters())
-            if (std::none_of(declared.begin(),
-                             declared.end(),
-                             [&](const Declared &known) {
-                               return known.key == parameter.key;
-                             }))
-              declared.push_back({named.name,
-                                  parameter.key,
-                                  parameter.documentation,
-                                  value_in_scene(parameter)});
+          {
+            const auto   known = std::find_if(declared.begin(),
+                                            declared.end(),
+                                            [&](const Declared &other) {
+                                              return other.key == parameter.key;
+                                            });
+            const double value = value_in_scene(parameter);
+            if (known == declared.end())
+              declared.push_back(
+                {named.name, parameter.key, parameter.documentation, value});
+            else
+              Assert(known->default_value == value,
+                     dealii::ExcMessage("Laws have different defaults of '" +
+                                        parameter.key + "'."));
+          }
         }
       }
 

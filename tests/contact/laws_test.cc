@@ -178,8 +178,10 @@ namespace
   }
 
 
-  // The search for the factor of safety divides the whole strength, of every law.
-  TEST(ContactLaws, ReducedStrength)
+  // What ContactLaw asks of every law that scenes can choose: one potential on both sides of
+  // d = 0, with a pressure by which points open at d < 0; bonds with anchors; and the search for
+  // the factor of safety divides the whole strength.
+  TEST(ContactLaws, AllDoAsTheirBaseClassSays)
   {
     for (const NamedContactLaw &named : contact_laws())
     {
@@ -189,6 +191,17 @@ namespace
         if (parameter.key != "Dilation angle" &&
             parameter.key != "Dilation limit")
           *parameter.value = 0.5;
+      law->is_bond = true;
+      EXPECT_TRUE(law->has_friction());
+      law->is_bond = false;
+      EXPECT_EQ(law->energy(0.), 0.);
+      EXPECT_EQ(law->pressure(0.).value, 0.);
+      EXPECT_EQ(law->pressure(0.).derivative, law->normal_stiffness);
+      EXPECT_LT(law->pressure(-0.1).value, 0.);
+      EXPECT_NEAR(law->mean_pressure(0.1, 0.1).value,
+                  law->pressure(0.1).value,
+                  1e-15);
+      check_derivatives(*law, {-0.3, -0.1, 0.1, 0.4}, {0.1}, {0.2});
       const auto reduced = law->clone();
       reduced->reduce_strength(1.6);
       const double before = law->strength(0.1, 0.2).value;

@@ -469,6 +469,7 @@ namespace
           if (point.normal[1] > 0.99)
             up += point.weight * point.pressure;
         EXPECT_GT(up, 0.) << turn << ' ' << way;
+        bodies.contact->assemble(end, false);
         bodies.contact->accept();
       }
     }

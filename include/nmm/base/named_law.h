@@ -9,7 +9,9 @@
 /// give, and lists of laws from which scenes choose by name.
 namespace NMM
 {
-  /// A parameter of a law, with what is needed to read it from a scene.
+  /// A parameter of a law, with what is needed to read it from a scene. Numbers in scenes are finite
+  /// and at least 0. Laws of one list may share a key with the same kind and default; the help text
+  /// of scenes is then that of the first of these laws.
   struct LawParameter
   {
     /// How the number in a scene becomes the value in the law.

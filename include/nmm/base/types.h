@@ -10,8 +10,8 @@
  * The second-order numerical manifold method on deal.II.
  *
  * The library consists of modules ("rooms"), listed here in the order in which data flows: base,
- * geometry, covers, quadrature, linear_algebra, solution, materials, mechanics, contact, fracture,
- * dynamics, output, scene.
+ * geometry, covers, quadrature, linear_algebra, solution, materials, mechanics, fracture, contact,
+ * dynamics, output, scene. Each is described in one of its headers: doc/conventions.md has a table.
  *
  * The room `base` holds what all others use. It has no order of calls:
  *

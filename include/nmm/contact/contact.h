@@ -167,6 +167,9 @@ namespace NMM
    * polynomial on each piece. The paper has springs at corners only, see ContactIntegration; here
    * the stiffness is per length and does not depend on the mesh.
    *
+   * Pressure and strength of each point are those of a ContactLaw, which joints may choose one by
+   * one; to add a law, see there. The formulas here are those of the default, CoulombLaw.
+   *
    * Friction: the shear at a point is eps_t times its distance, along the master, from its anchor,
    * the material point of the master where it sticks. If the shear exceeds
    * q_max = p tan phi + c the anchor is dragged along (moving friction cone; Wriggers &
@@ -185,21 +188,30 @@ namespace NMM
    * @f$ -\int g\,\phi_i\,ds / \int \phi_i\,ds @f$
    * until they change by less than eps_n times the tolerance.
    *
-   * Order of calls: each function asserts that it is called at one of the stages from which an
-   * arrow leads to it. set_time() and functions that only return something may be called at any.
+   * Order of calls: detect(), both assemble(), ContactTimeStep::begin(), augment() and accept()
+   * assert (in Debug mode) that they are called at one of the stages from which an arrow leads to
+   * them:
    * @verbatim
-   *   created <------------------------- set_absent_bodies(), from any stage
-   *      | detect()
-   *   detected <------------------------ detect(), from any stage
-   *      |      \ ContactTimeStep::begin()
-   *      |       step_begun ----------------------------.
-   *      |           | assemble()                       | ContactTimeStep::assemble()
-   *      | assemble()|                                  |
-   *   assembled <----'  (assemble(), augment(): stays)  step_assembled  (either
-   *      | accept()                                     |  assemble(): stays)
-   *      |                                              | accept()
-   *   accepted          (assemble(): assembled)         step_accepted   (assemble(): stays)
+   *   created <----- set_absent_bodies(), restore_history(), from any stage
+   *
+   *   detected <---- detect(), from any stage
+   *
+   *   step_begun <-- ContactTimeStep::begin(), from any stage but created and accepted ones
+   *
+   *   from                        assemble()    ContactTimeStep::   augment()   accept()
+   *                                             assemble()
+   *   created                     -             -                   -           -
+   *   detected, accepted          assembled     -                   -           -
+   *   step_begun                  assembled     step_assembled      -           -
+   *   assembled                   assembled     -                   assembled   accepted
+   *   step_assembled              step_ended    step_assembled      -           -
+   *   step_ended                  step_ended    step_assembled      -           step_accepted
+   *   step_accepted               step_ended    -                   -           -
    * @endverbatim
+   * All other functions may be called at any stage; those that speak of the last assembly are
+   * meaningful after one. No stage says whether accept() follows an assembly at the end of the step
+   * or at another state: that is up to the caller.
+   *
    * Statics: detect(), then assemble() in each iteration, with detect() between them where
    * faces have moved far; accept() at the solution. Time steps: detect() and
    * ContactTimeStep::begin() at the beginning of the step, then ContactTimeStep::assemble()
@@ -329,8 +341,8 @@ namespace NMM
 
     /// The reason why a step from detect() to @p end, at the time that is set, must not be
     /// accepted, or an empty one: a point has moved further than the reach of the search,
-    /// penetrates by more than half of it, or has passed through a body on the way. The last
-    /// assembly must be that of @p end.
+    /// penetrated by more than half of it in the last assembly, or has passed through a body on
+    /// the way.
     StepFault
     find_fault(const Vector &end);
 
@@ -352,7 +364,8 @@ namespace NMM
     void
     set_absent_bodies(const std::vector<bool> &is_absent);
 
-    /// Restore what history() returned, on any number of ranks.
+    /// Restore what history() returned, on any number of ranks. detect() has to be called before
+    /// the next assembly.
     void
     restore_history(const ContactHistory &history);
 

@@ -15,8 +15,9 @@ namespace NMM
    * stateless; the state (anchor, slip, bond) belongs to the contact point and is an argument.
    *
    * Normal direction: a spring with the potential V(d) of the penetration d = -gap [m],
-   * @f[ p = V'(d),\quad d > 0; \qquad p = 0,\quad d \le 0, @f]
-   * and only bonded points bear tension, p = V'(d) for d < 0.
+   * @f[ p = V'(d), \qquad V(0) = V'(0) = 0,\quad V''(0) = \epsilon_n,\quad V'' > 0. @f]
+   * Laws give V' for d < 0 as well, where it is negative: bonded points bear this tension, and
+   * Contact opens all others there.
    *
    * Shear: a linear spring, @f$ q = \epsilon_t (g_t - g_t^\mathrm{slip}) @f$, up to the
    * strength, which may depend on the pressure and on the length kappa of the path that the
@@ -33,7 +34,12 @@ namespace NMM
    *
    * Stresses are per reference length of the slave and unit thickness.
    *
-   * To add a law: derive a class in a file of its own, and name it in contact_laws().
+   * To add a law: derive a class in a file of its own, and name it in contact_laws(). Scenes then
+   * know the law and its parameters(). A spring that is not linear overrides all of energy(),
+   * pressure(), penetration() and mean_pressure(). The other places are the list of sources in
+   * source/contact/CMakeLists.txt, a test beside those of tests/contact/laws_test.cc, the table of
+   * laws in doc/scene-format.md, doc/parameters.md (`nmm --print-parameters=markdown`) and a file
+   * in doc/news.
    */
   class ContactLaw
   {
@@ -67,8 +73,9 @@ namespace NMM
     virtual std::unique_ptr<ContactLaw>
     clone() const = 0;
 
-    /// All parameters of the law, with pointers to its members; those of the base class come
-    /// first.
+    /// The parameters that scenes give, with pointers to members; those of the base class come
+    /// first. A law that dilates adds "Dilation angle", "Dilation limit" and "Friction angle", which
+    /// scenes compare.
     virtual std::vector<Parameter>
     parameters();
 
@@ -95,7 +102,8 @@ namespace NMM
     }
 
     /// Mean pressure (V(d_1) - V(d_0)) / (d_1 - d_0) between two penetrations [Pa], and its
-    /// derivative by d_1 [Pa/m].
+    /// derivative by d_1 [Pa/m]. It must be free of rounding where both are nearly or exactly the
+    /// same, and is then V'.
     virtual Response
     mean_pressure(const double d_0, const double d_1) const
     {
@@ -103,7 +111,8 @@ namespace NMM
     }
 
     /// Strength of faces that are not, or no longer, bonded, under the @p pressure >= 0 [Pa] after
-    /// the @p slip >= 0 [m].
+    /// the @p slip >= 0 [m]. It should vanish with the pressure: otherwise shear jumps where faces
+    /// close or open, see CoulombLaw.
     virtual Strength
     strength(double pressure, double slip) const = 0;
 
@@ -114,11 +123,12 @@ namespace NMM
       return strength(pressure, 0.).value;
     }
 
-    /// Whether the law transmits shear; otherwise points have no anchors.
+    /// Whether the law transmits shear; otherwise points have no anchors. Bonds always do.
     virtual bool
     has_friction() const = 0;
 
-    /// Whether the strength depends on the slip, so that points have to store it.
+    /// Whether the strength depends on the slip. The shear of a step and its slip are then found
+    /// together, and the law cannot dilate.
     virtual bool
     depends_on_slip() const
     {

@@ -22,11 +22,12 @@
  * | nmm/linear_algebra/body_matrix.h | dense couplings of many small bodies, instead of a sparse matrix |
  * | matrix_sum.h | adds a matrix of a smaller pattern, in selected rows |
  * | active_items.h | lists of rows, elements or points that belong to selected blocks |
- * | linear_solver.h | one symmetric positive definite system, direct or iterative |
+ * | linear_solver.h | symmetric positive definite systems with one matrix, direct or iterative |
+ * | matrix_rows.h | the rows of this rank of an Epetra matrix, as arrays |
  * | direct_solver.h | a factorization that is used many times; selects one of the direct solvers |
  * | direct_factorization.h | the interface of direct solvers |
  * | mumps_factorization.h, klu_factorization.h, body_lu.h | the direct solvers |
- * | two_level_preconditioner.h, cover_smoother.h, linear_covers.h | the preconditioner of conjugate gradients |
+ * | two_level_preconditioner.h, cover_smoother.h, linear_covers.h | the preconditioner of conjugate gradients for second order; that for first order is in linear_solver.cc |
  * | nmm/linear_algebra/linear_solver_parameters.h | choice of the solver, and measurements |
  * | nmm/linear_algebra/condition_number.h | condition number and weakest cover of a matrix |
  *
@@ -48,11 +49,18 @@
  *     constraints.distribute(solution);
  *   }
  * @endcode
- * A system that is solved only once uses internal::solve_linear_system() instead.
+ * A matrix that is solved with only once (linear statics) uses internal::solve_linear_system()
+ * instead. Only this function can iterate: the steps of Newton's method are direct.
  *
- * To add a direct solver, implement DirectFactorization in a file of its own and select it
- * in DirectSolver. Failures (a singular matrix, lack of memory, iterations that do not
- * converge) throw NumericalFailure.
+ * To add a direct solver, implement DirectFactorization in a file of its own, list it in
+ * source/linear_algebra/CMakeLists.txt, select it in DirectSolver and test it in
+ * tests/linear_algebra/direct_solver_test.cc. To add a preconditioner, write a class with a
+ * constructor from (matrix, covers, constraints) and a function vmult(dst, src) that is symmetric
+ * and positive definite, select it in solve_linear_system(), and test it in
+ * tests/mechanics/iterative_test.cc. What scenes choose is LinearSolverParameters::Type.
+ *
+ * A singular matrix and lack of memory throw NumericalFailure; so do iterations that do not
+ * converge, unless the solver was chosen automatically, which then factorizes.
  */
 
 #endif

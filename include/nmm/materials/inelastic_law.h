@@ -8,7 +8,9 @@
 
 namespace NMM
 {
-  /// The history variables of the material at a quadrature point. A new point has zeros.
+  /// The history variables of the material at a point: a quadrature point of an element, or one side
+  /// of a point of a displacement condition or tie. A new point has zeros. All inelastic laws share
+  /// this struct: what a new law needs beside it is added here and to serialize().
   struct MaterialState
   {
     /// In-plane plastic strain epsilon^p [-].
@@ -56,7 +58,7 @@ namespace NMM
       /// sigma : Delta epsilon^p, the energy that the step dissipates, all components [Pa].
       double dissipated = 0.;
       /// Whether the step from the given state is elastic; the tangent is then that of Hooke's
-      /// law.
+      /// law. Where one step is not, the tangent matrix counts as unsymmetric.
       bool is_elastic = true;
       /// The state at the end of the step.
       MaterialState state;
@@ -65,8 +67,8 @@ namespace NMM
     virtual ~InelasticLaw() = default;
 
     /// Computes the response for the in-plane strain @p strain [-] at the end of a step that
-    /// began in @p state. If it returns @c inverted, no admissible stress was found, and the
-    /// response is undefined.
+    /// began in @p state. If no admissible stress was found it returns Deformation::inverted, as
+    /// for elements that are turned inside out: the response is undefined, and the step is cut.
     virtual Deformation
     evaluate(const dealii::SymmetricTensor<2, 2> &strain,
              const MaterialState                 &state,

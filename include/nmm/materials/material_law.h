@@ -14,19 +14,22 @@ namespace NMM
   class InelasticLaw;
 
   /**
-   * A material law: how stress follows from deformation. It is a stateless strategy and holds the
-   * parameters that the law has beside the elastic constants, density and initial stress of
-   * Material. It makes the objects that are evaluated at quadrature points, for the kinematics in
-   * which the law is defined:
+   * A material law: how stress follows from deformation. It has the parameters of the law beside
+   * the elastic constants, density and initial stress of Material, and no history. It makes
+   * the objects that are evaluated at quadrature points, for the kinematics in which the law is
+   * defined:
    *
    * | kinematics | object | a law without it |
    * |---|---|---|
-   * | `small` | InelasticLaw | is linear elastic there |
+   * | `small` | InelasticLaw | is linear elastic there, if has_small_strains() |
    * | `finite` | HyperelasticLaw | cannot be used there |
+   * | `incremental` | none: always linear elastic | can be used if elastic, and if has_small_strains() |
    *
    * The room `materials` consists of these laws. A scene or a program fills in a Material, whose
-   * member Material::law is one of material_laws(). Order of calls: Material::check(); then
-   * Material::hyperelastic_law() or Material::inelastic_law(), once per material; then
+   * member Material::law is one of material_laws(), a copy with other parameters, or a law of the
+   * program's own. Order of calls: Material::check(); then
+   * Material::hyperelastic_law() or Material::inelastic_law(), once for each region of the solid
+   * and again whenever the strength is reduced; then
    * HyperelasticLaw::evaluate() or InelasticLaw::evaluate() at each quadrature point, which give
    * stress, tangent and energy, and the new MaterialState of an inelastic law.
    *
@@ -43,7 +46,11 @@ namespace NMM
    *     return; // det F <= 0: the step was too large
    * @endcode
    *
-   * To add a law, derive a class in a file of its own, and name it in material_laws().
+   * To add a law, derive a class in a file of its own, and name it at the end of material_laws().
+   * Scenes then know the law and its parameters(). The other places are the list of sources in
+   * source/materials/CMakeLists.txt, a test in tests/materials, the table of laws in
+   * doc/scene-format.md, doc/parameters.md (`nmm --print-parameters=markdown`) and a file in
+   * doc/news.
    */
   class MaterialLaw
   {

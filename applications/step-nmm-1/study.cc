@@ -28,100 +28,84 @@ namespace StepNMM1
   }
 
 
-  namespace
-  {
-    void
-    declare(ParameterHandler &prm)
-    {
-      const Patterns::Double positive(1e-300);
-      prm.declare_entry("Ring",
-                        "quarter",
-                        Patterns::Selection("quarter|half|full"),
-                        "How much of the ring is modelled; symmetry on the "
-                        "cuts.");
-      prm.declare_entry("Inner radius", "1", positive, "[m]");
-      prm.declare_entry("Outer radius", "2", positive, "[m]");
-      prm.declare_entry("Pressure", "1", Patterns::Double(), "Inside [Pa].");
-      prm.declare_entry("Young's modulus", "1000", positive, "[Pa]");
-      prm.declare_entry("Poisson's ratio",
-                        "0.25",
-                        Patterns::Double(-1., 0.5),
-                        "[-]");
-      prm.declare_entry("Pattern",
-                        "equilateral",
-                        Patterns::Selection("equilateral|right-angled"),
-                        "Of the regular mesh.");
-      prm.declare_entry("Aggregation threshold",
-                        Patterns::Tools::to_string(
-                          NMM::default_aggregation_threshold),
-                        Patterns::Double(0., 1.),
-                        "Least support that makes an element good [-].");
-      prm.declare_entry("Refined width",
-                        "0.3",
-                        positive,
-                        "Width of the zone of smaller triangles at the inner "
-                        "circle [m].");
-      prm.declare_entry("Cell sizes",
-                        "0.23, 0.12, 0.0603, 0.0301, 0.01505, 0.0076",
-                        Patterns::List(positive, 1),
-                        "Edge lengths of the triangles [m].");
-      prm.declare_entry("Offset",
-                        "0.003, 0.002",
-                        Patterns::List(Patterns::Double(), 2, 2),
-                        "Of the mesh against the ring [m].");
-      prm.declare_entry("Rotation",
-                        "7",
-                        Patterns::Double(),
-                        "Of the mesh against the ring [degrees].");
-      prm.declare_entry("Placements",
-                        "10",
-                        Patterns::Integer(0),
-                        "Number of random offsets and rotations.");
-      prm.declare_entry("Placement cell size", "0.0575", positive, "[m]");
-      prm.declare_entry("Seed", "1", Patterns::Integer(0), "Of placements.");
-      prm.declare_entry("Solver",
-                        "automatic",
-                        Patterns::Selection("automatic|direct|iterative"),
-                        "Of the linear system.");
-    }
-  } // namespace
-
-
   Parameters
   read_parameters(const std::string &file_name,
                   const std::string &output_directory)
   {
-    ParameterHandler prm;
-    declare(prm);
+    Parameters parameters;
+    parameters.output_directory = output_directory;
+
+    ParameterHandler       prm;
+    const Patterns::Double positive(1e-300);
+    prm.add_parameter("Inner radius", parameters.inner_radius, "[m]", positive);
+    prm.add_parameter("Outer radius", parameters.outer_radius, "[m]", positive);
+    prm.add_parameter("Pressure", parameters.pressure, "Inside [Pa].");
+    prm.add_parameter("Young's modulus",
+                      parameters.youngs_modulus,
+                      "[Pa]",
+                      positive);
+    prm.add_parameter("Poisson's ratio",
+                      parameters.poissons_ratio,
+                      "[-]",
+                      Patterns::Double(-1., 0.5));
+    prm.add_parameter("Aggregation threshold",
+                      parameters.aggregation_threshold,
+                      "Least support that makes an element good [-].",
+                      Patterns::Double(0., 1.));
+    prm.add_parameter("Refined width",
+                      parameters.refined_width,
+                      "Width of the zone of smaller triangles at the inner "
+                      "circle [m].",
+                      positive);
+    prm.add_parameter("Cell sizes",
+                      parameters.cell_sizes,
+                      "Edge lengths of the triangles [m].",
+                      Patterns::List(positive, 1));
+    prm.add_parameter("Offset",
+                      parameters.offset,
+                      "Of the mesh against the ring [m].");
+    prm.add_parameter("Rotation",
+                      parameters.rotation,
+                      "Of the mesh against the ring [degrees].");
+    prm.add_parameter("Placements",
+                      parameters.n_placements,
+                      "Number of random offsets and rotations.",
+                      Patterns::Integer(0));
+    prm.add_parameter("Placement cell size",
+                      parameters.placement_cell_size,
+                      "[m]",
+                      positive);
+    prm.add_parameter("Seed",
+                      parameters.seed,
+                      "Of placements.",
+                      Patterns::Integer(0));
+    prm.declare_entry("Ring",
+                      "quarter",
+                      Patterns::Selection("quarter|half|full"),
+                      "How much of the ring is modelled; symmetry on the "
+                      "cuts.");
+    prm.declare_entry("Pattern",
+                      "equilateral",
+                      Patterns::Selection("equilateral|right-angled"),
+                      "Of the regular mesh.");
+    prm.declare_entry("Solver",
+                      "automatic",
+                      Patterns::Selection("automatic|direct|iterative"),
+                      "Of the linear system.");
     Tutorial::read_parameter_file(prm, file_name, "step-nmm-1.prm");
 
-    Parameters        parameters;
-    const std::string ring           = prm.get("Ring");
-    parameters.shape                 = ring == "quarter" ? RingShape::quarter
-                                       : ring == "half"  ? RingShape::half
-                                                         : RingShape::full;
-    parameters.inner_radius          = prm.get_double("Inner radius");
-    parameters.outer_radius          = prm.get_double("Outer radius");
-    parameters.pressure              = prm.get_double("Pressure");
-    parameters.youngs_modulus        = prm.get_double("Young's modulus");
-    parameters.poissons_ratio        = prm.get_double("Poisson's ratio");
-    parameters.pattern               = prm.get("Pattern") == "equilateral"
-                                         ? NMM::MeshPattern::equilateral
-                                         : NMM::MeshPattern::right_angled;
-    parameters.aggregation_threshold = prm.get_double("Aggregation threshold");
-    parameters.refined_width         = prm.get_double("Refined width");
-    parameters.cell_sizes            = Tutorial::get_numbers(prm, "Cell sizes");
-    parameters.offset                = Tutorial::get_vector(prm, "Offset");
-    parameters.rotation              = prm.get_double("Rotation");
-    parameters.n_placements          = prm.get_integer("Placements");
-    parameters.placement_cell_size   = prm.get_double("Placement cell size");
-    parameters.seed                  = prm.get_integer("Seed");
-    const std::string solver         = prm.get("Solver");
-    using Type                       = NMM::LinearSolverParameters::Type;
-    parameters.solver.type           = solver == "direct"      ? Type::direct
-                                       : solver == "iterative" ? Type::iterative
-                                                               : Type::automatic;
-    parameters.output_directory      = output_directory;
+    const std::string ring   = prm.get("Ring");
+    parameters.shape         = ring == "quarter" ? RingShape::quarter
+                               : ring == "half"  ? RingShape::half
+                                                 : RingShape::full;
+    parameters.pattern       = prm.get("Pattern") == "equilateral"
+                                 ? NMM::MeshPattern::equilateral
+                                 : NMM::MeshPattern::right_angled;
+    const std::string solver = prm.get("Solver");
+    using Type               = NMM::LinearSolverParameters::Type;
+    parameters.solver.type   = solver == "direct"      ? Type::direct
+                               : solver == "iterative" ? Type::iterative
+                                                       : Type::automatic;
     return parameters;
   }
 

@@ -34,18 +34,19 @@ namespace StepNMM1
     double youngs_modulus = 1000., poissons_ratio = 0.25;
 
     /// Edge lengths of the regular triangles [m].
-    std::vector<double> cell_sizes;
-    NMM::MeshPattern    pattern  = NMM::MeshPattern::equilateral;
-    double aggregation_threshold = NMM::default_aggregation_threshold;
+    std::vector<double> cell_sizes =
+      {0.23, 0.12, 0.0603, 0.0301, 0.01505, 0.0076};
+    NMM::MeshPattern pattern               = NMM::MeshPattern::equilateral;
+    double           aggregation_threshold = NMM::default_aggregation_threshold;
     /// Width of the zone of smaller triangles at the inner circle [m].
     double refined_width = 0.3;
     /// Where the mesh lies against the ring [m], [degrees].
-    dealii::Tensor<1, 2> offset;
-    double               rotation = 0.;
+    dealii::Tensor<1, 2> offset{{0.003, 0.002}};
+    double               rotation = 7.;
 
     unsigned int n_placements        = 10;
     unsigned int seed                = 1;
-    double       placement_cell_size = 0.05;
+    double       placement_cell_size = 0.0575;
 
     NMM::LinearSolverParameters solver;
     std::string                 output_directory = ".";

@@ -43,77 +43,56 @@ namespace StepNMM2
   }
 
 
-  namespace
-  {
-    void
-    declare(ParameterHandler &prm)
-    {
-      const Patterns::Double positive(1e-300);
-      prm.declare_entry("Cell sizes",
-                        "0.6, 0.33, 0.22, 0.139, 0.09",
-                        Patterns::List(positive, 1),
-                        "Edge lengths of the triangles [m].");
-      prm.declare_entry("Corner ratio",
-                        "0.3",
-                        Patterns::Double(1e-3, 1.),
-                        "Edge length at the clamped corners over the others "
-                        "[-].");
-      prm.declare_entry("Corner growth",
-                        "0.3",
-                        Patterns::Double(1e-3, 1.),
-                        "Of the edge length per distance from the corners "
-                        "[-].");
-      prm.declare_entry("Offset",
-                        "0.03, 0.02",
-                        Patterns::List(Patterns::Double(), 2, 2),
-                        "Of the mesh against the beam [m].");
-      prm.declare_entry("Rotation",
-                        "7",
-                        Patterns::Double(),
-                        "Of the mesh against the beam [degrees].");
-      prm.declare_entry("Load steps",
-                        "5",
-                        Patterns::Integer(1, 1000),
-                        "Equal steps up to K = 10.");
-      prm.declare_entry("Increments",
-                        "10, 20, 50, 100, 200, 500, 1000",
-                        Patterns::List(Patterns::Integer(1)),
-                        "Numbers of steps of the paper's scheme.");
-      prm.declare_entry("Cell size",
-                        "0.33",
-                        positive,
-                        "Of increments, placements and figures [m].");
-      prm.declare_entry("Placements",
-                        "5",
-                        Patterns::Integer(0),
-                        "Number of random offsets and rotations.");
-      prm.declare_entry("Seed", "1", Patterns::Integer(0), "Of placements.");
-    }
-  } // namespace
-
-
   Parameters
   read_parameters(const std::string &file_name,
                   const std::string &output_directory)
   {
-    ParameterHandler prm;
-    declare(prm);
-    Tutorial::read_parameter_file(prm, file_name, "step-nmm-2.prm");
-
     Parameters parameters;
-    parameters.cell_sizes    = Tutorial::get_numbers(prm, "Cell sizes");
-    parameters.corner_ratio  = prm.get_double("Corner ratio");
-    parameters.corner_growth = prm.get_double("Corner growth");
-    parameters.offset        = Tutorial::get_vector(prm, "Offset");
-    parameters.rotation      = prm.get_double("Rotation");
-    parameters.n_load_steps  = prm.get_integer("Load steps");
-    for (const int n : Utilities::string_to_int(
-           Utilities::split_string_list(prm.get("Increments"))))
-      parameters.increments.push_back(n);
-    parameters.cell_size        = prm.get_double("Cell size");
-    parameters.n_placements     = prm.get_integer("Placements");
-    parameters.seed             = prm.get_integer("Seed");
     parameters.output_directory = output_directory;
+
+    ParameterHandler       prm;
+    const Patterns::Double positive(1e-300);
+    prm.add_parameter("Cell sizes",
+                      parameters.cell_sizes,
+                      "Edge lengths of the triangles [m].",
+                      Patterns::List(positive, 1));
+    prm.add_parameter("Corner ratio",
+                      parameters.corner_ratio,
+                      "Edge length at the clamped corners over the others "
+                      "[-].",
+                      Patterns::Double(1e-3, 1.));
+    prm.add_parameter("Corner growth",
+                      parameters.corner_growth,
+                      "Of the edge length per distance from the corners "
+                      "[-].",
+                      Patterns::Double(1e-3, 1.));
+    prm.add_parameter("Offset",
+                      parameters.offset,
+                      "Of the mesh against the beam [m].");
+    prm.add_parameter("Rotation",
+                      parameters.rotation,
+                      "Of the mesh against the beam [degrees].");
+    prm.add_parameter("Load steps",
+                      parameters.n_load_steps,
+                      "Equal steps up to K = 10.",
+                      Patterns::Integer(1, 1000));
+    prm.add_parameter("Increments",
+                      parameters.increments,
+                      "Numbers of steps of the paper's scheme.",
+                      Patterns::List(Patterns::Integer(1)));
+    prm.add_parameter("Cell size",
+                      parameters.cell_size,
+                      "Of increments, placements and figures [m].",
+                      positive);
+    prm.add_parameter("Placements",
+                      parameters.n_placements,
+                      "Number of random offsets and rotations.",
+                      Patterns::Integer(0));
+    prm.add_parameter("Seed",
+                      parameters.seed,
+                      "Of placements.",
+                      Patterns::Integer(0));
+    Tutorial::read_parameter_file(prm, file_name, "step-nmm-2.prm");
     return parameters;
   }
 

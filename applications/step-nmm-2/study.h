@@ -39,16 +39,16 @@ namespace StepNMM2
     double last_load = 10.;
 
     /// Edge lengths of the triangles far from the clamped corners [m].
-    std::vector<double> cell_sizes;
+    std::vector<double> cell_sizes = {0.6, 0.33, 0.22, 0.139, 0.09};
     /// Edge length at the corners over the one far away, and its growth per
     /// distance.
     double corner_ratio = 0.3, corner_growth = 0.3;
     /// Where the mesh lies against the beam [m], [degrees].
-    dealii::Tensor<1, 2> offset;
-    double               rotation = 0.;
+    dealii::Tensor<1, 2> offset{{0.03, 0.02}};
+    double               rotation = 7.;
 
     unsigned int              n_load_steps = 5;
-    std::vector<unsigned int> increments;
+    std::vector<unsigned int> increments   = {10, 20, 50, 100, 200, 500, 1000};
     /// Cell size of the runs by increments, the random placements and the figures
     /// [m].
     double       cell_size    = 0.33;

@@ -37,90 +37,64 @@ namespace StepNMM3
   }
 
 
-  namespace
-  {
-    void
-    declare(ParameterHandler &prm)
-    {
-      const Patterns::Double positive(1e-300);
-      const Patterns::List   sizes(positive, 1);
-      prm.declare_entry("Half-widths",
-                        "0.1, 0.05",
-                        Patterns::List(Patterns::Double(1e-3, 0.2), 1),
-                        "Of Hertz's contact over the radius [-].");
-      prm.declare_entry("Contact ratios",
-                        "0.4, 0.3, 0.2, 0.1, 0.05",
-                        sizes,
-                        "Edge lengths of triangles at the contact over the "
-                        "half-width [-].");
-      prm.declare_entry("Cell size",
-                        "0.2",
-                        positive,
-                        "Edge length far from the contact [m].");
-      prm.declare_entry("Growth",
-                        "0.2",
-                        Patterns::Double(1e-3, 1.),
-                        "Of the edge length per distance from the contact "
-                        "[-].");
-      prm.declare_entry("Offset",
-                        "0.0123, 0.0321",
-                        Patterns::List(Patterns::Double(), 2, 2),
-                        "Of the mesh [m].");
-      prm.declare_entry("Rotation",
-                        "6",
-                        Patterns::Double(),
-                        "Of the mesh [degrees].");
-      prm.declare_entry("Placements",
-                        "10",
-                        Patterns::Integer(0),
-                        "Number of random offsets and rotations.");
-      prm.declare_entry("Seed", "1", Patterns::Integer(0), "Of placements.");
-      prm.declare_entry("Repetitions",
-                        "3",
-                        Patterns::Integer(1),
-                        "Of timed runs, of which the fastest counts.");
-      prm.declare_entry("Compression sizes",
-                        "0.08, 0.04, 0.02",
-                        sizes,
-                        "Edge lengths at the contact, quarter disk [m].");
-      prm.declare_entry("Load steps",
-                        "20",
-                        Patterns::Integer(1, 1000),
-                        "Equal steps up to an approach of 0.4 m.");
-      prm.declare_entry("Press size",
-                        "0.05",
-                        positive,
-                        "Edge length at the contacts of the whole cylinder "
-                        "[m].");
-    }
-  } // namespace
-
-
   Parameters
   read_parameters(const std::string &file_name,
                   const std::string &output_directory)
   {
-    ParameterHandler prm;
-    declare(prm);
-    Tutorial::read_parameter_file(prm, file_name, "step-nmm-3.prm");
-
-    const auto numbers = [&](const std::string &entry) {
-      return Tutorial::get_numbers(prm, entry);
-    };
     Parameters parameters;
-    parameters.half_widths       = numbers("Half-widths");
-    parameters.contact_ratios    = numbers("Contact ratios");
-    parameters.cell_size         = prm.get_double("Cell size");
-    parameters.growth            = prm.get_double("Growth");
-    parameters.offset            = Tutorial::get_vector(prm, "Offset");
-    parameters.rotation          = prm.get_double("Rotation");
-    parameters.n_placements      = prm.get_integer("Placements");
-    parameters.seed              = prm.get_integer("Seed");
-    parameters.n_repetitions     = prm.get_integer("Repetitions");
-    parameters.compression_sizes = numbers("Compression sizes");
-    parameters.n_load_steps      = prm.get_integer("Load steps");
-    parameters.press_size        = prm.get_double("Press size");
-    parameters.output_directory  = output_directory;
+    parameters.output_directory = output_directory;
+
+    ParameterHandler       prm;
+    const Patterns::Double positive(1e-300);
+    const Patterns::List   sizes(positive, 1);
+    prm.add_parameter("Half-widths",
+                      parameters.half_widths,
+                      "Of Hertz's contact over the radius [-].",
+                      Patterns::List(Patterns::Double(1e-3, 0.2), 1));
+    prm.add_parameter("Contact ratios",
+                      parameters.contact_ratios,
+                      "Edge lengths of triangles at the contact over the "
+                      "half-width [-].",
+                      sizes);
+    prm.add_parameter("Cell size",
+                      parameters.cell_size,
+                      "Edge length far from the contact [m].",
+                      positive);
+    prm.add_parameter("Growth",
+                      parameters.growth,
+                      "Of the edge length per distance from the contact "
+                      "[-].",
+                      Patterns::Double(1e-3, 1.));
+    prm.add_parameter("Offset", parameters.offset, "Of the mesh [m].");
+    prm.add_parameter("Rotation",
+                      parameters.rotation,
+                      "Of the mesh [degrees].");
+    prm.add_parameter("Placements",
+                      parameters.n_placements,
+                      "Number of random offsets and rotations.",
+                      Patterns::Integer(0));
+    prm.add_parameter("Seed",
+                      parameters.seed,
+                      "Of placements.",
+                      Patterns::Integer(0));
+    prm.add_parameter("Repetitions",
+                      parameters.n_repetitions,
+                      "Of timed runs, of which the fastest counts.",
+                      Patterns::Integer(1));
+    prm.add_parameter("Compression sizes",
+                      parameters.compression_sizes,
+                      "Edge lengths at the contact, quarter disk [m].",
+                      sizes);
+    prm.add_parameter("Load steps",
+                      parameters.n_load_steps,
+                      "Equal steps up to an approach of 0.4 m.",
+                      Patterns::Integer(1, 1000));
+    prm.add_parameter("Press size",
+                      parameters.press_size,
+                      "Edge length at the contacts of the whole cylinder "
+                      "[m].",
+                      positive);
+    Tutorial::read_parameter_file(prm, file_name, "step-nmm-3.prm");
     return parameters;
   }
 

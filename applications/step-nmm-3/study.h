@@ -35,21 +35,21 @@ namespace StepNMM3
     double approach = 0.4, speed = 0.01;
 
     /// Of Hertz's contact [m].
-    std::vector<double> half_widths;
+    std::vector<double> half_widths = {0.1, 0.05};
     /// Edge length of triangles at the contact over the half-width.
-    std::vector<double> contact_ratios;
+    std::vector<double> contact_ratios = {0.4, 0.3, 0.2, 0.1, 0.05};
     /// Edge length far from it [m], growth per distance [-].
     double cell_size = 0.2, growth = 0.2;
     /// Where the mesh lies [m], [degrees].
-    dealii::Tensor<1, 2> offset;
-    double               rotation = 0.;
+    dealii::Tensor<1, 2> offset{{0.0123, 0.0321}};
+    double               rotation = 6.;
 
     unsigned int n_placements = 10, seed = 1, n_repetitions = 3;
     /// Edge lengths at the contact, quarter disk to 0.4 m and the press [m].
-    std::vector<double> compression_sizes;
-    double              press_size       = 0.05;
-    unsigned int        n_load_steps     = 20;
-    std::string         output_directory = ".";
+    std::vector<double> compression_sizes = {0.08, 0.04, 0.02};
+    double              press_size        = 0.05;
+    unsigned int        n_load_steps      = 20;
+    std::string         output_directory  = ".";
 
     /// E / (1 - nu^2) [Pa].
     double

@@ -26,57 +26,6 @@ namespace StepNMM4
 
   namespace
   {
-    void
-    declare(ParameterHandler &prm)
-    {
-      const Patterns::Double positive(1e-300);
-      prm.declare_entry("Friction angles",
-                        "35, 20",
-                        Patterns::List(Patterns::Double(0., 89.), 1),
-                        "One run for each [degrees].");
-      prm.declare_entry("Time step", "0.01", positive, "The longest [s].");
-      prm.declare_entry("Half step",
-                        "true",
-                        Patterns::Bool(),
-                        "Compute what falls with half of the step, too.");
-      prm.declare_entry("Perturbation",
-                        "1e-7",
-                        Patterns::Double(0.),
-                        "Of the friction angle, in one more run of what falls; "
-                        "0: none [degrees].");
-      prm.declare_entry("Perturbed runs",
-                        "1",
-                        Patterns::Integer(0, 1000),
-                        "With 1, 2, ... times the perturbation; more than one: "
-                        "also with half of the step, if that is asked for.");
-      prm.declare_entry("End time", "12", positive, "Or at rest [s].");
-      prm.declare_entry("Stages",
-                        "1, 2",
-                        Patterns::List(Patterns::Double(0.), 0),
-                        "Times of pictures besides begin and end [s].");
-      prm.declare_entry("Block length",
-                        "2.3",
-                        Patterns::Double(0.5, 10.),
-                        "Along the layers [m].");
-      prm.declare_entry("Layer",
-                        "2",
-                        Patterns::Double(0.5, 5.),
-                        "Thickness of layers [m].");
-      prm.declare_entry("Spring",
-                        "9.80665e9",
-                        positive,
-                        "Of faces, normal and along them [Pa/m].");
-      prm.declare_entry("Dashpot",
-                        "2e7",
-                        Patterns::Double(0.),
-                        "The same [Pa s/m].");
-      prm.declare_entry("Rock damping",
-                        "1e-3",
-                        Patterns::Double(0.),
-                        "Of blocks, times their stiffness [s].");
-    }
-
-
     bool
     is_first_rank()
     {
@@ -89,26 +38,61 @@ namespace StepNMM4
   read_parameters(const std::string &file_name,
                   const std::string &output_directory)
   {
-    ParameterHandler prm;
-    declare(prm);
-    Tutorial::read_parameter_file(prm, file_name, "step-nmm-4.prm");
-    const auto numbers = [&](const std::string &entry) {
-      return Tutorial::get_numbers(prm, entry);
-    };
     Parameters parameters;
-    parameters.friction_angles  = numbers("Friction angles");
-    parameters.step             = prm.get_double("Time step");
-    parameters.is_halved        = prm.get_bool("Half step");
-    parameters.end_time         = prm.get_double("End time");
-    parameters.stages           = numbers("Stages");
-    parameters.block_length     = prm.get_double("Block length");
-    parameters.layer            = prm.get_double("Layer");
-    parameters.spring           = prm.get_double("Spring");
-    parameters.dashpot          = prm.get_double("Dashpot");
-    parameters.damping          = prm.get_double("Rock damping");
-    parameters.perturbation     = prm.get_double("Perturbation");
-    parameters.n_perturbed      = prm.get_integer("Perturbed runs");
     parameters.output_directory = output_directory;
+
+    ParameterHandler       prm;
+    const Patterns::Double positive(1e-300);
+    prm.add_parameter("Friction angles",
+                      parameters.friction_angles,
+                      "One run for each [degrees].",
+                      Patterns::List(Patterns::Double(0., 89.), 1));
+    prm.add_parameter("Time step",
+                      parameters.step,
+                      "The longest [s].",
+                      positive);
+    prm.add_parameter("Half step",
+                      parameters.is_halved,
+                      "Compute what falls with half of the step, too.");
+    prm.add_parameter("Perturbation",
+                      parameters.perturbation,
+                      "Of the friction angle, in one more run of what falls; "
+                      "0: none [degrees].",
+                      Patterns::Double(0.));
+    prm.add_parameter("Perturbed runs",
+                      parameters.n_perturbed,
+                      "With 1, 2, ... times the perturbation; more than one: "
+                      "also with half of the step, if that is asked for.",
+                      Patterns::Integer(0, 1000));
+    prm.add_parameter("End time",
+                      parameters.end_time,
+                      "Or at rest [s].",
+                      positive);
+    prm.add_parameter("Stages",
+                      parameters.stages,
+                      "Times of pictures besides begin and end [s].",
+                      Patterns::List(Patterns::Double(0.), 0));
+    prm.add_parameter("Block length",
+                      parameters.block_length,
+                      "Along the layers [m].",
+                      Patterns::Double(0.5, 10.));
+    prm.add_parameter("Layer",
+                      parameters.layer,
+                      "Thickness of layers [m].",
+                      Patterns::Double(0.5, 5.));
+    prm.add_parameter("Spring",
+                      parameters.spring,
+                      "Of faces, normal and along them [Pa/m].",
+                      positive);
+    prm.add_parameter("Dashpot",
+                      parameters.dashpot,
+                      "The same [Pa s/m].",
+                      Patterns::Double(0.));
+    prm.add_parameter("Rock damping",
+                      parameters.damping,
+                      "Of blocks, times their stiffness [s].",
+                      Patterns::Double(0.));
+    Tutorial::read_parameter_file(prm, file_name, "step-nmm-4.prm");
     std::sort(parameters.stages.begin(), parameters.stages.end());
     return parameters;
   }

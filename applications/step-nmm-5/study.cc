@@ -23,56 +23,49 @@ namespace StepNMM5
   read_parameters(const std::string &file_name,
                   const std::string &output_directory)
   {
-    const Patterns::List numbers(Patterns::Double(0.), 1);
-    ParameterHandler     prm;
-    prm.declare_entry(
-      "Gradings",
-      "0.5, 0.35, 0.25, 0.175, 0.125",
-      numbers,
-      "Sizes of cells at the free radius of the tip over that radius [-].");
-    prm.declare_entry(
-      "Cell sizes",
-      "0.2, 0.1, 0.05, 0.025",
-      numbers,
-      "Sizes of cells of meshes that know nothing of the tip [m].");
-    prm.declare_entry("Increments",
-                      "0.4, 0.2, 0.1",
-                      numbers,
-                      "Increments of the crack in the beam [in].");
-    prm.declare_entry("Beam cell size",
-                      "0.5",
-                      Patterns::Double(0.),
-                      "Size of the beam's cells [in].");
-    prm.declare_entry("Beam grading",
-                      "0.25",
-                      Patterns::Double(0.),
-                      "Like Gradings, for the beam [-].");
-    prm.declare_entry(
-      "Wing increments",
-      "6",
-      Patterns::Integer(0),
-      "Number of the wings' increments; 0: this part is left out.");
-    prm.declare_entry("Wing increment",
-                      "0.05",
-                      Patterns::Double(0.),
-                      "Length of the wings' increments [m].");
-    prm.declare_entry(
-      "Slope end time",
-      "2.5",
-      Patterns::Double(0.),
-      "Until when the slope is followed [s]; 0: this part is left out.");
-    Tutorial::read_parameter_file(prm, file_name, "step-nmm-5.prm");
-
     Parameters parameters;
-    parameters.gradings          = Tutorial::get_numbers(prm, "Gradings");
-    parameters.cell_sizes        = Tutorial::get_numbers(prm, "Cell sizes");
-    parameters.increments        = Tutorial::get_numbers(prm, "Increments");
-    parameters.beam_cell_size    = prm.get_double("Beam cell size");
-    parameters.beam_grading      = prm.get_double("Beam grading");
-    parameters.n_wing_increments = prm.get_integer("Wing increments");
-    parameters.wing_increment    = prm.get_double("Wing increment");
-    parameters.slope_end_time    = prm.get_double("Slope end time");
-    parameters.output_directory  = output_directory;
+    parameters.output_directory = output_directory;
+
+    ParameterHandler       prm;
+    const Patterns::Double length(0.);
+    const Patterns::List   numbers(length, 1);
+    prm.add_parameter(
+      "Gradings",
+      parameters.gradings,
+      "Sizes of cells at the free radius of the tip over that radius [-].",
+      numbers);
+    prm.add_parameter(
+      "Cell sizes",
+      parameters.cell_sizes,
+      "Sizes of cells of meshes that know nothing of the tip [m].",
+      numbers);
+    prm.add_parameter("Increments",
+                      parameters.increments,
+                      "Increments of the crack in the beam [in].",
+                      numbers);
+    prm.add_parameter("Beam cell size",
+                      parameters.beam_cell_size,
+                      "Size of the beam's cells [in].",
+                      length);
+    prm.add_parameter("Beam grading",
+                      parameters.beam_grading,
+                      "Like Gradings, for the beam [-].",
+                      length);
+    prm.add_parameter(
+      "Wing increments",
+      parameters.n_wing_increments,
+      "Number of the wings' increments; 0: this part is left out.",
+      Patterns::Integer(0));
+    prm.add_parameter("Wing increment",
+                      parameters.wing_increment,
+                      "Length of the wings' increments [m].",
+                      length);
+    prm.add_parameter(
+      "Slope end time",
+      parameters.slope_end_time,
+      "Until when the slope is followed [s]; 0: this part is left out.",
+      length);
+    Tutorial::read_parameter_file(prm, file_name, "step-nmm-5.prm");
     return parameters;
   }
 

@@ -19,11 +19,11 @@ namespace StepNMM5
   struct Parameters
   {
     /// Sizes of cells at the free radius of the tip over that radius [-].
-    std::vector<double> gradings;
+    std::vector<double> gradings = {0.5, 0.35, 0.25, 0.175, 0.125};
     /// Sizes of cells of uniform meshes [m].
-    std::vector<double> cell_sizes;
+    std::vector<double> cell_sizes = {0.2, 0.1, 0.05, 0.025};
     /// Lengths of the increments in the beam [in].
-    std::vector<double> increments;
+    std::vector<double> increments = {0.4, 0.2, 0.1};
     /// Size of its cells [in].
     double beam_cell_size = 0.5;
     /// Like gradings, for the beam [-].

@@ -97,26 +97,6 @@ namespace Tutorial
   }
 
 
-  std::vector<double>
-  get_numbers(const ParameterHandler &prm, const std::string &name)
-  {
-    return Utilities::string_to_double(
-      Utilities::split_string_list(prm.get(name)));
-  }
-
-
-  Tensor<1, 2>
-  get_vector(const ParameterHandler &prm, const std::string &name)
-  {
-    const std::vector<double> numbers = get_numbers(prm, name);
-    AssertThrow(numbers.size() == 2,
-                NMM::InputError("'" + name + "' needs two numbers",
-                                prm.get(name),
-                                "separate them by a comma"));
-    return Tensor<1, 2>({numbers[0], numbers[1]});
-  }
-
-
   void
   draw_figures(const std::string              &prefix,
                const std::string              &script,

@@ -5,7 +5,6 @@
 // figures.
 
 #include <deal.II/base/parameter_handler.h>
-#include <deal.II/base/tensor.h>
 
 #include <functional>
 #include <string>
@@ -30,7 +29,7 @@ namespace Tutorial
   check_that_there_is_one_rank(const std::string &program);
 
   /**
-   * Read @p file_name into the declared entries @p prm; without a name the defaults are left.
+   * Read @p file_name into the entries of @p prm; without a name the defaults are left.
    * @throws NMM::InputError for a file that cannot be read or has errors; @p example is the file that
    * the message names as an example.
    */
@@ -42,14 +41,6 @@ namespace Tutorial
   /// Make the folder for results before anything is computed. @throws NMM::InputError.
   void
   make_output_directory(const std::string &name);
-
-  /// The entry @p name as a list of numbers.
-  std::vector<double>
-  get_numbers(const dealii::ParameterHandler &prm, const std::string &name);
-
-  /// The entry @p name as a vector of two components.
-  dealii::Tensor<1, 2>
-  get_vector(const dealii::ParameterHandler &prm, const std::string &name);
 
   /**
    * Draw figures with gnuplot. @p script has the word PREFIX wherever @p prefix, the path and the

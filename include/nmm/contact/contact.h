@@ -189,28 +189,28 @@ namespace NMM
    * until they change by less than eps_n times the tolerance.
    *
    * Order of calls: detect(), both assemble(), ContactTimeStep::begin(), augment() and accept()
-   * assert (in Debug mode) that they are called at one of the stages from which an arrow leads to
-   * them:
+   * assert (in Debug mode) that they are called at a stage where they are allowed. The last four
+   * are in a table: it has the stage after the call, and "-" where the call is not allowed.
    * @verbatim
    *   created <----- set_absent_bodies(), restore_history(), from any stage
    *
    *   detected <---- detect(), from any stage
    *
-   *   step_begun <-- ContactTimeStep::begin(), from any stage but created and accepted ones
+   *   step_begun <-- ContactTimeStep::begin(), from detected, assembled, step_begun,
+   *                  step_assembled and step_ended
    *
-   *   from                        assemble()    ContactTimeStep::   augment()   accept()
-   *                                             assemble()
-   *   created                     -             -                   -           -
-   *   detected, accepted          assembled     -                   -           -
-   *   step_begun                  assembled     step_assembled      -           -
-   *   assembled                   assembled     -                   assembled   accepted
-   *   step_assembled              step_ended    step_assembled      -           -
-   *   step_ended                  step_ended    step_assembled      -           step_accepted
-   *   step_accepted               step_ended    -                   -           -
+   *   stage               assemble()   ContactTimeStep::   augment()   accept()
+   *   before                           assemble()
+   *   created             -            -                   -           -
+   *   detected, accepted  assembled    -                   -           -
+   *   step_begun          assembled    step_assembled      -           -
+   *   assembled           assembled    -                   assembled   accepted
+   *   step_assembled      step_ended   step_assembled      -           -
+   *   step_ended          step_ended   step_assembled      -           step_accepted
+   *   step_accepted       step_ended   -                   -           -
    * @endverbatim
    * All other functions may be called at any stage; those that speak of the last assembly are
-   * meaningful after one. No stage says whether accept() follows an assembly at the end of the step
-   * or at another state: that is up to the caller.
+   * meaningful after one. That an assembly before accept() is at the solution is up to the caller.
    *
    * Statics: detect(), then assemble() in each iteration, with detect() between them where
    * faces have moved far; accept() at the solution. Time steps: detect() and

@@ -123,6 +123,8 @@ namespace NMM
   void
   Contact::freeze_geometry(const bool is_frozen)
   {
+    if (is_frozen && !data->is_geometry_frozen())
+      data->stage = Data::Stage::created;
     if (!data->is_moving())
       data->problem = is_frozen ? Data::Problem::statics_of_frozen_geometry
                                 : Data::Problem::statics;

@@ -426,6 +426,15 @@ namespace NMM
     internal::PairEnergies
     pair_energies(const internal::PairEnergies *factors = nullptr) const;
 
+    /// Derivatives of these energies by the logarithms of the factors.
+    internal::PairEnergies
+    pair_energies_by_factor(const internal::PairEnergies &factors) const;
+
+    /// For each pair of bodies, the sum of of_point(q) over its closed points q on all ranks.
+    template <typename OfPoint>
+    internal::PairEnergies
+    sum_over_pairs(const OfPoint &of_point) const;
+
     std::pair<unsigned int, unsigned int>
     bodies(unsigned int q) const;
 

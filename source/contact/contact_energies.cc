@@ -22,26 +22,18 @@ namespace NMM
   }
 
 
+  template <typename OfPoint>
   PairEnergies
-  Contact::Data::pair_energies(const PairEnergies *factors) const
+  Contact::Data::sum_over_pairs(const OfPoint &of_point) const
   {
     PairEnergies result;
     for (unsigned int q = 0; q < points.size(); ++q)
       if (points[q].state != ContactState::open)
       {
-        const ContactPoint    &point    = points[q];
-        std::array<double, 2> &energies = result[bodies(q)];
-        if (factors == nullptr)
-        {
-          energies[0] += normal_energy(q, point.pressure);
-          energies[1] += shear_energy(q, point.shear);
-          continue;
-        }
-        const ContactLaw            &law    = *point_data[q].law;
-        const std::array<double, 2> &factor = factors->at(bodies(q));
-        energies[0] += point.weight *
-                       law.energy(factor[0] * law.penetration(point.pressure));
-        energies[1] += shear_energy(q, factor[1] * point.shear);
+        const std::array<double, 2> energies = of_point(q);
+        std::array<double, 2>      &sums     = result[bodies(q)];
+        for (unsigned int i = 0; i < 2; ++i)
+          sums[i] += energies[i];
       }
     if (Parallel::n_mpi_processes(communicator) == 1)
       return result;
@@ -63,9 +55,41 @@ namespace NMM
   }
 
 
-  /// Factors k on penetrations and shears with which each pair of bodies stores no more than
-  /// before. For linear springs k = sqrt(E_before / E_found). The energy of other springs grows
-  /// faster than the square, so that this is iterated.
+  PairEnergies
+  Contact::Data::pair_energies(const PairEnergies *factors) const
+  {
+    if (factors == nullptr)
+      return sum_over_pairs([&](const unsigned int q) -> std::array<double, 2> {
+        return {{normal_energy(q, points[q].pressure),
+                 shear_energy(q, points[q].shear)}};
+      });
+    return sum_over_pairs([&](const unsigned int q) -> std::array<double, 2> {
+      const ContactLaw            &law    = *point_data[q].law;
+      const std::array<double, 2> &factor = factors->at(bodies(q));
+      return {{points[q].weight *
+                 law.energy(factor[0] * law.penetration(points[q].pressure)),
+               shear_energy(q, factor[1] * points[q].shear)}};
+    });
+  }
+
+
+  PairEnergies
+  Contact::Data::pair_energies_by_factor(const PairEnergies &factors) const
+  {
+    return sum_over_pairs([&](const unsigned int q) -> std::array<double, 2> {
+      const ContactLaw            &law    = *point_data[q].law;
+      const std::array<double, 2> &factor = factors.at(bodies(q));
+      const double d = factor[0] * law.penetration(points[q].pressure);
+      return {{points[q].weight * d * law.pressure(d).value,
+               2. * shear_energy(q, factor[1] * points[q].shear)}};
+    });
+  }
+
+
+  /// Factors k <= 1 on penetrations and shears with which each pair of bodies stores what it did
+  /// before, where it would store more. They must be exact: a pair that stores a little less in
+  /// each step gives way. For linear springs k = sqrt(E_before / E_found); in general Newton's
+  /// method finds log k, since log E is a convex function of log k for springs that stiffen.
   PairEnergies
   Contact::Data::factors_that_keep_energies(const PairEnergies &found) const
   {
@@ -75,12 +99,13 @@ namespace NMM
     PairEnergies factors;
     for (const auto &[pair, energies] : found)
       factors[pair] = {{1., 1.}};
-    PairEnergies now        = found;
-    bool         is_reached = false;
-    for (unsigned int i = 0; i < max_iterations && !is_reached; ++i)
+    PairEnergies now = found;
+    for (unsigned int i = 0; i < max_iterations; ++i)
     {
-      is_reached = true;
-      for (auto &[pair, factor] : factors)
+      PairEnergies slopes;
+      PairEnergies next       = factors;
+      bool         is_reached = true;
+      for (auto &[pair, factor] : next)
       {
         const auto before = memory.energies_of_pairs.find(pair);
         for (unsigned int k = 0; k < 2; ++k)
@@ -90,12 +115,16 @@ namespace NMM
           const double energy = now[pair][k];
           if (energy <= old * (1. + rounding))
             continue;
-          factor[k] *= std::sqrt(old / energy);
+          if (slopes.empty())
+            slopes = pair_energies_by_factor(factors);
+          factor[k] *= std::pow(old / energy, energy / slopes[pair][k]);
           is_reached = is_reached && factor[k] == 0.;
         }
       }
-      if (!is_reached)
-        now = pair_energies(&factors);
+      factors = std::move(next);
+      if (is_reached)
+        break;
+      now = pair_energies(&factors);
     }
     return factors;
   }

@@ -158,12 +158,5 @@ namespace NMM
     {
       return mpi_communicator;
     }
-
-
-    unsigned int
-    ElementExchange::n_neighbors() const
-    {
-      return neighbors.size();
-    }
   } // namespace internal
 } // namespace NMM

@@ -64,10 +64,6 @@ namespace NMM
       MPI_Comm
       communicator() const;
 
-      /// Number of ranks with common elements.
-      unsigned int
-      n_neighbors() const;
-
     private:
       struct Neighbor
       {

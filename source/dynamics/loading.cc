@@ -97,11 +97,4 @@ namespace NMM
     const double      share = (t - times[i - 1]) / (times[i] - times[i - 1]);
     return (1. - share) * values[i - 1] + share * values[i];
   }
-
-
-  double
-  TimeHistory::last_time() const
-  {
-    return times.back();
-  }
 } // namespace NMM

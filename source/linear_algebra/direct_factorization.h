@@ -47,8 +47,7 @@ namespace NMM
     /**
      * The interface of a direct solver for one type of matrix. DirectSolver asks its solvers in
      * turn, until factorize() of one returns true; the last one must be suitable for any matrix.
-     * To add a solver, implement this interface in a file of its own and extend DirectSolver. Its
-     * functions forget_analysis() and analysis_time() concern MUMPS alone.
+     * To add a solver, see linear_algebra.h.
      */
     template <typename MatrixType>
     class DirectFactorization : public Factors

@@ -17,7 +17,7 @@ namespace NMM
      * | matrix | solver |
      * |---|---|
      * | couplings of bodies of at most BodyMatrix::max_body unknowns | BodyLu |
-     * | sparse, uncoupled groups of at most KluFactorization::max_group unknowns | KluFactorization |
+     * | sparse, uncoupled groups of at most KluFactorization::max_group unknowns, or larger ones with few operations if MUMPS needs a new analysis (KluFactorization::max_operations) | KluFactorization |
      * | any other, any number of ranks | MumpsFactorization |
      *
      * The first two work on one rank only. Order of calls: factorize(), then solve() any number

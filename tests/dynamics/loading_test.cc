@@ -29,7 +29,6 @@ namespace
     EXPECT_NEAR(history(1.25), 0.5, 1e-15);
     EXPECT_EQ(history(2.), -1.);
     EXPECT_EQ(history(2.1), 0.);
-    EXPECT_EQ(history.last_time(), 2.);
   }
 
 

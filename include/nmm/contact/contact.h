@@ -158,8 +158,8 @@ namespace NMM
    * and points(). The class knows positions and normals, not materials. All quantities are per
    * unit thickness.
    *
-   * Penalty springs act normal to the master, eq. (13), and along it, (h), with Coulomb's friction
-   * (14). They are integrated along the slave edges by Gauss-Lobatto points, so that the ends of
+   * Penalty springs act normal to the master, eq. (13), and along it, the paper's equation (h), with
+   * Coulomb's friction (14). They are integrated along the slave edges by Gauss-Lobatto points, so that the ends of
    * edges are contact points, too:
    * @f[ \Pi = \sum_q w_q\left(\tfrac{1}{2\epsilon_n}\langle\lambda - \epsilon_n
    *     g\rangle_+^2 + \tfrac{\epsilon_t}{2} g_t^2\right). @f]
@@ -167,12 +167,12 @@ namespace NMM
    * polynomial on each piece. The paper has springs at corners only, see ContactIntegration; here
    * the stiffness is per length and does not depend on the mesh.
    *
-   * Pressure and strength of each point are those of a ContactLaw, which joints may choose one by
-   * one; to add a law, see there. The formulas here are those of the default, CoulombLaw.
+   * Pressure and strength of each point are those of a ContactLaw; each pair of faces may have a law
+   * of its own (ContactParameters::pairs). To add a law, see there. The formulas here are those of the default, CoulombLaw.
    *
    * Friction: the shear at a point is eps_t times its distance, along the master, from its anchor,
    * the material point of the master where it sticks. If the shear exceeds
-   * q_max = p tan phi + c the anchor is dragged along (moving friction cone; Wriggers &
+   * the strength S the anchor is dragged along (moving friction cone; Wriggers &
    * Krstulovic-Opara, ZAMM 80 (2000)). The history of a point is thus a place on the master, and it
    * stays valid when the point passes from one edge to the next.
    *
@@ -188,11 +188,12 @@ namespace NMM
    * @f$ -\int g\,\phi_i\,ds / \int \phi_i\,ds @f$
    * until they change by less than eps_n times the tolerance.
    *
-   * Order of calls: detect(), both assemble(), ContactTimeStep::begin(), augment() and accept()
-   * assert (in Debug mode) that they are called at a stage where they are allowed. The last four
-   * are in a table: it has the stage after the call, and "-" where the call is not allowed.
+   * Order of calls: both assemble(), ContactTimeStep::begin(), augment() and accept() assert (in
+   * Debug mode) that they are called at a stage where they are allowed. The table has the stage
+   * after the call, and "-" where the call is not allowed.
    * @verbatim
-   *   created <----- set_absent_bodies(), restore_history(), from any stage
+   *   created <----- restore_history(), freeze_geometry(true), set_absent_bodies() if there are
+   *                  others than before, from any stage
    *
    *   detected <---- detect(), from any stage
    *
@@ -210,10 +211,13 @@ namespace NMM
    *   step_accepted       step_ended   -                   -           -
    * @endverbatim
    * All other functions may be called at any stage; those that speak of the last assembly are
-   * meaningful after one. That an assembly before accept() is at the solution is up to the caller.
+   * meaningful from an assembly until the next detect(). That an assembly before accept() is at the
+   * solution is up to the caller. Where obstacles move, set_time() with the time of the
+   * displacements comes before each detect() and assemble().
    *
    * Statics: detect(), then assemble() in each iteration, with detect() between them where
-   * faces have moved far; accept() at the solution. Time steps: detect() and
+   * faces have moved far; at the solution augment() until it returns less than the tolerance,
+   * break_bonds() and new iterations until it breaks none, and accept(). Time steps: detect() and
    * ContactTimeStep::begin() at the beginning of the step, then ContactTimeStep::assemble()
    * (schemes that conserve energy) or assemble() in each iteration; at the end of the step
    * assemble() and accept(), or begin() again if the step is repeated. ContactStatics and
@@ -314,8 +318,8 @@ namespace NMM
     const std::vector<ContactPoint> &
     points() const;
 
-    /// Add the weighted spring pressures to the multipliers, after an assemble() at a solution.
-    /// Returns the largest change of a multiplier, divided by eps_n: the weighted penetration that
+    /// Add eps_n times the weighted penetrations to the multipliers, after an assemble() at a
+    /// solution; for linear springs these are their pressures. Returns the largest change of a multiplier, divided by eps_n: the weighted penetration that
     /// the springs carried until now [m].
     double
     augment();

@@ -15,9 +15,9 @@ namespace NMM
    * stateless; the state (anchor, slip, bond) belongs to the contact point and is an argument.
    *
    * Normal direction: a spring with the potential V(d) of the penetration d = -gap [m],
-   * @f[ p = V'(d), \qquad V(0) = V'(0) = 0,\quad V''(0) = \epsilon_n,\quad V'' > 0. @f]
-   * Laws give V' for d < 0 as well, where it is negative: bonded points bear this tension, and
-   * Contact opens all others there.
+   * @f[ p = V'(d), \qquad V(0) = V'(0) = 0,\quad V''(0) = \epsilon_n,\quad V'' > 0, @f]
+   * and V'' does not fall with d > 0: springs are linear or stiffen. Laws give V' for d < 0 as
+   * well, where it is negative: bonded points bear this tension, and Contact opens all others there.
    *
    * Shear: a linear spring, @f$ q = \epsilon_t (g_t - g_t^\mathrm{slip}) @f$, up to the
    * strength, which may depend on the pressure and on the length kappa of the path that the
@@ -34,9 +34,10 @@ namespace NMM
    *
    * Stresses are per reference length of the slave and unit thickness.
    *
-   * To add a law: derive a class in a file of its own, and name it in contact_laws(). Scenes then
-   * know the law and its parameters(). A spring that is not linear overrides all of energy(),
-   * pressure(), penetration() and mean_pressure(). The other places are the list of sources in
+   * To add a law: derive a class in a file of its own, and name it at the end of contact_laws().
+   * Scenes then know the law and its parameters(). A spring that is not linear overrides all of
+   * energy(), pressure(), penetration() and mean_pressure(), as BartonBandisLaw does; strength that
+   * depends on the slip is as in SlipWeakeningLaw. The other places are the list of sources in
    * source/contact/CMakeLists.txt, a test beside those of tests/contact/laws_test.cc, the table of
    * laws in doc/scene-format.md, doc/parameters.md (`nmm --print-parameters=markdown`) and a file
    * in doc/news.
@@ -62,7 +63,8 @@ namespace NMM
       double value = 0.;
       /// Derivative of the strength by the pressure [-].
       double by_pressure = 0.;
-      /// Derivative of the strength by the slip [Pa/m]; negative for weakening.
+      /// Derivative of the strength by the slip [Pa/m]; negative for weakening. Where the strength
+      /// falls faster than the shear spring unloads, -by_slip > eps_t, the shear jumps.
       double by_slip = 0.;
     };
 
@@ -73,8 +75,8 @@ namespace NMM
     virtual std::unique_ptr<ContactLaw>
     clone() const = 0;
 
-    /// The parameters that scenes give, with pointers to members; those of the base class come
-    /// first. A law that dilates adds "Dilation angle", "Dilation limit" and "Friction angle", which
+    /// The parameters that scenes give, with pointers to members. An override begins with those of
+    /// its base class. A law that dilates adds "Dilation angle", "Dilation limit" and "Friction angle", which
     /// scenes compare.
     virtual std::vector<Parameter>
     parameters();
@@ -116,19 +118,22 @@ namespace NMM
     virtual Strength
     strength(double pressure, double slip) const = 0;
 
-    /// Shear strength of an intact bond [Pa] under the @p pressure >= 0 [Pa].
+    /// Shear strength of an intact bond [Pa] under the @p pressure >= 0 [Pa], which is 0 in tension.
+    /// A law with cohesion overrides it: otherwise bonds in tension break under any shear.
     virtual double
     bond_strength(const double pressure) const
     {
       return strength(pressure, 0.).value;
     }
 
-    /// Whether the law transmits shear; otherwise points have no anchors. Bonds always do.
+    /// Whether the law transmits shear; otherwise points have no anchors. Must be true if is_bond
+    /// is.
     virtual bool
     has_friction() const = 0;
 
     /// Whether the strength depends on the slip. The shear of a step and its slip are then found
-    /// together, and the law cannot dilate.
+    /// together, and the law cannot dilate. Otherwise strength() is given the slip of laws that
+    /// dilate, and 0 for others.
     virtual bool
     depends_on_slip() const
     {

@@ -13,10 +13,12 @@ namespace NMM
    * forces that conserve energy, and blocks that do not move for a while. It has no data of its
    * own, so that it can be made wherever it is needed; the order of calls is that of Contact:
    * @code
+   * contact.set_time(t);
    * contact.detect(u_begin);
    * ContactTimeStep step(contact);
    * step.begin(u_begin, t);
-   * step.assemble(u_end, t + h, true); // in each iteration
+   * step.assemble(u_end, t + h, true); // in each iteration; moves obstacles to where they act
+   * contact.set_time(t + h);
    * contact.assemble(u_end, false);
    * const double dissipated = contact.accept();
    * @endcode

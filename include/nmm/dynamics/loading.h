@@ -76,10 +76,6 @@ namespace NMM
     double
     operator()(double t) const;
 
-    /// Time of the last point [s].
-    double
-    last_time() const;
-
   private:
     std::vector<double> times, values;
   };

@@ -53,11 +53,15 @@
  * instead. Only this function can iterate: the steps of Newton's method are direct.
  *
  * To add a direct solver, implement DirectFactorization in a file of its own, list it in
- * source/linear_algebra/CMakeLists.txt, select it in DirectSolver and test it in
- * tests/linear_algebra/direct_solver_test.cc. To add a preconditioner, write a class with a
- * constructor from (matrix, covers, constraints) and a function vmult(dst, src) that is symmetric
- * and positive definite, select it in solve_linear_system(), and test it in
- * tests/mechanics/iterative_test.cc. What scenes choose is LinearSolverParameters::Type.
+ * source/linear_algebra/CMakeLists.txt, make it a member of DirectSolver that factorize_sparse()
+ * asks before MUMPS (and forget_analysis() tells, if it keeps an analysis), and test it in
+ * tests/linear_algebra/direct_solver_test.cc. A library that it needs is found in
+ * cmake/NmmFindPrivateDependencies.cmake and has its line in doc/dependencies.md. To add a
+ * preconditioner, write a class with a constructor from (matrix, covers, constraints) and a
+ * function vmult(dst, src) const that is symmetric and positive definite, list its source, select
+ * it in solve_linear_system(), where the order of the covers decides, and test it in
+ * tests/mechanics/iterative_test.cc. What scenes choose is LinearSolverParameters::Type: a new word
+ * is also one in source/scene/scene_parameters.cc and doc/parameters.md.
  *
  * A singular matrix and lack of memory throw NumericalFailure; so do iterations that do not
  * converge, unless the solver was chosen automatically, which then factorizes.

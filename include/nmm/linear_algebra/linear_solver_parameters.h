@@ -35,7 +35,7 @@ namespace NMM
       /// Direct up to `direct_limit` unknowns, iterative above. If iterations do
       /// not converge, direct.
       automatic,
-      /// Symmetric factorization by MUMPS.
+      /// Symmetric factorization, see DirectSolver.
       direct,
       /// Conjugate gradients, preconditioned by TwoLevelPreconditioner for second and
       /// by ML (smoothed aggregation with rigid-body modes) for first order.

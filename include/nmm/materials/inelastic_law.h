@@ -53,12 +53,12 @@ namespace NMM
       /// set if the step is elastic.
       double tangent[4][4];
       /// Energy stored in the elastic strain e, e : C : e / 2 + sigma_0 : e, where C is Hooke's
-      /// tensor and sigma_0 the initial stress [Pa].
+      /// tensor and sigma_0 the initial stress, components across the plane included [Pa].
       double energy = 0.;
       /// sigma : Delta epsilon^p, the energy that the step dissipates, all components [Pa].
       double dissipated = 0.;
       /// Whether the step from the given state is elastic; the tangent is then that of Hooke's
-      /// law. Where one step is not, the tangent matrix counts as unsymmetric.
+      /// law. If it is false at any point, the global matrix is factorized as unsymmetric.
       bool is_elastic = true;
       /// The state at the end of the step.
       MaterialState state;
@@ -67,7 +67,8 @@ namespace NMM
     virtual ~InelasticLaw() = default;
 
     /// Computes the response for the in-plane strain @p strain [-] at the end of a step that
-    /// began in @p state. If no admissible stress was found it returns Deformation::inverted, as
+    /// began in @p state. It sets all members, but for the tangent of an elastic step; @p response
+    /// may hold those of another point. If no admissible stress was found it returns Deformation::inverted, as
     /// for elements that are turned inside out: the response is undefined, and the step is cut.
     virtual Deformation
     evaluate(const dealii::SymmetricTensor<2, 2> &strain,

@@ -159,8 +159,8 @@ namespace NMM
    * unit thickness.
    *
    * Penalty springs act normal to the master, eq. (13), and along it, the paper's equation (h), with
-   * Coulomb's friction (14). They are integrated along the slave edges by Gauss-Lobatto points, so that the ends of
-   * edges are contact points, too:
+   * Coulomb's friction (14). They are integrated along the slave edges by Gauss-Lobatto points, so
+   * that the ends of edges are contact points, too:
    * @f[ \Pi = \sum_q w_q\left(\tfrac{1}{2\epsilon_n}\langle\lambda - \epsilon_n
    *     g\rangle_+^2 + \tfrac{\epsilon_t}{2} g_t^2\right). @f]
    * A slave edge is divided where edges of the other side end, so that the integrand is a
@@ -168,7 +168,8 @@ namespace NMM
    * the stiffness is per length and does not depend on the mesh.
    *
    * Pressure and strength of each point are those of a ContactLaw; each pair of faces may have a law
-   * of its own (ContactParameters::pairs). To add a law, see there. The formulas here are those of the default, CoulombLaw.
+   * of its own (ContactParameters::pairs). To add a law, see there. The formulas here are those of
+   * the default, CoulombLaw.
    *
    * Friction: the shear at a point is eps_t times its distance, along the master, from its anchor,
    * the material point of the master where it sticks. If the shear exceeds
@@ -319,8 +320,8 @@ namespace NMM
     points() const;
 
     /// Add eps_n times the weighted penetrations to the multipliers, after an assemble() at a
-    /// solution; for linear springs these are their pressures. Returns the largest change of a multiplier, divided by eps_n: the weighted penetration that
-    /// the springs carried until now [m].
+    /// solution; for linear springs these are their pressures. Returns the largest change of a
+    /// multiplier, divided by eps_n: the weighted penetration that the springs carried until now [m].
     double
     augment();
 

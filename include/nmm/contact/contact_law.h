@@ -76,8 +76,8 @@ namespace NMM
     clone() const = 0;
 
     /// The parameters that scenes give, with pointers to members. An override begins with those of
-    /// its base class. A law that dilates adds "Dilation angle", "Dilation limit" and "Friction angle", which
-    /// scenes compare.
+    /// its base class. A law that dilates adds "Dilation angle", "Dilation limit" and
+    /// "Friction angle", which scenes compare.
     virtual std::vector<Parameter>
     parameters();
 

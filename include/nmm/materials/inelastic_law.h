@@ -68,8 +68,9 @@ namespace NMM
 
     /// Computes the response for the in-plane strain @p strain [-] at the end of a step that
     /// began in @p state. It sets all members, but for the tangent of an elastic step; @p response
-    /// may hold those of another point. If no admissible stress was found it returns Deformation::inverted, as
-    /// for elements that are turned inside out: the response is undefined, and the step is cut.
+    /// may hold those of another point. If no admissible stress was found it returns
+    /// Deformation::inverted, as for elements that are turned inside out: the response is undefined,
+    /// and the step is cut.
     virtual Deformation
     evaluate(const dealii::SymmetricTensor<2, 2> &strain,
              const MaterialState                 &state,

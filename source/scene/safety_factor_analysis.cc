@@ -103,7 +103,7 @@ namespace NMM
       if (parameters.safety_factor.start == Start::settled)
       {
         if (contact)
-          contact->contact().restore_history(settled_contact);
+          with_contact->restore_history(settled_contact);
         if (terms != nullptr)
           terms->restore_internal_state(settled_materials);
         integrator.initialize(settled,

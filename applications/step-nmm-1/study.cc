@@ -61,24 +61,15 @@ namespace StepNMM1
                       parameters.cell_sizes,
                       "Edge lengths of the triangles [m].",
                       Patterns::List(positive, 1));
-    prm.add_parameter("Offset",
-                      parameters.offset,
-                      "Of the mesh against the ring [m].");
-    prm.add_parameter("Rotation",
-                      parameters.rotation,
-                      "Of the mesh against the ring [degrees].");
-    prm.add_parameter("Placements",
-                      parameters.n_placements,
-                      "Number of random offsets and rotations.",
-                      Patterns::Integer(0));
+    Tutorial::add_placements(prm,
+                             parameters.offset,
+                             parameters.rotation,
+                             parameters.n_placements,
+                             parameters.seed);
     prm.add_parameter("Placement cell size",
                       parameters.placement_cell_size,
                       "[m]",
                       positive);
-    prm.add_parameter("Seed",
-                      parameters.seed,
-                      "Of placements.",
-                      Patterns::Integer(0));
     prm.declare_entry("Ring",
                       "quarter",
                       Patterns::Selection("quarter|half|full"),

@@ -66,12 +66,11 @@ namespace StepNMM2
                       "Of the edge length per distance from the corners "
                       "[-].",
                       Patterns::Double(1e-3, 1.));
-    prm.add_parameter("Offset",
-                      parameters.offset,
-                      "Of the mesh against the beam [m].");
-    prm.add_parameter("Rotation",
-                      parameters.rotation,
-                      "Of the mesh against the beam [degrees].");
+    Tutorial::add_placements(prm,
+                             parameters.offset,
+                             parameters.rotation,
+                             parameters.n_placements,
+                             parameters.seed);
     prm.add_parameter("Load steps",
                       parameters.n_load_steps,
                       "Equal steps up to K = 10.",
@@ -84,14 +83,6 @@ namespace StepNMM2
                       parameters.cell_size,
                       "Of increments, placements and figures [m].",
                       positive);
-    prm.add_parameter("Placements",
-                      parameters.n_placements,
-                      "Number of random offsets and rotations.",
-                      Patterns::Integer(0));
-    prm.add_parameter("Seed",
-                      parameters.seed,
-                      "Of placements.",
-                      Patterns::Integer(0));
     Tutorial::read_parameter_file(prm, file_name, "step-nmm-2.prm");
     return parameters;
   }

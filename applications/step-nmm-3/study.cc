@@ -65,18 +65,11 @@ namespace StepNMM3
                       "Of the edge length per distance from the contact "
                       "[-].",
                       Patterns::Double(1e-3, 1.));
-    prm.add_parameter("Offset", parameters.offset, "Of the mesh [m].");
-    prm.add_parameter("Rotation",
-                      parameters.rotation,
-                      "Of the mesh [degrees].");
-    prm.add_parameter("Placements",
-                      parameters.n_placements,
-                      "Number of random offsets and rotations.",
-                      Patterns::Integer(0));
-    prm.add_parameter("Seed",
-                      parameters.seed,
-                      "Of placements.",
-                      Patterns::Integer(0));
+    Tutorial::add_placements(prm,
+                             parameters.offset,
+                             parameters.rotation,
+                             parameters.n_placements,
+                             parameters.seed);
     prm.add_parameter("Repetitions",
                       parameters.n_repetitions,
                       "Of timed runs, of which the fastest counts.",

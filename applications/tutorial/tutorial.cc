@@ -80,6 +80,25 @@ namespace Tutorial
 
 
   void
+  add_placements(ParameterHandler &prm,
+                 Tensor<1, 2>     &offset,
+                 double           &rotation,
+                 unsigned int     &n_placements,
+                 unsigned int     &seed)
+  {
+    prm.add_parameter("Offset", offset, "Of the mesh against the solid [m].");
+    prm.add_parameter("Rotation",
+                      rotation,
+                      "Of the mesh against the solid [degrees].");
+    prm.add_parameter("Placements",
+                      n_placements,
+                      "Number of random offsets and rotations.",
+                      Patterns::Integer(0));
+    prm.add_parameter("Seed", seed, "Of placements.", Patterns::Integer(0));
+  }
+
+
+  void
   make_output_directory(const std::string &name)
   {
     try

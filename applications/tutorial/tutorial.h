@@ -5,6 +5,7 @@
 // figures.
 
 #include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/tensor.h>
 
 #include <functional>
 #include <string>
@@ -37,6 +38,15 @@ namespace Tutorial
   read_parameter_file(dealii::ParameterHandler &prm,
                       const std::string        &file_name,
                       const std::string        &example);
+
+  /// Bind the entries "Offset" [m] and "Rotation" [degrees] of the mesh, and the number and the seed of
+  /// "Placements" at random, to the variables.
+  void
+  add_placements(dealii::ParameterHandler &prm,
+                 dealii::Tensor<1, 2>     &offset,
+                 double                   &rotation,
+                 unsigned int             &n_placements,
+                 unsigned int             &seed);
 
   /// Make the folder for results before anything is computed. @throws NMM::InputError.
   void

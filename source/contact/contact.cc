@@ -135,15 +135,7 @@ namespace NMM
   Contact::detect(const Vector &u, const double least_reach)
   {
     Data &d = *data;
-    d.enter(Data::Stage::detected,
-            {Data::Stage::created,
-             Data::Stage::detected,
-             Data::Stage::assembled,
-             Data::Stage::step_begun,
-             Data::Stage::step_assembled,
-             Data::Stage::step_ended,
-             Data::Stage::accepted,
-             Data::Stage::step_accepted});
+    d.stage = Data::Stage::detected;
     d.move_to(u);
     d.step.nodal_begin   = d.nodal;
     d.step.time_detected = d.time;
@@ -527,13 +519,7 @@ namespace NMM
   {
     Data &d = *data;
     d.enter(d.is_between() ? Data::Stage::step_ended : Data::Stage::assembled,
-            {Data::Stage::detected,
-             Data::Stage::assembled,
-             Data::Stage::step_begun,
-             Data::Stage::step_assembled,
-             Data::Stage::step_ended,
-             Data::Stage::accepted,
-             Data::Stage::step_accepted});
+            d.stage != Data::Stage::created);
     d.report  = ContactReport();
     d.deepest = 0.;
     if (d.is_idle)

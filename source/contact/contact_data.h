@@ -13,7 +13,6 @@
 #include <contact/contact_points.h>
 #include <contact/contact_search.h>
 #include <contact/contact_terms.h>
-#include <initializer_list>
 #include <memory>
 #include <vector>
 
@@ -53,17 +52,25 @@ namespace NMM
       conserving_motion
     };
 
-    /// Assert that the stage is one of @p from, and go to the stage @p next.
+    /// Assert that @p is_allowed, and go to the stage @p next.
     void
-    enter(const Stage next, const std::initializer_list<Stage> from)
+    enter(const Stage next, const bool is_allowed)
     {
       Assert(
-        std::find(from.begin(), from.end(), stage) != from.end(),
+        is_allowed,
         dealii::ExcMessage(
           "Functions of Contact have been called in another order than its "
           "documentation says."));
-      (void)from;
+      (void)is_allowed;
       stage = next;
+    }
+
+    /// Whether points have been made and the last step has not been accepted.
+    bool
+    is_within_step() const
+    {
+      return stage != Stage::created && stage != Stage::accepted &&
+             stage != Stage::step_accepted;
     }
 
     /// Whether contact points are those of a step with ContactTimeStep::assemble(), or of its end.
@@ -421,7 +428,7 @@ namespace NMM
       return corner_size[2 * search.slaves()[point_data[q].slave]];
     }
 
-    /// Energies of all pairs of bodies. If @p factors is not null, penetrations and shears are
+    /// Energies of all pairs of bodies, and with @p factors those of penetrations and shears that are
     /// multiplied by the factors of their pair.
     internal::PairEnergies
     pair_energies(const internal::PairEnergies *factors = nullptr) const;

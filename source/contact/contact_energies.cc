@@ -58,12 +58,10 @@ namespace NMM
   PairEnergies
   Contact::Data::pair_energies(const PairEnergies *factors) const
   {
-    if (factors == nullptr)
-      return sum_over_pairs([&](const unsigned int q) -> std::array<double, 2> {
+    return sum_over_pairs([&](const unsigned int q) -> std::array<double, 2> {
+      if (factors == nullptr)
         return {{normal_energy(q, points[q].pressure),
                  shear_energy(q, points[q].shear)}};
-      });
-    return sum_over_pairs([&](const unsigned int q) -> std::array<double, 2> {
       const ContactLaw            &law    = *point_data[q].law;
       const std::array<double, 2> &factor = factors->at(bodies(q));
       return {{points[q].weight *

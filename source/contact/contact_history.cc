@@ -20,7 +20,7 @@ namespace NMM
   Contact::augment()
   {
     Data &d = *data;
-    d.enter(Data::Stage::assembled, {Data::Stage::assembled});
+    d.enter(Data::Stage::assembled, d.stage == Data::Stage::assembled);
     Assert(d.multiplier_space != nullptr,
            dealii::ExcMessage("There is no penetration tolerance."));
     const MultiplierSpace &space  = *d.multiplier_space;
@@ -275,7 +275,8 @@ namespace NMM
   {
     Data &d = *data;
     d.enter(d.is_between() ? Data::Stage::step_accepted : Data::Stage::accepted,
-            {Data::Stage::assembled, Data::Stage::step_ended});
+            d.stage == Data::Stage::assembled ||
+              d.stage == Data::Stage::step_ended);
     d.memory.stick_places.clear();
     d.memory.entrances.clear();
     d.memory.former_bodies.clear();

@@ -55,12 +55,7 @@ namespace NMM
   ContactTimeStep::begin(const Vector &u, const double time)
   {
     Data &d = *data;
-    d.enter(Data::Stage::step_begun,
-            {Data::Stage::detected,
-             Data::Stage::assembled,
-             Data::Stage::step_begun,
-             Data::Stage::step_assembled,
-             Data::Stage::step_ended});
+    d.enter(Data::Stage::step_begun, d.is_within_step());
     if (!d.is_moving())
       d.problem = Data::Problem::motion;
     d.matrix.begin_step();
@@ -501,9 +496,9 @@ namespace NMM
   {
     Data &d = *data;
     d.enter(Data::Stage::step_assembled,
-            {Data::Stage::step_begun,
-             Data::Stage::step_assembled,
-             Data::Stage::step_ended});
+            d.stage == Data::Stage::step_begun ||
+              d.stage == Data::Stage::step_assembled ||
+              d.stage == Data::Stage::step_ended);
     d.report  = ContactReport();
     d.deepest = 0.;
     if (with_tangent)

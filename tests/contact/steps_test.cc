@@ -426,6 +426,41 @@ namespace
   }
 
 
+#ifdef DEBUG
+  // What Contact asserts of the order of calls: no assembly before faces have been looked for, also
+  // again after a history has been restored, and nothing accepted in the middle of a step.
+  TEST(ContactSteps, OrderOfCallsIsAsserted)
+  {
+    Geometry geometry;
+    geometry.add_polygon({{0., 0.}, {1., 0.}, {1., 1.}, {0., 1.}}, "block");
+    Bodies::Options options = one_triangle_each();
+    options.obstacles       = {obstacle("floor", {{9., 0.}, {-9., 0.}})};
+    Bodies bodies(std::move(geometry), options);
+    bodies.start(contact_parameters(1e8, 0.1));
+    Contact        &contact = *bodies.contact;
+    ContactTimeStep step(contact);
+    const Vector    u = bodies.interpolate(
+      [](const Point<2> &, unsigned int) { return Point<2>(0., -1e-3); });
+
+    using Wrong = dealii::ExceptionBase;
+    EXPECT_THROW(contact.assemble(u, false), Wrong);
+    contact.detect(u);
+    EXPECT_THROW(contact.accept(), Wrong);
+    EXPECT_THROW(step.assemble(u, 0.1, false), Wrong);
+    step.begin(u, 0.);
+    step.assemble(u, 0.1, false);
+    EXPECT_THROW(contact.accept(), Wrong);
+    contact.assemble(u, false);
+    EXPECT_NO_THROW(contact.accept());
+    EXPECT_THROW(step.begin(u, 0.1), Wrong);
+    contact.restore_history(contact.history());
+    EXPECT_THROW(contact.assemble(u, false), Wrong);
+    contact.detect(u);
+    EXPECT_NO_THROW(contact.assemble(u, false));
+  }
+#endif
+
+
   // The corner of a block that lies along a slope, turned by ten degrees, passes the foot
   // of it: along the slope the corner has no share, on the ground its face is too steep to
   // lie along that, and so all of the corner's spring is for the ground.

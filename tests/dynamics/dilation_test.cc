@@ -45,19 +45,7 @@ namespace NMM
       std::unique_ptr<MovingBodies>
       block_at_rest(const Slide &slide, const TimeScheme &scheme)
       {
-        Geometry geometry;
-        add_block(geometry, "block", {{0., 0.}, {3., 0.}, {3., 1.}, {0., 1.}});
-        Bodies::Options options;
-        options.cell_size    = 0.7;
-        options.rotation     = 17.;
-        options.offset[0]    = 0.217;
-        options.offset[1]    = 0.119;
-        options.communicator = slide.communicator;
-        options.obstacles    = {obstacle("floor", {{99., 0.}, {-99., 0.}})};
-        auto block =
-          std::make_unique<MovingBodies>(std::move(geometry), options);
-        block->problem.materials = {
-          material("rock", rock_modulus, 0.2, rock_density)};
+        auto         block = block_on_floor(slide.communicator);
         const double angle = degrees(slide.angle);
         block->problem.gravity =
           standard_gravity * Tensor<1, 2>({std::sin(angle), -std::cos(angle)});

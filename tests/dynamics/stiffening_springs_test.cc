@@ -37,18 +37,8 @@ namespace NMM
       for (const Kinematics kinematics :
            {Kinematics::small, Kinematics::finite})
       {
-        Geometry geometry;
-        add_block(geometry, "block", {{0., 0.}, {3., 0.}, {3., 1.}, {0., 1.}});
-        Bodies::Options options;
-        options.cell_size = 0.7;
-        options.rotation  = 17.;
-        options.offset[0] = 0.217;
-        options.offset[1] = 0.119;
-        options.obstacles = {obstacle("floor", {{99., 0.}, {-99., 0.}})};
-        MovingBodies block(std::move(geometry), options);
-        block.problem.materials = {
-          material("rock", rock_modulus, 0.2, rock_density)};
-        block.problem.gravity[1] = -standard_gravity;
+        const auto block          = block_on_floor(MPI_COMM_WORLD);
+        block->problem.gravity[1] = -standard_gravity;
 
         BartonBandisLaw law;
         law.normal_stiffness           = 1e6;
@@ -59,17 +49,17 @@ namespace NMM
         ContactParameters parameters;
         parameters.reach = 0.1;
         parameters.law   = std::make_shared<BartonBandisLaw>(law);
-        block.start(parameters, kinematics);
-        block.integrate(TimeScheme::energy_momentum());
+        block->start(parameters, kinematics);
+        block->integrate(TimeScheme::energy_momentum());
 
         const double closure =
           closure_at_return(law, rock_density * standard_gravity);
         const double work   = 3. * rock_density * standard_gravity * closure;
         double       lowest = 0., highest_later = -1.;
-        const auto   run = block.run(0.0025, 1., [&]() {
-          const double height = block.displacement(0)[1];
+        const auto   run = block->run(0.0025, 1., [&]() {
+          const double height = block->displacement(0)[1];
           lowest              = std::min(lowest, height);
-          if (block.integrator->state().time > 0.5)
+          if (block->integrator->state().time > 0.5)
             highest_later = std::max(highest_later, height);
           return true;
         });

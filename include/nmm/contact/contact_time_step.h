@@ -58,10 +58,9 @@ namespace NMM
     /**
      * Assemble the forces of the step from its beginning to the displacements @p end at @p time
      * [s]. They act in the mean position, so that they exert no moment. The pressure
-     * @f[ \hat p = -\frac{V(g_1) - V(g_0)}{\delta},\quad
-     *     V = \tfrac{\epsilon_n}{2}\langle -g\rangle_+^2,\quad
-     *     \delta = n\cdot(\Delta x_s - \Delta x_m) @f]
-     * does the work by which the energy of the springs changes (Laursen & Chawla, Int.
+     * @f[ \hat p = -\frac{V(\langle -g_1\rangle) - V(\langle -g_0\rangle)}{\delta},\quad
+     *     \delta = n\cdot(\Delta x_s - \Delta x_m), @f]
+     * with V of the ContactLaw, does the work by which the energy of the springs changes (Laursen & Chawla, Int.
      * J. Numer. Methods Eng. 40 (1997) 863; Gonzalez 2000). Dashpots add
      * @f[ c\,(\langle -g_1\rangle - \langle -g_0\rangle)/h @f]
      * as far as there is no tension, so that they only dissipate. Likewise, the shear of a point

@@ -150,6 +150,26 @@ namespace NMM
 
     /// Of the rock that most bodies are of [kg/m^3], [Pa].
     constexpr double rock_density = 2500., rock_modulus = 1e9;
+
+
+    /// A block of 3 m x 1 m of rock that touches a floor, in a mesh that is turned against it.
+    inline std::unique_ptr<MovingBodies>
+    block_on_floor(const MPI_Comm communicator)
+    {
+      Geometry geometry;
+      add_block(geometry, "block", {{0., 0.}, {3., 0.}, {3., 1.}, {0., 1.}});
+      Bodies::Options options;
+      options.cell_size    = 0.7;
+      options.rotation     = 17.;
+      options.offset[0]    = 0.217;
+      options.offset[1]    = 0.119;
+      options.communicator = communicator;
+      options.obstacles    = {obstacle("floor", {{99., 0.}, {-99., 0.}})};
+      auto block = std::make_unique<MovingBodies>(std::move(geometry), options);
+      block->problem.materials = {
+        material("rock", rock_modulus, 0.2, rock_density)};
+      return block;
+    }
   } // namespace ContactBars
 } // namespace NMM
 

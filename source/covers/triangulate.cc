@@ -12,6 +12,8 @@ namespace NMM
 {
   using namespace dealii;
 
+  using internal::cross;
+
   namespace
   {
     using Kernel     = CGAL::Exact_predicates_inexact_constructions_kernel;

@@ -53,9 +53,10 @@ std::vector<std::string>
 case_names()
 {
   std::vector<std::string> names;
-  for (const auto &entry : fs::directory_iterator(cases_dir))
-    if (fs::exists(entry.path() / "expected.csv"))
-      names.push_back(entry.path().filename().string());
+  for (const std::string folder : {"", "reports/"})
+    for (const auto &entry : fs::directory_iterator(cases_dir + folder))
+      if (fs::exists(entry.path() / "expected.csv"))
+        names.push_back(folder + entry.path().filename().string());
   std::sort(names.begin(), names.end());
   return names;
 }

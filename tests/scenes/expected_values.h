@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-// Each folder beside this file is a case: expected.csv says in comment lines which
+// Each folder beside this file, and below "reports" (what users of this program and of others
+// reported), is a case: expected.csv says in comment lines which
 // scene is run and how ("# scene:", "# arguments:", "# ranks:", "# exit code:") and what
 // the run prints among other things ("# says:"), whether Debug leaves it out since it takes
 // long there and other cases run the same code ("# build: Release"), and

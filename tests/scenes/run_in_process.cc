@@ -64,7 +64,11 @@ fresh_output_dir(const std::string &name)
 {
   const std::string path = NMM_TEST_OUTPUT_DIR "/" + name;
   if (is_first_rank())
+  {
     std::filesystem::remove_all(path);
+    std::filesystem::create_directories(
+      std::filesystem::path(path).parent_path());
+  }
   MPI_Barrier(MPI_COMM_WORLD);
   return path;
 }

@@ -21,7 +21,7 @@ namespace
   TEST_P(SceneCase, GivesTheExpectedValues)
   {
     const Case test_case = read_case(GetParam());
-    ASSERT_FALSE(test_case.rows.empty());
+    ASSERT_FALSE(test_case.rows.empty() && test_case.says.empty());
     // This program is run on one rank and on two.
     ASSERT_LE(test_case.n_ranks, 2u);
     if (test_case.n_ranks != n_ranks())
@@ -44,6 +44,8 @@ namespace
         << "not said: " << text << '\n'
         << result.output;
 
+    if (test_case.rows.empty())
+      return;
     const auto values = read_results(output);
     for (const ExpectedValue &row : test_case.rows)
     {

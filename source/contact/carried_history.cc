@@ -543,8 +543,8 @@ namespace NMM
             entrance = common.piece_at(face, stick->second->t);
           else
           {
-            const Point<2> x     = from.reference_place(before, kind).x;
-            double         least = 0.;
+            const ContactPosition x     = from.reference_place(before, kind).x;
+            double                least = 0.;
             for (const CommonPiece &piece : common.of_before(face))
               for (const double t : {0., 0.5, 1.})
               {

@@ -195,7 +195,7 @@ namespace NMM
   {
     // Faces that touch count as closed in spite of rounding in their gap, so that a block that lies
     // on another one is held by it from the start. In statics the gap has no rounding.
-    const double touching = is_moving() ? 1e-9 : 0.;
+    const double touching = is_moving() ? 1e-13 : 0.;
 
     ContactTraction   traction;
     ContactPoint     &point           = points[q];
@@ -436,7 +436,7 @@ namespace NMM
           std::min(depth,
                    search.depth_inside(fixed.slave,
                                        surface->edges()[projection.master].body,
-                                       point.x));
+                                       surface->place(point.edge, point.s).x));
       report.largest_penetration = std::max(report.largest_penetration, depth);
     }
     deepest = std::max(deepest,
@@ -457,6 +457,8 @@ namespace NMM
       search.comes_first(point.edge, projection.master) ? 1. : -1.;
     report.force += sign * (traction.pressure * kinematics.normal -
                             traction.shear * kinematics.tangent);
+
+    rounding_square += std::pow(force_rounding(q, projection, traction), 2);
 
     local.n_covers = 0;
     local.append(surface->covers(point.edge));
@@ -491,6 +493,38 @@ namespace NMM
   }
 
 
+  double
+  Contact::Data::force_rounding(const unsigned int       q,
+                                const ContactProjection &projection,
+                                const ContactTraction   &traction) const
+  {
+    // Relative rounding of a number, times the number of operations that a gap takes.
+    constexpr double relative = 8. * std::numeric_limits<double>::epsilon();
+
+    const ContactPoint &point = points[q];
+    const PointData    &fixed = point_data[q];
+    // In statics gaps are those of displacements, otherwise the ways from the ends of edges add to
+    // them.
+    const double size =
+      is_moving()
+        ? point.x.distance(surface->edges()[point.edge].start) +
+            projection.place.x.way.norm()
+        : surface->displacement(point.edge, point.s).norm() +
+            surface->displacement(projection.master, projection.t).norm();
+    double stiffness =
+      (1. + std::abs(traction.shear_over_pressure)) *
+        (traction.normal_stiffness + std::abs(traction.pressure_by_slip)) +
+      traction.shear_stiffness + std::abs(traction.shear_by_half_slip);
+    if (is_between())
+      stiffness +=
+        (1. + std::abs(traction.shear_over_pressure)) *
+        (std::abs(fixed.pressure_by_gap) + std::abs(fixed.pressure_by_opening) +
+         // see find_pressure_between()
+         0.5 * traction.pressure / least_motion());
+    return relative * size * stiffness;
+  }
+
+
   void
   Contact::Data::reduce_report()
   {
@@ -508,9 +542,10 @@ namespace NMM
       *count = Parallel::sum(*count, communicator);
     report.largest_penetration =
       Parallel::max(report.largest_penetration, communicator);
-    deepest       = Parallel::max(deepest, communicator);
-    report.energy = Parallel::sum(report.energy, communicator);
-    report.force  = Parallel::sum(report.force, communicator);
+    deepest         = Parallel::max(deepest, communicator);
+    report.energy   = Parallel::sum(report.energy, communicator);
+    report.force    = Parallel::sum(report.force, communicator);
+    rounding_square = Parallel::sum(rounding_square, communicator);
   }
 
 
@@ -520,8 +555,9 @@ namespace NMM
     Data &d = *data;
     d.enter(d.is_between() ? Data::Stage::step_ended : Data::Stage::assembled,
             d.stage != Data::Stage::created);
-    d.report  = ContactReport();
-    d.deepest = 0.;
+    d.report          = ContactReport();
+    d.deepest         = 0.;
+    d.rounding_square = 0.;
     if (d.is_idle)
     {
       d.matrix.clear_forces();
@@ -542,9 +578,9 @@ namespace NMM
   double
   Contact::largest_motion(const Vector &from, const Vector &to)
   {
-    Data                         &d = *data;
-    const unsigned int            n = 3 * d.surface->edges().size();
-    std::vector<dealii::Point<2>> positions(n);
+    Data                        &d = *data;
+    const unsigned int           n = 3 * d.surface->edges().size();
+    std::vector<ContactPosition> positions(n);
     d.move_to(to);
     for (unsigned int i = 0; i < n; ++i)
       positions[i] = d.surface->place(i / 3, 0.5 * (i % 3)).x;
@@ -586,6 +622,13 @@ namespace NMM
   Contact::residual() const
   {
     return data->matrix.residual();
+  }
+
+
+  double
+  Contact::force_rounding() const
+  {
+    return data->is_idle ? 0. : std::sqrt(data->rounding_square);
   }
 
 

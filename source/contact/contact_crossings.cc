@@ -96,15 +96,15 @@ namespace NMM
         const auto        &edge = edges[e];
         const unsigned int body = edge.body;
         circumference[body] += edge.length;
-        // Area of the polygon; arcs add to it.
-        area[body] +=
-          0.5 * (edge.start[0] * edge.end[1] - edge.end[0] * edge.start[1]);
         is_convex[body] = is_convex[body] && edge.radius >= 0. &&
                           edge.at_start != Corner::concave &&
                           edge.next != invalid_index;
         ++n_edges[body];
         if (first[body] == invalid_index)
           first[body] = e;
+        // Area of the polygon, from triangles with a corner of it; arcs add to it.
+        const Point<2> &corner = edges[first[body]].start;
+        area[body] += 0.5 * cross(edge.start - corner, edge.end - corner);
       }
       for (unsigned int body = 0; body < bodies.size(); ++body)
       {
@@ -139,12 +139,18 @@ namespace NMM
 
 
     void
-    ContactCrossings::set_step(std::vector<Point<2>> begin,
-                               std::vector<Point<2>> end)
+    ContactCrossings::set_step(const std::vector<ContactPosition> &begin,
+                               const std::vector<ContactPosition> &end)
     {
-      at_begin          = std::move(begin);
-      at_end            = std::move(end);
-      const auto &edges = surface->edges();
+      const auto &edges   = surface->edges();
+      const auto relative = [&](const std::vector<ContactPosition> &positions) {
+        std::vector<Point<2>> result;
+        for (const ContactPosition &x : positions)
+          result.emplace_back(x - edges.front().start);
+        return result;
+      };
+      at_begin = relative(begin);
+      at_end   = relative(end);
       for (Body &body : bodies)
       {
         body.center = Point<2>();

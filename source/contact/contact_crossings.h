@@ -82,8 +82,8 @@ namespace NMM
       /// Set the step: positions of the start, middle and end of all edges, one edge after the
       /// other, at the beginning and the end of the step.
       void
-      set_step(std::vector<dealii::Point<2>> begin,
-               std::vector<dealii::Point<2>> end);
+      set_step(const std::vector<ContactPosition> &begin,
+               const std::vector<ContactPosition> &end);
 
       /// Whether the bodies of two edges could cross each other by their motion in the step. @p
       /// depth is their penetration [m].
@@ -175,9 +175,10 @@ namespace NMM
               const IsInContact        &is_in_contact,
               StepFault                &fault) const;
 
-      const ContactSurface         *surface;
-      std::vector<Body>             bodies;
-      double                        least_thickness;
+      const ContactSurface *surface;
+      std::vector<Body>     bodies;
+      double                least_thickness;
+      /// Positions at both ends of the step, relative to the start of the first edge.
       std::vector<dealii::Point<2>> at_begin, at_end;
     };
   } // namespace internal

@@ -403,6 +403,20 @@ namespace NMM
     StepFault
     find_crossing(double largest_motion);
 
+    /// Estimated rounding of the force of a point [N/m].
+    double
+    force_rounding(unsigned int                       q,
+                   const internal::ContactProjection &projection,
+                   const internal::ContactTraction   &traction) const;
+
+    /// Normal motions of a step that are much less than this say nothing about whether the faces
+    /// turn [m].
+    double
+    least_motion() const
+    {
+      return 1e-4 * reach;
+    }
+
     void
     reduce_report();
 
@@ -524,8 +538,10 @@ namespace NMM
     bool slip_is_frozen = false;
 
     /// Report of the last assembly, and the largest penetration of its springs without offsets [m].
-    ContactReport                report;
-    double                       deepest = 0.;
+    ContactReport report;
+    double        deepest = 0.;
+    /// Sum of the squares of force_rounding() in the last assembly [N^2/m^2].
+    double                       rounding_square = 0.;
     internal::ContactLocalSystem local;
     /// Energy of bonds that broke since the last accepted state [J/m].
     double broken_energy = 0.;

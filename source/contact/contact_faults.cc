@@ -63,10 +63,10 @@ namespace NMM
     if (!crossings->may_cross(motion + depth))
       return {};
 
-    std::vector<dealii::Point<2>> end(3 * surface->edges().size());
+    std::vector<ContactPosition> end(3 * surface->edges().size());
     for (unsigned int i = 0; i < end.size(); ++i)
       end[i] = surface->place(i / 3, 0.5 * (i % 3)).x;
-    crossings->set_step(search.step_begin(), std::move(end));
+    crossings->set_step(search.step_begin(), end);
     std::vector<EdgePair> near;
     if (motion <= reach)
       near = find_near(search, *crossings, depth);

@@ -197,10 +197,10 @@ namespace NMM
       if (!is_between())
         dissipated +=
           point.weight * std::abs(point.shear) *
-          std::abs(
-            (point.x - surface->place(point.stick_edge, point.stick_t).x) * a /
-              a.norm() -
-            point.shear / eps);
+          std::abs((surface->place(point.edge, point.s).x -
+                    surface->place(point.stick_edge, point.stick_t).x) *
+                     a / a.norm() -
+                   point.shear / eps);
     }
     const unsigned int key    = place_key(*surface, point.edge, fixed.corner);
     const auto        *places = memory.stick_places.find(key);

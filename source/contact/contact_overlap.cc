@@ -9,16 +9,15 @@ namespace NMM
 {
   namespace internal
   {
-    using dealii::Point;
     using dealii::Tensor;
     using Place = ContactSurface::Place;
     using namespace CornerRules;
 
     double
-    ContactSearch::gap_beyond_corner(const unsigned int  edge,
-                                     const Point<2>     &x,
-                                     const Tensor<1, 2> &normal,
-                                     const Tensor<1, 2> &other_normal) const
+    ContactSearch::gap_beyond_corner(const unsigned int     edge,
+                                     const ContactPosition &x,
+                                     const Tensor<1, 2>    &normal,
+                                     const Tensor<1, 2>    &other_normal) const
     {
       const auto &at     = surface->edges()[edge];
       double      result = -std::numeric_limits<double>::max();
@@ -40,9 +39,9 @@ namespace NMM
 
 
     double
-    ContactSearch::depth_inside(const unsigned int position,
-                                const unsigned int body,
-                                const Point<2>    &x) const
+    ContactSearch::depth_inside(const unsigned int     position,
+                                const unsigned int     body,
+                                const ContactPosition &x) const
     {
       double nearest = reach, gap = 0.;
       for (const unsigned int master : masters(position))
@@ -72,9 +71,9 @@ namespace NMM
     ContactSearch::length_behind(const unsigned int edge,
                                  const Place       &face) const
     {
-      const auto    &at           = surface->edges()[edge];
-      const Point<2> start        = surface->place(edge, 0.).x,
-                     end          = surface->place(edge, 1.).x;
+      const auto           &at    = surface->edges()[edge];
+      const ContactPosition start = surface->place(edge, 0.).x,
+                            end   = surface->place(edge, 1.).x;
       const Tensor<1, 2> normal   = face.normal();
       const double       at_start = (start - face.x) * normal,
                    at_end         = (end - face.x) * normal;
@@ -91,10 +90,10 @@ namespace NMM
 
 
     bool
-    ContactSearch::is_beside(const unsigned int edge,
-                             const Point<2>    &x,
-                             const unsigned int master,
-                             const double       depth) const
+    ContactSearch::is_beside(const unsigned int     edge,
+                             const ContactPosition &x,
+                             const unsigned int     master,
+                             const double           depth) const
     {
       const auto &edges = surface->edges();
       for (const bool forward : {true, false})
@@ -126,7 +125,7 @@ namespace NMM
     void
     ContactSearch::append_faces_beside(
       const unsigned int                          edge,
-      const Point<2>                             &x,
+      const ContactPosition                      &x,
       const dealii::ArrayView<const unsigned int> masters,
       const double                                depth,
       std::vector<unsigned int>                  &faces) const

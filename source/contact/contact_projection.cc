@@ -12,10 +12,12 @@ namespace NMM
 
   namespace
   {
-    /// Rounding of a difference of two positions on edges [m].
+    /// Rounding of a difference of two positions on edges, one of which is @p place, in the reference
+    /// configuration [m].
     double
     rounding_of(const ContactSurface::Place &place)
     {
+      // The coordinates of both edges are rounded.
       constexpr double parts = 1e-15;
       return parts *
              (std::abs(place.x[0]) + std::abs(place.x[1]) + place.a.norm());

@@ -274,8 +274,8 @@ namespace NMM
           {
             if (surface->is_absent(e) || !is_corner(e, end))
               continue;
-            const Point<2> &x = known_positions[3 * e + 2 * end];
-            const BoxCorner corner(x[0], x[1]);
+            const ContactPosition &x = known_positions[3 * e + 2 * end];
+            const BoxCorner        corner(x[0], x[1]);
             find(e,
                  inflated(Box(corner, corner), broad_reach),
                  [](unsigned int) { return true; });
@@ -316,7 +316,7 @@ namespace NMM
 
     double
     ContactSearch::largest_distance(
-      const std::vector<Point<2>> &positions) const
+      const std::vector<ContactPosition> &positions) const
     {
       double square = 0.;
       for (unsigned int i = 0; i < positions.size(); ++i)
@@ -328,20 +328,20 @@ namespace NMM
 
 
     bool
-    ContactSearch::find_nearest(const unsigned int edge,
-                                const Point<2>    &x,
-                                double            &t,
-                                Place             &place) const
+    ContactSearch::find_nearest(const unsigned int     edge,
+                                const ContactPosition &x,
+                                double                &t,
+                                Place                 &place) const
     {
-      const Point<2>     start = surface->place(edge, 0.).x;
-      const Tensor<1, 2> chord = surface->place(edge, 1.).x - start;
-      t                        = ((x - start) * chord) / chord.norm_square();
+      const ContactPosition start = surface->place(edge, 0.).x;
+      const Tensor<1, 2>    chord = surface->place(edge, 1.).x - start;
+      t                           = ((x - start) * chord) / chord.norm_square();
       t = std::min(1. + beyond_end, std::max(-beyond_end, t));
 
       constexpr unsigned int max_iterations = 30;
-      // Rounding of positions relative to the length, and of the parameter.
+      // Rounding of differences of positions relative to the length, and of the parameter.
       const double tolerance =
-        2e-16 * (2. + (std::abs(x[0]) + std::abs(x[1])) / chord.norm());
+        2e-16 * (2. + (x.way.norm() + start.way.norm()) / chord.norm());
       for (unsigned int i = 0; i < max_iterations; ++i)
       {
         place                      = surface->place(edge, t);
@@ -373,9 +373,9 @@ namespace NMM
       for (const unsigned int master : masters(position))
         for (const unsigned int end : {0U, 1U})
         {
-          const Point<2> x = surface->place(master, end).x;
-          double         t;
-          Place          place;
+          const ContactPosition x = surface->place(master, end).x;
+          double                t;
+          Place                 place;
           if (!surface->is_further(slave, x, reach, 0., 0.) &&
               find_nearest(slave, x, t, place) && t > same_division &&
               t < 1. - same_division && place.x.distance(x) <= reach &&

@@ -184,7 +184,7 @@ namespace NMM
       }
 
       /// Start, middle and end of all edges at update().
-      const std::vector<dealii::Point<2>> &
+      const std::vector<ContactPosition> &
       step_begin() const
       {
         return begin_positions;
@@ -304,7 +304,7 @@ namespace NMM
        */
       void
       append_faces_beside(unsigned int                          edge,
-                          const dealii::Point<2>               &x,
+                          const ContactPosition                &x,
                           dealii::ArrayView<const unsigned int> masters,
                           double                                depth,
                           std::vector<unsigned int>            &faces) const;
@@ -312,9 +312,9 @@ namespace NMM
       /// Distance of @p x from the nearest candidate at @p position that belongs to the body [m],
       /// if @p x is inside of the body; else 0.
       double
-      depth_inside(unsigned int            position,
-                   unsigned int            body,
-                   const dealii::Point<2> &x) const;
+      depth_inside(unsigned int           position,
+                   unsigned int           body,
+                   const ContactPosition &x) const;
 
     private:
       /// The edge of the corner at a division that goes on above the slave's piece towards @p
@@ -350,14 +350,14 @@ namespace NMM
                      const AdmittedContact                &admitted) const;
 
       double
-      largest_distance(const std::vector<dealii::Point<2>> &positions) const;
+      largest_distance(const std::vector<ContactPosition> &positions) const;
 
       /// Distance of a corner at @p x from the body [m], if it is behind a face but in front of
       /// another face that meets this one in a convex corner; negative if there is no such face.
       /// Both normals are those of the corner's edges, see can_separate().
       double
       gap_beyond_corner(unsigned int                edge,
-                        const dealii::Point<2>     &x,
+                        const ContactPosition      &x,
                         const dealii::Tensor<1, 2> &normal,
                         const dealii::Tensor<1, 2> &other_normal) const;
 
@@ -372,16 +372,16 @@ namespace NMM
       /// Whether the point is beside a master, see append_faces_beside(); @p depth is its depth
       /// behind that master [m].
       bool
-      is_beside(unsigned int            edge,
-                const dealii::Point<2> &x,
-                unsigned int            master,
-                double                  depth) const;
+      is_beside(unsigned int           edge,
+                const ContactPosition &x,
+                unsigned int           master,
+                double                 depth) const;
 
       bool
-      find_nearest(unsigned int            edge,
-                   const dealii::Point<2> &x,
-                   double                 &t,
-                   ContactSurface::Place  &place) const;
+      find_nearest(unsigned int           edge,
+                   const ContactPosition &x,
+                   double                &t,
+                   ContactSurface::Place &place) const;
 
       const ContactSurface     *surface;
       std::vector<unsigned int> ranks;
@@ -393,8 +393,8 @@ namespace NMM
       std::vector<unsigned int> slave_edges, masters_begin, master_edges;
       std::vector<unsigned int> corners;
       /// Positions of start, middle and end of all edges at search(), at update() and at begin().
-      std::vector<dealii::Point<2>> known_positions, begin_positions;
-      std::vector<dealii::Point<2>> accepted_positions;
+      std::vector<ContactPosition> known_positions, begin_positions;
+      std::vector<ContactPosition> accepted_positions;
     };
   } // namespace internal
 } // namespace NMM

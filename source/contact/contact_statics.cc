@@ -85,6 +85,13 @@ namespace NMM
   }
 
 
+  double
+  ContactSystem::force_rounding() const
+  {
+    return data->contact->force_rounding();
+  }
+
+
   unsigned int
   ContactSystem::pattern_version() const
   {

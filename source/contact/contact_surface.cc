@@ -497,8 +497,10 @@ namespace NMM
     if (edge.radius == 0.)
     {
       place.a = edge.end - edge.start;
-      place.x =
-        t < 0.5 ? edge.start + t * place.a : edge.end - (1. - t) * place.a;
+      if (t < 0.5)
+        place.x = {edge.start, t * place.a};
+      else
+        place.x = {edge.end, (t - 1.) * place.a};
     }
     else
     {
@@ -506,9 +508,15 @@ namespace NMM
       const double angle = edge.first_angle + t * range;
       const double r     = std::abs(edge.radius);
       const double c = r * std::cos(angle), s = r * std::sin(angle);
-      place.x = edge.center + Point<2>(c, s);
-      place.a = Point<2>(-range * s, range * c);
-      place.b = Point<2>(-range * range * c, -range * range * s);
+      // The chord from the start, 2 r sin(phi / 2) long, loses no digits where the radius is much
+      // larger than the arc.
+      const double half  = 0.5 * t * range;
+      const double chord = 2. * r * std::sin(half);
+      const double along = edge.first_angle + half;
+      place.x            = {edge.start,
+                            Point<2>(-chord * std::sin(along), chord * std::cos(along))};
+      place.a            = Point<2>(-range * s, range * c);
+      place.b            = Point<2>(-range * range * c, -range * range * s);
     }
     return place;
   }
@@ -610,11 +618,11 @@ namespace NMM
 
 
   bool
-  ContactSurface::is_further(const unsigned int e,
-                             const Point<2>    &x,
-                             const double       distance,
-                             const double       before,
-                             const double       after) const
+  ContactSurface::is_further(const unsigned int     e,
+                             const ContactPosition &x,
+                             const double           distance,
+                             const double           before,
+                             const double           after) const
   {
     const Edge &edge = all_edges[e];
     if (edge.radius != 0.)

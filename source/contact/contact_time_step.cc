@@ -132,7 +132,7 @@ namespace NMM
     // as far as the point moves from now on. The energy stored against a master that is left behind
     // is lost. So new masters do not create energy. Gaps here do not include the opening of this
     // step by dilation.
-    const double least  = 1e-4 * reach;
+    const double least  = least_motion();
     const double rise   = fixed.dilation.opening - opening_before(q);
     const double motion = opening - rise;
     double       g_0    = fixed.gap_begin - fixed.offset;
@@ -499,8 +499,9 @@ namespace NMM
             d.stage == Data::Stage::step_begun ||
               d.stage == Data::Stage::step_assembled ||
               d.stage == Data::Stage::step_ended);
-    d.report  = ContactReport();
-    d.deepest = 0.;
+    d.report          = ContactReport();
+    d.rounding_square = 0.;
+    d.deepest         = 0.;
     if (with_tangent)
       d.active.clear_coupled();
     if (d.is_idle)

@@ -48,11 +48,12 @@ namespace NMM
          e < obstacle_begins[obstacle + 1];
          ++e)
     {
-      const Edge        &edge  = all_edges[e];
-      const double       t     = nearest_parameter(edge, x - shift);
-      const Place        place = reference_place(e, t);
-      const Tensor<1, 2> d     = x - (place.x + shift);
-      const double       same  = 1e-12 * (d.norm() + edge.length);
+      const Edge  &edge  = all_edges[e];
+      const double t     = nearest_parameter(edge, x - shift);
+      Place        place = reference_place(e, t);
+      place.x += shift;
+      const Tensor<1, 2> d    = -(place.x - x);
+      const double       same = 1e-12 * (d.norm() + edge.length);
       if (d.norm() < result.distance - same)
       {
         result.distance = d.norm();

@@ -21,19 +21,31 @@ namespace NMM
       inertias.assign(n, 0.);
 
       Vector ones(model.locally_owned(), model.communicator());
-      Vector positions(ones), moved(ones);
+      Vector scaled(ones), moved(ones);
       for (const auto i : ones.locally_owned_elements())
         if (!model.constraints().is_constrained(i))
           ones(i) = 1.;
       ones.compress(dealii::VectorOperation::insert);
       nodal_mass.reinit(ones);
       model.mass().vmult(nodal_mass, ones);
-      positions = model.reference_positions();
-      positions.scale(ones);
-      model.mass().vmult(moved, positions);
+      // Moments about the origin of the coordinates would lose the digits of its distance.
+      positions                      = model.reference_positions();
+      const auto                from = model.reference_positions().begin();
+      std::vector<unsigned int> first_unknown(n, invalid_index);
+      for (unsigned int i = 0; i < block_of->size(); i += 2)
+      {
+        unsigned int &origin = first_unknown[(*block_of)[i]];
+        if (origin == invalid_index)
+          origin = i;
+        for (unsigned int c = 0; c < 2; ++c)
+          positions.begin()[i + c] -= from[origin + c];
+      }
+      scaled = positions;
+      scaled.scale(ones);
+      model.mass().vmult(moved, scaled);
       std::vector<double> first(2 * n, 0.);
       auto                m = nodal_mass.begin();
-      auto                x = positions.begin();
+      auto                x = scaled.begin();
       auto                w = moved.begin();
       for (unsigned int i = 0; m != nodal_mass.end(); ++m, ++x, ++w, ++i)
       {
@@ -54,7 +66,7 @@ namespace NMM
     BlockInertia::sum(const Vector &r, const Vector &u)
     {
       sums.assign(n_blocks(), Sum());
-      const auto X = model->reference_positions().begin();
+      const auto X = std::as_const(positions).begin();
       const auto d = u.begin(), f = r.begin();
       const auto m        = std::as_const(nodal_mass).begin();
       const auto for_each = [&](const auto &action) {
@@ -86,7 +98,7 @@ namespace NMM
                       Vector                  &moved)
     {
       sum(momentum, u);
-      const auto X  = model->reference_positions().begin();
+      const auto X  = std::as_const(positions).begin();
       const auto d  = u.begin();
       const auto to = moved.begin();
       for (unsigned int i = 0; i < block_of->size(); i += 2)

@@ -42,7 +42,8 @@ namespace NMM
       /// Resultant of the nodal forces (or momenta) r_k of a block.
       struct Sum
       {
-        /// Centre of mass at the current positions x_k [m].
+        /// Centre of mass at the current positions x_k, relative to the reference position of the first
+        /// unknown of the block [m].
         dealii::Point<2> center;
         /// Sum of r_k.
         dealii::Tensor<1, 2> resultant;
@@ -72,6 +73,8 @@ namespace NMM
       const MechanicalModel           *model;
       const std::vector<unsigned int> *block_of;
       std::vector<double>              masses, inertias;
+      /// Reference positions of the unknowns, relative to that of the first one of their block [m].
+      Vector positions;
       /// Mass that belongs to each unknown in a translation, i.e. the row sums of M [kg/m].
       Vector           nodal_mass;
       std::vector<Sum> sums;

@@ -280,6 +280,14 @@ namespace NMM
   }
 
 
+  double
+  ContactModel::force_rounding() const
+  {
+    return std::hypot(data->model->force_rounding(),
+                      data->contact->force_rounding());
+  }
+
+
   ContactModel::Energies
   ContactModel::energies() const
   {

@@ -47,8 +47,6 @@ namespace NMM
     const double furthest = parameters.max_step_displacement > 0.
                               ? parameters.max_step_displacement
                               : 0.01 * parameters.max_displacement;
-    double       previous = integrator.account().kinetic;
-    report.imbalance      = integrator.account().imbalance;
     StepSequence sequence({"time", "s", 1e-6 * parameters.step},
                           integrator.state().time,
                           parameters.step);
@@ -78,16 +76,10 @@ namespace NMM
           return report;
         }
       }
-      const double kinetic = integrator.account().kinetic;
-      if (kinetic <= previous)
-      {
-        integrator.stop_motion();
-        ++report.n_stops;
-        report.imbalance = integrator.account().imbalance;
-        if (report.imbalance <= parameters.tolerance)
-          return report;
-      }
-      previous = integrator.account().kinetic;
+      integrator.stop_motion();
+      report.imbalance = integrator.account().imbalance;
+      if (report.imbalance <= parameters.tolerance)
+        return report;
     }
     AssertThrow(
       false,

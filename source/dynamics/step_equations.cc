@@ -195,10 +195,15 @@ namespace NMM
         body_matrix->add(c * damping.stiffness, stiffness_at_rest);
       return;
     }
-    if (in_place == nullptr)
+    if (in_place == nullptr && !active_rows.all() &&
+        matrix_version == pattern_version())
+      // other rows have been assembled before, and have their mass and damping
+      internal::set_rows(k, model->tangent(), matrix, active_rows);
+    else if (in_place == nullptr)
     {
       matrix.copy_from(model->tangent());
       matrix *= k;
+      matrix_version = pattern_version();
     }
     auto &sum = in_place != nullptr ? *in_place : matrix;
     add_rows(m + c * damping.mass, model->mass(), sum, active_rows);

@@ -1,6 +1,7 @@
 #ifndef nmm_source_dynamics_step_equations_h
 #define nmm_source_dynamics_step_equations_h
 
+#include <nmm/base/types.h>
 #include <nmm/dynamics/time_integrator.h>
 
 #include <dynamics/sleeping_blocks.h>
@@ -49,6 +50,12 @@ namespace NMM
     force_scale() const override
     {
       return scale;
+    }
+
+    double
+    force_rounding() const override
+    {
+      return model->force_rounding();
     }
 
     unsigned int
@@ -209,6 +216,8 @@ namespace NMM
     NewtonSolver                           newton;
     dealii::TrilinosWrappers::SparseMatrix stiffness_at_rest;
     dealii::TrilinosWrappers::SparseMatrix matrix;
+    /// Pattern of `matrix`, see pattern_version(); invalid_index: none.
+    unsigned int matrix_version = invalid_index;
     /// The model's matrix, to which mass and damping are added; null if they are added to `matrix`.
     dealii::TrilinosWrappers::SparseMatrix *in_place = nullptr;
     /// The model's matrix if it is a body matrix, otherwise null.

@@ -404,8 +404,7 @@ namespace NMM
     void
     DynamicAnalysis::run_relaxation()
     {
-      last_good            = integrator->state();
-      unsigned int n_stops = 0;
+      last_good = integrator->state();
       do
       {
         relaxation = relax(*integrator,
@@ -415,11 +414,9 @@ namespace NMM
                              n_lost_iterations += record.n_lost_iterations;
                              after_step(record);
                            });
-        n_stops += relaxation.n_stops;
         // Those of the last step are of the solid before it was stopped.
         compute_tips_in_motion();
       } while (grow() || integrator->state().closing.act_at(time()));
-      relaxation.n_stops = n_stops;
     }
 
 

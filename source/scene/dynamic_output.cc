@@ -339,10 +339,7 @@ namespace NMM
       if (damping.stiffness > 0.)
         summary.add("stiffness_damping", damping.stiffness, "s");
       if (kind == Analysis::relaxation)
-      {
-        summary.add("relaxation_stops", relaxation.n_stops);
         summary.add("imbalance", integrator->account().imbalance);
-      }
       add_energies();
       if (scene.parameters().model.kinematics != Kinematics::small)
         summary.add("current_area",

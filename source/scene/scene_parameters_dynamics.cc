@@ -50,8 +50,8 @@ namespace NMM
       analysis,
       analyses,
       "static: equilibrium; dynamic: the motion, see section Time; relaxation: "
-      "equilibrium, found by a motion that is stopped whenever its energy has "
-      "passed a peak, see section Relaxation; safety factor: by how much the "
+      "equilibrium, found by a motion that is stopped after each step, "
+      "see section Relaxation; safety factor: by how much the "
       "strength of contact can be divided before blocks move, see section "
       "Safety factor.");
   }

@@ -2,11 +2,14 @@
 #include <nmm/base/types.h>
 #include <nmm/solution/newton_solver.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <linear_algebra/direct_solver.h>
+#include <linear_algebra/matrix_rows.h>
 #include <solution/newton_groups.h>
 #include <utility>
 
@@ -55,7 +58,12 @@ namespace NMM
     Vector last_increment;
     bool   use_increment = true;
     /// Force scale of the last assembly of all blocks, or else of the first assembly [N/m].
-    double       scale = 0.;
+    double scale = 0.;
+    /// @{
+    /// Rounding of the forces in the last assembly, and by that of the unknowns; negative: not known
+    /// yet [N/m].
+    double rounding = 0., rounding_by_unknowns = -1.;
+    /// @}
     NewtonGroups groups;
     /// Blocks of inactive groups that active ones touched in the last assembly.
     std::vector<unsigned int> touched;
@@ -112,6 +120,12 @@ namespace NMM
 
     bool
     has_converged(const Group &group, double largest_energy) const;
+
+    void
+    find_rounding_by_unknowns();
+
+    double
+    floor() const;
 
     bool
     settle(Vector &u, double largest_energy);
@@ -172,6 +186,7 @@ namespace NMM
     // the first assembly comprises all blocks that are not held
     if (blocks.empty() || scale == 0.)
       scale = system->force_scale();
+    rounding    = system->force_rounding();
     double norm = 0.;
     if (blocks.empty())
     {
@@ -454,6 +469,48 @@ namespace NMM
   }
 
 
+  /// Estimate the rounding of forces by that of the unknowns, as soon as the residual is near the
+  /// tolerance: stored numbers are rounded by epsilon / 2, so the forces by that times |K_ij u_j|.
+  void
+  NewtonSolver::Data::find_rounding_by_unknowns()
+  {
+    // Residuals below this multiple of the tolerance may be due to rounding.
+    constexpr double near = 1e4;
+    if (rounding_by_unknowns >= 0. || system->body_tangent() != nullptr ||
+        report->relative_residual > near * parameters.residual_tolerance)
+      return;
+    const internal::MatrixRows rows(system->tangent());
+    // On several ranks the columns of others are left out, which are few.
+    const int *const columns =
+      system->tangent().trilinos_matrix().ColMap().MyGlobalElements();
+    const auto first = owned.local_range().first,
+               last  = owned.local_range().second;
+    const auto x     = std::as_const(owned).begin();
+    double     sum   = 0.;
+    for (unsigned int i = 0; i < owned.locally_owned_size(); ++i)
+      for (int e = rows.begins[i]; e < rows.begins[i + 1]; ++e)
+      {
+        const dealii::types::global_dof_index j = columns[rows.columns[e]];
+        if (j >= first && j < last)
+          sum += std::pow(rows.values[e] * x[j - first], 2);
+      }
+    rounding_by_unknowns =
+      std::numeric_limits<double>::epsilon() *
+      std::sqrt(dealii::Utilities::MPI::sum(sum, owned.get_mpi_communicator()));
+  }
+
+
+  /// The smallest residual that can be expected [N/m].
+  double
+  NewtonSolver::Data::floor() const
+  {
+    // A larger part of the forces than this is not put down to rounding.
+    constexpr double most = 1e-6;
+    return std::min(most * scale,
+                    std::hypot(rounding, std::max(0., rounding_by_unknowns)));
+  }
+
+
   /// Whether a group meets its share of both tolerances, which is its share of the unknowns.
   bool
   NewtonSolver::Data::has_converged(const Group &group,
@@ -462,9 +519,15 @@ namespace NMM
     const double part =
       static_cast<double>(group.n_unknowns) / groups.n_unknowns();
     const double allowed = parameters.residual_tolerance * scale;
-    return group.square <= allowed * allowed * part &&
-           std::abs(group.product) <=
-             parameters.energy_tolerance * largest_energy * part;
+    if (group.square <= allowed * allowed * part &&
+        std::abs(group.product) <=
+          parameters.energy_tolerance * largest_energy * part)
+      return true;
+    if (group.square > floor() * floor())
+      return false;
+    report->is_at_floor =
+      report->is_at_floor || group.square > allowed * allowed * part;
+    return true;
   }
 
 
@@ -505,6 +568,7 @@ namespace NMM
   NewtonSolver::Data::settle(Vector &u, const double largest_energy)
   {
     bool is_any_new = false;
+    find_rounding_by_unknowns();
     for (const unsigned int root : groups.active_roots())
     {
       Group &group        = groups[root];
@@ -534,7 +598,8 @@ namespace NMM
     touched.clear();
     for (const unsigned int root : groups.roots())
       if (groups[root].square * groups.n_unknowns() >
-          allowed * allowed * groups[root].n_unknowns)
+            allowed * allowed * groups[root].n_unknowns &&
+          groups[root].square > floor() * floor())
         touched.push_back(root);
     groups.reactivate(touched);
     return !groups.is_any_active();
@@ -559,7 +624,9 @@ namespace NMM
     d.before.reinit(d.owned);
     if (d.use_increment)
       d.last_increment.reinit(u);
-    d.scale = 0.;
+    d.scale                = 0.;
+    d.rounding             = 0.;
+    d.rounding_by_unknowns = -1.;
     d.groups.reinit(system.blocks_of_unknowns(),
                     system.held_blocks(),
                     d.parameters.solves_groups_separately,

@@ -194,7 +194,7 @@ namespace
     TimeIntegrator        &integrator = *relaxing.integrator;
     const RelaxationReport rest       = relax(integrator, relaxing.parameters);
     std::cout << rest.n_steps << " steps, " << rest.n_iterations
-              << " iterations, " << rest.n_stops << " stops\n";
+              << " iterations\n";
 
     FiniteElasticity statics(body.model->covers,
                              *body.model->quadrature,

@@ -289,6 +289,11 @@ namespace NMM
     const Vector &
     residual() const;
 
+    /// Estimated norm of the rounding of residual(): the root of the sum over all closed points of the
+    /// square of stiffness times rounding of the gap [N/m].
+    double
+    force_rounding() const;
+
     /// dr/du of the last assembly with a tangent [N/m^2]. Its sparsity pattern includes that of
     /// the elasticity.
     const Matrix &

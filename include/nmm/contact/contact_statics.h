@@ -44,6 +44,9 @@ namespace NMM
     double
     force_scale() const override;
 
+    double
+    force_rounding() const override;
+
     unsigned int
     pattern_version() const override;
 

@@ -1,6 +1,7 @@
 #ifndef nmm_contact_contact_surface_h
 #define nmm_contact_contact_surface_h
 
+#include <nmm/contact/contact_position.h>
 #include <nmm/covers/cover_system.h>
 #include <nmm/covers/weight_functions.h>
 #include <nmm/geometry/curve.h>
@@ -107,7 +108,7 @@ namespace NMM
     struct Place
     {
       /// Position [m].
-      dealii::Point<2> x;
+      ContactPosition x;
       /// First derivative of the position by t [m], tangent to the edge.
       dealii::Tensor<1, 2> a;
       /// Second derivative of the position by t [m].
@@ -285,11 +286,11 @@ namespace NMM
     /// -before <= t <= 1 + after of an edge, both parameters being at most 1/2. Always false for
     /// arcs. This costs much less than the search for the nearest place.
     bool
-    is_further(unsigned int            edge,
-               const dealii::Point<2> &x,
-               double                  distance,
-               double                  before,
-               double                  after) const;
+    is_further(unsigned int           edge,
+               const ContactPosition &x,
+               double                 distance,
+               double                 before,
+               double                 after) const;
 
     /// Weight functions of the edge's element at the parameter @p t, and their derivatives by t.
     void

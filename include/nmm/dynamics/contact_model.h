@@ -113,6 +113,9 @@ namespace NMM
     double
     force_scale() const override;
 
+    double
+    force_rounding() const override;
+
     Energies
     energies() const override;
 

@@ -126,6 +126,13 @@ namespace NMM
     virtual double
     force_scale() const = 0;
 
+    /// Estimated norm of the rounding of residual() in the last assembly [N/m]; 0: it is not known.
+    virtual double
+    force_rounding() const
+    {
+      return 0.;
+    }
+
     /// Stored energies of a model.
     struct Energies
     {

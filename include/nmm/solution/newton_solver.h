@@ -83,6 +83,14 @@ namespace NMM
     virtual double
     force_scale() const = 0;
 
+    /// Estimated norm of the rounding of residual() in the last assembly [N/m]: no solution has a smaller
+    /// residual. 0: it is not known.
+    virtual double
+    force_rounding() const
+    {
+      return 0.;
+    }
+
     /// A number that changes whenever tangent() has a new sparsity pattern. Only the rows that
     /// were assembled last have valid values then.
     virtual unsigned int
@@ -152,7 +160,7 @@ namespace NMM
   /// Tolerances and strategy of NewtonSolver.
   struct NewtonParameters
   {
-    /// Convergence requires |r| <= residual_tolerance * force_scale() [-].
+    /// Convergence requires |r| <= residual_tolerance * force_scale() [-], or |r| <= force_rounding().
     double residual_tolerance = 1e-9;
     /// Convergence also requires |r . du| <= energy_tolerance * the largest |r . du| of all
     /// iterations so far, du being the last correction [-].
@@ -201,8 +209,10 @@ namespace NMM
       double active_share = 1.;
     };
 
-    /// Whether both tolerances were met.
+    /// Whether both tolerances were met, or the residual is at the floor that rounding leaves.
     bool converged = false;
+    /// Whether a part of the solution is at that floor, above the tolerance.
+    bool is_at_floor = false;
     /// Why the solution did not converge, as part of a message.
     std::string reason;
     /// One entry per iteration; a failed one is the last.
@@ -247,6 +257,12 @@ namespace NMM
    * factorized until an active block presses on it. Finally everything is assembled once more to
    * verify the solution. So a block that needs many iterations does not add to the cost of the
    * others.
+   *
+   * A residual is a sum of forces that have been rounded. Its floor is estimated from
+   * NonlinearSystem::force_rounding(), for example of stiff springs that multiply the rounding of gaps,
+   * and from the rounding of the unknowns, @f$ \epsilon\,(\sum_{ij} (K_{ij} u_j)^2)^{1/2} @f$, for example
+   * in cells that are much thinner than the displacements are large. A residual below this floor, but
+   * at most 1e-6 of the forces, counts as converged, because further iterations gain nothing.
    *
    * Expected failures (no convergence, an inadmissible deformation, a singular tangent) are
    * results with a reason; the caller decides whether to try a smaller step. The direct solver

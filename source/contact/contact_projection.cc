@@ -334,7 +334,7 @@ namespace NMM
         point.is_bonded = laws(point.edge, projection.master).is_bond;
     }
     fixed.law = &laws(point.edge, projection.master);
-    if (has_friction && (point.stick_edge == invalid_index ||
+    if (transmits_shear && (point.stick_edge == invalid_index ||
                          !goes_on(point.stick_edge, projection.master)))
     {
       point.stick_edge = projection.master;

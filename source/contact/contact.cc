@@ -200,16 +200,19 @@ namespace NMM
     const double touching = is_moving() ? 1e-9 : 0.;
 
     ContactTraction   traction;
-    ContactPoint     &point           = points[q];
-    const ContactLaw &law             = *point_data[q].law;
-    const double      eps             = law.normal_stiffness;
-    const Dilation    dilation        = is_between()
-                                          ? point_data[q].dilation
-                                          : find_dilation(q, slave, projection);
-    point.opening                     = dilation.opening;
+    ContactPoint     &point    = points[q];
+    const ContactLaw &law      = *point_data[q].law;
+    const double      eps      = law.normal_stiffness;
+    const Dilation    dilation = is_between()
+                                   ? point_data[q].dilation
+                                   : find_dilation(q, slave, projection);
+    point.opening              = dilation.opening;
+    // At the end of a step the spring is as find_end() has found it, by which the pressure in the
+    // step is measured. Where corners of two bodies coincide, a second projection of the same state
+    // may find another face, since rounding decides which is nearest.
     const ContactLaw::Response spring = law.pressure(
-      point.opening - projection.gap +
-      (is_between() ? point_data[q].offset_end : point_data[q].offset));
+      is_between() ? point_data[q].offset_end - point_data[q].gap_end
+                   : point.opening - projection.gap + point_data[q].offset);
     point.pressure = point.multiplier + spring.value;
     if (!point.is_bonded && point.pressure < -eps * touching * reach)
     {

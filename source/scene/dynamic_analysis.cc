@@ -5,6 +5,7 @@
 #include <cmath>
 #include <scene/dynamic_analysis.h>
 #include <scene/static_start.h>
+#include <scene/time_function.h>
 #include <sstream>
 
 namespace NMM
@@ -406,6 +407,11 @@ namespace NMM
     {
       last_good            = integrator->state();
       unsigned int n_stops = 0;
+      // Amplitudes are those of prescribed displacements, which grow first.
+      const double settled =
+        loading.amplitudes
+          ? ramp_time(scene.parameters().relaxation.relaxation.step)
+          : 0.;
       do
       {
         relaxation = relax(*integrator,
@@ -418,7 +424,8 @@ namespace NMM
         n_stops += relaxation.n_stops;
         // Those of the last step are of the solid before it was stopped.
         compute_tips_in_motion();
-      } while (grow() || integrator->state().closing.act_at(time()));
+      } while (grow() || integrator->state().closing.act_at(time()) ||
+               time() < settled);
       relaxation.n_stops = n_stops;
     }
 

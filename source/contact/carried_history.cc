@@ -657,6 +657,7 @@ namespace NMM
     ContactHistory               result;
     result.has_accepted_state = history.has_accepted_state;
     result.is_conserving      = history.is_conserving;
+    result.touching_reach     = history.touching_reach;
     result.sticks =
       internal::StickCarrier(history, from, to, common, slave_priority).carry();
     result.entrances = internal::carry_entrances(history, from, to, common);

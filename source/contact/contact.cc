@@ -69,7 +69,7 @@ namespace NMM
              parameters_in.slave_priority,
              parameters_in.integration == ContactIntegration::points)
     , laws((parameters.check(), surface), parameters)
-    , has_friction(parameters.has_friction())
+    , transmits_shear(parameters.transmit_shear())
     , corner_size(corner_sizes(surface))
     , active(surface)
     , matrix(surface, constraints, search, memory.stick_places, active)
@@ -139,7 +139,9 @@ namespace NMM
     d.move_to(u);
     d.step.nodal_begin   = d.nodal;
     d.step.time_detected = d.time;
-    d.reach              = std::max(least_reach, d.parameters.reach);
+    // What touches is found again, however deep it is and however little moves in the step.
+    d.reach =
+      std::max({least_reach, d.parameters.reach, d.memory.touching_reach});
     // Faces that have parted by dilation are still in contact.
     const double reach = d.reach + d.largest_opening();
     if (d.search.update(reach))
@@ -198,16 +200,19 @@ namespace NMM
     const double touching = is_moving() ? 1e-13 : 0.;
 
     ContactTraction   traction;
-    ContactPoint     &point           = points[q];
-    const ContactLaw &law             = *point_data[q].law;
-    const double      eps             = law.normal_stiffness;
-    const Dilation    dilation        = is_between()
-                                          ? point_data[q].dilation
-                                          : find_dilation(q, slave, projection);
-    point.opening                     = dilation.opening;
+    ContactPoint     &point    = points[q];
+    const ContactLaw &law      = *point_data[q].law;
+    const double      eps      = law.normal_stiffness;
+    const Dilation    dilation = is_between()
+                                   ? point_data[q].dilation
+                                   : find_dilation(q, slave, projection);
+    point.opening              = dilation.opening;
+    // At the end of a step the spring is as find_end() has found it, by which the pressure in the
+    // step is measured. Where corners of two bodies coincide, a second projection of the same state
+    // may find another face, since rounding decides which is nearest.
     const ContactLaw::Response spring = law.pressure(
-      point.opening - projection.gap +
-      (is_between() ? point_data[q].offset_end : point_data[q].offset));
+      is_between() ? point_data[q].offset_end - point_data[q].gap_end
+                   : point.opening - projection.gap + point_data[q].offset);
     point.pressure = point.multiplier + spring.value;
     if (!point.is_bonded && point.pressure < -eps * touching * reach)
     {
@@ -226,7 +231,7 @@ namespace NMM
       normal_energy(q, point.pressure) - normal_energy(q, point.multiplier);
     const bool was_slipping = point.state == ContactState::slip;
     point.state             = ContactState::slip;
-    if (law.has_friction())
+    if (law.transmits_shear())
     {
       const Tensor<1, 2> distance = way_from_stick(q, slave);
       const Tensor<1, 2> tangent =
@@ -371,9 +376,7 @@ namespace NMM
       if (finds_slip)
       {
         traction.shear_stiffness = point.weight * strength.by_slip;
-        // The shear of a step is that in its middle, after half of the slip.
-        fixed.new_slip =
-          (is_between() ? 2. : 1.) * (std::abs(trial) - limit) / stiffness;
+        fixed.new_slip           = (std::abs(trial) - limit) / stiffness;
       }
       // The point slides in alternating directions in the iterations, because the tangent stiffness
       // of sliding is too small. The secant stiffness is used instead.
@@ -445,7 +448,7 @@ namespace NMM
 
     ContactSurface::Weights master, stick;
     surface->weights(projection.master, projection.t, master);
-    const bool        with_friction = fixed.law->has_friction();
+    const bool        with_friction = fixed.law->transmits_shear();
     ContactKinematics kinematics(fixed.weights,
                                  master,
                                  projection.place,
@@ -663,7 +666,7 @@ namespace NMM
   bool
   Contact::tangent_is_symmetric() const
   {
-    return !data->has_friction;
+    return !data->transmits_shear;
   }
 
 

@@ -505,7 +505,7 @@ namespace NMM
     MPI_Comm                communicator;
     internal::ContactSearch search;
     internal::ContactLaws   laws;
-    bool                    has_friction;
+    bool                    transmits_shear;
     /// See corner_sizes().
     std::vector<double> corner_size;
     std::vector<double> rule_points, rule_weights;

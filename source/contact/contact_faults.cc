@@ -121,14 +121,23 @@ namespace NMM
     const double       motion = d.search.motion();
     std::ostringstream text;
     if (!d.is_idle && d.deepest > 0.5 * d.reach)
+    {
       text << "a penetration of " << d.deepest
            << " m, more than half of the distance of " << d.reach
            << " m within which faces are looked for";
-    else if (motion > d.reach)
+      return {
+        text.str(),
+        "choose a higher 'Contact/Normal stiffness', or a 'Contact/Reach' "
+        "of more than twice the penetration; smaller steps help against "
+        "impacts only",
+        0.};
+    }
+    if (motion > d.reach)
+    {
       text << "a point of a face that moved further than the distance of "
            << d.reach << " m within which faces are looked for";
-    if (!text.str().empty())
       return {text.str(), "", 0.};
+    }
     return d.find_crossing(motion);
   }
 

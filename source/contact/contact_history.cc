@@ -247,9 +247,15 @@ namespace NMM
     for (auto &known : memory.touching)
       known.clear();
     std::vector<unsigned int> pairs;
+    double                    deep = 0.;
     for (unsigned int q = 0; q < points.size(); ++q)
     {
       const unsigned int edge = points[q].edge, master = points[q].master;
+      // Springs may be compressed by as much again until the next state is accepted.
+      if (points[q].pressure > 0.)
+        deep = std::max(deep,
+                        point_data[q].law->penetration(points[q].pressure) -
+                          points[q].gap);
       const unsigned int n = pairs.size();
       if (master != invalid_index && points[q].gap < 0. &&
           (n == 0 || pairs[n - 2] != edge || pairs[n - 1] != master))
@@ -258,6 +264,7 @@ namespace NMM
         pairs.push_back(master);
       }
     }
+    memory.touching_reach = Parallel::max(deep, communicator);
     if (Parallel::n_mpi_processes(communicator) > 1)
     {
       const auto all = Parallel::all_gather(communicator, pairs);
@@ -297,7 +304,7 @@ namespace NMM
     if (d.is_between())
       for (const Data::PointData &fixed : d.point_data)
         dissipated += fixed.normal_loss;
-    if (!d.has_friction)
+    if (!d.transmits_shear)
     {
       d.memory.energies_of_pairs = d.pair_energies();
       return Parallel::sum(dissipated, d.communicator);
@@ -306,7 +313,8 @@ namespace NMM
     dissipated += d.broken_energy;
     d.broken_energy = 0.;
     for (unsigned int q = 0; q < d.points.size(); ++q)
-      if (d.point_data[q].law != nullptr && d.point_data[q].law->has_friction())
+      if (d.point_data[q].law != nullptr &&
+          d.point_data[q].law->transmits_shear())
         dissipated += d.accept_shear(q);
     d.memory.energies_of_pairs = d.pair_energies();
     return Parallel::sum(dissipated, d.communicator);

@@ -11,7 +11,7 @@ namespace NMM
   void
   ContactLaw::check(const std::string &where) const
   {
-    Assert(has_friction() || !is_bond,
+    Assert(transmits_shear() || !is_bond,
            dealii::ExcMessage("The points of a bond need anchors."));
     check_law_value(
       normal_stiffness > 0. && std::isfinite(normal_stiffness),

@@ -67,6 +67,7 @@ namespace NMM
       history.multipliers        = multipliers;
       history.searched_time      = searched_time;
       history.searched_reach     = searched_reach;
+      history.touching_reach     = touching_reach;
       for (const dealii::Tensor<1, 2> &u : searched_nodal)
         history.searched_displacements.insert(
           history.searched_displacements.end(), {u[0], u[1]});
@@ -95,6 +96,7 @@ namespace NMM
     {
       const unsigned int n_edges = surface.edges().size();
       has_accepted_state         = history.has_accepted_state;
+      touching_reach             = history.touching_reach;
       if (history.multipliers.size() == multipliers.size())
         multipliers = history.multipliers;
       if (!history.searched_displacements.empty())

@@ -45,6 +45,8 @@ namespace NMM
       /// computation that continues from a checkpoint repeats this search to find the same pairs.
       std::vector<dealii::Tensor<1, 2>> searched_nodal;
       double                            searched_time = 0., searched_reach = 0.;
+      /// See ContactHistory::touching_reach [m].
+      double touching_reach = 0.;
 
       /// Remove the history of bodies that are absent from the surface.
       void

@@ -308,6 +308,16 @@ namespace NMM
 
 
   bool
+  ContactParameters::transmit_shear() const
+  {
+    return law->transmits_shear() ||
+           std::any_of(pairs.begin(), pairs.end(), [](const ContactPair &pair) {
+             return pair.law->transmits_shear();
+           });
+  }
+
+
+  bool
   ContactParameters::has_friction() const
   {
     return law->has_friction() ||

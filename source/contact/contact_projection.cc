@@ -102,10 +102,12 @@ namespace NMM
   Contact::Data::find_admitted(const unsigned int q) const
   {
     AdmittedContact admitted;
-    admitted.depth         = admitted_depth;
-    const PointData &fixed = point_data[q];
-    admitted.beside        = {faces_beside.data() + fixed.beside_begin,
-                              fixed.beside_end - fixed.beside_begin};
+    admitted.depth = admitted_depth;
+    // Another point of the same edge may be far behind the same face, beyond a corner of it.
+    admitted.touching_depth = admitted_depth + memory.touching_reach;
+    const PointData &fixed  = point_data[q];
+    admitted.beside         = {faces_beside.data() + fixed.beside_begin,
+                               fixed.beside_end - fixed.beside_begin};
     if (points[q].edge < memory.touching.size())
     {
       const auto &known = memory.touching[points[q].edge];
@@ -336,8 +338,8 @@ namespace NMM
         point.is_bonded = laws(point.edge, projection.master).is_bond;
     }
     fixed.law = &laws(point.edge, projection.master);
-    if (has_friction && (point.stick_edge == invalid_index ||
-                         !goes_on(point.stick_edge, projection.master)))
+    if (transmits_shear && (point.stick_edge == invalid_index ||
+                            !goes_on(point.stick_edge, projection.master)))
     {
       point.stick_edge = projection.master;
       point.stick_t    = projection.t;

@@ -56,8 +56,10 @@ namespace NMM
       /// Largest depth of new contact [m]. A face that is further from the point has not been
       /// reached from outside.
       double depth = std::numeric_limits<double>::max();
-      /// Faces that the point has penetrated before; the depth is not limited for them.
+      /// Faces that the edge of the point has penetrated at the last accepted state, and how deep the
+      /// point may be behind them [m].
       dealii::ArrayView<const unsigned int> touching;
+      double touching_depth = std::numeric_limits<double>::max();
       /// Faces that the point is beside, see ContactSearch::append_faces_beside(); they are
       /// excluded.
       dealii::ArrayView<const unsigned int> beside;
@@ -79,7 +81,9 @@ namespace NMM
           return std::find(faces.begin(), faces.end(), projection.master) !=
                  faces.end();
         };
-        return (projection.gap >= -depth || is_in(touching)) && !is_in(beside);
+        return (projection.gap >= -depth ||
+                (projection.gap >= -touching_depth && is_in(touching))) &&
+               !is_in(beside);
       }
     };
 

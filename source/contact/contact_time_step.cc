@@ -78,7 +78,7 @@ namespace NMM
       // The anchor of a point that slides or has no shear follows from its shear. Anchors that are
       // interpolated between those of other points may be far away.
       ContactPoint &point = d.points[q];
-      if (!d.has_friction || point.master == invalid_index ||
+      if (!d.transmits_shear || point.master == invalid_index ||
           point.state == ContactState::stick || point.is_bonded)
         continue;
       if (point.state == ContactState::open)
@@ -313,6 +313,9 @@ namespace NMM
                by_half_slip,
                was_slipping,
                traction);
+    // That was the middle of the step, where half of the slip is reached.
+    if (law.depends_on_slip())
+      fixed.new_slip *= 2.;
     traction.shear_by_half_slip = traction.shear_stiffness;
     traction.shear_stiffness    = 0.;
     fixed.shear_work            = traction.shear * slip;
@@ -386,7 +389,7 @@ namespace NMM
       if (point.pressure > 0. || point.is_bonded)
       {
         point.state = ContactState::slip;
-        if (fixed.law->has_friction())
+        if (fixed.law->transmits_shear())
           find_shear_between(
             q, projection, motion, before == ContactState::slip, traction);
       }

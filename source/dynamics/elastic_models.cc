@@ -3,46 +3,15 @@
 #include <nmm/mechanics/mass_matrix.h>
 
 #include <algorithm>
+#include <cmath>
+#include <dynamics/load_amplitudes.h>
 #include <dynamics/solid_hash.h>
 #include <limits>
 
 namespace NMM
 {
-  namespace
-  {
-    bool
-    equal(const LoadAmplitudes &a, const LoadAmplitudes &b)
-    {
-      return a.boundary_conditions == b.boundary_conditions &&
-             a.point_forces == b.point_forces &&
-             a.fixed_points == b.fixed_points && a.gravity == b.gravity &&
-             a.body_force == b.body_force &&
-             a.released_conditions == b.released_conditions &&
-             a.released_fixed_points == b.released_fixed_points;
-    }
-
-
-    bool
-    is_load(const BoundaryCondition &condition)
-    {
-      return condition.type != BoundaryCondition::Type::displacement &&
-             condition.type != BoundaryCondition::Type::normal_displacement;
-    }
-
-
-    void
-    remove_loads(const ElasticityProblem &problem, LoadAmplitudes &amplitudes)
-    {
-      if (amplitudes.boundary_conditions.empty())
-        amplitudes.boundary_conditions.assign(
-          problem.boundary_conditions.size(), 1.);
-      for (unsigned int c = 0; c < problem.boundary_conditions.size(); ++c)
-        if (is_load(problem.boundary_conditions[c]))
-          amplitudes.boundary_conditions[c] = 0.;
-      amplitudes.point_forces.assign(problem.point_forces.size(), 0.);
-      amplitudes.gravity = amplitudes.body_force = 0.;
-    }
-  } // namespace
+  using internal::amplitude;
+  using internal::is_load;
 
 
   ElasticModel::ElasticModel(FiniteElasticity           &elasticity,
@@ -289,16 +258,99 @@ namespace NMM
                         false);
         released[release.index] = true;
       }
-    if (!with_loads)
-      remove_loads(problem, amplitudes);
-    return amplitudes;
+    return with_loads ? amplitudes
+                      : internal::without_loads(problem, amplitudes);
+  }
+
+
+  LoadAmplitudes
+  ElasticModel::amplitudes_between(const double t_0, const double t_1) const
+  {
+    LoadAmplitudes middle = amplitudes_at(0.5 * (t_0 + t_1));
+    if (!loads_change())
+      return middle;
+    const LoadAmplitudes first = amplitudes_at(t_0), last = amplitudes_at(t_1);
+    const ElasticityProblem &problem = elasticity->elasticity_problem();
+    const auto set_mean = [&](std::vector<double> LoadAmplitudes::*list,
+                              const std::size_t                    n,
+                              const auto &is_prescribed) {
+      if ((middle.*list).empty())
+        (middle.*list).assign(n, 1.);
+      for (unsigned int i = 0; i < n; ++i)
+        if (is_prescribed(i))
+          (middle.*list)[i] =
+            0.5 * (amplitude(first.*list, i) + amplitude(last.*list, i));
+    };
+    set_mean(&LoadAmplitudes::boundary_conditions,
+             problem.boundary_conditions.size(),
+             [&](const unsigned int c) {
+               return !is_load(problem.boundary_conditions[c]);
+             });
+    set_mean(&LoadAmplitudes::fixed_points,
+             problem.fixed_points.size(),
+             [](const unsigned int) { return true; });
+    return middle;
+  }
+
+
+  /// The energy of conditions is quadratic in the prescribed displacements. So its central
+  /// difference is exactly the derivative times their change.
+  double
+  ElasticModel::work_of_supports(const Vector &u,
+                                 const double  t,
+                                 const double  t_0,
+                                 const double  t_1)
+  {
+    if (!loads_change())
+      return 0.;
+    const LoadAmplitudes begin = amplitudes_at(t_0), end = amplitudes_at(t_1);
+    LoadAmplitudes       plus = amplitudes_at(t), minus = plus;
+    double               largest = 0.;
+    const auto           spread  = [&](const std::vector<double> &from,
+                            const std::vector<double> &to,
+                            std::vector<double>       &up,
+                            std::vector<double>       &down) {
+      for (unsigned int i = 0;
+           i < std::min({from.size(), to.size(), up.size()});
+           ++i)
+      {
+        const double change = to[i] - from[i];
+        largest             = std::max(largest, std::abs(change));
+        up[i] += 0.5 * change;
+        down[i] -= 0.5 * change;
+      }
+    };
+    spread(begin.boundary_conditions,
+           end.boundary_conditions,
+           plus.boundary_conditions,
+           minus.boundary_conditions);
+    spread(begin.fixed_points,
+           end.fixed_points,
+           plus.fixed_points,
+           minus.fixed_points);
+    return largest > 0.
+             ? energy_of_conditions(u, plus) - energy_of_conditions(u, minus)
+             : 0.;
+  }
+
+
+  const ElasticModel::Matrix &
+  ElasticModel::stiffness_at_rest()
+  {
+    const ElasticityProblem &problem = elasticity->elasticity_problem();
+    LoadAmplitudes           free    = amplitudes_at(0.);
+    free.released_conditions.assign(problem.boundary_conditions.size(), true);
+    free.released_fixed_points.assign(problem.fixed_points.size(), true);
+    set_amplitudes(free);
+    (void)elasticity->assemble(zero, 0., Tangent::consistent);
+    return elasticity->tangent();
   }
 
 
   bool
   ElasticModel::set_amplitudes(const LoadAmplitudes &amplitudes)
   {
-    if (equal(amplitudes, current))
+    if (internal::equal(amplitudes, current))
       return false;
     elasticity->set_amplitudes(amplitudes);
     current = amplitudes;

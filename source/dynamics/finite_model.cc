@@ -15,15 +15,6 @@ namespace NMM
   }
 
 
-  const FiniteModel::Matrix &
-  FiniteModel::stiffness_at_rest()
-  {
-    set_amplitudes(amplitudes_at(0.));
-    (void)elasticity->assemble(zero, 0., Tangent::consistent);
-    return elasticity->tangent();
-  }
-
-
   bool
   FiniteModel::set_stiffness_damping(const double coefficient)
   {
@@ -158,47 +149,6 @@ namespace NMM
     set_amplitudes(amplitudes);
     return elasticity->assemble(u, 1., Tangent::none) == Deformation::admissible
              ? elasticity->energies().conditions
-             : 0.;
-  }
-
-
-  /// The energy of conditions is quadratic in the prescribed displacements. So its central
-  /// difference is exactly the derivative times their change.
-  double
-  FiniteModel::work_of_supports(const Vector &u,
-                                const double  t,
-                                const double  t_0,
-                                const double  t_1)
-  {
-    if (!loads_change())
-      return 0.;
-    const LoadAmplitudes begin = amplitudes_at(t_0), end = amplitudes_at(t_1);
-    LoadAmplitudes       plus = amplitudes_at(t), minus = plus;
-    double               largest = 0.;
-    const auto           spread  = [&](const std::vector<double> &from,
-                            const std::vector<double> &to,
-                            std::vector<double>       &up,
-                            std::vector<double>       &down) {
-      for (unsigned int i = 0;
-           i < std::min({from.size(), to.size(), up.size()});
-           ++i)
-      {
-        const double change = to[i] - from[i];
-        largest             = std::max(largest, std::abs(change));
-        up[i] += 0.5 * change;
-        down[i] -= 0.5 * change;
-      }
-    };
-    spread(begin.boundary_conditions,
-           end.boundary_conditions,
-           plus.boundary_conditions,
-           minus.boundary_conditions);
-    spread(begin.fixed_points,
-           end.fixed_points,
-           plus.fixed_points,
-           minus.fixed_points);
-    return largest > 0.
-             ? energy_of_conditions(u, plus) - energy_of_conditions(u, minus)
              : 0.;
   }
 

@@ -1,6 +1,7 @@
 #include <nmm/dynamics/elastic_models.h>
 
 #include <cmath>
+#include <dynamics/load_amplitudes.h>
 
 namespace NMM
 {
@@ -13,7 +14,11 @@ namespace NMM
                    std::move(loading),
                    ghost_penalty)
   {
-    for (Vector *vector : {&owned, &forces, &load})
+    for (Vector *vector : {&owned,
+                           &forces,
+                           &initial.forces,
+                           &with_loads.forces,
+                           &with_supports.forces})
       vector->reinit(locally_owned(), communicator());
     if (elasticity.is_inelastic())
       inelastic = std::make_unique<InelasticTerms>(elasticity);
@@ -23,33 +28,51 @@ namespace NMM
   SmallModel::~SmallModel() = default;
 
 
-  void
-  SmallModel::update(const double t)
+  bool
+  SmallModel::update(Part &part, const LoadAmplitudes &amplitudes)
   {
-    const bool is_changed = set_amplitudes(amplitudes_at(t));
+    if (part.is_known && internal::equal(part.amplitudes, amplitudes))
+      return false;
+    set_amplitudes(amplitudes);
+    (void)elasticity->assemble(zero, 1., Tangent::none);
+    part.forces = elasticity->residual();
+    part.forces *= -1.;
+    part.amplitudes = amplitudes;
+    part.is_known   = true;
+    return true;
+  }
+
+
+  void
+  SmallModel::update(const LoadAmplitudes &amplitudes)
+  {
+    const ElasticityProblem &problem = elasticity->elasticity_problem();
+    const LoadAmplitudes     loads =
+                           internal::without_prescribed(problem, amplitudes),
+                         supports =
+                           internal::without_loads(problem, amplitudes);
     if (!has_stiffness || stiffness_at != version())
     {
       // without loads, because small displacements have no tangent of follower pressure
+      set_amplitudes(amplitudes);
       (void)elasticity->assemble(zero, 0., Tangent::consistent);
-      stiffness_at  = version();
-      has_stiffness = true;
-      has_load      = false;
+      stiffness_at     = version();
+      has_stiffness    = true;
+      initial.is_known = with_loads.is_known = with_supports.is_known = false;
+      (void)update(initial, internal::without_prescribed(problem, supports));
     }
-    if (!has_load || is_changed)
-    {
-      (void)elasticity->assemble(zero, 1., Tangent::none);
-      load = elasticity->residual();
-      load *= -1.;
-      has_load = true;
-    }
+    if (update(with_loads, loads))
+      scale_of_loads = elasticity->force_scale();
+    (void)update(with_supports, supports);
+    set_amplitudes(amplitudes);
   }
 
 
   const SmallModel::Matrix &
   SmallModel::stiffness_at_rest()
   {
-    update(0.);
-    return elasticity->tangent();
+    has_stiffness = false;
+    return ElasticModel::stiffness_at_rest();
   }
 
 
@@ -74,7 +97,7 @@ namespace NMM
   double
   SmallModel::force_scale() const
   {
-    const double scale = ElasticModel::force_scale();
+    const double scale = std::hypot(scale_of_loads, elastic_scale);
     return inelastic ? std::hypot(scale, inelastic->totals().force_scale)
                      : scale;
   }
@@ -90,7 +113,7 @@ namespace NMM
   void
   SmallModel::begin_step(const Vector &begin,
                          const Vector &,
-                         const double,
+                         const double t,
                          const double)
   {
     if (!inelastic)
@@ -98,13 +121,14 @@ namespace NMM
     // the result is admissible, because an accepted state always has a stress
     (void)inelastic->assemble(begin, /* with_tangent = */ false);
     forces_at_begin = inelastic->residual();
-    energy_at_begin = inelastic->totals().energy;
+    totals_at_begin = inelastic->totals();
     begin_of_step   = begin;
+    time_at_begin   = t;
   }
 
 
   double
-  SmallModel::accept_step(const Vector &end, const double)
+  SmallModel::accept_step(const Vector &end, const double t)
   {
     // no step has begun if a state has just been set
     if (!inelastic || begin_of_step.size() == 0)
@@ -114,9 +138,26 @@ namespace NMM
     motion -= begin_of_step;
     force.sadd(0.5, 0.5, forces_at_begin);
     Vector owned_motion(force);
-    owned_motion = motion;
-    return force * owned_motion -
-           (inelastic->totals().energy - energy_at_begin);
+    owned_motion                         = motion;
+    const InelasticTerms::Totals &totals = inelastic->totals();
+    return force * owned_motion - (totals.energy - totals_at_begin.energy) +
+           0.5 * (work_on_inelastic(totals_at_begin, time_at_begin, t) +
+                  work_on_inelastic(totals, time_at_begin, t));
+  }
+
+
+  double
+  SmallModel::work_on_inelastic(const InelasticTerms::Totals &totals,
+                                const double                  t_0,
+                                const double                  t_1) const
+  {
+    const LoadAmplitudes begin = amplitudes_at(t_0), end = amplitudes_at(t_1);
+    double               work = 0.;
+    for (unsigned int c = 0; c < totals.support_work.size(); ++c)
+      work += totals.support_work[c] *
+              (internal::amplitude(end.boundary_conditions, c) -
+               internal::amplitude(begin.boundary_conditions, c));
+    return work;
   }
 
 
@@ -143,7 +184,6 @@ namespace NMM
     if (inelastic->assemble(u, with_tangent) != Deformation::admissible)
       return Deformation::inverted;
     forces.add(share, inelastic->residual());
-    strain_energy += inelastic->totals().energy;
     if (with_tangent)
       current_tangent = &inelastic->add_to(elasticity->tangent());
     return Deformation::admissible;
@@ -157,24 +197,30 @@ namespace NMM
                        const Vector *)
   {
     owned = u;
-    assemble_owned(t);
+    assemble_owned(t, amplitudes_at(t));
+    elasticity->evaluate_linearized(u);
+    elastic_energies = {elasticity->energies().strain,
+                        elasticity->energies().conditions};
+    elastic_scale    = elasticity->force_scale();
     return inelastic ? add_inelastic(u, 1., tangent != Tangent::none)
                      : Deformation::admissible;
   }
 
 
   void
-  SmallModel::assemble_owned(const double t)
+  SmallModel::assemble_owned(const double t, const LoadAmplitudes &amplitudes)
   {
-    update(t);
+    update(amplitudes);
     elasticity->tangent().vmult(forces, owned);
     // the diagonal entries of constrained and absent unknowns are arbitrary
     constraints().set_zero(forces);
     for (const auto i : absent)
       forces(i) = 0.;
     forces.compress(dealii::VectorOperation::insert);
-    strain_energy = 0.5 * (owned * forces);
-    forces -= load;
+    // the forces of initial stress are in both parts
+    forces -= with_loads.forces;
+    forces -= with_supports.forces;
+    forces += initial.forces;
     add_base_force(t, 1., forces);
   }
 
@@ -189,7 +235,7 @@ namespace NMM
     owned  = begin;
     forces = end;
     owned.sadd(0.5, 0.5, forces);
-    assemble_owned(0.5 * (t_0 + t_1));
+    assemble_owned(0.5 * (t_0 + t_1), amplitudes_between(t_0, t_1));
     if (!inelastic)
       return Deformation::admissible;
     forces.add(0.5, forces_at_begin);
@@ -209,25 +255,64 @@ namespace NMM
   SmallModel::Energies
   SmallModel::energies() const
   {
-    return {strain_energy, 0.};
+    Energies result = elastic_energies;
+    if (inelastic)
+      result.strain += inelastic->totals().energy;
+    return result;
   }
 
 
   void
   SmallModel::external_forces(const Vector &, const double t, Vector &result)
   {
-    update(t);
-    result = load;
+    update(amplitudes_at(t));
+    result = with_loads.forces;
+    result -= initial.forces;
     add_base_force(t, -1., result);
   }
 
 
   double
-  SmallModel::work_of_supports(const Vector &,
-                               const double,
-                               const double,
-                               const double)
+  SmallModel::energy_of_conditions(const Vector         &u,
+                                   const LoadAmplitudes &amplitudes)
   {
-    return 0.;
+    set_amplitudes(amplitudes);
+    return elasticity->linearized_condition_energy(u);
+  }
+
+
+  double
+  SmallModel::work_of_supports(const Vector &u,
+                               const double  t,
+                               const double  t_0,
+                               const double  t_1)
+  {
+    const double work = ElasticModel::work_of_supports(u, t, t_0, t_1);
+    if (!inelastic || !loads_change())
+      return work;
+    (void)inelastic->assemble(u, /* with_tangent = */ false);
+    return work + work_on_inelastic(inelastic->totals(), t_0, t_1);
+  }
+
+
+  /// The energy is quadratic in the prescribed displacements, whose mean is that of the step.
+  double
+  SmallModel::work_of_supports_between(const Vector &begin,
+                                       const Vector &end,
+                                       const Vector &mean,
+                                       const double  t_0,
+                                       const double  t_1)
+  {
+    if (!loads_change())
+      return 0.;
+    double work = energy_of_conditions(mean, amplitudes_at(t_1)) -
+                  energy_of_conditions(mean, amplitudes_at(t_0));
+    if (inelastic)
+      for (const Vector *u : {&begin, &end})
+      {
+        (void)inelastic->assemble(*u, /* with_tangent = */ false);
+        work += 0.5 * work_on_inelastic(inelastic->totals(), t_0, t_1);
+      }
+    return work;
   }
 } // namespace NMM

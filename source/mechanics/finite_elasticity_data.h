@@ -101,6 +101,34 @@ namespace NMM
     void
     add_dead_loads(const Task &task);
 
+    /// @name Small displacements (linearized_energies.cc)
+    /// @{
+
+    /// Stress and moduli of the law of each region in the undeformed state.
+    std::vector<HyperelasticLaw::Response>
+    laws_at_rest() const;
+
+    /// Add the internal forces of an element at the displacements in `nodal` to local.rhs. Returns
+    /// its strain energy [J/m].
+    double
+    add_linearized_volume(unsigned int                     element,
+                          const HyperelasticLaw::Response &at_rest,
+                          LocalSystem                     &local) const;
+
+    /// Add the forces of displacement conditions or ties at a site to local.rhs, except for those
+    /// that vanish with the jump d. Returns their energy [J/m].
+    double
+    add_linearized_weak_points(
+      const EdgeTables::Site                       &site,
+      const std::vector<HyperelasticLaw::Response> &at_rest,
+      LocalSystem                                  &local) const;
+
+    /// Energy of this rank's conditions, ties and fixed points [J/m]. The squares of their forces
+    /// are added to @p square.
+    double
+    add_linearized_conditions(double &square) const;
+    /// @}
+
     bool
     is_absent(const unsigned int element) const
     {

@@ -307,6 +307,8 @@ namespace NMM
         const double               weight = -point.weight * side.share;
         const dealii::Tensor<1, 2> force =
           weight * (point.projection * (excess.stress * N));
+        if (point.condition != invalid_index)
+          totals.support_work[point.condition] -= force * point.prescribed;
         for (unsigned int k = 0; k < local.n_covers; ++k)
           for (unsigned int c = 0; c < 2; ++c)
             local.rhs[2 * k + c] += point.jump[k] * force[c];
@@ -351,7 +353,9 @@ namespace NMM
     const CoverSystem &covers = *d.elastic->covers;
     read_nodal_values(covers, u, d.nodal);
     d.assembler.reset(with_tangent);
-    d.totals             = Totals();
+    d.totals = Totals();
+    d.totals.support_work.resize(d.elastic->problem->boundary_conditions.size(),
+                                 0.);
     d.is_admissible      = true;
     const auto add_local = [&](dealii::ArrayView<const unsigned int> to,
                                const LocalSystem                    &local) {
@@ -393,6 +397,8 @@ namespace NMM
                            &d.totals.yielded_area,
                            &d.totals.force_scale})
       sum(*number);
+    for (double &work : d.totals.support_work)
+      sum(work);
     sum(d.totals.n_yielding);
     d.totals.force_scale = std::sqrt(d.totals.force_scale);
     d.assembler.compress(with_tangent);

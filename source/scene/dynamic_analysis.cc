@@ -5,6 +5,7 @@
 #include <cmath>
 #include <scene/dynamic_analysis.h>
 #include <scene/static_start.h>
+#include <scene/time_function.h>
 #include <sstream>
 
 namespace NMM
@@ -405,6 +406,11 @@ namespace NMM
     DynamicAnalysis::run_relaxation()
     {
       last_good = integrator->state();
+      // Amplitudes are those of prescribed displacements, which grow first.
+      const double settled =
+        loading.amplitudes
+          ? ramp_time(scene.parameters().relaxation.relaxation.step)
+          : 0.;
       do
       {
         relaxation = relax(*integrator,
@@ -416,7 +422,8 @@ namespace NMM
                            });
         // Those of the last step are of the solid before it was stopped.
         compute_tips_in_motion();
-      } while (grow() || integrator->state().closing.act_at(time()));
+      } while (grow() || integrator->state().closing.act_at(time()) ||
+               time() < settled);
     }
 
 

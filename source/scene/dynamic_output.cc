@@ -423,8 +423,12 @@ namespace NMM
                          "take shorter steps, or look for loads, stiffness "
                          "and velocities of extreme size"));
       largest_balance = std::max(largest_balance, std::abs(account.balance));
-      largest_energy =
-        std::max({largest_energy, stored, std::abs(account.external_work)});
+      // Initial stress does work, so that strain energy can be negative and the sum 0.
+      largest_energy = std::max({largest_energy,
+                                 stored,
+                                 account.kinetic,
+                                 std::abs(account.strain),
+                                 std::abs(account.external_work)});
     }
 
 

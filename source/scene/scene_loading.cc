@@ -97,6 +97,14 @@ namespace NMM
     }
 
 
+    bool
+    is_displacement(const BoundaryCondition::Type type)
+    {
+      return type == BoundaryCondition::Type::displacement ||
+             type == BoundaryCondition::Type::normal_displacement;
+    }
+
+
     /// All loads and conditions of a scene that depend on time.
     struct LoadFunctions
     {
@@ -140,14 +148,27 @@ namespace NMM
           return relative_to_scene(file);
         });
     };
+    // Without amplitudes, a relaxation lets what is prescribed grow from where the solid is.
+    const auto ramp = [&](const bool is_moved) {
+      const double end = internal::ramp_time(p.relaxation.relaxation.step);
+      if (!is_moved || p.model.analysis != Analysis::relaxation)
+        return TimeFunction();
+      return TimeFunction([end](const double t) {
+        return t < end ? 0.5 - 0.5 * std::cos(dealii::numbers::PI * t / end)
+                       : 1.;
+      });
+    };
     const auto add = [&](const TimeDependence &time,
                          const std::string    &section,
                          const Release::Kind   kind,
                          TimeFunctions        &list,
                          std::size_t          &n,
-                         const std::size_t     n_conditions) {
-      const TimeFunction function =
+                         const std::size_t     n_conditions,
+                         const bool            is_moved) {
+      TimeFunction function =
         make(time.amplitude, section + "/" + time.name + "/Amplitude");
+      if (!function)
+        function = ramp(is_moved);
       for (std::size_t i = 0; i < n_conditions; ++i, ++n)
       {
         if (function)
@@ -163,21 +184,25 @@ namespace NMM
           Release::Kind::boundary_condition,
           functions->conditions,
           functions->n_conditions,
-          condition.boundaries.size());
+          condition.boundaries.size(),
+          is_displacement(condition.type) &&
+            condition.value.find_first_not_of(" 0;.") != std::string::npos);
     for (const PointForceParameters &force : p.point_forces)
       add(force.time,
           "Point forces",
           Release::Kind::fixed_point,
           functions->forces,
           functions->n_forces,
-          1);
+          1,
+          /* is_moved = */ false);
     for (const FixedPointParameters &point : p.fixed_points)
       add(point.time,
           "Fixed points",
           Release::Kind::fixed_point,
           functions->fixed_points,
           functions->n_fixed_points,
-          1);
+          1,
+          point.point.displacement.norm_square() > 0.);
     functions->gravity =
       make(p.model.gravity_amplitude, "Model/Gravity amplitude");
     functions->body_force =

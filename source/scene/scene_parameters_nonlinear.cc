@@ -385,7 +385,7 @@ namespace NMM
     if (has_inelastic_material())
       return check_safety_output();
     const auto has_strength = [](const ContactLawParameters &law) {
-      return law.make_law(CoulombLaw())->has_friction();
+      return law.make_law(CoulombLaw())->transmits_shear();
     };
     AssertThrow(has_strength(contact.law) || std::any_of(contact.laws.begin(),
                                                          contact.laws.end(),

@@ -10,6 +10,15 @@ namespace NMM
   {
     using TimeFunction = std::function<double(double)>;
 
+    /// Time within which prescribed displacements grow to their values in a relaxation whose first
+    /// step is @p step [s]. That step is about the lowest period of the solid, which can follow.
+    inline double
+    ramp_time(const double step)
+    {
+      constexpr double n_periods = 20.;
+      return n_periods * step;
+    }
+
     /**
      * Makes a function of time from @p text, which is "file: name" or an expression of t; the
      * function is null if @p text is empty. @p unit is the unit of t in messages, and

@@ -305,7 +305,7 @@ namespace
     const auto place = [](const ContactSurface &surface,
                           const unsigned int    edge,
                           const double          t) {
-      return surface.reference_place(edge, t).x;
+      return dealii::Point<2>(surface.reference_place(edge, t).x);
     };
     for (unsigned int i = 0; i < old.sticks.size(); ++i)
     {

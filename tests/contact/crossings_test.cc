@@ -66,12 +66,12 @@ namespace
       return result;
     }
 
-    std::vector<Point<2>>
+    std::vector<ContactPosition>
     positions(const Motion &motion)
     {
       const std::vector<Tensor<1, 2>> nodal = move(bodies, {motion});
       bodies.surface.set_displacements(&nodal);
-      std::vector<Point<2>> result;
+      std::vector<ContactPosition> result;
       for (unsigned int e = 0; e < bodies.surface.edges().size(); ++e)
         for (const double t : {0., 0.5, 1.})
           result.push_back(bodies.surface.place(e, t).x);

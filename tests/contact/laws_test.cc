@@ -192,7 +192,7 @@ namespace
             parameter.key != "Dilation limit")
           *parameter.value = 0.5;
       law->is_bond = true;
-      EXPECT_TRUE(law->has_friction());
+      EXPECT_TRUE(law->transmits_shear());
       law->is_bond = false;
       EXPECT_EQ(law->energy(0.), 0.);
       EXPECT_EQ(law->pressure(0.).value, 0.);

@@ -184,7 +184,8 @@ namespace
   double
   first_frequency(const Body &body)
   {
-    const MechanicalModel::Matrix &K = body.mechanics->stiffness_at_rest();
+    (void)body.mechanics->assemble(body.zero(), 0., Tangent::consistent);
+    const MechanicalModel::Matrix &K = body.mechanics->tangent();
     const MechanicalModel::Matrix &M = body.mechanics->mass();
     dealii::SolverControl          control;
     dealii::TrilinosWrappers::SolverDirect solver(control);

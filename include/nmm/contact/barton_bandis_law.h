@@ -53,6 +53,12 @@ namespace NMM
     strength(double pressure, double slip) const override;
 
     bool
+    transmits_shear() const override
+    {
+      return true;
+    }
+
+    bool
     has_friction() const override
     {
       return true;

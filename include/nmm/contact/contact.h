@@ -59,6 +59,10 @@ namespace NMM
     void
     check() const;
 
+    /// Whether any of the laws transmits shear.
+    bool
+    transmit_shear() const;
+
     /// Whether any of the laws has friction.
     bool
     has_friction() const;
@@ -72,8 +76,8 @@ namespace NMM
     open,
     /// The point is closed, and its shear is that of the elastic spring.
     stick,
-    /// The point is closed, and its shear equals the strength. Closed points whose law has no
-    /// friction are counted here.
+    /// The point is closed, and its shear equals the strength. Closed points whose law transmits
+    /// no shear are counted here.
     slip
   };
 

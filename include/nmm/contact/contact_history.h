@@ -73,8 +73,8 @@ namespace NMM
     serialize(Archive &archive, const unsigned int /*version*/)
     {
       archive &has_accepted_state &is_conserving &multipliers
-        &searched_displacements &searched_time &searched_reach &sticks
-          &entrances &touching &pair_energies &former_bodies;
+        &searched_displacements &searched_time &searched_reach &touching_reach
+          &sticks &entrances &touching &pair_energies &former_bodies;
     }
 
     /// Whether a state has been accepted yet. Faces that touch can become bonded only before that.
@@ -89,7 +89,9 @@ namespace NMM
     double searched_time = 0.;
     /// Reach of the last search for candidates [m].
     double searched_reach = 0.;
-    /// Anchors of all contact points that have a master and a law with friction.
+    /// Distance within which the next search must look so that it finds all faces that touch [m].
+    double touching_reach = 0.;
+    /// Anchors of all contact points that have a master and a law that transmits shear.
     std::vector<Stick> sticks;
     /// Corners (places) that are in contact, and the edge through which they came in.
     std::vector<std::pair<unsigned int, unsigned int>> entrances;

@@ -126,8 +126,13 @@ namespace NMM
       return strength(pressure, 0.).value;
     }
 
-    /// Whether the law transmits shear; otherwise points have no anchors. Must be true if is_bond
-    /// is.
+    /// Whether the law transmits shear, by friction, cohesion or a bond; otherwise points have no
+    /// anchors. Must be true if is_bond is.
+    virtual bool
+    transmits_shear() const = 0;
+
+    /// Whether faces that are not bonded have a friction angle, so that they dissipate energy under
+    /// any pressure when they slide. A bond or cohesion alone is no friction.
     virtual bool
     has_friction() const = 0;
 

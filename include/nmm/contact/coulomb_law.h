@@ -41,9 +41,15 @@ namespace NMM
     }
 
     bool
-    has_friction() const override
+    transmits_shear() const override
     {
       return friction > 0. || cohesion > 0. || is_bond;
+    }
+
+    bool
+    has_friction() const override
+    {
+      return friction > 0.;
     }
 
     void

@@ -67,6 +67,17 @@ namespace NMM
     void
     pass_events(double t) override;
 
+    /// The stiffness of the solid and its ties in the undeformed state, without supports: those
+    /// that move would be held back by a damping that acts on the velocity.
+    const Matrix &
+    stiffness_at_rest() override;
+
+    double
+    work_of_supports(const Vector &u,
+                     double        t,
+                     double        t_0,
+                     double        t_1) override;
+
   protected:
     /**
      * Assemble the mass matrix with @p mass_quadrature, which must be exact for degree 2p.
@@ -83,6 +94,16 @@ namespace NMM
     /// 0 unless @p with_loads.
     LoadAmplitudes
     amplitudes_at(double t, bool with_loads = true) const;
+
+    /// Those of a step that conserves energy: loads have their amplitudes in the middle of the step,
+    /// and prescribed displacements the mean of both ends.
+    LoadAmplitudes
+    amplitudes_between(double t_0, double t_1) const;
+
+    /// Energy of displacement conditions, ties and fixed points at @p u with the given amplitudes
+    /// [J/m]. Invalidates the residual.
+    virtual double
+    energy_of_conditions(const Vector &u, const LoadAmplitudes &amplitudes) = 0;
 
     /// Pass amplitudes on to the elasticity. Returns whether they differ from the last ones.
     bool
@@ -153,9 +174,6 @@ namespace NMM
                 const QuadratureCollection &mass_quadrature,
                 Loading                     loading = {});
 
-    const Matrix &
-    stiffness_at_rest() override;
-
     bool
     set_stiffness_damping(double coefficient) override;
 
@@ -193,12 +211,6 @@ namespace NMM
     external_forces(const Vector &u, double t, Vector &forces) override;
 
     double
-    work_of_supports(const Vector &u,
-                     double        t,
-                     double        t_0,
-                     double        t_1) override;
-
-    double
     work_of_supports_between(const Vector &begin,
                              const Vector &end,
                              const Vector &mean,
@@ -207,7 +219,8 @@ namespace NMM
 
   private:
     double
-    energy_of_conditions(const Vector &u, const LoadAmplitudes &amplitudes);
+    energy_of_conditions(const Vector         &u,
+                         const LoadAmplitudes &amplitudes) override;
 
     Vector       sum, known_forces;
     unsigned int known_at  = 0;
@@ -223,9 +236,10 @@ namespace NMM
    * The dynamic model of small displacements: FiniteElasticity linearized at u = 0,
    * @f[ r(u,t) = K u - f(t), @f]
    * with the geometric stiffness of initial stresses. Follower pressure keeps its
-   * direction. K contains the displacement conditions. Their energy
-   * therefore counts as strain energy u.K u / 2, and prescribed displacements count as
-   * loads. K changes with releases and absent blocks only; f is assembled when amplitudes change.
+   * direction. K contains the displacement conditions, and f their prescribed displacements. The
+   * energies of strain and conditions are those of FiniteElasticity::evaluate_linearized(), and
+   * the work of loads and that of moving supports are told apart. K changes with releases and
+   * absent blocks only; each part of f is assembled when its amplitudes change.
    *
    * Inelastic materials add their forces (InelasticTerms). assemble_between() uses the mean of
    * these forces at both ends of a step. The energy dissipated in a step is the work of that mean
@@ -306,30 +320,66 @@ namespace NMM
                      double        t_0,
                      double        t_1) override;
 
+    double
+    work_of_supports_between(const Vector &begin,
+                             const Vector &end,
+                             const Vector &mean,
+                             double        t_0,
+                             double        t_1) override;
+
   private:
-    /// Assemble K and f for the time @p t, as far as they have changed.
+    /// A part of f [N/m] and the amplitudes that it was assembled for.
+    struct Part
+    {
+      Vector         forces;
+      LoadAmplitudes amplitudes;
+      bool           is_known = false;
+    };
+
+    double
+    energy_of_conditions(const Vector         &u,
+                         const LoadAmplitudes &amplitudes) override;
+
+    /// Assemble a part of f unless it is known for these amplitudes. Returns whether it has
+    /// changed.
+    bool
+    update(Part &part, const LoadAmplitudes &amplitudes);
+
+    /// Assemble K and f as far as they have changed.
     void
-    update(double t);
+    update(const LoadAmplitudes &amplitudes);
 
     /// Compute the elastic forces at the displacements in `owned`.
     void
-    assemble_owned(double t);
+    assemble_owned(double t, const LoadAmplitudes &amplitudes);
+
+    /// Work that supports do against the tractions of inelastic terms by moving from their positions
+    /// at @p t_0 to those at @p t_1 [J/m].
+    double
+    work_on_inelastic(const InelasticTerms::Totals &totals,
+                      double                        t_0,
+                      double                        t_1) const;
 
     /// Add @p share times the inelastic forces at @p u to the forces.
     Deformation
     add_inelastic(const Vector &u, double share, bool with_tangent);
 
-    Vector                          owned, forces, load;
-    unsigned int                    stiffness_at  = 0;
-    bool                            has_stiffness = false, has_load = false;
-    double                          strain_energy = 0.;
+    Vector       owned, forces;
+    unsigned int stiffness_at  = 0;
+    bool         has_stiffness = false;
+    /// Forces of initial stress, and these together with loads or with prescribed displacements.
+    Part initial, with_loads, with_supports;
+    /// Energies and force scale [N/m] of the last assemble(), without inelastic terms, and the force
+    /// scale of the loads [N/m].
+    Energies                        elastic_energies;
+    double                          elastic_scale = 0., scale_of_loads = 0.;
     std::unique_ptr<InelasticTerms> inelastic;
     /// Tangent of the last assembly if there are inelastic materials; null: that of `elasticity`.
     const Matrix *current_tangent = nullptr;
-    /// Inelastic forces [N/m], displacements [m] and stored energy of inelastic materials [J/m] at
-    /// the beginning of the step.
-    Vector forces_at_begin, begin_of_step;
-    double energy_at_begin = 0.;
+    /// Inelastic forces [N/m] and sums, displacements [m] and time [s] at the beginning of the step.
+    Vector                 forces_at_begin, begin_of_step;
+    InelasticTerms::Totals totals_at_begin;
+    double                 time_at_begin = 0.;
   };
 
 

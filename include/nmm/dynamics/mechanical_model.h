@@ -81,8 +81,8 @@ namespace NMM
     virtual const Matrix &
     mass() const = 0;
 
-    /// dr/du at u = 0 without loads, for Rayleigh damping [Pa]. Overwrites
-    /// tangent().
+    /// The stiffness of the solid at u = 0, without loads and without supports, for Rayleigh damping
+    /// [Pa]: supports that move would be held back by it. Overwrites tangent().
     virtual const Matrix &
     stiffness_at_rest() = 0;
 

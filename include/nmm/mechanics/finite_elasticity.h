@@ -131,6 +131,25 @@ namespace NMM
                      double                damping = 0.);
 
     /**
+     * Evaluate the theory of small displacements at @p u (locally relevant, [m]) and the current
+     * amplitudes: the potential of this class expanded to the second order about u = 0,
+     * @f[ \Pi_2(u) = \int_\Omega P_0:H + \tfrac{1}{2}H:A_0:H\,dA
+     *     + \int_\Gamma -(P_0 + A_0H):(d\otimes N) + \frac{\gamma}{2}|d|^2\,ds
+     *     - \text{loads}(u), \qquad H = \nabla u. @f]
+     * With K and r assembled at u = 0, its derivative is K u + r. Afterwards energies() has the
+     * first integral as `strain` and the second one, with the springs of fixed points, as
+     * `conditions`, and force_scale() is that of the forces of both. Residual and tangent stay as
+     * they are.
+     */
+    void
+    evaluate_linearized(const Vector &u);
+
+    /// Energy of conditions, ties and fixed points of the theory of small displacements, see
+    /// evaluate_linearized() [J/m]. energies() and force_scale() stay as they are.
+    double
+    linearized_condition_energy(const Vector &u);
+
+    /**
      * Increase the penalties gamma with the moduli A(u) at the boundary once these
      * are more than twice those of the undeformed state, e.g. under strong compression. Penalties
      * never decrease. Call this between steps only, because the

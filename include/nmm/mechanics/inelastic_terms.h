@@ -73,6 +73,9 @@ namespace NMM
       /// Root of the sum over inelastic elements of the squares of internal forces [N/m]. It is
       /// bounded by the strength of the material, however large the displacements are.
       double force_scale = 0.;
+      /// For each boundary condition, the work that its prescribed displacement does against the
+      /// tractions of these terms [J/m], per unit of its amplitude.
+      std::vector<double> support_work;
     };
 
     /// Sums of the last assembly.

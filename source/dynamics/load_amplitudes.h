@@ -1,0 +1,77 @@
+#ifndef nmm_source_dynamics_load_amplitudes_h
+#define nmm_source_dynamics_load_amplitudes_h
+
+#include <nmm/mechanics/finite_elasticity.h>
+
+namespace NMM
+{
+  namespace internal
+  {
+    inline bool
+    equal(const LoadAmplitudes &a, const LoadAmplitudes &b)
+    {
+      return a.boundary_conditions == b.boundary_conditions &&
+             a.point_forces == b.point_forces &&
+             a.fixed_points == b.fixed_points && a.gravity == b.gravity &&
+             a.body_force == b.body_force &&
+             a.released_conditions == b.released_conditions &&
+             a.released_fixed_points == b.released_fixed_points;
+    }
+
+
+    /// Whether a condition is a load, and not a prescribed displacement.
+    inline bool
+    is_load(const BoundaryCondition &condition)
+    {
+      return condition.type != BoundaryCondition::Type::displacement &&
+             condition.type != BoundaryCondition::Type::normal_displacement;
+    }
+
+
+    /// Amplitude at a position of a list; an empty list stands for amplitudes of 1.
+    inline double
+    amplitude(const std::vector<double> &list, const unsigned int i)
+    {
+      return list.empty() ? 1. : list[i];
+    }
+
+
+    /// Set the amplitudes of loads (@p are_loads) or of prescribed displacements to 0.
+    inline void
+    set_conditions_to_zero(const ElasticityProblem &problem,
+                           const bool               are_loads,
+                           std::vector<double>     &amplitudes)
+    {
+      const auto &conditions = problem.boundary_conditions;
+      if (amplitudes.empty())
+        amplitudes.assign(conditions.size(), 1.);
+      for (unsigned int c = 0; c < conditions.size(); ++c)
+        if (is_load(conditions[c]) == are_loads)
+          amplitudes[c] = 0.;
+    }
+
+
+    /// The same amplitudes with those of all loads set to 0.
+    inline LoadAmplitudes
+    without_loads(const ElasticityProblem &problem, LoadAmplitudes amplitudes)
+    {
+      set_conditions_to_zero(problem, true, amplitudes.boundary_conditions);
+      amplitudes.point_forces.assign(problem.point_forces.size(), 0.);
+      amplitudes.gravity = amplitudes.body_force = 0.;
+      return amplitudes;
+    }
+
+
+    /// The same amplitudes with those of all prescribed displacements set to 0.
+    inline LoadAmplitudes
+    without_prescribed(const ElasticityProblem &problem,
+                       LoadAmplitudes           amplitudes)
+    {
+      set_conditions_to_zero(problem, false, amplitudes.boundary_conditions);
+      amplitudes.fixed_points.assign(problem.fixed_points.size(), 0.);
+      return amplitudes;
+    }
+  } // namespace internal
+} // namespace NMM
+
+#endif

@@ -25,7 +25,7 @@ readonly packages=(
   g++ lld cmake ninja-build pkg-config git clang-format
   libdeal.ii-dev mpi-default-bin libmumps-dev libsuitesparse-dev libopenblas0-pthread
   libcgal-dev libeigen3-dev libboost-program-options-dev
-  libcairo2-dev fonts-dejavu-core libdxflib-dev zlib1g-dev
+  libcairo2-dev fonts-dejavu-core zlib1g-dev
   libgtest-dev gnuplot-nox valgrind)
 
 # Open MPI as root, with more ranks than cores.

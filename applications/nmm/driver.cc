@@ -29,6 +29,7 @@ namespace
     std::string              restart;
     std::vector<std::string> overrides;
     bool                     check_only       = false;
+    bool                     is_confined      = false;
     unsigned int             n_threads        = 1;
     bool                     print_parameters = false;
     NMM::Scene::Format       format           = NMM::Scene::Format::prm;
@@ -62,6 +63,10 @@ namespace
     add("check,c",
         po::bool_switch(),
         "read, cut and report, but do not solve and write nothing");
+    add("confined",
+        po::bool_switch(),
+        "for scenes of strangers: refuse files outside of the scene's folder "
+        "that it names");
     add("print-parameters",
         po::value<std::string>()->implicit_value("prm"),
         "print all parameters, of the scene if one is given, and end; "
@@ -152,8 +157,9 @@ namespace
     }
     if (variables.count("set") > 0)
       options.overrides = variables["set"].as<std::vector<std::string>>();
-    options.check_only = variables["check"].as<bool>();
-    options.n_threads  = variables["threads"].as<unsigned int>();
+    options.check_only  = variables["check"].as<bool>();
+    options.is_confined = variables["confined"].as<bool>();
+    options.n_threads   = variables["threads"].as<unsigned int>();
     AssertThrow(options.n_threads >= 1 && options.n_threads <= 1024,
                 NMM::InputError("there cannot be " +
                                   std::to_string(options.n_threads) +
@@ -199,7 +205,9 @@ namespace
       isatty(STDOUT_FILENO) != 0 &&
       dealii::Utilities::MPI::n_mpi_processes(communicator) == 1;
     NMM::Progress        progress(std::cout, is_terminal, communicator);
-    const NMM::Scene     scene(options.scene, options.overrides);
+    const NMM::Scene     scene(options.scene,
+                           options.overrides,
+                           options.is_confined);
     NMM::SceneRunOptions run_options;
     run_options.output     = options.output;
     run_options.restart    = options.restart;

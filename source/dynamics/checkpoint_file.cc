@@ -50,8 +50,10 @@ namespace NMM
       replace_file(const std::string &filename, const Bytes &bytes)
       {
         const std::string temporary = filename + ".part";
-        const int         file =
-          ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+        // If there is a link of this name, what it points to must not be overwritten.
+        ::unlink(temporary.c_str());
+        const int file =
+          ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL, 0666);
         if (file < 0)
           return std::strerror(errno);
         std::size_t written = 0;

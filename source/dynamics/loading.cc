@@ -1,4 +1,5 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/base/input_file.h>
 #include <nmm/dynamics/loading.h>
 
 #include <algorithm>
@@ -39,9 +40,7 @@ namespace NMM
   TimeHistory
   TimeHistory::read(const std::string &filename)
   {
-    std::ifstream in(filename);
-    AssertThrow(
-      in, InputError("The file cannot be read", filename, "check its name"));
+    std::istringstream in(read_input_file(filename, "the time history"));
     return read(in, filename);
   }
 
@@ -64,8 +63,8 @@ namespace NMM
       const auto  where = [&] { return name + ", line " + std::to_string(n); };
       AssertThrow(
         (words >> time >> value) && !(words >> rest),
-        InputError("Expected two numbers, time and value, instead of '" + line +
-                     "'",
+        InputError("Expected two numbers, time and value, instead of '" +
+                     excerpt(line) + "'",
                    where(),
                    "correct the line"));
       AssertThrow(times.empty() || times.back() < time,

@@ -1,12 +1,11 @@
+#include <nmm/base/input_file.h>
 #include <nmm/geometry/geometry.h>
 
 #include "geometry/geometry_scanner.h"
 #include "geometry/messages.h"
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 #include <map>
-#include <sstream>
 #include <utility>
 
 namespace NMM
@@ -137,7 +136,7 @@ namespace NMM
         {"interface", CurveRole::interface}};
       if (scanner.peek().kind != Kind::word ||
           (role != "material" && roles.count(role) == 0))
-        fail("a record starts with '" + role + "'",
+        fail("a record starts with '" + excerpt(role) + "'",
              record,
              "start it with boundary, hole, joint, interface or material");
       scanner.next();
@@ -179,7 +178,7 @@ namespace NMM
           std::string known;
           for (const std::string &k : keys)
             known += (known.empty() ? "" : " and ") + k;
-          fail("a " + role + " has no key '" + key + "'",
+          fail("a " + role + " has no key '" + excerpt(key) + "'",
                where,
                "its keys are " + known);
         }
@@ -203,7 +202,7 @@ namespace NMM
       {
         const std::string &state = values.at("state");
         if (state != "open" && state != "closed")
-          fail("the state of a joint is '" + state + "'",
+          fail("the state of a joint is '" + excerpt(state) + "'",
                record,
                "write state=open or state=closed");
         attributes.state =
@@ -223,7 +222,7 @@ namespace NMM
       const std::string where = scanner.place();
       const std::string shape = parse_shape();
       if (shape != "POINT")
-        fail("the place of a material is given as '" + shape + "'",
+        fail("the place of a material is given as '" + excerpt(shape) + "'",
              where,
              "write POINT (x y)");
       open();
@@ -293,7 +292,7 @@ namespace NMM
       if (shape == "CURVEPOLYGON")
         return parse_list(&GeometryParser::parse_curve_ring);
       fail(shape.empty() ? "a curve has no shape"
-                         : "'" + shape + "' is no shape of a curve",
+                         : "'" + excerpt(shape) + "' is no shape of a curve",
            where,
            std::string("write ") + curve_shapes);
     }
@@ -383,7 +382,7 @@ namespace NMM
         const std::string shape = parse_shape();
         if (!shape.empty() && shape != "LINESTRING" &&
             shape != "CIRCULARSTRING")
-          fail("'" + shape + "' is no part of a COMPOUNDCURVE",
+          fail("'" + excerpt(shape) + "' is no part of a COMPOUNDCURVE",
                where,
                "write (x y, ...) or LINESTRING (...) for straight and "
                "CIRCULARSTRING (...) for curved parts");
@@ -406,7 +405,7 @@ namespace NMM
       if (shape == "CIRCLE")
         return parse_circle();
       if (shape != "CIRCULARSTRING" && shape != "COMPOUNDCURVE")
-        fail("'" + shape + "' is no ring of a CURVEPOLYGON",
+        fail("'" + excerpt(shape) + "' is no ring of a CURVEPOLYGON",
              where,
              "write (x y, ...), LINESTRING, CIRCULARSTRING, COMPOUNDCURVE or "
              "CIRCLE");
@@ -455,11 +454,11 @@ namespace NMM
       if (scanner.peek().kind == Kind::word &&
           std::isalpha(static_cast<unsigned char>(scanner.peek().text[0])))
         fail("the parentheses of a record are not closed before '" +
-               scanner.peek().text + "'",
+               excerpt(scanner.peek().text) + "'",
              record,
              "add the missing ')'");
       if (scanner.peek().kind == Kind::word)
-        fail("'" + scanner.peek().text +
+        fail("'" + excerpt(scanner.peek().text) +
                "' follows the two coordinates of a "
                "point",
              scanner.place(),
@@ -522,13 +521,7 @@ namespace NMM
   Geometry
   read_geometry(const std::string &file_name)
   {
-    std::ifstream      file(file_name);
-    std::ostringstream text;
-    text << file.rdbuf();
-    AssertThrow(file.is_open() && !text.fail(),
-                InputError("the geometry file cannot be read, or is empty",
-                           file_name,
-                           "check its name and that you may read it"));
-    return parse_geometry(text.str(), file_name);
+    return parse_geometry(read_input_file(file_name, "the geometry file"),
+                          file_name);
   }
 } // namespace NMM

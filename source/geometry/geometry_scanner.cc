@@ -1,7 +1,7 @@
 #include "geometry/geometry_scanner.h"
 
-#include <charconv>
-#include <cmath>
+#include <nmm/base/input_file.h>
+
 #include <utility>
 
 namespace NMM
@@ -66,7 +66,7 @@ namespace NMM
                   InputError("expected " + spelled + " but found " +
                                (current.text.empty()
                                   ? std::string("the end of the line")
-                                  : "'" + current.text + "'"),
+                                  : "'" + excerpt(current.text) + "'"),
                              place(),
                              remedy));
       advance();
@@ -82,22 +82,7 @@ namespace NMM
              "a number",
              "separate the numbers of a point by blanks and points by commas");
 
-      // std::from_chars() rounds correctly and does not depend on the locale.
-      double      value = 0.;
-      const char *first = token.text.data();
-      const char *last  = first + token.text.size();
-      if (token.text.size() > 1 && *first == '+' && first[1] != '-')
-        ++first;
-      const auto [end, error] = std::from_chars(first, last, value);
-      AssertThrow(error == std::errc() && end == last,
-                  InputError("'" + token.text + "' is not a number",
-                             where,
-                             "write numbers like 1, -0.5 or 2.5e-3"));
-      AssertThrow(std::isfinite(value),
-                  InputError("'" + token.text + "' is not a finite number",
-                             where,
-                             "give a finite coordinate"));
-      return value;
+      return to_coordinate(token.text, where);
     }
 
 

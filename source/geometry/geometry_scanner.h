@@ -56,7 +56,7 @@ namespace NMM
       void
       expect(Kind kind, const std::string &spelled, const std::string &remedy);
 
-      /// Read the next token as a finite number. @throws InputError if it is not one.
+      /// Read the next token as a number. @throws InputError as to_coordinate().
       double
       number();
 

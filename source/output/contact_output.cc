@@ -273,7 +273,7 @@ namespace NMM
     if (!with_table || (!written.empty() && written.back() == value))
       return;
     if (!table)
-      table.emplace((directory->path() / table_name).string(), header());
+      table.emplace(directory->file(table_name), header());
     written.push_back(value);
     std::ostringstream rows;
     rows << std::setprecision(12);

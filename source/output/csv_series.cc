@@ -2,18 +2,36 @@
 #include <nmm/output/csv_series.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <iomanip>
 #include <regex>
 #include <sstream>
 
 namespace NMM
 {
+  namespace
+  {
+    /// Whether a spreadsheet would compute a cell with this text.
+    bool
+    is_formula(const std::string &text)
+    {
+      if (text.size() < 2 ||
+          std::string("=+-@\t\r").find(text.front()) == std::string::npos)
+        return false;
+      char *end = nullptr;
+      (void)std::strtod(text.c_str(), &end);
+      return *end != '\0';
+    }
+  } // namespace
+
+
   std::string
   quoted(const std::string &text)
   {
-    if (text.find_first_of(",\"") == std::string::npos)
-      return text;
-    return '"' + std::regex_replace(text, std::regex("\""), "\"\"") + '"';
+    const std::string cell = is_formula(text) ? "'" + text : text;
+    if (cell.find_first_of(",\"\n\r") == std::string::npos)
+      return cell;
+    return '"' + std::regex_replace(cell, std::regex("\""), "\"\"") + '"';
   }
 
 
@@ -25,7 +43,7 @@ namespace NMM
     {
       std::string head = comment + "\ntime,step";
       for (const std::string &column : columns)
-        head += "," + column;
+        head += "," + quoted(column);
       return head + "\n";
     }
 
@@ -73,7 +91,9 @@ namespace NMM
     if (is_kept)
       earlier = open_below(file_name, head);
     const std::string temporary = file_name + ".part";
-    std::ofstream     file(temporary, std::ios::trunc);
+    // If there is a link of this name, what it points to must not be overwritten.
+    std::remove(temporary.c_str());
+    std::ofstream file(temporary, std::ios::trunc);
     file << head;
     for (std::string line; is_kept && std::getline(earlier, line);)
       if (!earlier.eof() && is_kept(line))

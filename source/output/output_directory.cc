@@ -1,8 +1,10 @@
 #include <nmm/base/program.h>
+#include <nmm/output/csv_series.h>
 #include <nmm/output/output_directory.h>
 
 #include <cerrno>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iomanip>
@@ -89,14 +91,16 @@ namespace NMM
     }
     if (fault.empty())
     {
-      const fs::path file = folder / ".nmm-trial.part";
-      errno               = 0;
-      std::ofstream out(file);
-      out << "trial" << std::flush;
-      out.close();
-      if (out.fail())
+      // mkstemp() makes a file with a new name, and never follows a link.
+      std::string name = (folder / ".nmm-trial.XXXXXX").string();
+      const int   file = mkstemp(name.data());
+      if (file < 0 || ::write(file, "trial", 5) != 5)
         fault = std::strerror(errno);
-      fs::remove(file, error);
+      if (file >= 0)
+      {
+        close(file);
+        fs::remove(name, error);
+      }
     }
     for (auto path = made.rbegin(); path != made.rend(); ++path)
       fs::remove(*path, error);
@@ -106,6 +110,10 @@ namespace NMM
 
   namespace
   {
+    /// Name of the file that lists the results in a folder.
+    const char *const name_of_list = ".nmm-results";
+
+
     bool
     starts_with(const std::string &name, const std::string &prefix)
     {
@@ -120,6 +128,7 @@ namespace NMM
       if (name == "summary.csv" || name == "probes.csv" || name == "tips.csv" ||
           name == "tips.vtu" || name == "growth.csv" || name == "picture.png" ||
           name == "contacts.vtp" || name == "animation.html" ||
+          name == "cleaning.csv" ||
           (starts_with(name, "fields.") &&
            (extension == ".vtu" || extension == ".pvtu")))
         return true;
@@ -172,16 +181,25 @@ namespace NMM
   void
   OutputDirectory::remove_results(const bool of_end_only) const
   {
+    std::set<std::string> of_earlier_runs;
+    {
+      std::ifstream list(folder / name_of_list);
+      for (std::string name; std::getline(list, name);)
+        of_earlier_runs.insert(name);
+    }
     std::vector<fs::path> results;
     for (const auto &entry : fs::directory_iterator(folder))
     {
       const std::string name  = entry.path().filename().string();
       const std::string whole = without_part(name);
-      if (is_result(whole, of_end_only && whole == name))
+      if (of_earlier_runs.count(whole) > 0 &&
+          is_result(whole, of_end_only && whole == name))
         results.push_back(entry.path());
     }
     for (const fs::path &result : results)
       fs::remove(result);
+    if (!of_end_only)
+      fs::remove(folder / name_of_list);
   }
 
 
@@ -203,19 +221,37 @@ namespace NMM
   }
 
 
+  std::string
+  OutputDirectory::file(const std::string &name) const
+  {
+    if (is_result(name, /* of_end_only = */ false) &&
+        listed.insert(name).second)
+    {
+      errno = 0;
+      std::ofstream list(folder / name_of_list, std::ios::app);
+      list << name + '\n' << std::flush;
+      AssertThrow(list.good(), OutputFailure((folder / name_of_list).string()));
+    }
+    return (folder / name).string();
+  }
+
+
   void
   OutputDirectory::write_file(
     const std::string                              &name,
     const std::function<void(const std::string &)> &write) const
   {
-    const fs::path  temporary = folder / ("." + name + ".part");
-    std::error_code error;
+    const std::string path      = file(name);
+    const fs::path    temporary = folder / ("." + name + ".part");
+    std::error_code   error;
+    // If there is a link of this name, what it points to must not be overwritten.
+    fs::remove(temporary, error);
     try
     {
       write(temporary.string());
-      fs::rename(temporary, folder / name, error);
+      fs::rename(temporary, path, error);
       errno = error.value();
-      AssertThrow(!error, OutputFailure((folder / name).string()));
+      AssertThrow(!error, OutputFailure(path));
     }
     catch (...)
     {
@@ -262,7 +298,8 @@ namespace NMM
   {
     out << "name,value,unit\n" << std::setprecision(12);
     for (const Row &row : rows)
-      out << row.name << ',' << row.value << ',' << row.unit << '\n';
+      out << quoted(row.name) << ',' << row.value << ',' << quoted(row.unit)
+          << '\n';
   }
 
 

@@ -1,4 +1,5 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/output/csv_series.h>
 #include <nmm/output/probes.h>
 
 #include <deal.II/base/mpi.h>
@@ -157,8 +158,8 @@ namespace NMM
       std::vector<double> numbers;
       if (samples[i])
         pack(*samples[i], numbers);
-      out << names[entry.probe] << ',' << entry.index << ',' << entry.distance
-          << ',' << entry.x[0] << ',' << entry.x[1] << ','
+      out << quoted(names[entry.probe]) << ',' << entry.index << ','
+          << entry.distance << ',' << entry.x[0] << ',' << entry.x[1] << ','
           << (samples[i] ? 1 : 0);
       for (unsigned int k = 0; k < n_sample_numbers; ++k)
         if (samples[i])

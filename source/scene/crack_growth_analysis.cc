@@ -1,6 +1,7 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/contact/carried_history.h>
 #include <nmm/mechanics/carried_covers.h>
+#include <nmm/output/csv_series.h>
 
 #include <algorithm>
 #include <boost/serialization/vector.hpp>
@@ -555,7 +556,8 @@ namespace NMM
           out << "step,load_factor,grown_length,strain_energy";
           for (const Probe &probe : scene.parameters().probes)
             if (!probe.is_line)
-              out << ',' << probe.name << "_x," << probe.name << "_y";
+              out << ',' << quoted(probe.name + "_x") << ','
+                  << quoted(probe.name + "_y");
           out << '\n';
           out.precision(12);
           // A cell is empty if no load makes a crack grow, or if a probe is outside the solid.

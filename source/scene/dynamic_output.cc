@@ -25,11 +25,10 @@ namespace NMM
         if (!is_continued)
           directory->create();
         if (!probe_history->is_empty())
-          probe_history->open(
-            (directory->path() / "probes-history.csv").string(),
-            continue_after);
+          probe_history->open(directory->file("probes-history.csv"),
+                              continue_after);
         history = std::make_unique<CsvSeries>(
-          (directory->path() / "history.csv").string(),
+          directory->file("history.csv"),
           incremental
             ? "# per unit thickness: energies [J/m], angular momentum about "
               "the "

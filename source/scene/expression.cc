@@ -36,6 +36,40 @@ namespace NMM
     } // namespace
 
 
+    namespace
+    {
+      /// Refuses functions whose value is another one each time. @throws InputError.
+      void
+      refuse_random_numbers(const std::string &expression,
+                            const std::string &parameter)
+      {
+        AssertThrow(!std::regex_search(expression,
+                                       std::regex("\\brand(_seed)?\\b")),
+                    InputError("rand() has another value each time, so that "
+                               "nothing that is computed with it converges",
+                               "parameter '" + parameter + "'",
+                               "use functions of the variables only"));
+      }
+
+
+      /// What the parser of deal.II complains about, in a few words: the sentence of muParser.
+      std::string
+      reason_of(const dealii::ExceptionBase &error)
+      {
+        std::ostringstream message;
+        error.print_info(message);
+        const std::string text =
+          std::regex_replace(message.str(), std::regex("\\s+"), " ");
+        std::smatch match;
+        return std::regex_search(text,
+                                 match,
+                                 std::regex("Message: (.*?)\\.? Formula:"))
+                 ? " (" + match.str(1) + ")"
+                 : "";
+      }
+    } // namespace
+
+
     template <int dim>
     std::shared_ptr<const dealii::Function<dim>>
     parse_expressions(const std::vector<std::string> &expressions,
@@ -44,14 +78,16 @@ namespace NMM
     {
       const unsigned int n = expressions.size();
       auto function        = std::make_shared<dealii::FunctionParser<dim>>(n);
+      for (const std::string &expression : expressions)
+        refuse_random_numbers(expression, parameter);
       try
       {
+        const SilentErrorStream silence;
         function->initialize(variables,
                              expressions,
                              {{"pi", dealii::numbers::PI}});
         // Expressions are compiled when they are first evaluated.
-        const SilentErrorStream silence;
-        dealii::Point<dim>      x;
+        dealii::Point<dim> x;
         for (unsigned int d = 0; d < dim; ++d)
           x[d] = 0.25;
         for (unsigned int c = 0; c < n; ++c)
@@ -59,18 +95,14 @@ namespace NMM
       }
       catch (const dealii::ExceptionBase &error)
       {
-        std::ostringstream message;
-        error.print_info(message);
-        const std::string reason =
-          std::regex_replace(message.str(), std::regex("\\s+"), " ");
         std::string text;
         for (const std::string &expression : expressions)
           text += (text.empty() ? "" : "; ") + expression;
         const std::string names =
           std::regex_replace(variables, std::regex(","), ", ");
         AssertThrow(false,
-                    InputError("'" + text + "' is no valid expression (" +
-                                 reason + ")",
+                    InputError("'" + text + "' is no valid expression" +
+                                 reason_of(error),
                                "parameter '" + parameter + "'",
                                "use " + names +
                                  ", pi, numbers, + - * / ^ and the usual "

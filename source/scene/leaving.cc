@@ -37,7 +37,7 @@ namespace NMM
     {
       if (leaving)
         departures = std::make_unique<CsvSeries>(
-          (directory->path() / "left-blocks.csv").string(),
+          directory->file("left-blocks.csv"),
           "# time [s]; a point of the block in the undeformed solid and the "
           "middle of the box around it where it left [m]; per unit thickness: "
           "energies that left with it [J/m], momentum [kg/s]",

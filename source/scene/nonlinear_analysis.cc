@@ -1,4 +1,5 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/output/csv_series.h>
 
 #include <algorithm>
 #include <cmath>
@@ -474,12 +475,13 @@ namespace NMM
              "max_displacement";
       for (const Probe &probe : scene.parameters().probes)
         if (!probe.is_line)
-          out << ',' << probe.name << "_x," << probe.name << "_y";
+          out << ',' << quoted(probe.name + "_x") << ','
+              << quoted(probe.name + "_y");
       if (inelastic_terms() != nullptr)
         out << ",plastic_dissipation,yielded_area";
       if (contact)
         for (const std::string &column : contact->columns())
-          out << ',' << column;
+          out << ',' << quoted(column);
       if (crack_tips)
         for (const std::string &column : crack_tips->columns())
           out << ',' << column;

@@ -1,4 +1,5 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/base/input_file.h>
 #include <nmm/scene/parameter_tree.h>
 
 #include <algorithm>
@@ -7,8 +8,8 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <functional>
+#include <limits>
 #include <regex>
 #include <scene/parsing.h>
 #include <sstream>
@@ -300,9 +301,28 @@ namespace NMM
     }
 
 
-    /// A JSON tree as assignments; arrays become comma-separated lists.
+    /// What separates the elements of a value: commas in a list, and semicolons in a text, which
+    /// may be geometry records or expressions.
+    std::string
+    separator(const Tree &declared, const std::vector<std::string> &path)
+    {
+      const Tree *node = &declared;
+      for (const std::string &name : path)
+      {
+        node = find_child(*node, name);
+        if (node == nullptr)
+          return ", ";
+      }
+      const auto pattern =
+        node->get_optional<std::string>("pattern_description");
+      return pattern && *pattern == "[Anything]" ? "; " : ", ";
+    }
+
+
+    /// A JSON tree as assignments; arrays become lists.
     void
     flatten(const Tree                       &tree,
+            const Tree                       &declared,
             const std::vector<std::string>   &path,
             const std::string                &source,
             std::vector<ParameterAssignment> &assignments)
@@ -318,14 +338,16 @@ namespace NMM
         for (const auto &child : tree)
           elements.push_back(child.second.data());
         assignments.push_back(
-          {path, is_array ? join(elements, ", ") : tree.data(), source});
+          {path,
+           is_array ? join(elements, separator(declared, path)) : tree.data(),
+           source});
         return;
       }
       for (const auto &[key, child] : tree)
       {
         std::vector<std::string> child_path = path;
         child_path.push_back(key);
-        flatten(child, child_path, source, assignments);
+        flatten(child, declared, child_path, source, assignments);
       }
     }
 
@@ -362,11 +384,13 @@ namespace NMM
 
 
     std::vector<ParameterAssignment>
-    read_json_assignments(std::stringstream &input,
-                          const std::string &file_name)
+    read_json_assignments(const std::string &text,
+                          const std::string &file_name,
+                          const Tree        &declared)
     {
-      check_depth(input.str(), file_name);
-      Tree tree;
+      check_depth(text, file_name);
+      std::istringstream input(text);
+      Tree               tree;
       try
       {
         boost::property_tree::read_json(input, tree);
@@ -380,7 +404,7 @@ namespace NMM
                                "correct it"));
       }
       std::vector<ParameterAssignment> assignments;
-      flatten(tree, {}, file_name, assignments);
+      flatten(tree, declared, {}, file_name, assignments);
       return assignments;
     }
 
@@ -396,22 +420,91 @@ namespace NMM
     }
 
 
-    /// The sections that are open at @p line of a .prm text.
-    std::vector<std::string>
+    /// A line of a .prm text with those that continue it, without comment.
+    struct Statement
+    {
+      unsigned int line;
+      std::string  text;
+
+      /// Whether the first word is that one, in lower or upper case.
+      bool
+      begins_with(std::string word) const
+      {
+        const std::string first = text.substr(0, text.find_first_of(" \t"));
+        return first.size() == word.size() && edit_distance(first, word) == 0;
+      }
+    };
+
+
+    /// The statements of a .prm text, joined as ParameterHandler joins them.
+    std::vector<Statement>
+    statements_of(const std::string &text)
+    {
+      std::vector<Statement> result;
+      std::istringstream     input(text);
+      std::string            content, joined;
+      unsigned int           number = 0, first = 1;
+      while (std::getline(input, content))
+      {
+        ++number;
+        content = trimmed(content);
+        if (joined.empty())
+          first = number;
+        const bool goes_on = !content.empty() && content.back() == '\\';
+        joined += goes_on ? content.substr(0, content.size() - 1) : content;
+        if (goes_on && input.peek() != EOF)
+          continue;
+        joined = trimmed(joined.substr(0, joined.find('#')));
+        if (!joined.empty())
+          result.push_back({first, joined});
+        joined.clear();
+      }
+      return result;
+    }
+
+
+    /// The sections that are open at @p line of a .prm text, with the lines where they begin.
+    std::vector<Statement>
     open_sections(const std::string &text, const unsigned int line)
     {
-      std::vector<std::string> path;
-      std::istringstream       input(text);
-      std::string              content;
-      for (unsigned int i = 1; i < line && std::getline(input, content); ++i)
-      {
-        content = trimmed(content.substr(0, content.find('#')));
-        if (content.rfind("subsection ", 0) == 0)
-          path.push_back(on_one_line(content.substr(11)));
-        else if (content == "end" && !path.empty())
+      std::vector<Statement> path;
+      for (const Statement &statement : statements_of(text))
+        if (statement.line >= line)
+          break;
+        else if (statement.begins_with("subsection"))
+          path.push_back(
+            {statement.line, on_one_line(statement.text.substr(10))});
+        else if (statement.begins_with("end") && !path.empty())
           path.pop_back();
-      }
       return path;
+    }
+
+
+    /// Refuses the statement "include" of ParameterHandler, which reads any file and follows itself
+    /// without end. @throws InputError if there is one.
+    void
+    check_statements(const std::string &text, const std::string &file_name)
+    {
+      for (const Statement &statement : statements_of(text))
+        AssertThrow(!statement.begins_with("include"),
+                    InputError("'include' is no statement of a scene",
+                               file_name + ":" + std::to_string(statement.line),
+                               "write what it should read into the scene"));
+    }
+
+
+    /// Checks that all sections are closed. @throws InputError if one is not.
+    void
+    check_ends(const std::string &text, const std::string &file_name)
+    {
+      const auto open =
+        open_sections(text, std::numeric_limits<unsigned int>::max());
+      AssertThrow(open.empty(),
+                  InputError("the section '" + open.back().text +
+                               "' is never closed",
+                             file_name + ":" + std::to_string(open.back().line),
+                             "add the missing 'end', and look whether the "
+                             "file is cut off"));
     }
 
 
@@ -425,8 +518,10 @@ namespace NMM
       const unsigned int line = line_number(message);
       const std::string  where =
         file_name + (line > 0 ? ":" + std::to_string(line) : "");
-      const std::vector<std::string> path = open_sections(text, line);
-      std::smatch                    match;
+      std::vector<std::string> path;
+      for (const Statement &section : open_sections(text, line))
+        path.push_back(section.text);
+      std::smatch match;
 
       if (std::regex_search(message,
                             match,
@@ -535,29 +630,6 @@ namespace NMM
 
   namespace
   {
-    bool
-    is_utf8(const std::string &text)
-    {
-      for (std::size_t i = 0; i < text.size();)
-      {
-        const auto         byte     = static_cast<unsigned char>(text[i]);
-        const unsigned int n_others = byte < 0x80                    ? 0
-                                      : byte >= 0xc2 && byte <= 0xdf ? 1
-                                      : byte >= 0xe0 && byte <= 0xef ? 2
-                                      : byte >= 0xf0 && byte <= 0xf4 ? 3
-                                                                     : 4;
-        if (n_others == 4)
-          return false;
-        ++i;
-        for (unsigned int k = 0; k < n_others; ++k, ++i)
-          if (i >= text.size() ||
-              (static_cast<unsigned char>(text[i]) & 0xc0) != 0x80)
-            return false;
-      }
-      return true;
-    }
-
-
     /// Checks that the text without comments is UTF-8, since values are written as JSON and XML.
     /// @throws InputError if it is not.
     void
@@ -583,37 +655,31 @@ namespace NMM
                   const bool                              skip_undefined,
                   dealii::ParameterHandler               &prm)
   {
-    std::ifstream input(file_name);
-    AssertThrow(input.good(),
-                InputError("the scene file cannot be opened",
-                           file_name,
-                           "give the path of an existing .prm or .json file"));
-    std::stringstream buffer;
-    buffer << input.rdbuf();
-    AssertThrow(input.good() && !buffer.fail(),
-                InputError("the scene file cannot be read or is empty",
-                           file_name,
-                           "give the path of a .prm or .json file"));
-
-    check_encoding(buffer.str(), file_name);
+    const std::string text = read_input_file(file_name, "the scene file");
+    check_encoding(text, file_name);
     const Tree                       tree = declared_tree(prm);
     std::vector<ParameterAssignment> all;
     const bool                       is_json =
       file_name.size() > 5 &&
       file_name.compare(file_name.size() - 5, 5, ".json") == 0;
     if (is_json)
-      all = read_json_assignments(buffer, file_name);
+      all = read_json_assignments(text, file_name, tree);
     else
+    {
+      check_statements(text, file_name);
+      check_ends(text, file_name);
       try
       {
-        prm.parse_input(buffer, file_name, "", skip_undefined);
+        std::istringstream input(text);
+        prm.parse_input(input, file_name, "", skip_undefined);
       }
       catch (const dealii::ExceptionBase &error)
       {
         std::ostringstream message;
         error.print_info(message);
-        explain(on_one_line(message.str()), file_name, buffer.str(), tree);
+        explain(on_one_line(message.str()), file_name, text, tree);
       }
+    }
 
     all.insert(all.end(), assignments.begin(), assignments.end());
     for (const ParameterAssignment &assignment : all)
@@ -626,6 +692,23 @@ namespace NMM
     }
     if (!skip_undefined)
       check_values(declared_tree(prm), {}, file_name);
+  }
+
+
+  void
+  set_default(const std::vector<std::string> &path,
+              dealii::ParameterHandler       &prm)
+  {
+    const Tree                     tree = declared_tree(prm);
+    const std::vector<std::string> sections(path.begin(), path.end() - 1);
+    const Tree                    &section = find_section(tree, sections, "");
+    const std::string              value =
+      section.find(path.back())->second.get<std::string>("default_value");
+    for (const std::string &name : sections)
+      prm.enter_subsection(name);
+    prm.set(path.back(), value);
+    for (std::size_t i = 0; i < sections.size(); ++i)
+      prm.leave_subsection();
   }
 
 

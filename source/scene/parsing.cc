@@ -2,6 +2,7 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <cmath>
 #include <scene/parsing.h>
 #include <sstream>
@@ -15,10 +16,12 @@ namespace NMM
 
     namespace
     {
-      /// Two finite numbers as a point; nothing if @p text is something else.
+      /// Two finite numbers, separated by a comma or, as in arrays of JSON, by a semicolon; nothing
+      /// if @p text is something else.
       std::optional<Point<2>>
-      to_point(const std::string &text)
+      to_point(std::string text)
       {
+        std::replace(text.begin(), text.end(), ';', ',');
         try
         {
           const auto numbers = dealii::Utilities::string_to_double(
@@ -211,6 +214,21 @@ namespace NMM
     }
 
 
+    UnusedValue::UnusedValue(const std::string &section,
+                             const std::string &key,
+                             const std::string &text,
+                             const std::string &by,
+                             const std::string &remedy)
+      : InputError("'" + key + " = " + text + "' would not be used by " + by,
+                   "parameter '" + section + "/" + key + "'",
+                   remedy)
+      , path(dealii::Utilities::split_string_list(section, '/'))
+      , by(by)
+    {
+      path.push_back(key);
+    }
+
+
     void
     expect_default(const std::string &section,
                    const std::string &key,
@@ -220,10 +238,7 @@ namespace NMM
                    const std::string &remedy)
     {
       AssertThrow(value == default_value,
-                  InputError("'" + key + " = " + to_text(value) +
-                               "' would not be used by " + by,
-                             "parameter '" + section + "/" + key + "'",
-                             remedy));
+                  UnusedValue(section, key, to_text(value), by, remedy));
     }
 
 
@@ -238,10 +253,7 @@ namespace NMM
       {
         const auto &[key, value] = given.noted()[i];
         AssertThrow(value == defaults.noted()[i].second,
-                    InputError("'" + key + " = " + value +
-                                 "' would not be used by " + by,
-                               "parameter '" + section + "/" + key + "'",
-                               remedy));
+                    UnusedValue(section, key, value, by, remedy));
       }
     }
   } // namespace internal

@@ -1,6 +1,8 @@
 #ifndef nmm_source_scene_parsing_h
 #define nmm_source_scene_parsing_h
 
+#include <nmm/base/exceptions.h>
+
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/point.h>
 
@@ -243,7 +245,28 @@ namespace NMM
     std::string
     to_text(double value);
 
-    /// Checks that a value that is not used has its default. @throws InputError otherwise, saying
+    /**
+     * A value of a scene would have no effect. It is an error, unless the command line sets other
+     * values: then Scene takes the default, and reports it. @p text is the value and @p by what
+     * makes no use of it, for the message.
+     */
+    class UnusedValue : public InputError
+    {
+    public:
+      UnusedValue(const std::string &section,
+                  const std::string &key,
+                  const std::string &text,
+                  const std::string &by,
+                  const std::string &remedy);
+
+      /// Names of the sections and, last, the key.
+      std::vector<std::string> path;
+      /// What makes no use of it.
+      std::string by;
+    };
+
+
+    /// Checks that a value that is not used has its default. @throws UnusedValue otherwise, saying
     /// that @p by makes no use of it.
     void
     expect_default(const std::string &section,

@@ -1,4 +1,5 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/output/csv_series.h>
 
 #include <algorithm>
 #include <cmath>
@@ -238,7 +239,7 @@ namespace NMM
           out << i + 1 << ',' << trials[i].factor << ',' << trials[i].stands()
               << ',' << (trials[i].outcome == StrengthTrial::Outcome::moves)
               << ',' << trials[i].displacement << ',' << trials[i].n_steps
-              << ",\"" << trials[i].reason << "\"\n";
+              << ',' << quoted(trials[i].reason) << '\n';
       });
     }
 

@@ -1,4 +1,5 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/base/input_file.h>
 #include <nmm/base/memory.h>
 #include <nmm/covers/rank_cells.h>
 #include <nmm/fracture/tip_grading.h>
@@ -13,6 +14,7 @@
 #include <filesystem>
 #include <scene/crack_tips.h>
 #include <scene/expression.h>
+#include <scene/parsing.h>
 #include <sstream>
 
 namespace NMM
@@ -221,8 +223,10 @@ namespace NMM
 
 
   Scene::Scene(const std::string              &file_name,
-               const std::vector<std::string> &overrides)
+               const std::vector<std::string> &overrides,
+               const bool                      is_confined)
     : file_name(file_name)
+    , is_confined(is_confined)
     , prm(std::make_shared<dealii::ParameterHandler>())
   {
     std::vector<ParameterAssignment> assignments;
@@ -238,8 +242,36 @@ namespace NMM
 
     SceneParameters::declare(*prm, names);
     read_parameters(file_name, assignments, false, *prm);
-    scene_parameters.parse(*prm, names);
-    scene_parameters.check();
+    parse_parameters(assignments);
+  }
+
+
+  void
+  Scene::parse_parameters(const std::vector<ParameterAssignment> &assignments)
+  {
+    for (;;)
+      try
+      {
+        scene_parameters = SceneParameters();
+        scene_parameters.parse(*prm, names);
+        scene_parameters.check();
+        return;
+      }
+      catch (const internal::UnusedValue &unused)
+      {
+        const bool is_assigned =
+          std::any_of(assignments.begin(),
+                      assignments.end(),
+                      [&](const ParameterAssignment &assignment) {
+                        return assignment.path == unused.path;
+                      });
+        if (assignments.empty() || is_assigned)
+          throw;
+        set_default(unused.path, *prm);
+        if (unused.path.back() == "Names")
+          names.clear(unused.path.front());
+        unused_values[unused.by].push_back(internal::join(unused.path, "/"));
+      }
   }
 
 
@@ -247,6 +279,17 @@ namespace NMM
   Scene::parameters() const
   {
     return scene_parameters;
+  }
+
+
+  std::vector<std::string>
+  Scene::notices() const
+  {
+    std::vector<std::string> result = scene_parameters.notices();
+    for (const auto &[by, parameters] : unused_values)
+      result.push_back("not used by " + by + ": '" +
+                       internal::join(parameters, "', '") + "'");
+    return result;
   }
 
 
@@ -281,7 +324,21 @@ namespace NMM
   std::string
   Scene::relative_to_scene(const std::string &name) const
   {
-    return (std::filesystem::path(file_name).parent_path() / name).string();
+    namespace fs          = std::filesystem;
+    const fs::path folder = fs::path(file_name).parent_path();
+    const fs::path path   = folder / name;
+    if (is_confined)
+    {
+      // Links are followed, so that none leads out of the folder.
+      const fs::path inside = fs::weakly_canonical(path).lexically_relative(
+        fs::weakly_canonical(fs::absolute(file_name).parent_path()));
+      AssertThrow(!inside.empty() && *inside.begin() != "..",
+                  InputError("the scene names a file outside of its folder",
+                             excerpt(name),
+                             "put the file beside the scene, or run without "
+                             "--confined"));
+    }
+    return path.string();
   }
 
 

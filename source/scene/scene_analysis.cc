@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <exception>
 #include <filesystem>
+#include <scene/cleaning_report.h>
 #include <scene/crack_growth.h>
 #include <scene/scene_analysis.h>
 #include <sstream>
@@ -32,7 +33,7 @@ namespace NMM
     void
     SceneAnalysis::build()
     {
-      Geometry geometry = scene.make_geometry();
+      Geometry geometry = scene.make_geometry(&scene_notices);
       cleaning_actions =
         clean(geometry, scene.parameters().geometry.cleaning_tolerance);
       if (scene.parameters().fracture.n_increments > 0)
@@ -241,6 +242,13 @@ namespace NMM
       summary.add("degree", mathematical_mesh->degree());
       summary.add("blocks", physical_mesh->n_blocks());
       summary.add("regions", physical_mesh->regions().size());
+      const std::vector<Curve> &curves = physical_mesh->curves();
+      summary.add("joints",
+                  std::count_if(curves.begin(),
+                                curves.end(),
+                                [](const Curve &curve) {
+                                  return curve.role == CurveRole::joint;
+                                }));
       add_block_counts();
       summary.add("own_meshes", mathematical_mesh->n_parts() - 1);
       // Counts are those of all ranks, for replicated and distributed meshes.
@@ -277,7 +285,8 @@ namespace NMM
                   MPI::sum(quadrature->n_fallbacks(), communicator));
       summary.add("cleaning_actions", cleaning_actions.size());
       summary.add("notices",
-                  physical_mesh->notices().size() + own_mesh_notices.size());
+                  scene.notices().size() + scene_notices.size() +
+                    physical_mesh->notices().size() + own_mesh_notices.size());
     }
 
 
@@ -397,12 +406,14 @@ namespace NMM
     void
     SceneAnalysis::print_report()
     {
-      for (const CleaningAction &action : cleaning_actions)
-        progress.message("  cleaned: " + action.description());
-      std::vector<std::string> notices = physical_mesh->notices();
+      if (!cleaning_actions.empty())
+        progress.message("  cleaned: " + summarize(cleaning_actions));
+      std::vector<std::string> notices = scene.notices();
       const auto add_notices = [&](const std::vector<std::string> &n) {
         notices.insert(notices.end(), n.begin(), n.end());
       };
+      add_notices(scene_notices);
+      add_notices(physical_mesh->notices());
       add_notices(block_notices());
       add_notices(own_mesh_notices);
       if (contact)
@@ -418,10 +429,10 @@ namespace NMM
         return text.str();
       };
       progress.message("  " + count("blocks") + " block(s), " +
-                       count("regions") + " region(s), " + count("cells") +
-                       " cells (" + count("cells_cut_exactly") +
-                       " cut exactly), " + count("mathematical_covers") +
-                       " mathematical covers");
+                       count("regions") + " region(s), " + count("joints") +
+                       " joint(s), " + count("cells") + " cells (" +
+                       count("cells_cut_exactly") + " cut exactly), " +
+                       count("mathematical_covers") + " mathematical covers");
       progress.message("  " + count("manifold_elements") +
                        " manifold elements, " + count("physical_covers") +
                        " physical covers (" + count("aggregated_covers") +
@@ -545,6 +556,16 @@ namespace NMM
     }
 
 
+    void
+    SceneAnalysis::write_cleaning() const
+    {
+      if (!cleaning_actions.empty() && is_first_rank())
+        directory->write_text("cleaning.csv", [&](std::ostream &out) {
+          write_table(cleaning_actions, out);
+        });
+    }
+
+
     bool
     SceneAnalysis::continues_in_folder() const
     {
@@ -558,7 +579,7 @@ namespace NMM
     std::string
     SceneAnalysis::checkpoint_file() const
     {
-      return (directory->path() / "checkpoint.nmm").string();
+      return directory->file("checkpoint.nmm");
     }
 
 
@@ -570,6 +591,7 @@ namespace NMM
       std::string             fault;
       {
         Stage stage(progress, "output");
+        write_cleaning();
         if (evaluator && !probes->entries().empty())
         {
           const auto samples = probes->evaluate(*covers, *evaluator);

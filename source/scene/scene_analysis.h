@@ -93,7 +93,7 @@ namespace NMM
 
       // Each object refers to those above it.
       std::vector<CleaningAction>       cleaning_actions;
-      std::vector<std::string>          own_mesh_notices;
+      std::vector<std::string>          scene_notices, own_mesh_notices;
       std::unique_ptr<PhysicalMesh>     physical_mesh;
       std::unique_ptr<MathematicalMesh> mathematical_mesh;
       std::unique_ptr<ManifoldMesh>     manifold_mesh;
@@ -137,6 +137,10 @@ namespace NMM
         std::unique_ptr<CoverSystem>      covers;
         std::unique_ptr<ContactAnalysis>  contact;
       };
+
+      /// Writes the list of what cleaning has changed, if it has changed anything.
+      void
+      write_cleaning() const;
 
       /// Releases the solid, which outlives the next build() so that its state can be carried over.
       /// The equations must have been destroyed before, or be destroyed by clear().

@@ -13,36 +13,52 @@
 // This file makes the geometry of a scene: boundaries, joints and regions.
 namespace NMM
 {
-  namespace
+  void
+  Scene::add_traces(const TraceParameters    &parameters,
+                    Geometry                 &geometry,
+                    std::vector<std::string> *notices) const
   {
-    void
-    add_traces(const TraceParameters &parameters,
-               const std::string     &file_name,
-               Geometry              &geometry)
+    const std::string path = relative_to_scene(parameters.file);
+    Drawing           drawing;
+    if (parameters.is_drawing())
+      drawing = read_dxf(path, parameters.layers);
+    else
+      drawing.curves = read_geometry(path).curves();
+    const std::string &length_unit = scene_parameters.output.length_unit;
+    // Several layers of one drawing are reported once.
+    const auto report = [notices](const std::string &text) {
+      if (notices != nullptr && !text.empty() &&
+          std::find(notices->begin(), notices->end(), text) == notices->end())
+        notices->push_back(text);
+    };
+    report(drawing.notice);
+    if (!drawing.unit.empty() && drawing.unit != length_unit)
+      report("the drawing " + parameters.file + " says that its unit is " +
+             drawing.unit +
+             " ($INSUNITS), but its coordinates are taken as they "
+             "are, in " +
+             length_unit + ", the scene's unit of length");
+    for (Curve &curve : drawing.curves)
     {
-      std::vector<Curve> curves = parameters.is_drawing()
-                                    ? read_dxf(file_name, parameters.layers)
-                                    : read_geometry(file_name).curves();
-      for (Curve &curve : curves)
-      {
-        AssertThrow(curve.role == CurveRole::joint,
-                    InputError("the traces '" + parameters.name +
-                                 "' contain the " + to_string(curve.role) +
-                                 " '" + curve.name + "'",
-                               curve.source,
-                               "let the file have joints only, and put the "
-                               "rest into the section 'Geometry'"));
-        if (!parameters.label.empty())
-          curve.name = parameters.label;
-        // A drawing does not say whether joints are open, but a geometry file may.
-        if (parameters.is_drawing() || parameters.state == JointState::closed)
-          curve.state = parameters.state;
-        curve.within     = parameters.within;
-        curve.is_clipped = true;
-        geometry.add(std::move(curve));
-      }
+      AssertThrow(curve.role == CurveRole::joint,
+                  InputError("the traces '" + parameters.name +
+                               "' contain the " + to_string(curve.role) + " '" +
+                               curve.name + "'",
+                             curve.source,
+                             "let the file have joints only, and put the "
+                             "rest into the section 'Geometry'"));
+      if (!parameters.label.empty())
+        curve.name = parameters.label;
+      // A drawing does not say whether joints are open, but a geometry file may.
+      if (parameters.is_drawing() || parameters.state == JointState::closed)
+        curve.state = parameters.state;
+      curve.role       = parameters.role;
+      curve.material   = parameters.material;
+      curve.within     = parameters.within;
+      curve.is_clipped = curve.role == CurveRole::joint;
+      geometry.add(std::move(curve));
     }
-  } // namespace
+  }
 
 
   namespace
@@ -157,7 +173,7 @@ namespace NMM
 
 
   Geometry
-  Scene::make_geometry() const
+  Scene::make_geometry(std::vector<std::string> *notices) const
   {
     const GeometryParameters &parameters = scene_parameters.geometry;
     std::string               text       = parameters.text;
@@ -167,7 +183,7 @@ namespace NMM
         ? parse_geometry(text, file_name + ", parameter 'Geometry/Text'")
         : read_geometry(relative_to_scene(parameters.file));
     for (const TraceParameters &traces : scene_parameters.traces)
-      add_traces(traces, relative_to_scene(traces.file), geometry);
+      add_traces(traces, geometry, notices);
     add_regions(geometry);
     check_joint_sets(scene_parameters.joint_sets,
                      geometry,

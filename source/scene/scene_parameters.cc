@@ -257,13 +257,22 @@ namespace NMM
 
 
   void
+  SceneNames::clear(const std::string &section)
+  {
+    for (const auto &list : sections_of_lists(*this))
+      if (list.first == section)
+        list.second->clear();
+  }
+
+
+  void
   SceneNames::declare(ParameterHandler &prm)
   {
     SceneNames names;
     for (const auto &list : sections_of_lists(names))
     {
       prm.enter_subsection(list.first);
-      prm.declare_entry("Names", "", Patterns::Anything());
+      prm.declare_entry("Names", "", Patterns::List(Patterns::Anything(), 0));
       prm.leave_subsection();
     }
   }
@@ -327,7 +336,11 @@ namespace NMM
   void
   SceneParameters::check() const
   {
-    geometry.check();
+    geometry.check(std::any_of(traces.begin(),
+                               traces.end(),
+                               [](const TraceParameters &file) {
+                                 return file.role == CurveRole::boundary;
+                               }));
     for (const TraceParameters &file : traces)
       file.check();
     for (const RegionParameters &region : regions)
@@ -342,6 +355,7 @@ namespace NMM
         "list at least one name in 'Names' and describe it in a subsection"));
     for (const Material &material : materials)
       material.check(model.plane_state);
+    check_gravity();
     for (const BoundaryConditionParameters &condition : boundary_conditions)
       condition.check();
     // A start from equilibrium is a static analysis before a dynamic one.
@@ -359,6 +373,35 @@ namespace NMM
     check_restraints();
     check_distribution();
     check_fracture();
+  }
+
+
+  void
+  SceneParameters::check_gravity() const
+  {
+    AssertThrow(model.gravity.norm() == 0. ||
+                  std::any_of(materials.begin(),
+                              materials.end(),
+                              [](const Material &material) {
+                                return material.density > 0.;
+                              }),
+                InputError("gravity has no effect, since no material has a "
+                           "density",
+                           "parameter 'Model/Gravity'",
+                           "set 'Density' of the materials, or remove "
+                           "'Gravity'"));
+  }
+
+
+  std::vector<std::string>
+  SceneParameters::notices() const
+  {
+    std::vector<std::string> result;
+    for (const Material &material : materials)
+      if (model.gravity.norm() > 0. && material.density == 0.)
+        result.push_back("gravity has no effect on the material '" +
+                         material.name + "', since its 'Density' is 0");
+    return result;
   }
 
 
@@ -444,10 +487,13 @@ namespace NMM
           "sleeping blocks are not available while cracks grow in motion",
           "Increments",
           "remove 'Time/Sleep speed'");
-    check(is_dynamic || fracture.speed == 0.,
-          "the speed of cracks would be used in a dynamic analysis only",
-          "Speed",
-          "remove it, or set 'Model/Analysis = dynamic'");
+    if (!is_dynamic)
+      expect_default("Fracture",
+                     "Speed",
+                     fracture.speed,
+                     0.,
+                     "a " + to_string(model.analysis) + " analysis",
+                     "remove it, or set 'Model/Analysis = dynamic'");
     AssertThrow(load_steps.load_steps().are_ascending(),
                 InputError("cracks grow under loads that ascend, but a load "
                            "factor is smaller than the one before it",
@@ -482,13 +528,14 @@ namespace NMM
         region.use != RegionParameters::Use::limit ||
           (model.analysis == Analysis::dynamics &&
            model.kinematics != Kinematics::incremental),
-        InputError("the limit '" + region.name + "' would not be used by " +
-                     (model.analysis == Analysis::dynamics
-                        ? to_string(model.kinematics) + " kinematics"
-                        : "a " + to_string(model.analysis) + " analysis"),
-                   "parameter 'Regions/" + region.name + "/Use'",
-                   "remove it, or set 'Model/Analysis = dynamic' with small or "
-                   "finite kinematics"));
+        UnusedValue("Regions/" + region.name,
+                    "Use",
+                    "limit",
+                    model.analysis == Analysis::dynamics
+                      ? to_string(model.kinematics) + " kinematics"
+                      : "a " + to_string(model.analysis) + " analysis",
+                    "remove it, or set 'Model/Analysis = dynamic' with small "
+                    "or finite kinematics"));
       if (region.use != RegionParameters::Use::restraint)
         continue;
       AssertThrow(

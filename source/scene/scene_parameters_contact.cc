@@ -309,10 +309,11 @@ namespace NMM
       analysis == Analysis::relaxation || analysis == Analysis::safety_factor;
     AssertThrow(
       !is_relaxed || displacement.empty(),
-      InputError("the displacement '" + displacement +
-                   "' would not be used by a " + to_string(analysis) +
-                   (analysis == Analysis::relaxation ? "" : " analysis"),
-                 "parameter 'Obstacles/" + name + "/Displacement'",
-                 "remove it, or set 'Model/Analysis' to static or dynamic"));
+      UnusedValue("Obstacles/" + name,
+                  "Displacement",
+                  displacement,
+                  "a " + to_string(analysis) +
+                    (analysis == Analysis::relaxation ? "" : " analysis"),
+                  "remove it, or set 'Model/Analysis' to static or dynamic"));
   }
 } // namespace NMM

@@ -78,19 +78,18 @@ namespace NMM
   TimeDependence::expect_default(const std::string &section,
                                  const std::string &by) const
   {
-    const std::string where = "parameter '" + section + "/" + name + "/";
+    const std::string remedy =
+      "remove it, or set 'Model/Analysis = dynamic' with small or finite "
+      "kinematics";
+    const std::string of_condition = section + "/" + name;
     AssertThrow(amplitude.empty(),
-                InputError("the amplitude '" + amplitude +
-                             "' would not be used by " + by,
-                           where + "Amplitude'",
-                           "remove it, or set 'Model/Analysis = dynamic' with "
-                           "small or finite kinematics"));
+                UnusedValue(of_condition, "Amplitude", amplitude, by, remedy));
     AssertThrow(release_time < 0.,
-                InputError("a release at " + to_text(release_time) +
-                             " s would not be used by " + by,
-                           where + "Release time'",
-                           "remove it, or set 'Model/Analysis = dynamic' with "
-                           "small or finite kinematics"));
+                UnusedValue(of_condition,
+                            "Release time",
+                            to_text(release_time) + " s",
+                            by,
+                            remedy));
   }
 
 

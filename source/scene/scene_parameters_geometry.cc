@@ -13,6 +13,11 @@ namespace NMM
 
   namespace
   {
+    const Words<CurveRole> roles = {{"joint", CurveRole::joint},
+                                    {"boundary", CurveRole::boundary},
+                                    {"hole", CurveRole::hole},
+                                    {"interface", CurveRole::interface}};
+
     const Words<bool> end_treatments = {{"keep", false}, {"drop", true}};
 
     const Words<JointState> joint_states = {{"open", JointState::open},
@@ -23,6 +28,18 @@ namespace NMM
                                     {"excavation", Use::excavation},
                                     {"restraint", Use::restraint},
                                     {"limit", Use::limit}};
+
+
+    /// Whether a file is a DXF drawing, by its extension.
+    bool
+    is_drawing(const std::string &file)
+    {
+      std::string end = file.size() < 4 ? "" : file.substr(file.size() - 4);
+      std::transform(end.begin(), end.end(), end.begin(), [](const char c) {
+        return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      });
+      return end == ".dxf";
+    }
 
 
     /// Adds the entries that joint sets and traces share.
@@ -73,13 +90,20 @@ namespace NMM
 
 
   void
-  GeometryParameters::check() const
+  GeometryParameters::check(const bool has_drawn_outline) const
   {
-    AssertThrow(file.empty() != text.empty(),
+    AssertThrow(file.empty() != text.empty() ||
+                  (file.empty() && has_drawn_outline),
                 InputError(file.empty() ? "the scene has no geometry"
                                         : "the scene has two geometries",
                            "section 'Geometry'",
-                           "set either 'File' or 'Text'"));
+                           "set either 'File' or 'Text', or take the outline "
+                           "from a drawing in section 'Traces'"));
+    AssertThrow(!is_drawing(file),
+                InputError("a drawing does not say what its curves are",
+                           "parameter 'Geometry/File'",
+                           "read it in section 'Traces', with 'Role = "
+                           "boundary' for the layers of the outline"));
   }
 
 
@@ -135,9 +159,17 @@ namespace NMM
                 "DXF drawing (its name ends in .dxf) or geometry file with "
                 "joints, relative to the folder of the scene file.");
     entries.add("Layers", layers, "Drawing: layers that are read. Empty: all.");
+    entries.add("Role",
+                role,
+                roles,
+                "Drawing: what its curves are, as in a geometry file.");
+    entries.add("Material",
+                material,
+                "Drawing: material in boundaries or in closed interfaces. "
+                "Empty: what the geometry says.");
     entries.add("Label",
                 label,
-                "What all joints of the file are called. Empty: after their "
+                "What all curves of the file are called. Empty: after their "
                 "layers, or what the geometry file says.");
     add_joint_entries(entries, state, within);
   }
@@ -146,11 +178,7 @@ namespace NMM
   bool
   TraceParameters::is_drawing() const
   {
-    std::string end = file.size() < 4 ? "" : file.substr(file.size() - 4);
-    std::transform(end.begin(), end.end(), end.begin(), [](const char c) {
-      return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    });
-    return end == ".dxf";
+    return NMM::is_drawing(file);
   }
 
 
@@ -166,6 +194,24 @@ namespace NMM
                              file + "'",
                            "parameter 'Traces/" + name + "/Layers'",
                            "remove it, or name a file that ends in .dxf"));
+    const std::string section = "Traces/" + name;
+    const auto        unused  = [&](const std::string &key,
+                            const std::string &value,
+                            const std::string &by) {
+      AssertThrow(value.empty(),
+                  UnusedValue(section, key, value, by, "remove it"));
+    };
+    if (!is_drawing())
+      unused("Role",
+             role == CurveRole::joint ? "" : to_string(role),
+             "a geometry file, which says itself what its curves are");
+    const std::string by = "curves with 'Role = " + to_string(role) + "'";
+    if (role == CurveRole::joint || role == CurveRole::hole)
+      unused("Material", material, by);
+    if (role == CurveRole::joint)
+      return;
+    unused("State", state == JointState::closed ? "closed" : "", by);
+    unused("Within", within, by);
   }
 
 

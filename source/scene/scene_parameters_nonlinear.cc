@@ -89,13 +89,12 @@ namespace NMM
           : "remove it, or set 'Model/Analysis = static'";
       expect_default(
         section, "Number of steps", n_steps, defaults.n_steps, by, remedy);
-      AssertThrow(
-        load_factors.empty(),
-        InputError("the list of " + std::to_string(load_factors.size()) +
-                     " load factor(s) from " + to_text(load_factors.front()) +
-                     " on would not be used by " + by,
-                   "parameter 'Load steps/Load factors'",
-                   remedy));
+      AssertThrow(load_factors.empty(),
+                  UnusedValue(section,
+                              "Load factors",
+                              to_text(load_factors.front()) + ", ...",
+                              by,
+                              remedy));
     }
     if (kinematics != Kinematics::incremental || !is_static)
       expect_default(section,
@@ -307,24 +306,26 @@ namespace NMM
     check_safety_factor();
     check_loads_in_time();
     const std::string analysis = to_string(model.analysis) + " analysis";
-    AssertThrow(model.analysis == Analysis::dynamics ||
-                  initial_velocities.empty(),
-                InputError("the initial velocity '" +
-                             (initial_velocities.empty()
-                                ? std::string()
-                                : initial_velocities.front().name) +
-                             "' would not be used by a " + analysis,
-                           "parameter 'Initial velocities/Names'",
-                           "remove it, or set 'Model/Analysis = dynamic'"));
-    AssertThrow(output.checkpoint_every == 0 || may_be_continued(),
-                InputError("checkpoints are not available with " +
-                             (model.analysis == Analysis::dynamics
-                                ? to_string(model.kinematics) + " kinematics"
-                                : analysis),
-                           "parameter 'Output/Checkpoint every'",
-                           "remove it, or set 'Model/Analysis = dynamic' with "
-                           "small or finite kinematics, or let cracks grow in "
-                           "a static analysis"));
+    if (model.analysis != Analysis::dynamics)
+      for (const InitialVelocityParameters &velocity : initial_velocities)
+        AssertThrow(false,
+                    UnusedValue("Initial velocities",
+                                "Names",
+                                velocity.name,
+                                "a " + analysis,
+                                "remove it, or set 'Model/Analysis = "
+                                "dynamic'"));
+    if (!may_be_continued())
+      expect_default("Output",
+                     "Checkpoint every",
+                     output.checkpoint_every,
+                     0.,
+                     model.analysis == Analysis::dynamics
+                       ? to_string(model.kinematics) + " kinematics"
+                       : "a " + analysis,
+                     "remove it, or set 'Model/Analysis = dynamic' with "
+                     "small or finite kinematics, or let cracks grow in "
+                     "a static analysis");
     check_output_quantities();
     if (model.analysis == Analysis::statics)
       return;
@@ -440,9 +441,11 @@ namespace NMM
           std::make_pair("Body force amplitude", model.body_force_amplitude),
           std::make_pair("Base acceleration", model.base_acceleration)})
       AssertThrow(text.empty(),
-                  InputError("'" + text + "' would not be used by " + by,
-                             std::string("parameter 'Model/") + key + "'",
-                             "remove it, or set 'Model/Analysis = dynamic' "
-                             "with small or finite kinematics"));
+                  UnusedValue("Model",
+                              key,
+                              text,
+                              by,
+                              "remove it, or set 'Model/Analysis = dynamic' "
+                              "with small or finite kinematics"));
   }
 } // namespace NMM

@@ -186,8 +186,8 @@ namespace NMM
     void
     StateSeries::open_animation(const double last)
     {
-      animation = std::make_unique<Animation>(
-        (directory->path() / "animation.frames").string(), last);
+      animation =
+        std::make_unique<Animation>(directory->file("animation.frames"), last);
     }
 
 

@@ -259,9 +259,73 @@ TEST(GmshMesh, ReadsTrianglesAndRefusesOthers)
   EXPECT_NEAR(element_area(ManifoldMesh(mesh, physical)), 1., 1e-15);
 
   EXPECT_THROW(read_gmsh_mesh("no such file.msh", 2), InputError);
-  {
-    std::ofstream file(name);
-    file << "this is no mesh\n";
-  }
-  EXPECT_THROW(read_gmsh_mesh(name, 2), InputError);
+}
+
+
+// One sentence says what is wrong, without the stack trace of deal.II.
+TEST(GmshMesh, SaysWhatIsWrong)
+{
+  const std::string name = std::string(NMM_TEST_OUTPUT_DIR) + "/bad.msh";
+  const auto expect = [&](const std::string &text, const std::string &part) {
+    std::ofstream(name) << text;
+    SCOPED_TRACE(text);
+    try
+    {
+      read_gmsh_mesh(name, 2);
+      ADD_FAILURE() << "it was read";
+    }
+    catch (const InputError &error)
+    {
+      EXPECT_NE(error.message().find(part), std::string::npos)
+        << error.message();
+      EXPECT_LT(error.message().size(), 300u);
+      EXPECT_EQ(error.message().find('\n'), std::string::npos);
+    }
+  };
+  const std::string format = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+  const std::string square =
+    "$Nodes\n4\n1 -1 -1 0\n2 2 -1 0\n3 2 2 0\n4 -1 2 0\n$EndNodes\n";
+  const auto elements = [](const std::string &number,
+                           const std::string &lines) {
+    return "$Elements\n" + number + "\n" + lines + "$EndElements\n";
+  };
+  const std::string two = "1 2 2 1 1 1 2 3\n2 2 2 1 1 1 3 4\n";
+
+  expect("this is no mesh\n", "no gmsh mesh");
+  expect(std::string("\x01\x00\xff\xfe junk", 9), "no gmsh mesh");
+  expect("$MeshFormat\n2.2 1 8\n\x01\n$EndMeshFormat\n", "binary");
+  expect("$MeshFormat\n3 0 8\n$EndMeshFormat\n", "format 3");
+  expect(format + square + elements("1", "1 3 2 1 1 1 2 3 4\n"),
+         "1 quadrilaterals");
+  expect(format + square + elements("1", "1 9 2 1 1 1 2 3 4 1 2\n"),
+         "second or higher order");
+  expect(format + square + elements("1", "1 4 2 1 1 1 2 3 4\n"),
+         "neither triangles nor lines");
+  expect(format + square + elements("1", "1 1 2 1 1 1 2\n"), "no triangles");
+  expect(format + square + elements("3", two + "3 2 2 1 1 1 2 3\n"), "overlap");
+  expect(format + square + elements("2", "1 2 2 1 1 1 2 3\n2 2 2 1 1 2 3 4\n"),
+         "overlap");
+  expect(format + square + "$Elements\n2\n" + two, "ends early");
+  expect(format + square + elements("2", "1 2 2 1 1 1 2 3\n2 2 2 1 1 1 3 9\n"),
+         "cannot be read");
+  expect(format + "$Nodes\n4000000000\n1 -1 -1 0\n$EndNodes\n" +
+           elements("2", two),
+         "$Nodes");
+  expect(format +
+           "$Nodes\n4\n1 -1 -1 0\n2 2 -1 0\n3 5 -1 0\n4 -1 2 0\n$EndNodes\n" +
+           elements("1", "1 2 2 1 1 1 2 3\n"),
+         "no area");
+  // Two triangles that share an edge in space, but not its nodes.
+  expect(format +
+           "$Nodes\n6\n1 -1 -1 0\n2 2 -1 0\n3 2 2 0\n4 -1 2 0\n5 -1 -1 0\n"
+           "6 2 2 0\n$EndNodes\n" +
+           elements("2", "1 2 2 1 1 1 2 3\n2 2 2 1 1 5 6 4\n"),
+         "two nodes at");
+  // Format 4.1, quadrilaterals
+  expect(
+    "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
+    "$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n-1 -1 0\n2 -1 0\n2 2 0\n"
+    "-1 2 0\n$EndNodes\n$Elements\n1 1 1 1\n2 1 3 1\n1 1 2 3 4\n"
+    "$EndElements\n",
+    "1 quadrilaterals");
 }

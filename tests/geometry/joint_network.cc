@@ -1,10 +1,7 @@
-#include <nmm/geometry/dxf.h>
 #include <nmm/geometry/joint_network.h>
 
 #include "test_helpers.h"
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <gtest/gtest.h>
 #include <set>
 
@@ -481,96 +478,4 @@ namespace
                  {"'set'", "traces"});
   }
 
-
-  /// A drawing with these entities; two lines a pair of code and value.
-  std::string
-  write_drawing(const std::string &name, const std::string &entities)
-  {
-    const std::string file =
-      (std::filesystem::temp_directory_path() / name).string();
-    std::ofstream(file) << "0\nSECTION\n2\nENTITIES\n"
-                        << entities << "0\nENDSEC\n0\nEOF\n";
-    return file;
-  }
-
-
-  const std::string line = "0\nLINE\n8\nJ1\n10\n0\n20\n0\n11\n4\n21\n3\n";
-
-
-  TEST(Drawing, EntitiesAndLayers)
-  {
-    if (!can_read_dxf())
-      GTEST_SKIP() << "built without dxflib";
-    const std::string file = write_drawing(
-      "entities.dxf",
-      line +
-        // a half circle by its bulge, then straight, closed
-        "0\nLWPOLYLINE\n8\nJ2\n90\n3\n70\n1\n10\n2\n20\n0\n42\n1\n10\n0\n20\n0"
-        "\n10\n1\n20\n-1\n"
-        "0\nPOLYLINE\n8\nJ2\n66\n1\n70\n0\n0\nVERTEX\n8\nJ2\n10\n0\n20\n0\n0\n"
-        "VERTEX\n8\nJ2\n10\n5\n20\n5\n0\nSEQEND\n"
-        "0\nARC\n8\nJ3\n10\n1\n20\n1\n40\n2\n50\n270\n51\n90\n"
-        "0\nCIRCLE\n8\nJ3\n10\n1\n20\n1\n40\n0.5\n"
-        "0\nTEXT\n8\nJ1\n10\n0\n20\n0\n40\n1\n1\nfault\n");
-    const auto curves = read_dxf(file);
-    ASSERT_EQ(curves.size(), 5u);
-    EXPECT_EQ(curves[0].name, "J1");
-    EXPECT_EQ(curves[0].role, CurveRole::joint);
-    EXPECT_EQ(curves[0].end(), Point(4., 3.));
-
-    EXPECT_EQ(curves[1].name, "J2");
-    ASSERT_EQ(curves[1].pieces.size(), 3u);
-    EXPECT_EQ(curves[1].pieces[0].kind, CurvePiece::Kind::arc);
-    // counter-clockwise from (2, 0) to (0, 0): over the top
-    EXPECT_EQ(curves[1].pieces[0].through, Point(1., 1.));
-    EXPECT_NEAR(curves[1].pieces[0].radius, 1., 1e-15);
-    EXPECT_TRUE(curves[1].is_closed());
-
-    ASSERT_EQ(curves[2].pieces.size(), 1u);
-    EXPECT_EQ(curves[2].end(), Point(5., 5.));
-
-    EXPECT_EQ(curves[3].start(), Point(1., -1.));
-    EXPECT_EQ(curves[3].end(), Point(1., 3.));
-    EXPECT_EQ(curves[3].pieces[0].through, Point(3., 1.));
-    EXPECT_EQ(curves[4].pieces[0].kind, CurvePiece::Kind::circle);
-    EXPECT_EQ(curves[4].pieces[0].radius, 0.5);
-
-    EXPECT_EQ(read_dxf(file, {"J2"}).size(), 2u);
-  }
-
-
-  TEST(Drawing, BadFiles)
-  {
-    if (!can_read_dxf())
-      GTEST_SKIP() << "built without dxflib";
-    const auto expect = [](const std::string              &file,
-                           const std::vector<std::string> &parts,
-                           const std::vector<std::string> &layers = {}) {
-      SCOPED_TRACE(file);
-      expect_parts(error_of([&]() { read_dxf(file, layers); }), parts);
-    };
-    expect("no-such.dxf", {"no-such.dxf", "does not exist"});
-    expect(write_drawing("empty.dxf", ""), {"empty.dxf", "no lines"});
-    expect(write_drawing("layer.dxf", line), {"'J9'", "layer.dxf"}, {"J9"});
-    expect(write_drawing("number.dxf",
-                         "0\nLINE\n8\nJ1\n10\nabc\n20\n0\n11\n4\n21\n3\n"),
-           {"'abc'", "number.dxf:10"});
-    expect(write_drawing("spline.dxf", line + "0\nSPLINE\n8\nJ1\n70\n8\n"),
-           {"SPLINE", "'J1'", "spline.dxf", "polyline"});
-    expect(write_drawing("dot.dxf",
-                         "0\nLINE\n8\nJ1\n10\n1\n20\n0\n11\n1\n21\n0\n"),
-           {"dot.dxf", "LINE", "zero length"});
-    expect(write_drawing("flat.dxf",
-                         "0\nCIRCLE\n8\nJ1\n10\n1\n20\n1\n40\n0.5\n210\n0\n220"
-                         "\n1\n230\n0\n"),
-           {"CIRCLE", "plane", "flat.dxf"});
-    const std::string text =
-      (std::filesystem::temp_directory_path() / "text.dxf").string();
-    std::ofstream(text) << "this is\nno drawing\nat all\n";
-    expect(text, {"text.dxf", "no DXF drawing"});
-    const std::string half =
-      (std::filesystem::temp_directory_path() / "half.dxf").string();
-    std::ofstream(half) << "0\nSECTION\n2\nENTITIES\n" << line;
-    expect(half, {"half.dxf", "ends early"});
-  }
 } // namespace

@@ -151,16 +151,90 @@ namespace
   }
 
 
-  TEST(OutputDirectory, CreateRemovesOnlyResults)
+  // Files of the user's own stay, whatever their names.
+  TEST(OutputDirectory, CreateRemovesOnlyWhatAnEarlierRunHasListed)
   {
     const fs::path path = fresh("earlier");
-    fs::create_directories(path);
-    for (const char *name :
-         {"summary.csv", "fields.3.vtu", "picture.png", "notes.txt"})
-      std::ofstream(path / name) << "old";
+    {
+      const OutputDirectory earlier(path);
+      earlier.create();
+      for (const char *name : {"summary.csv", "fields-0003.vtu", "notes.csv"})
+        earlier.write_text(name, [](std::ostream &out) { out << "old"; });
+      std::ofstream(earlier.file("history.csv")) << "old";
+      // what a run leaves that was killed
+      std::ofstream(path / ".fields-0003.vtu.part") << "old";
+    }
+    const std::vector<std::string> own = {"fields-my.vtu",
+                                          "picture-holiday.png",
+                                          "picture.png",
+                                          "notes.txt",
+                                          ".contacts.csv.part"};
+    for (const std::string &name : own)
+      std::ofstream(path / name) << "mine";
     OutputDirectory(path).create();
-    EXPECT_TRUE(fs::exists(path / "notes.txt"));
-    EXPECT_EQ(n_files(path), 1u);
+    for (const std::string &name : own)
+      EXPECT_TRUE(fs::exists(path / name)) << name;
+    EXPECT_TRUE(fs::exists(path / "notes.csv"));
+    EXPECT_EQ(n_files(path), own.size() + 1);
+  }
+
+
+  TEST(OutputDirectory, ResumeKeepsHistoriesAndTheList)
+  {
+    const fs::path path = fresh("resumed");
+    {
+      const OutputDirectory earlier(path);
+      earlier.create();
+      for (const char *name : {"summary.csv", "fields-0003.vtu"})
+        earlier.write_text(name, [](std::ostream &out) { out << "old"; });
+    }
+    OutputDirectory(path).resume();
+    EXPECT_FALSE(fs::exists(path / "summary.csv"));
+    EXPECT_TRUE(fs::exists(path / "fields-0003.vtu"));
+    OutputDirectory(path).create();
+    EXPECT_EQ(n_files(path), 0u);
+  }
+
+
+  TEST(OutputDirectory, TemporaryFilesDoNotFollowLinks)
+  {
+    const fs::path path = fresh("links"), victim = path / "victim.txt";
+    fs::create_directories(path);
+    std::ofstream(victim) << "precious";
+    for (const char *name :
+         {".nmm-trial.part", ".summary.csv.part", "history.csv.part"})
+      fs::create_symlink(victim, path / name);
+    const OutputDirectory directory(path);
+    directory.create();
+    directory.write_text("summary.csv",
+                         [](std::ostream &out) { out << "results"; });
+    const CsvSeries history(directory.file("history.csv"), "#", {"a"}, -1);
+    std::string     content;
+    std::ifstream(victim) >> content;
+    EXPECT_EQ(content, "precious");
+    EXPECT_FALSE(fs::is_symlink(path / "summary.csv"));
+    EXPECT_FALSE(fs::is_symlink(path / "history.csv"));
+  }
+
+
+  // A spreadsheet must not compute what is a name.
+  TEST(CsvCells, FormulasAreText)
+  {
+    EXPECT_EQ(quoted("floor"), "floor");
+    EXPECT_EQ(quoted("a, \"b\""), "\"a, \"\"b\"\"\"");
+    EXPECT_EQ(quoted("=1+1"), "'=1+1");
+    EXPECT_EQ(quoted("@SUM(A1,A2)"), "\"'@SUM(A1,A2)\"");
+    EXPECT_EQ(quoted("+cmd|' /C calc'!A0"), "'+cmd|' /C calc'!A0");
+    EXPECT_EQ(quoted("-x"), "'-x");
+    EXPECT_EQ(quoted("-1.5e3"), "-1.5e3");
+    EXPECT_EQ(quoted("+2"), "+2");
+    EXPECT_EQ(quoted("-"), "-");
+    EXPECT_EQ(quoted("two\nlines"), "\"two\nlines\"");
+    Summary summary;
+    summary.add("=A1_force_x", 1., "=B1");
+    std::ostringstream text;
+    summary.write(text);
+    EXPECT_EQ(text.str(), "name,value,unit\n'=A1_force_x,1,'=B1\n");
   }
 
 

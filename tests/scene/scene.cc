@@ -4,6 +4,7 @@
 #include <nmm/scene/parameter_tree.h>
 #include <nmm/scene/scene.h>
 
+#include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <sstream>
@@ -335,7 +336,10 @@ namespace
     EXPECT_NE(
       message_of_scene(base_scene, {"Model/Gravity=0, 1e99"}).find("1e99"),
       std::string::npos);
-    EXPECT_EQ(message_of_scene(base_scene, {"Model/Gravity=0e7, -1e30"}), "");
+    EXPECT_EQ(message_of_scene(base_scene,
+                               {"Model/Gravity=0e7, -1e30",
+                                "Materials/rock/Density=1"}),
+              "");
   }
 
 
@@ -369,6 +373,140 @@ namespace
       }
     std::ofstream(name) << "{\"a\": \"" << std::string(100, '{') << "\"}";
     EXPECT_EQ(message_of_scene(name).find("nested more"), std::string::npos);
+  }
+
+
+  // Scenes that a program writes: the records of a geometry, and components of expressions.
+  TEST(Scene, JsonArraysAreRecords)
+  {
+    const std::string file_name = NMM_TEST_OUTPUT_DIR "/records.json";
+    std::ofstream(file_name)
+      << "\xEF\xBB\xBF{\"Geometry\": {\"Text\": ["
+         "\"boundary name=disk CIRCLE (0 0, 1)\","
+         " \"joint LINESTRING (-2 0, 2 0)\"]},"
+         " \"Mathematical mesh\": {\"Cell size\": 0.5},"
+         " \"Boundary conditions\": {\"Names\": [\"held\"],"
+         "   \"held\": {\"Boundary\": [\"disk\"], \"Type\": \"displacement\","
+         "              \"Value\": [0, \"1e-3 * x\"]}},"
+         " \"Materials\": {\"Names\": [\"a\"], \"a\": {\"Young's modulus\": "
+         "1}}}";
+    const Scene scene(file_name);
+    EXPECT_EQ(scene.make_geometry().curves().size(), 2u);
+    EXPECT_EQ(scene.parameters().boundary_conditions[0].value, "0; 1e-3 * x");
+  }
+
+
+  TEST(Scene, OnlyStatementsOfAScene)
+  {
+    const auto message = [](const std::string &text) {
+      const std::string name = NMM_TEST_OUTPUT_DIR "/statements.prm";
+      std::ofstream(name) << text;
+      return message_of_scene(name);
+    };
+    for (const std::string include : {"include /dev/zero",
+                                      "  INCLUDE\tstatements.prm",
+                                      "inc\\\nlude /etc/shadow"})
+      EXPECT_NE(
+        message("# a scene\n" + include + "\n").find("statements.prm:2: write"),
+        std::string::npos)
+        << message(include);
+    EXPECT_NE(message("subsection Model\n  subsection X").find("X"),
+              std::string::npos);
+    for (const std::string text : {"subsection Model\n  set Thickness = 1\n",
+                                   "subsection \\\n  Model\n",
+                                   "subsection Model # end\n"})
+    {
+      EXPECT_NE(message(text).find("'Model' is never closed"),
+                std::string::npos)
+        << message(text);
+      EXPECT_NE(message(text).find("statements.prm:1"), std::string::npos)
+        << message(text);
+    }
+  }
+
+
+  // What the command line makes useless is left out and reported.
+  TEST(Scene, ValuesThatOverridesMakeUseless)
+  {
+    const std::string name = NMM_TEST_OUTPUT_DIR "/useless.prm";
+    {
+      std::ofstream file(name);
+      file << std::ifstream(base_scene).rdbuf()
+           << "\nsubsection Model\n  set Analysis = dynamic\nend\n"
+              "subsection Time\n  set End time = 1\n"
+              "  set Initial step = 0.1\nend\n"
+              "subsection Materials\n  subsection rock\n"
+              "    set Density = 1\n  end\nend\n"
+              "subsection Initial velocities\n  set Names = push\n"
+              "  subsection push\n    set Velocity = 1, 0\n  end\nend\n";
+    }
+    EXPECT_EQ(message_of_scene(name), "");
+    EXPECT_TRUE(Scene(name).notices().empty());
+    const Scene scene(name, {"Model/Analysis=static"});
+    EXPECT_TRUE(scene.parameters().initial_velocities.empty());
+    ASSERT_EQ(scene.notices().size(), 1u);
+    for (const std::string part :
+         {"static analysis", "'Time/End time'", "'Initial velocities/Names'"})
+      EXPECT_NE(scene.notices()[0].find(part), std::string::npos)
+        << scene.notices()[0];
+    EXPECT_NE(message_of_scene(name,
+                               {"Model/Analysis=static", "Time/End time=2"})
+                .find("'End time = 2' would not be used"),
+              std::string::npos);
+    // Without an override it is a mistake in the file.
+    {
+      std::ofstream file(name, std::ios::app);
+      file << "subsection Model\n  set Analysis = static\nend\n";
+    }
+    EXPECT_NE(message_of_scene(name).find("would not be used"),
+              std::string::npos);
+  }
+
+
+  TEST(Scene, ConfinedToItsFolder)
+  {
+    namespace fs          = std::filesystem;
+    const fs::path folder = NMM_TEST_OUTPUT_DIR "/confined";
+    fs::remove_all(folder);
+    fs::create_directories(folder / "inside" / "below");
+    const std::string records = "boundary name=b CIRCLE (0 0, 1)\n";
+    for (const fs::path &file : {folder / "outside.wkt",
+                                 folder / "inside" / "beside.wkt",
+                                 folder / "inside" / "below" / "deep.wkt"})
+      std::ofstream(file) << records;
+    fs::create_symlink("../outside.wkt", folder / "inside" / "link.wkt");
+    const std::string scene = folder / "inside" / "scene.prm";
+    std::ofstream(scene)
+      << "subsection Geometry\n  set File = beside.wkt\nend\n"
+         "subsection Mathematical mesh\n  set Cell size = 1\nend\n"
+         "subsection Materials\n  set Names = a\n  subsection a\n"
+         "    set Young's modulus = 1\n  end\nend\n";
+    const auto is_refused = [&](const std::string &file, const bool confined) {
+      try
+      {
+        Scene(scene, {"Geometry/File=" + file}, confined).make_geometry();
+        return false;
+      }
+      catch (const InputError &error)
+      {
+        EXPECT_NE(error.message().find("--confined"), std::string::npos)
+          << error.message();
+        return true;
+      }
+    };
+    for (const std::string inside : {"beside.wkt",
+                                     "below/deep.wkt",
+                                     "below/../beside.wkt",
+                                     "./beside.wkt"})
+      EXPECT_FALSE(is_refused(inside, true)) << inside;
+    for (const std::string outside : {std::string("../outside.wkt"),
+                                      std::string("link.wkt"),
+                                      std::string("below/../../outside.wkt"),
+                                      (folder / "outside.wkt").string()})
+    {
+      EXPECT_TRUE(is_refused(outside, true)) << outside;
+      EXPECT_FALSE(is_refused(outside, false)) << outside;
+    }
   }
 
 

@@ -1,4 +1,5 @@
 #include "rejected_input.h"
+#include <sys/stat.h>
 
 using namespace rejected_input;
 
@@ -79,6 +80,53 @@ namespace
             "Traces/survey/Layers=J9");
     rejects(NMM_SOURCE_DIR "/tests/scenes/network-drawing/joints.dxf",
             {"joints.dxf", "SPLINE", "'sketch'"});
+  }
+
+
+  // A pipe would wait, and a device never ends.
+  TEST(BadInput, FilesThatAreNoOrdinaryOnes)
+  {
+    const std::string pipe = NMM_TEST_OUTPUT_DIR "/pipe";
+    if (is_first_rank())
+    {
+      std::filesystem::remove(pipe);
+      ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    }
+    for (const std::string &file :
+         {std::string("/dev/zero"), pipe, std::string("/")})
+    {
+      const std::vector<std::string> words = {"no ordinary file", file};
+      expect_rejected({file}, words);
+      expect_rejected_with({"Traces/Names=t"}, "Traces/t/File=" + file, words);
+      expect_rejected_with({"Mathematical mesh/Type=gmsh"},
+                           "Mathematical mesh/Gmsh file=" + file,
+                           words);
+      expect_rejected_with(dynamic,
+                           "Boundary conditions/held/Amplitude=file:" + file,
+                           words);
+    }
+    expect_rejected({"--confined",
+                     "--set",
+                     "Traces/Names=t",
+                     "--set",
+                     "Traces/t/File=/etc/passwd",
+                     base_scene},
+                    {"outside of its folder", "--confined"});
+  }
+
+
+  TEST(BadInput, ExpressionsSayOneSentence)
+  {
+    const std::string value = "Boundary conditions/held/Value=";
+    expect_rejected_override(value + "1e-3 * rand(); 0",
+                             {"rand()", "held/Value"});
+    expect_rejected_override(value + "0; rand_seed(1)",
+                             {"rand()", "held/Value"});
+    expect_rejected_override(value + "foo(x); 0", {"'foo(x); 0'", "\"foo\""});
+    const DriverResult result =
+      run_in_process({"--check", "--set", value + "foo(x); 0", base_scene});
+    for (const std::string word : {"muParser", "Errc", "Formula", "deal.II"})
+      EXPECT_EQ(result.output.find(word), std::string::npos) << result.output;
   }
 
 

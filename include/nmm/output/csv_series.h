@@ -8,8 +8,9 @@
 
 namespace NMM
 {
-  /// @p text as a cell of a CSV file. It is put between quotation marks if it contains a comma or
-  /// a quotation mark; the latter is doubled.
+  /// @p text as a cell of a CSV file. It is put between quotation marks if it contains a comma, a
+  /// quotation mark, which is doubled, or the end of a line. If it begins with =, +, - or @ and is
+  /// no number, an apostrophe precedes it, so that a spreadsheet does not run it as a formula.
   std::string
   quoted(const std::string &text);
 

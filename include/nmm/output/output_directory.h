@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <ostream>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,8 @@ namespace NMM
   /**
    * The folder to which results are written. Each file is written under a temporary
    * name and renamed when it is complete, so that no file is ever incomplete, and none is left
-   * from an earlier run.
+   * from an earlier run. Names of results are listed in the file `.nmm-results` of the folder, and
+   * only files on this list are removed: files of the user's own stay, whatever their names.
    */
   class OutputDirectory
   {
@@ -41,6 +43,11 @@ namespace NMM
     void
     resume() const;
 
+    /// The path of the file @p name, to which somebody else writes; the name is listed.
+    /// @throws OutputFailure if the list cannot be written.
+    std::string
+    file(const std::string &name) const;
+
     /// Calls @p write with the name of a temporary file, and renames that to @p name.
     /// @throws OutputFailure if it cannot be renamed.
     void
@@ -67,6 +74,8 @@ namespace NMM
     try_to_write() const;
 
     std::filesystem::path folder;
+    /// Names that this object has put on the list.
+    mutable std::set<std::string> listed;
   };
 
 

@@ -48,6 +48,11 @@ namespace NMM
                   bool                                    skip_undefined,
                   dealii::ParameterHandler               &prm);
 
+  /// Gives the parameter @p path (names of its sections and, last, its key) its default.
+  void
+  set_default(const std::vector<std::string> &path,
+              dealii::ParameterHandler       &prm);
+
   /// All declared parameters as a Markdown document with a table per section.
   std::string
   parameter_reference(const dealii::ParameterHandler &prm);

@@ -5,9 +5,11 @@
 #include <nmm/dynamics/contact_model.h>
 #include <nmm/dynamics/loading.h>
 #include <nmm/geometry/physical_mesh.h>
+#include <nmm/scene/parameter_tree.h>
 #include <nmm/scene/scene_parameters.h>
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <ostream>
 #include <string>
@@ -68,14 +70,23 @@ namespace NMM
     /**
      * Reads the scene @p file_name and applies @p overrides ("Section/Key=value"). There are two
      * passes: the first one reads the names of lists only, which decide what entries there are.
+     * If there are overrides, values of the file that the scene does not use any more have their
+     * defaults, see notices(). If @p is_confined is true, the scene may name files in and below its
+     * own folder only.
      * @throws InputError for any error in the file or the overrides.
      */
     explicit Scene(const std::string              &file_name,
-                   const std::vector<std::string> &overrides = {});
+                   const std::vector<std::string> &overrides   = {},
+                   bool                            is_confined = false);
 
     /// All parameters of the scene, which have been checked.
     const SceneParameters &
     parameters() const;
+
+    /// What is allowed, but may not be meant: values of the file that overrides have made
+    /// useless, and those of SceneParameters::notices().
+    std::vector<std::string>
+    notices() const;
 
     /// Prints the scene with all values, defaults included.
     void
@@ -91,10 +102,11 @@ namespace NMM
     std::string
     title() const;
 
-    /// The geometry before cleaning, with traces, regions and joint sets. @throws
-    /// InputError for files that cannot be read and for joint sets that are wrong.
+    /// The geometry before cleaning, with traces, regions and joint sets. @p notices, if not null,
+    /// receives what is to be reported about drawings. @throws InputError for files that cannot be
+    /// read and for joint sets that are wrong.
     Geometry
-    make_geometry() const;
+    make_geometry(std::vector<std::string> *notices = nullptr) const;
 
     /// The limits of the scene; blocks that lie outside of all of them are removed. If it is
     /// empty, no block is removed.
@@ -171,13 +183,29 @@ namespace NMM
                  bool                     has_friction) const;
 
   private:
-    std::string                               file_name;
-    SceneNames                                names;
-    SceneParameters                           scene_parameters;
-    std::shared_ptr<dealii::ParameterHandler> prm;
+    std::string file_name;
+    bool        is_confined;
+    /// Values of the file that are not used, by what makes no use of them.
+    std::map<std::string, std::vector<std::string>> unused_values;
+    SceneNames                                      names;
+    SceneParameters                                 scene_parameters;
+    std::shared_ptr<dealii::ParameterHandler>       prm;
 
+    /// Reads the parameters of @p prm; values without use become defaults if there are
+    /// @p assignments, and none of these sets them. @throws InputError for a value that is refused.
+    void
+    parse_parameters(const std::vector<ParameterAssignment> &assignments);
+
+    /// Path of a file that the scene names relative to its own folder. @throws InputError if the
+    /// scene is confined to that folder and the file is outside of it.
     std::string
     relative_to_scene(const std::string &name) const;
+
+    /// Adds the curves of a file to @p geometry, and what is to be reported to @p notices.
+    void
+    add_traces(const TraceParameters    &traces,
+               Geometry                 &geometry,
+               std::vector<std::string> *notices) const;
 
     using TimeVector = std::function<dealii::Tensor<1, 2>(double)>;
 

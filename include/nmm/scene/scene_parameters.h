@@ -357,6 +357,10 @@ namespace NMM
     /// slash or an equals sign.
     void
     parse(dealii::ParameterHandler &prm);
+
+    /// Removes all names of one section.
+    void
+    clear(const std::string &section);
   };
 
 
@@ -426,6 +430,10 @@ namespace NMM
     void
     check() const;
 
+    /// What is allowed, but may not be meant.
+    std::vector<std::string>
+    notices() const;
+
     /// Whether any material of the scene can yield.
     bool
     has_inelastic_material() const;
@@ -464,6 +472,8 @@ namespace NMM
     check_restraints() const;
     void
     check_fracture() const;
+    void
+    check_gravity() const;
 
     /// Checks that the scene allows a mathematical mesh that is distributed among ranks.
     void

@@ -26,9 +26,9 @@ namespace NMM
   /// The section `Geometry`.
   struct GeometryParameters
   {
-    /// WKT geometry file, relative to the scene file; empty if `text` is used.
+    /// WKT geometry file, relative to the scene file; empty if it is not used.
     std::string file;
-    /// Geometry records separated by semicolons; empty if `file` is used.
+    /// Geometry records separated by semicolons; empty if they are not used.
     std::string text;
     /// Tolerance of the cleaning step [m]; 0 if there is no cleaning.
     double cleaning_tolerance = 0.;
@@ -40,9 +40,10 @@ namespace NMM
     /// Declares or reads the entries of the section.
     void
     list_entries(internal::Entries &entries);
-    /// Checks that there is one geometry. @throws InputError otherwise.
+    /// Checks that there is one geometry, or none if drawings have the outlines. @throws InputError
+    /// otherwise.
     void
-    check() const;
+    check(bool has_drawn_outline) const;
   };
 
 
@@ -55,7 +56,7 @@ namespace NMM
   };
 
 
-  /// Joints from a file of their own: a subsection of `Traces`.
+  /// Curves from a file of their own: a subsection of `Traces`.
   struct TraceParameters
   {
     /// Name of the subsection, for messages.
@@ -64,7 +65,11 @@ namespace NMM
     std::string file;
     /// Layers of a drawing that are read; if empty, all are read.
     std::vector<std::string> layers;
-    /// Name of all joints from this file; if empty, joints are called after their layers in a
+    /// What the curves of a drawing are. Those of a geometry file are joints.
+    CurveRole role = CurveRole::joint;
+    /// Material in the closed curves of a drawing that are boundaries or interfaces; may be empty.
+    std::string material;
+    /// Name of all curves from this file; if empty, curves are called after their layers in a
     /// drawing, or as the geometry file says.
     std::string label;
     /// Whether the joints are open or closed.
@@ -80,7 +85,7 @@ namespace NMM
     /// Declares or reads the entries of the subsection.
     void
     list_entries(internal::Entries &entries);
-    /// Checks that there is a file, and layers for a drawing only. @throws InputError otherwise.
+    /// Checks that there is a file, and that all values are used. @throws InputError otherwise.
     void
     check() const;
   };

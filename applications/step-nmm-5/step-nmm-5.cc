@@ -142,7 +142,7 @@ namespace StepNMM5
       NMM::GradedMeshParameters mesh;
       mesh.cell_size = cell_size;
       if (tips != Tips::as_meshed)
-        mesh.local_sizes = NMM::sizes_at_tips(solid, grading, cell_size);
+        mesh.local_sizes = NMM::sizes_at_tips(solid, grading);
       return NMM::make_graded_mesh(solid, mesh, degree);
     }
 

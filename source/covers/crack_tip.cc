@@ -5,6 +5,9 @@
 #include <base/cross.h>
 #include <cmath>
 #include <covers/exact_curves.h>
+#include <limits>
+#include <optional>
+#include <set>
 #include <utility>
 
 namespace NMM
@@ -129,59 +132,153 @@ namespace NMM
         return edge;
       }
 
-      /// Whether all curves on the edge are open joints and the same region is on both sides.
+      /// Whether there is solid on both sides and the displacement can jump.
+      bool
+      is_open(const Halfedge &halfedge) const
+      {
+        return is_inside(halfedge) && !all_curves(halfedge, is_tied_curve);
+      }
+
+      /// Whether there is solid on both sides, and open joints are the only curves at which the
+      /// displacement can jump. Boundaries of two domains may coincide, and are none.
       bool
       is_crack(const Halfedge &halfedge) const
       {
-        const unsigned int region = halfedge->face()->data().region;
-        if (region == invalid_index ||
-            halfedge->twin()->face()->data().region != region)
-          return false;
-        const auto &labels = halfedge->curve().data();
-        return std::all_of(labels.begin(),
-                           labels.end(),
-                           [&](const internal::Label label) {
-                             const Curve &curve =
-                               mesh.curves()[mesh.piece_to_curve()[label]];
-                             return curve.role == CurveRole::joint &&
-                                    curve.state == JointState::open;
-                           });
+        return is_open(halfedge) &&
+               all_curves(halfedge, [](const Curve &curve) {
+                 return curve.role == CurveRole::joint ||
+                        curve.role == CurveRole::interface;
+               });
+      }
+
+      /// Whether there is solid on both sides, which interfaces or closed joints tie to each other.
+      bool
+      is_tied(const Halfedge &halfedge) const
+      {
+        return is_inside(halfedge) && all_curves(halfedge, is_tied_curve);
+      }
+
+      /// Whether the edge belongs to the circle of a tip cover only.
+      bool
+      is_auxiliary(const Halfedge &halfedge) const
+      {
+        return all_curves(halfedge, [](const Curve &curve) {
+          return curve.is_auxiliary;
+        });
+      }
+
+      /// A curve on the edge, an index for PhysicalMesh::curves(): a joint that is open, if there
+      /// is one.
+      unsigned int
+      curve(const Halfedge &halfedge) const
+      {
+        unsigned int result = invalid_index;
+        for (const internal::Label label : halfedge->curve().data())
+        {
+          const unsigned int c = mesh.piece_to_curve()[label];
+          if (result == invalid_index || is_tied_curve(mesh.curves()[result]))
+            result = c;
+        }
+        return result;
       }
 
     private:
       const PhysicalMesh &mesh;
+
+      static bool
+      is_tied_curve(const Curve &curve)
+      {
+        return curve.role == CurveRole::interface ||
+               (curve.role == CurveRole::joint &&
+                curve.state == JointState::closed);
+      }
+
+      static bool
+      is_inside(const Halfedge &halfedge)
+      {
+        return halfedge->face()->data().region != invalid_index &&
+               halfedge->twin()->face()->data().region != invalid_index;
+      }
+
+      template <typename Predicate>
+      bool
+      all_curves(const Halfedge &halfedge, const Predicate &predicate) const
+      {
+        const auto &labels = halfedge->curve().data();
+        return std::all_of(
+          labels.begin(), labels.end(), [&](const internal::Label label) {
+            return predicate(mesh.curves()[mesh.piece_to_curve()[label]]);
+          });
+      }
     };
 
 
-    /// Edges of the crack that ends in the target of @p last, starting there.
+    /// The edges of the arrangement that end at @p vertex, without circles of tip covers.
     std::vector<Halfedge>
-    trace_crack(const Halfedge &last, const Edges &edges)
+    edges_at(const Vertex &vertex, const Edges &edges)
+    {
+      std::vector<Halfedge> result;
+      const auto            first = vertex->incident_halfedges();
+      auto                  next  = first;
+      do
+        if (!edges.is_auxiliary(next))
+          result.push_back(next);
+      while (++next != first);
+      return result;
+    }
+
+
+    /// The edge on which the tip of a crack at @p vertex ends, or none if there is no tip.
+    std::optional<Halfedge>
+    find_end(const Vertex &vertex, const Edges &edges)
+    {
+      std::optional<Halfedge> end;
+      if (vertex->is_isolated())
+        return end;
+      for (const Halfedge &halfedge : edges_at(vertex, edges))
+        if (!edges.is_tied(halfedge))
+        {
+          if (end || !edges.is_crack(halfedge))
+            return {};
+          end = halfedge;
+        }
+      return end;
+    }
+
+
+    /// The edges that lead from the target of @p last to the first point at which another curve
+    /// arrives, or at which @p belongs no longer holds.
+    template <typename Predicate>
+    std::vector<Halfedge>
+    trace(const Halfedge &last, const Edges &edges, const Predicate &belongs)
     {
       std::vector<Halfedge> path = {last->twin()};
-      while (path.back()->target()->degree() == 2)
+      while (path.back()->target() != last->target())
       {
-        const Halfedge next = path.back()->next();
-        if (!edges.is_crack(next))
+        std::vector<Halfedge> others = edges_at(path.back()->target(), edges);
+        others.erase(std::find(others.begin(), others.end(), path.back()));
+        if (others.size() != 1 || !belongs(others[0]))
           break;
-        path.push_back(next);
+        path.push_back(others[0]->twin());
       }
       return path;
     }
 
 
-    /// Distance from the tip up to which the path of the tip passes each distance once.
+    /// Distance from the start of a path up to which it passes each distance once.
     double
-    distance_passed_once(const CrackTip &tip)
+    distance_passed_once(const std::vector<ElementEdge> &path,
+                         const dealii::Point<2>         &start)
     {
       double radius      = 0.;
       bool   has_changed = false;
-      for (const ElementEdge &edge : tip.path)
+      for (const ElementEdge &edge : path)
         if (has_changed)
-          radius = std::min(radius, distance(edge, tip.point));
+          radius = std::min(radius, distance(edge, start));
         else
         {
-          radius      = distance_passed_once(edge, tip.point);
-          has_changed = !leads_away(edge, tip.point);
+          radius      = distance_passed_once(edge, start);
+          has_changed = !leads_away(edge, start);
         }
       return radius;
     }
@@ -225,72 +322,287 @@ namespace NMM
   }
 
 
+  namespace
+  {
+    /// The largest coordinate of the solid times the rounding of a number [m].
+    double
+    rounding_of_coordinates(const PhysicalMesh &physical_mesh)
+    {
+      double largest = 0.;
+      for (const dealii::Point<2> &corner :
+           {physical_mesh.bounding_box().get_boundary_points().first,
+            physical_mesh.bounding_box().get_boundary_points().second})
+        for (unsigned int d = 0; d < 2; ++d)
+          largest = std::max(largest, std::abs(corner[d]));
+      return largest * std::numeric_limits<double>::epsilon();
+    }
+
+
+    /// The edges of the crack tips, in the order of their coordinates.
+    std::vector<Halfedge>
+    find_ends(const PhysicalMesh &physical_mesh, const Edges &edges)
+    {
+      const Arrangement &arrangement = physical_mesh.arrangement().arrangement;
+      std::vector<std::pair<std::pair<double, double>, Halfedge>> ends;
+      for (auto v = arrangement.vertices_begin();
+           v != arrangement.vertices_end();
+           ++v)
+        if (const auto end = find_end(v, edges))
+        {
+          const dealii::Point<2> x = internal::to_double(v->point());
+          ends.push_back({{x[0], x[1]}, *end});
+        }
+      std::stable_sort(ends.begin(),
+                       ends.end(),
+                       [](const auto &a, const auto &b) {
+                         return a.first < b.first;
+                       });
+      std::vector<Halfedge> result;
+      for (const auto &end : ends)
+        result.push_back(end.second);
+      return result;
+    }
+
+
+    /// Unit tangent at the start of an edge.
+    dealii::Tensor<1, 2>
+    tangent_at_start(const ElementEdge &edge)
+    {
+      dealii::Tensor<1, 2> tangent = edge.end - edge.start;
+      if (edge.is_arc())
+      {
+        const dealii::Tensor<1, 2> spoke = edge.start - edge.center;
+        tangent =
+          (edge.radius > 0. ? 1. : -1.) * dealii::Point<2>(-spoke[1], spoke[0]);
+      }
+      return tangent / tangent.norm();
+    }
+
+
+    /// The tip at the target of @p end, without free radius and nearest curve, and the edges that
+    /// may lie in its disk.
+    CrackTip
+    make_tip(const Halfedge         &end,
+             const Edges            &edges,
+             std::set<const void *> &own)
+    {
+      CrackTip tip;
+      for (const Halfedge &halfedge :
+           trace(end, edges, [&](const auto &h) { return edges.is_crack(h); }))
+      {
+        tip.path.push_back(edges(halfedge));
+        own.insert({&*halfedge, &*halfedge->twin()});
+      }
+      for (const Halfedge &halfedge : edges_at(end->target(), edges))
+      {
+        const unsigned int region = halfedge->face()->data().region;
+        if (std::find(tip.regions.begin(), tip.regions.end(), region) ==
+            tip.regions.end())
+          tip.regions.push_back(region);
+        if (!edges.is_tied(halfedge))
+          continue;
+        tip.tied_curve = edges.curve(halfedge);
+        for (const Halfedge &tied : trace(halfedge, edges, [&](const auto &h) {
+               return edges.is_tied(h);
+             }))
+          own.insert({&*tied, &*tied->twin()});
+      }
+      tip.point     = tip.path.front().start;
+      tip.direction = -tangent_at_start(tip.path.front());
+      tip.region    = tip.regions.front();
+      tip.curve     = edges.curve(end);
+      return tip;
+    }
+
+
+    /// Free radii below this number of times the rounding of coordinates are not resolved.
+    constexpr double resolved = 1e4;
+
+
+    /// The edges with solid on at least one side, in doubles.
+    std::vector<std::pair<Halfedge, ElementEdge>>
+    find_solid_edges(const PhysicalMesh &physical_mesh, const Edges &edges)
+    {
+      const Arrangement &arrangement = physical_mesh.arrangement().arrangement;
+      std::vector<std::pair<Halfedge, ElementEdge>> result;
+      for (auto e = arrangement.edges_begin(); e != arrangement.edges_end();
+           ++e)
+      {
+        const Halfedge halfedge = e;
+        if (halfedge->face()->data().region != invalid_index ||
+            halfedge->twin()->face()->data().region != invalid_index)
+          result.emplace_back(halfedge, edges(halfedge));
+      }
+      return result;
+    }
+
+
+    /// The tips with room for a singular field, or those without.
+    std::vector<CrackTip>
+    find_tips(const PhysicalMesh &physical_mesh, const bool with_room)
+    {
+      const Edges                 edges(physical_mesh);
+      const std::vector<Halfedge> ends = find_ends(physical_mesh, edges);
+      if (ends.empty())
+        return {};
+      const auto   solid_edges = find_solid_edges(physical_mesh, edges);
+      const double least_room =
+        resolved * rounding_of_coordinates(physical_mesh);
+      std::vector<CrackTip> tips;
+      for (const Halfedge &end : ends)
+      {
+        std::set<const void *> own;
+        CrackTip               tip  = make_tip(end, edges, own);
+        double                 room = distance_passed_once(tip.path, tip.point),
+               to_auxiliary         = std::numeric_limits<double>::max();
+        tip.nearest_curve           = tip.curve;
+        for (const auto &[halfedge, edge] : solid_edges)
+        {
+          if (own.count(&*halfedge) > 0)
+            continue;
+          const double length = distance(edge, tip.point);
+          if (edges.is_auxiliary(halfedge))
+            to_auxiliary = std::min(to_auxiliary, length);
+          else if (length < room)
+          {
+            room              = length;
+            tip.nearest_curve = edges.curve(halfedge);
+          }
+        }
+        tip.free_radius = std::min(room, to_auxiliary);
+        if ((room > least_room) == with_room)
+          tips.push_back(std::move(tip));
+      }
+      return tips;
+    }
+
+
+    /// The largest angle of the solid between neighbours of the given open edges, which start at
+    /// one vertex [rad].
+    double
+    largest_angle(const std::vector<Halfedge> &open, const Edges &edges)
+    {
+      std::vector<double> angles;
+      for (const Halfedge &halfedge : open)
+      {
+        const dealii::Tensor<1, 2> tangent = tangent_at_start(edges(halfedge));
+        angles.push_back(std::atan2(tangent[1], tangent[0]));
+      }
+      std::sort(angles.begin(), angles.end());
+      double largest =
+        angles.front() + 2. * dealii::numbers::PI - angles.back();
+      for (unsigned int i = 1; i < angles.size(); ++i)
+        largest = std::max(largest, angles[i] - angles[i - 1]);
+      return largest;
+    }
+
+
+    /// The edges that start at @p vertex where cracks, and nothing else but tied curves, meet
+    /// there. Otherwise none.
+    std::vector<Halfedge>
+    cracks_from(const Vertex &vertex, const Edges &edges)
+    {
+      std::vector<Halfedge> open;
+      if (vertex->is_isolated())
+        return open;
+      for (const Halfedge &halfedge : edges_at(vertex, edges))
+        if (edges.is_crack(halfedge))
+          open.push_back(halfedge->twin());
+        else if (!edges.is_tied(halfedge))
+          return {};
+      return open;
+    }
+  } // namespace
+
+
+  std::vector<CrackCorner>
+  find_crack_corners(const PhysicalMesh &physical_mesh, const double least_turn)
+  {
+    const Edges        edges(physical_mesh);
+    const Arrangement &arrangement = physical_mesh.arrangement().arrangement;
+    const double least_room = resolved * rounding_of_coordinates(physical_mesh);
+    std::vector<std::pair<Halfedge, ElementEdge>> solid_edges;
+    std::vector<CrackCorner>                      corners;
+    for (auto v = arrangement.vertices_begin(); v != arrangement.vertices_end();
+         ++v)
+    {
+      const std::vector<Halfedge> open = cracks_from(v, edges);
+      if (open.size() < 2)
+        continue;
+      CrackCorner corner;
+      corner.point = internal::to_double(v->point());
+      corner.angle = largest_angle(open, edges);
+      if (corner.angle < dealii::numbers::PI + least_turn)
+        continue;
+      if (solid_edges.empty())
+        solid_edges = find_solid_edges(physical_mesh, edges);
+      corner.free_radius = std::numeric_limits<double>::max();
+      std::set<const void *> own;
+      for (const Halfedge &first : open)
+      {
+        std::vector<ElementEdge> path;
+        for (const Halfedge &halfedge :
+             trace(first->twin(), edges, [&](const auto &h) {
+               return edges.is_crack(h);
+             }))
+        {
+          path.push_back(edges(halfedge));
+          own.insert({&*halfedge, &*halfedge->twin()});
+        }
+        corner.free_radius = std::min(corner.free_radius,
+                                      distance_passed_once(path, corner.point));
+      }
+      for (const auto &[halfedge, edge] : solid_edges)
+        if (own.count(&*halfedge) == 0 && !edges.is_auxiliary(halfedge))
+          corner.free_radius =
+            std::min(corner.free_radius, distance(edge, corner.point));
+      if (corner.free_radius > least_room)
+        corners.push_back(corner);
+    }
+    return corners;
+  }
+
+
   std::vector<CrackTip>
   find_crack_tips(const PhysicalMesh &physical_mesh)
   {
-    const Arrangement &arrangement = physical_mesh.arrangement().arrangement;
-    const Edges        edges(physical_mesh);
+    return find_tips(physical_mesh, /* with_room = */ true);
+  }
 
-    std::vector<Halfedge> ends;
-    for (auto v = arrangement.vertices_begin(); v != arrangement.vertices_end();
-         ++v)
-      if (!v->is_isolated() && v->degree() == 1 &&
-          edges.is_crack(v->incident_halfedges()))
-        ends.push_back(v->incident_halfedges());
 
-    if (ends.empty())
-      return {};
+  std::vector<CrackTip>
+  find_tips_without_room(const PhysicalMesh &physical_mesh)
+  {
+    return find_tips(physical_mesh, /* with_room = */ false);
+  }
 
-    std::vector<std::pair<Halfedge, ElementEdge>> solid_edges;
-    for (auto e = arrangement.edges_begin(); e != arrangement.edges_end(); ++e)
+
+  std::vector<CrackEnd>
+  find_crack_ends(const PhysicalMesh &physical_mesh)
+  {
+    const Edges           edges(physical_mesh);
+    std::vector<CrackEnd> result;
+    for (const Halfedge &end : find_ends(physical_mesh, edges))
     {
-      const Halfedge halfedge = e;
-      if (halfedge->face()->data().region != invalid_index ||
-          halfedge->twin()->face()->data().region != invalid_index)
-        solid_edges.emplace_back(halfedge, edges(halfedge));
-    }
-
-    const auto  &corners = physical_mesh.bounding_box().get_boundary_points();
-    const double least_radius = 1e-9 * corners.first.distance(corners.second);
-    std::vector<CrackTip> tips;
-    for (const Halfedge &end : ends)
-    {
-      const std::vector<Halfedge> path = trace_crack(end, edges);
-      CrackTip                    tip;
-      for (const Halfedge &halfedge : path)
-        tip.path.push_back(edges(halfedge));
-      const ElementEdge &first = tip.path.front();
-      tip.point                = first.start;
-      tip.region               = end->face()->data().region;
-      tip.curve = physical_mesh.piece_to_curve()[*end->curve().data().begin()];
-      if (first.radius == 0.)
-        tip.direction = first.start - first.end;
-      else
+      CrackEnd crack_end;
+      crack_end.point = internal::to_double(end->target()->point());
+      for (const Halfedge &halfedge :
+           trace(end, edges, [&](const auto &h) { return edges.is_crack(h); }))
       {
-        const dealii::Tensor<1, 2> spoke = first.start - first.center;
-        tip.direction                    = (first.radius > 0. ? 1. : -1.) *
-                        dealii::Point<2>(spoke[1], -spoke[0]);
+        const ElementEdge edge = edges(halfedge);
+        crack_end.length += edge.is_arc()
+                              ? std::abs(swept_angle(edge) * edge.radius)
+                              : edge.start.distance(edge.end);
       }
-      tip.direction /= tip.direction.norm();
-
-      tip.free_radius = distance_passed_once(tip);
-      for (const auto &[halfedge, edge] : solid_edges)
-        if (std::none_of(path.begin(),
-                         path.end(),
-                         [h = halfedge](const Halfedge &p) {
-                           return p == h || p == h->twin();
-                         }))
-          tip.free_radius =
-            std::min(tip.free_radius, distance(edge, tip.point));
-      if (tip.free_radius > least_radius)
-        tips.push_back(std::move(tip));
+      result.push_back(crack_end);
     }
-    std::sort(tips.begin(),
-              tips.end(),
-              [](const CrackTip &a, const CrackTip &b) {
-                return std::make_pair(a.point[0], a.point[1]) <
-                       std::make_pair(b.point[0], b.point[1]);
-              });
-    return tips;
+    return result;
+  }
+
+
+  double
+  least_cell_size(const PhysicalMesh &physical_mesh)
+  {
+    return 100. * rounding_of_coordinates(physical_mesh);
   }
 } // namespace NMM

@@ -1,5 +1,6 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/base/memory.h>
+#include <nmm/covers/crack_tip.h>
 #include <nmm/covers/graded_mesh.h>
 #include <nmm/covers/point_location.h>
 #include <nmm/geometry/physical_mesh.h>
@@ -10,6 +11,8 @@
 #include "lattice.h"
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <sstream>
 #include <unordered_map>
 
 namespace NMM
@@ -70,12 +73,17 @@ namespace NMM
       unsigned int
       find_middle(unsigned int v, unsigned int w) const;
 
-      std::uint64_t
-      key(const LatticeNode &node) const
+      struct HashOfNode
       {
-        return (static_cast<std::uint64_t>(node[0]) << 32) +
-               static_cast<std::uint64_t>(node[1]);
-      }
+        std::size_t
+        operator()(const LatticeNode &node) const
+        {
+          // The multiplication mixes the digits of one coordinate (Knuth, The Art of Computer
+          // Programming, volume 3, section 6.4).
+          return static_cast<std::uint64_t>(node[0]) * 0x9E3779B97F4A7C15u ^
+                 static_cast<std::uint64_t>(node[1]);
+        }
+      };
 
       void
       split(const Triangle &triangle, std::vector<Triangle> &children);
@@ -93,7 +101,7 @@ namespace NMM
       std::int64_t             scale;
       std::vector<Triangle>    triangles;
       std::vector<LatticeNode> vertex_to_node;
-      std::unordered_map<std::uint64_t, unsigned int> node_to_vertex;
+      std::unordered_map<LatticeNode, unsigned int, HashOfNode> node_to_vertex;
     };
 
 
@@ -122,7 +130,7 @@ namespace NMM
     RedGreenRefinement::vertex(const LatticeNode &node)
     {
       const auto [position, is_new] =
-        node_to_vertex.emplace(key(node), vertices.size());
+        node_to_vertex.emplace(node, vertices.size());
       if (is_new)
       {
         vertex_to_node.push_back(node);
@@ -150,7 +158,7 @@ namespace NMM
       const LatticeNode &a = vertex_to_node[v], &b = vertex_to_node[w];
       if ((a[0] + b[0]) % 2 != 0 || (a[1] + b[1]) % 2 != 0)
         return invalid_index;
-      const auto found = node_to_vertex.find(key(middle(v, w)));
+      const auto found = node_to_vertex.find(middle(v, w));
       return found == node_to_vertex.end() ? invalid_index : found->second;
     }
 
@@ -343,20 +351,23 @@ namespace NMM
       internal::make_lattice(physical_mesh.bounding_box(), parameters);
     const SizeField size(physical_mesh, parameters);
 
-    double smallest = parameters.cell_size;
+    const double least    = least_cell_size(physical_mesh);
+    double       smallest = parameters.cell_size;
     for (const LocalSize &local : parameters.local_sizes)
       smallest = std::min(smallest, local.size);
+    std::ostringstream what, remedy;
+    what << "a local size of " << smallest
+         << " m is so small that coordinates cannot tell the corners of cells "
+            "apart";
+    remedy << "choose at least " << least << " m";
+    AssertThrow(smallest >= least,
+                InputError(what.str(),
+                           "Mathematical mesh/Local sizes",
+                           remedy.str()));
     unsigned int n_levels = 0;
-    while (parameters.cell_size / (1u << n_levels) > (1. + 1e-10) * smallest)
-    {
+    while (std::ldexp(parameters.cell_size, -int(n_levels)) >
+           (1. + 1e-10) * smallest)
       ++n_levels;
-      AssertThrow(n_levels <= 20,
-                  InputError("a local size of " + std::to_string(smallest) +
-                               " m is more than a million times smaller "
-                               "than the cell size",
-                             "Mathematical mesh/Local sizes",
-                             "choose them closer to each other"));
-    }
 
     RedGreenRefinement refinement(
       lattice,

@@ -90,8 +90,8 @@ namespace NMM
         , displacement(displacement)
         , gradient(gradient)
         , loading(loading)
-        , material(problem.materials[problem.region_to_material(
-            mesh.physical_mesh())[tip.region]])
+        , region_to_material(problem.region_to_material(mesh.physical_mesh()))
+        , material(problem.materials[region_to_material[tip.region]])
         , elasticity(material.plane_elasticity(problem.plane_state))
         , frame({{tip.direction[0], -tip.direction[1]},
                  {tip.direction[1], tip.direction[0]}})
@@ -100,7 +100,14 @@ namespace NMM
         , fields{{{TipField::Kind::opening, elasticity},
                   {TipField::Kind::sliding, elasticity},
                   {TipField::Kind::point_force, elasticity}}}
-        , force_at_tip(body_force(tip.point))
+        , force_at_tip(body_force(tip.point, material.density))
+        , has_varying_force(problem.body_force || loading.acceleration ||
+                            std::any_of(tip.regions.begin(),
+                                        tip.regions.end(),
+                                        [this](const unsigned int region) {
+                                          return density(region) !=
+                                                 material.density;
+                                        }))
         // Whether the crack bends within the largest disk.
         , is_bent(tip.path.front().radius != 0. ||
                   tip.point.distance(tip.path.front().end) < largest_radius)
@@ -125,7 +132,9 @@ namespace NMM
         for (unsigned int element = first; element < last; ++element)
         {
           const unsigned int cell = mesh.cell(element);
-          if (mesh.region(element) != tip.region ||
+          if (std::find(tip.regions.begin(),
+                        tip.regions.end(),
+                        mesh.region(element)) == tip.regions.end() ||
               cells.reference_to_real(cell, {1. / 3., 1. / 3.})
                   .distance(tip.point) >
                 largest_radius + cells.cell_diameter(cell))
@@ -148,23 +157,26 @@ namespace NMM
       /// The fields are those of opening, of sliding, and of the point force.
       static constexpr unsigned int n_fields = 3;
 
-      const CoverSystem         &covers;
-      const ManifoldMesh        &mesh;
-      const ElasticityProblem   &problem;
-      const CrackTip            &tip;
-      const std::vector<double> &radii;
-      const double               smallest_radius, largest_radius;
-      const ElementDisplacement &displacement;
-      const ElementGradient     &gradient;
-      const TipLoading          &loading;
-      const Material            &material;
-      const PlaneElasticity      elasticity;
+      const CoverSystem              &covers;
+      const ManifoldMesh             &mesh;
+      const ElasticityProblem        &problem;
+      const CrackTip                 &tip;
+      const std::vector<double>      &radii;
+      const double                    smallest_radius, largest_radius;
+      const ElementDisplacement      &displacement;
+      const ElementGradient          &gradient;
+      const TipLoading               &loading;
+      const std::vector<unsigned int> region_to_material;
+      const Material                 &material;
+      const PlaneElasticity           elasticity;
       /// Matrix whose columns are the axes of the tip's frame.
       const Tensor<2, 2>                   frame;
       const SymmetricTensor<2, 2>          initial_stress;
       const std::array<TipField, n_fields> fields;
       /// Body force at the tip [N/m^3], in the tip's frame.
-      const Tensor<1, 2>      force_at_tip;
+      const Tensor<1, 2> force_at_tip;
+      /// Whether the force that acts on the solid differs from `force_at_tip` anywhere.
+      const bool              has_varying_force;
       const bool              is_bent;
       DiskRules              &rules;
       const dealii::QGauss<1> gauss;
@@ -205,11 +217,18 @@ namespace NMM
       }
 
 
-      /// Body force with gravity [N/m^3], in the tip's frame.
-      Tensor<1, 2>
-      body_force(const Point<2> &x) const
+      double
+      density(const unsigned int region) const
       {
-        Tensor<1, 2> force = material.density * problem.gravity;
+        return problem.materials[region_to_material[region]].density;
+      }
+
+
+      /// Body force with gravity [N/m^3] on a material of the given density, in the tip's frame.
+      Tensor<1, 2>
+      body_force(const Point<2> &x, const double density) const
+      {
+        Tensor<1, 2> force = density * problem.gravity;
         if (problem.body_force)
           for (unsigned int c = 0; c < 2; ++c)
             force[c] += problem.body_force->value(x, c);
@@ -259,7 +278,7 @@ namespace NMM
                         return cells.vertices()[v].distance(tip.point) <
                                plateau * smallest_radius;
                       });
-        if (is_on_plateau && !problem.body_force && !loading.acceleration)
+        if (is_on_plateau && !has_varying_force)
           return;
 
         const double                 determinant = 2. * cells.cell_area(cell);
@@ -284,11 +303,12 @@ namespace NMM
                     const Point<2>    &x) const
       {
         Tensor<1, 2> force;
-        if (problem.body_force)
-          force = body_force(x) - force_at_tip;
+        if (!has_varying_force)
+          return force;
+        const double density_here = density(mesh.region(element));
+        force                     = body_force(x, density_here) - force_at_tip;
         if (loading.acceleration)
-          force -=
-            material.density * in_frame(loading.acceleration(element, xi));
+          force -= density_here * in_frame(loading.acceleration(element, xi));
         return force;
       }
 
@@ -337,8 +357,17 @@ namespace NMM
         if (near >= largest_radius)
           return;
         std::vector<unsigned int> curves;
+        bool                      is_open = false;
         for (const unsigned int piece : mesh.curve_set(edge.curve_set))
+        {
           curves.push_back(mesh.physical_mesh().piece_to_curve()[piece]);
+          const Curve &curve = mesh.physical_mesh().curves()[curves.back()];
+          is_open            = is_open || (curve.role == CurveRole::joint &&
+                                curve.state == JointState::open);
+        }
+        // Curves that are tied run through the tip.
+        if (!is_open)
+          return;
         for (unsigned int p = 0; p < gauss.size(); ++p)
         {
           // Fraction of the way from the nearer to the farther end, and its derivative.
@@ -479,9 +508,11 @@ namespace NMM
       void
       find_displacement_of_tip()
       {
+        // Where all ranks hold the whole mesh, each knows the displacement of its own elements only.
         const unsigned int element = mesh.find_owned_element(tip.point);
-        unsigned int       n_found = 0;
-        if (element != invalid_index)
+        const auto [first, last]   = covers.locally_owned_elements();
+        unsigned int n_found       = 0;
+        if (element >= first && element < last)
         {
           n_found = 1;
           displacement_of_tip =
@@ -523,6 +554,28 @@ namespace NMM
       }
     };
   } // namespace
+
+
+  bool
+  has_intensity_factors(const CrackTip          &tip,
+                        const PhysicalMesh      &physical_mesh,
+                        const ElasticityProblem &problem)
+  {
+    const std::vector<unsigned int> region_to_material =
+      problem.region_to_material(physical_mesh);
+    const Material &first   = problem.materials[region_to_material[tip.region]];
+    const PlaneElasticity e = first.plane_elasticity(problem.plane_state);
+    return std::all_of(tip.regions.begin(),
+                       tip.regions.end(),
+                       [&](const unsigned int region) {
+                         const Material &material =
+                           problem.materials[region_to_material[region]];
+                         const PlaneElasticity other =
+                           material.plane_elasticity(problem.plane_state);
+                         return other.lambda == e.lambda && other.mu == e.mu &&
+                                material.initial_stress == first.initial_stress;
+                       });
+  }
 
 
   DiskRules::DiskRules()

@@ -175,7 +175,8 @@ namespace NMM
       for (const CrackTip &other : tips)
         if (&other != &tip)
           radius = std::min(radius, 0.45 * other.point.distance(tip.point));
-      if (radius < std::max(least_share * tip.free_radius, least_radius))
+      if (tip.tied_curve != invalid_index ||
+          radius < std::max(least_share * tip.free_radius, least_radius))
         continue;
       const Material &material =
         problem.materials[region_to_material[tip.region]];

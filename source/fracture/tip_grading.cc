@@ -2,42 +2,110 @@
 #include <nmm/fracture/tip_grading.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace NMM
 {
+  namespace
+  {
+    /// The sizes about a point at which the displacement is of the degree @p exponent, see
+    /// grade_towards().
+    LocalSize
+    grade(const dealii::Point<2> &point,
+          const double            free_radius,
+          const double            exponent,
+          const double            growth,
+          const double            size_at_point)
+    {
+      LocalSize size;
+      size.kind     = LocalSize::Kind::point;
+      size.point    = point;
+      size.size     = size_at_point;
+      size.growth   = growth;
+      size.exponent = 1. - exponent / 3.;
+      size.length   = free_radius;
+      return size;
+    }
+  } // namespace
+
+
   LocalSize
   grade_towards(const CrackTip &tip,
                 const double    growth,
-                const double    cell_size,
+                const double    least_size,
                 const double    smallest)
   {
-    // This is one halving less than is possible.
-    constexpr double most_halvings = 1 << 19;
-    LocalSize        size;
-    size.kind  = LocalSize::Kind::point;
-    size.point = tip.point;
-    size.size = std::max(smallest * tip.free_radius, cell_size / most_halvings);
-    size.growth   = growth;
-    size.exponent = 5. / 6.;
-    size.length   = tip.free_radius;
-    return size;
+    return grade(tip.point,
+                 tip.free_radius,
+                 0.5,
+                 growth,
+                 std::max(smallest * tip.free_radius, least_size));
+  }
+
+
+  LocalSize
+  grade_towards(const CrackCorner &corner,
+                const double       growth,
+                const double       least_size,
+                const double       smallest)
+  {
+    const double exponent = corner_exponent(corner.angle);
+    return grade(corner.point,
+                 corner.free_radius,
+                 exponent,
+                 growth,
+                 std::max(std::pow(smallest, 0.5 / exponent) *
+                            corner.free_radius,
+                          least_size));
+  }
+
+
+  double
+  corner_exponent(const double angle)
+  {
+    Assert(angle > dealii::numbers::PI && angle < 2. * dealii::numbers::PI,
+           dealii::ExcMessage("The corner must reach into the solid."));
+    // The left-hand side falls from a positive to a negative value.
+    double low = 0.5, high = 1.;
+    for (unsigned int i = 0; i < 50; ++i)
+    {
+      const double middle = 0.5 * (low + high);
+      const bool   is_positive =
+        std::sin(middle * angle) + middle * std::sin(angle) > 0.;
+      (is_positive ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
   }
 
 
   std::vector<LocalSize>
   sizes_at_tips(const PhysicalMesh &solid,
                 const double        growth,
-                const double        cell_size,
                 const double        smallest)
   {
+    const double           least_size = least_cell_size(solid);
     std::vector<LocalSize> sizes;
     for (const CrackTip &tip : find_crack_tips(solid))
       if (has_tip_cover(solid, tip))
         // The circle of the cover bounds the free radius.
         sizes.push_back(
-          grade_towards(tip, 0.8 * growth, cell_size, 0.4 * growth));
+          grade_towards(tip, 0.8 * growth, least_size, 0.4 * growth));
       else
-        sizes.push_back(grade_towards(tip, growth, cell_size, smallest));
+        sizes.push_back(grade_towards(tip, growth, least_size, smallest));
+    return sizes;
+  }
+
+
+  std::vector<LocalSize>
+  sizes_at_corners(const PhysicalMesh &solid,
+                   const double        growth,
+                   const double        smallest)
+  {
+    constexpr double       least_turn = 20. * dealii::numbers::PI / 180.;
+    std::vector<LocalSize> sizes;
+    for (const CrackCorner &corner : find_crack_corners(solid, least_turn))
+      sizes.push_back(
+        grade_towards(corner, growth, least_cell_size(solid), smallest));
     return sizes;
   }
 } // namespace NMM

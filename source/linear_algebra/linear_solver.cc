@@ -1,5 +1,6 @@
 #include <nmm/base/exceptions.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
 #include <deal.II/lac/solver_cg.h>
 
@@ -154,8 +155,24 @@ namespace NMM
       };
 
 
+      /// Number of rows on all ranks that no constraint eliminates.
+      dealii::types::global_dof_index
+      count_unknowns(const Matrix                            &matrix,
+                     const dealii::AffineConstraints<double> &constraints)
+      {
+        const auto [first, last]          = matrix.local_range();
+        dealii::types::global_dof_index n = 0;
+        for (auto i = first; i < last; ++i)
+          n += !constraints.is_constrained(i);
+        return dealii::Utilities::MPI::sum(n, matrix.get_mpi_communicator());
+      }
+
+
       /// Solve by conjugate gradients. Returns the reason if they did not converge for one of the
-      /// right-hand sides, otherwise an empty string.
+      /// right-hand sides, otherwise an empty string. If the choice is automatic, all right-hand
+      /// sides together may take no more iterations than one may, and iterations end as soon as
+      /// the first of them shows that they would take more: the factors of a direct
+      /// solver serve all of them.
       template <typename Preconditioner>
       std::string
       solve_iterative(const Matrix                            &matrix,
@@ -172,12 +189,14 @@ namespace NMM
         report.factorization_time = timer.wall_time();
         timer.restart();
         report.n_iterations = 0;
-        std::string failure;
+        const bool is_automatic =
+          parameters.type == LinearSolverParameters::Type::automatic;
+        unsigned int n_left = parameters.max_iterations;
+        std::string  failure;
         for (unsigned int i = 0; i < all_rhs.size() && failure.empty(); ++i)
         {
           const double             norm = all_rhs[i]->l2_norm();
-          dealii::SolverControl    control(parameters.max_iterations,
-                                        parameters.tolerance * norm);
+          dealii::SolverControl    control(n_left, parameters.tolerance * norm);
           dealii::SolverCG<Vector> solver(control);
           try
           {
@@ -193,9 +212,18 @@ namespace NMM
                  << parameters.tolerance;
             failure = what.str();
           }
-          if (norm > 0.)
-            report.n_iterations =
-              std::max(report.n_iterations, control.last_step());
+          if (norm == 0.)
+            continue;
+          report.n_iterations =
+            std::max(report.n_iterations, control.last_step());
+          if (!is_automatic || !failure.empty())
+            continue;
+          n_left -= control.last_step();
+          const std::size_t n_more = all_rhs.size() - i - 1;
+          if (n_more * control.last_step() > n_left)
+            failure =
+              "Conjugate gradients would take too many iterations for "
+              "all right-hand sides";
         }
         report.solution_time = timer.wall_time();
         return failure;
@@ -226,7 +254,7 @@ namespace NMM
 
       if (parameters.type == Type::direct ||
           (parameters.type == Type::automatic &&
-           matrix.m() <= parameters.direct_limit))
+           count_unknowns(matrix, constraints) <= parameters.direct_limit))
         solve_direct(matrix, rhs, solutions, effects, report);
       else
       {

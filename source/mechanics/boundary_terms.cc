@@ -148,7 +148,9 @@ namespace NMM
 
       const unsigned int n = disk.n_functions();
       result.couplings.assign(n, dealii::Vector<double>(4 * n_per_cell));
-      result.works = result.couplings;
+      result.works          = result.couplings;
+      result.unit_tractions = {{dealii::Vector<double>(4 * n_per_cell),
+                                dealii::Vector<double>(4 * n_per_cell)}};
       result.matrix.reinit(n, n);
       result.work_matrix.reinit(n, n);
 
@@ -193,6 +195,13 @@ namespace NMM
         WeakTraction(point, n_per_cell, maker.elasticities());
       // jump and flux are those of the element minus its neighbour, and with its normal
       const double sign = inside == 0 ? 1. : -1.;
+      const auto   mean = [&](const unsigned int k) {
+        const double jump = sign * point.jump[k];
+        return k / n_per_cell == inside ? w_2 * jump : -w_1 * jump;
+      };
+      for (unsigned int k = 0; k < 2 * n_per_cell; ++k)
+        for (unsigned int c = 0; c < 2; ++c)
+          result.unit_tractions[c](2 * k + c) += point.weight * mean(k);
       for (unsigned int j = 0; j < functions.displacements.size(); ++j)
       {
         const dealii::Tensor<1, 2> &F = functions.displacements[j],
@@ -201,13 +210,13 @@ namespace NMM
         {
           const bool   is_inner = k / n_per_cell == inside;
           const double jump     = sign * point.jump[k];
-          const double mean     = is_inner ? w_2 * jump : -w_1 * jump;
           for (unsigned int c = 0; c < 2; ++c)
           {
             const double flux = sign * (traction.derivative[k][0][c] * F[0] +
                                         traction.derivative[k][1][c] * F[1]);
             result.couplings[j](2 * k + c) +=
-              point.weight * (mean * t[c] - flux + point.penalty * jump * F[c]);
+              point.weight *
+              (mean(k) * t[c] - flux + point.penalty * jump * F[c]);
             if (is_inner)
               result.works[j](2 * k + c) += point.weight * jump * t[c];
           }

@@ -8,6 +8,7 @@
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
+#include <array>
 #include <mechanics/curve_conditions.h>
 #include <mechanics/local_system.h>
 #include <mechanics/weak_points.h>
@@ -47,6 +48,9 @@ namespace NMM
       {
         /// Nitsche's bilinear form of F_j and v.
         std::vector<dealii::Vector<double>> couplings;
+        /// Integrals of w_2 v_1 + w_1 v_2 for v along each axis: the first integral of B_j with a
+        /// unit traction.
+        std::array<dealii::Vector<double>, 2> unit_tractions;
         /// Integrals of sigma(F_j) n . v on the inside.
         std::vector<dealii::Vector<double>> works;
         /// Nitsche's bilinear form of F_j and F_k.

@@ -1,6 +1,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <array>
 #include <mechanics/disk_system.h>
 #include <mechanics/ghost_terms.h>
 
@@ -8,6 +9,21 @@ namespace NMM
 {
   namespace internal
   {
+    namespace
+    {
+      /// The sum of forces on all unknowns: their work on a unit translation along each axis.
+      dealii::Tensor<1, 2>
+      resultant(const DiskSystem::Vector &forces)
+      {
+        dealii::Tensor<1, 2> sum;
+        auto                 i = forces.local_range().first;
+        for (const double force : forces)
+          sum[i++ % 2] += force;
+        return dealii::Utilities::MPI::sum(sum, forces.get_mpi_communicator());
+      }
+    } // namespace
+
+
     DiskSystem::DiskSystem(const CoverSystem                       &covers,
                            const dealii::AffineConstraints<double> &constraints,
                            const ElasticityProblem                 &problem,
@@ -47,11 +63,8 @@ namespace NMM
         add_circle(d, edge_terms, conditions);
         add_loads(d, conditions);
       }
-      for (unsigned int j = 0; j < columns.size(); ++j)
-      {
-        columns[j].compress(dealii::VectorOperation::add);
-        works[j].compress(dealii::VectorOperation::add);
-      }
+      for (Vector &work : works)
+        work.compress(dealii::VectorOperation::add);
       for (dealii::FullMatrix<double> *m : {&matrix, &work_matrix})
         dealii::Utilities::MPI::sum(*m, covers->communicator(), *m);
     }
@@ -67,6 +80,9 @@ namespace NMM
       const unsigned int                           m = disks[d]->n_functions();
       std::vector<dealii::types::global_dof_index> unknowns(4 * n_per_cell);
       EdgeTerms::DiskEdge                          local;
+      // These are columns still zero.
+      std::array<Vector, 2> unit_tractions = {
+        {columns[offsets[d]], columns[offsets[d]]}};
       for_each_tie(
         *covers,
         conditions,
@@ -85,9 +101,24 @@ namespace NMM
                                                     unknowns,
                                                     works[offsets[d] + j]);
           }
+          for (unsigned int c = 0; c < 2; ++c)
+            constraints->distribute_local_to_global(local.unit_tractions[c],
+                                                    unknowns,
+                                                    unit_tractions[c]);
           matrix.add(local.matrix, 1., offsets[d], offsets[d]);
           work_matrix.add(local.work_matrix, 1., offsets[d], offsets[d]);
         });
+      for (Vector &traction : unit_tractions)
+        traction.compress(dealii::VectorOperation::add);
+      const double length = resultant(unit_tractions[0])[0];
+      for (unsigned int j = 0; j < m; ++j)
+      {
+        Vector &column = columns[offsets[d] + j];
+        column.compress(dealii::VectorOperation::add);
+        const dealii::Tensor<1, 2> force = resultant(column);
+        for (unsigned int c = 0; c < 2; ++c)
+          column.add(-force[c] / length, unit_tractions[c]);
+      }
     }
 
 

@@ -74,7 +74,12 @@ namespace NMM
       energy(const Vector &solution) const;
 
     private:
-      /// Add the terms of the edges on the circle of disk @p d.
+      /**
+       * Add the terms of the edges on the circle of disk @p d. The tractions of a function are in
+       * equilibrium, so that a translation does no work on them. Quadrature and rounding leave a
+       * force, which displacements that are large compared with those due to the strain in the disk
+       * would multiply. It is taken away by a uniform traction.
+       */
       void
       add_circle(unsigned int           d,
                  EdgeTerms             &edge_terms,

@@ -49,6 +49,9 @@ namespace NMM
       std::vector<GrowingTip> result;
       for (unsigned int i = 0; i < tips.all_tips().size(); ++i)
       {
+        // A crack ends at the first curve that it meets.
+        if (tips.all_tips()[i].tied_curve != invalid_index)
+          continue;
         GrowingTip candidate;
         candidate.tip     = tips.all_tips()[i];
         candidate.factors = tips.all_factors()[i];

@@ -87,7 +87,8 @@ namespace NMM
     can_start_cracks(const FractureParameters    &fracture,
                      const std::vector<Material> &materials);
 
-    /// All tips of @p tips, which were computed, with what the scene's criterion says of them.
+    /// The tips of @p tips that can grow, since they do not lie on an interface, with what the scene's
+    /// criterion says of their factors, which were computed.
     std::vector<GrowingTip>
     judge_tips(const CrackTips          &tips,
                const FractureParameters &parameters,

@@ -413,8 +413,15 @@ namespace NMM
     {
       if (growing_tips.empty())
       {
-        end_reason = crack_tips->all_tips().empty() ? "no crack tip is left"
-                                                    : "no crack tip is open";
+        const auto &tips = crack_tips->all_tips();
+        end_reason       = tips.empty() ? "no crack tip is left"
+                           : std::all_of(tips.begin(),
+                                   tips.end(),
+                                   [](const CrackTip &tip) {
+                                     return tip.tied_curve != invalid_index;
+                                   })
+                             ? "all crack tips have arrived at interfaces"
+                             : "no crack tip is open";
         return false;
       }
       std::vector<GrowingTip> tips     = std::move(growing_tips);
@@ -500,7 +507,7 @@ namespace NMM
       for (GrowingTip &growing : tips)
         for (unsigned int i = 0; i < crack_tips->all_tips().size(); ++i)
           // The direction of a crack that starts follows from the stress before.
-          if (!growing.advance.is_new &&
+          if (!growing.advance.is_new && growing.extension.met.empty() &&
               crack_tips->all_tips()[i].point == growing.extension.end)
           {
             const IntensityFactors &k = crack_tips->all_factors()[i];

@@ -11,10 +11,96 @@ namespace NMM
 {
   namespace internal
   {
-    CrackTips::CrackTips(const Scene &scene, const PhysicalMesh &physical_mesh)
+    namespace
+    {
+      /// "the crack tip at (1, 2)", or "the 3 crack tips at (1, 2), (3, 4) and elsewhere".
+      std::string
+      describe_tips(const std::vector<CrackTip> &tips)
+      {
+        constexpr unsigned int n_shown = 5;
+        std::string            text =
+          tips.size() == 1
+                       ? "the crack tip at "
+                       : "the " + std::to_string(tips.size()) + " crack tips at ";
+        for (unsigned int i = 0; i < tips.size() && i < n_shown; ++i)
+          text += (i > 0 ? ", " : "") + to_string(tips[i].point);
+        return text + (tips.size() > n_shown ? " and elsewhere" : "");
+      }
+
+
+      /// What leaves the first of the tips without room, "joint 'a' is only 1e-12 m from it".
+      std::string
+      describe_room(const std::vector<CrackTip> &tips,
+                    const PhysicalMesh          &mesh,
+                    const std::string           &length_unit)
+      {
+        const CrackTip   &tip  = tips.front();
+        const std::string room = to_text(tip.free_radius) + " " + length_unit;
+        const Curve      &near = mesh.curves()[tip.nearest_curve];
+        const std::string what = to_string(near.role) + " '" + near.name + "'";
+        return (tip.nearest_curve == tip.curve
+                  ? "the crack, " + what + ", is only " + room + " long"
+                  : what + " is only " + room + " away") +
+               (tips.size() > 1 ? " from the first of them" : "");
+      }
+    } // namespace
+
+
+    CrackTips::CrackTips(const Scene             &scene,
+                         const PhysicalMesh      &physical_mesh,
+                         const ElasticityProblem &problem)
       : scene(scene)
       , tips(find_crack_tips(physical_mesh))
     {
+      std::vector<CrackTip> undefined, at_rest;
+      for (const CrackTip &tip : tips)
+      {
+        tip_has_factors.push_back(
+          has_intensity_factors(tip, physical_mesh, problem));
+        if (!tip_has_factors.back())
+          undefined.push_back(tip);
+        if (tip.tied_curve != invalid_index)
+          at_rest.push_back(tip);
+      }
+      const auto on_curve = [&](const std::vector<CrackTip> &some) {
+        const Curve &curve = physical_mesh.curves()[some.front().tied_curve];
+        return describe_tips(some) +
+               (some.size() == 1 ? " lies on "
+                                 : " lie on interfaces such as ") +
+               to_string(curve.role) + " '" + curve.name + "'";
+      };
+      if (!undefined.empty())
+        tip_notices.push_back(
+          on_curve(undefined) +
+          ", between materials of different elasticity or initial stress: "
+          "intensity factors are not defined there, since stress does not grow "
+          "like the inverse root of the distance; cells are small there as at "
+          "other tips");
+      const FractureParameters &fracture = scene.parameters().fracture;
+      if (!at_rest.empty())
+        reason_at_rest = on_curve(at_rest) + ", where cracks end";
+      if (!at_rest.empty() && fracture.n_increments > 0)
+        tip_notices.push_back(reason_at_rest + ": it does not grow");
+      const std::vector<CrackTip> without_room =
+        find_tips_without_room(physical_mesh);
+      if (without_room.empty())
+        return;
+      const std::string crowded =
+        describe_tips(without_room) +
+        (without_room.size() == 1 ? " has" : " have") +
+        " no room for cells that resolve the stress there: " +
+        describe_room(without_room,
+                      physical_mesh,
+                      scene.parameters().output.length_unit);
+      if (reason_at_rest.empty())
+        reason_at_rest = crowded;
+      tip_notices.push_back(
+        crowded +
+        "; it has no intensity factors and cells are not small there, so that "
+        "the factors of tips nearby can be wrong by a third; let the joint go "
+        "on to the next curve, or leave at least " +
+        to_text(1e6 * least_cell_size(physical_mesh)) + " " +
+        scene.parameters().output.length_unit);
     }
 
 
@@ -32,6 +118,20 @@ namespace NMM
     }
 
 
+    bool
+    CrackTips::has_factors(const unsigned int i) const
+    {
+      return tip_has_factors[i];
+    }
+
+
+    std::vector<std::string>
+    CrackTips::notices() const
+    {
+      return tip_notices;
+    }
+
+
     void
     CrackTips::restore(std::vector<IntensityFactors> earlier)
     {
@@ -44,16 +144,30 @@ namespace NMM
     void
     CrackTips::check() const
     {
+      const FractureParameters &fracture = scene.parameters().fracture;
+      const bool                is_any_of_use =
+        std::any_of(tips.begin(), tips.end(), [&](const CrackTip &tip) {
+          return fracture.n_increments == 0 || tip.tied_curve == invalid_index;
+        });
       AssertThrow(
-        !tips.empty() || can_start_cracks(scene.parameters().fracture,
-                                          scene.parameters().materials),
-        InputError("there is no crack tip that could have intensity "
-                   "factors",
-                   "parameter 'Fracture/Intensity factors'",
-                   "let an open joint end inside a block, let cracks "
-                   "grow in a material with a 'Fracture strength', or "
-                   "remove it"));
-      const double radius = scene.parameters().fracture.radius;
+        is_any_of_use ||
+          can_start_cracks(fracture, scene.parameters().materials),
+        InputError(reason_at_rest.empty()
+                     ? "there is no crack tip that could have intensity "
+                       "factors"
+                   : fracture.n_increments > 0
+                     ? "there is no crack tip that could grow, since " +
+                         reason_at_rest
+                     : "there is no crack tip that could have intensity "
+                       "factors, since " +
+                         reason_at_rest,
+                   fracture.n_increments > 0 && !reason_at_rest.empty()
+                     ? "parameter 'Fracture/Increments'"
+                     : "parameter 'Fracture/Intensity factors'",
+                   "let an open joint end inside a block, away from other "
+                   "curves, let cracks grow in a material with a 'Fracture "
+                   "strength', or remove it"));
+      const double radius = fracture.radius;
       for (const CrackTip &tip : tips)
         AssertThrow(radius <= tip.free_radius,
                     InputError("the disk of radius " + to_text(radius) +
@@ -84,8 +198,14 @@ namespace NMM
     CrackTips::compute_each(const FactorsOfTip &factors_of)
     {
       factors.clear();
-      for (const CrackTip &tip : tips)
+      for (unsigned int i = 0; i < tips.size(); ++i)
       {
+        const CrackTip &tip = tips[i];
+        if (!has_factors(i))
+        {
+          factors.emplace_back();
+          continue;
+        }
         // The free radius of a tip that has grown may be smaller than that at the start.
         factors.push_back(factors_of(
           tip,
@@ -106,8 +226,9 @@ namespace NMM
     {
       std::vector<std::string> names;
       for (unsigned int i = 0; i < tips.size(); ++i)
-        for (const std::string name : {"K_I_", "K_II_"})
-          names.push_back(name + std::to_string(i));
+        if (has_factors(i))
+          for (const std::string name : {"K_I_", "K_II_"})
+            names.push_back(name + std::to_string(i));
       return names;
     }
 
@@ -116,8 +237,9 @@ namespace NMM
     CrackTips::numbers() const
     {
       std::vector<double> values;
-      for (const IntensityFactors &k : factors)
-        values.insert(values.end(), {k.K_I, k.K_II});
+      for (unsigned int i = 0; i < factors.size(); ++i)
+        if (has_factors(i))
+          values.insert(values.end(), {factors[i].K_I, factors[i].K_II});
       return values;
     }
 
@@ -140,9 +262,12 @@ namespace NMM
            ++i)
       {
         std::ostringstream text;
-        text << "crack tip at " << to_string(tips[i].point) << ": K_I "
-             << factors[i].K_I << ", K_II " << factors[i].K_II << " (+- "
-             << factors[i].spread << ") " << intensity_unit();
+        text << "crack tip at " << to_string(tips[i].point) << ": ";
+        if (has_factors(i))
+          text << "K_I " << factors[i].K_I << ", K_II " << factors[i].K_II
+               << " (+- " << factors[i].spread << ") " << intensity_unit();
+        else
+          text << "between unlike materials, intensity factors are not defined";
         lines.push_back(text.str());
       }
       if (factors.size() > n_shown)
@@ -159,7 +284,10 @@ namespace NMM
       const auto              rate   = [](const IntensityFactors &k) {
         return k.energy_release_rate;
       };
-      if (factors.empty())
+      if (std::none_of(tip_has_factors.begin(),
+                       tip_has_factors.end(),
+                       [](const bool has) { return has; }) ||
+          factors.empty())
         return;
       const auto most = std::max_element(factors.begin(),
                                          factors.end(),
@@ -195,17 +323,16 @@ namespace NMM
           const CrackTip         &tip = tips[i];
           const IntensityFactors &k   = factors[i];
           out << i;
-          for (const double value : {tip.point[0],
-                                     tip.point[1],
-                                     tip.direction[0],
-                                     tip.direction[1],
-                                     k.K_I,
-                                     k.K_II,
-                                     k.T,
-                                     k.energy_release_rate,
-                                     k.spread,
-                                     k.radius})
+          for (const double value :
+               {tip.point[0], tip.point[1], tip.direction[0], tip.direction[1]})
             out << ',' << value;
+          for (const double value :
+               {k.K_I, k.K_II, k.T, k.energy_release_rate, k.spread, k.radius})
+          {
+            out << ',';
+            if (has_factors(i))
+              out << value;
+          }
           out << '\n';
         }
       });

@@ -22,19 +22,31 @@ namespace NMM
     class CrackTips
     {
     public:
-      CrackTips(const Scene &scene, const PhysicalMesh &physical_mesh);
+      CrackTips(const Scene             &scene,
+                const PhysicalMesh      &physical_mesh,
+                const ElasticityProblem &problem);
 
-      /// @throws InputError if there is no tip and no crack can start, or a radius is larger than
-      /// the free radius of a tip.
+      /// @throws InputError if there is no tip and no crack can start, if all tips lie on interfaces
+      /// while cracks shall grow, or if a radius is larger than the free radius of a tip.
       void
       check() const;
 
+      /// All tips with room for a singular field, also those whose stress has no intensity factors.
       const std::vector<CrackTip> &
       all_tips() const;
 
-      /// The intensity factors of all tips, which compute() has set.
+      /// Whether the stress at tip @p i has intensity factors, see has_intensity_factors().
+      bool
+      has_factors(unsigned int i) const;
+
+      /// The intensity factors of all tips, which compute() has set; zero where there are none.
       const std::vector<IntensityFactors> &
       all_factors() const;
+
+      /// Sentences for the user about tips that have no intensity factors, have no room, or cannot
+      /// grow.
+      std::vector<std::string>
+      notices() const;
 
       /// Takes over what all_factors() of an earlier part of the run returned.
       void
@@ -51,7 +63,7 @@ namespace NMM
       using FactorsOfTip =
         std::function<IntensityFactors(const CrackTip &, double, DiskRules &)>;
 
-      /// Sets the factors of all tips to those that @p factors_of gives.
+      /// Sets the factors of all tips that have some to those that @p factors_of gives.
       void
       compute_each(const FactorsOfTip &factors_of);
 
@@ -63,7 +75,7 @@ namespace NMM
       void
       add_to(Summary &summary) const;
 
-      /// Names of the columns of history.csv: K_I and K_II of each tip.
+      /// Names of the columns of history.csv: K_I and K_II of each tip that has factors.
       std::vector<std::string>
       columns() const;
 
@@ -71,14 +83,19 @@ namespace NMM
       std::vector<double>
       numbers() const;
 
-      /// Writes tips.csv. For use on one rank.
+      /// Writes tips.csv; cells of tips without factors are empty. For use on one rank.
       void
       write(const OutputDirectory &directory) const;
 
     private:
       const Scene                  &scene;
       std::vector<CrackTip>         tips;
+      std::vector<bool>             tip_has_factors;
       std::vector<IntensityFactors> factors;
+      /// What the notices say.
+      std::vector<std::string> tip_notices;
+      /// Of tips that lie on an interface, or have no room: why cracks cannot grow there.
+      std::string reason_at_rest;
       /// For all states of the solid.
       DiskRules rules;
 

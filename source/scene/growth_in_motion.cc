@@ -215,17 +215,13 @@ namespace NMM
           ? scene.parameters().relaxation.relaxation.step
           : growth->travel_time(tips, problem, *physical_mesh);
       // Cells must not become larger where a tip has been, see CarriedCovers.
-      const MathematicalMeshParameters &mesh =
-        scene.parameters().mathematical_mesh;
       if (fracture.grades_mesh())
         for (const GrowingTip &tip : tips)
           if (!tip.advance.is_new)
             further_sizes.push_back(grade_towards(
               tip.tip,
               fracture.grading,
-              mesh.type == MathematicalMeshParameters::Type::graded
-                ? mesh.graded.cell_size
-                : mesh.regular.cell_size,
+              least_cell_size(*physical_mesh),
               smallest_at_tips(fracture, /* in_motion = */ true)));
       cut_anew(grown, duration);
       growth->add(step_number(), time(), duration, tips);

@@ -355,19 +355,23 @@ namespace NMM
       GradedMeshParameters graded = parameters.graded;
       if (parameters.type == MathematicalMeshParameters::Type::regular)
         static_cast<RegularMeshParameters &>(graded) = parameters.regular;
-      const auto at_tips =
-        sizes_at_tips(physical_mesh,
-                      scene_parameters.fracture.grading,
-                      graded.cell_size,
-                      internal::smallest_at_tips(
-                        scene_parameters.fracture,
-                        scene_parameters.model.analysis == Analysis::dynamics));
-      graded.local_sizes.insert(graded.local_sizes.end(),
-                                at_tips.begin(),
-                                at_tips.end());
-      graded.local_sizes.insert(graded.local_sizes.end(),
-                                further_sizes.begin(),
-                                further_sizes.end());
+      const auto add = [&](const std::vector<LocalSize> &sizes) {
+        graded.local_sizes.insert(graded.local_sizes.end(),
+                                  sizes.begin(),
+                                  sizes.end());
+      };
+      const FractureParameters &fracture = scene_parameters.fracture;
+      add(sizes_at_tips(
+        physical_mesh,
+        fracture.grading,
+        internal::smallest_at_tips(
+          fracture, scene_parameters.model.analysis == Analysis::dynamics)));
+      // Displacements are carried over to the next mesh where cracks grow in motion. Its cells must
+      // not be larger, while those at corners grow with the crack.
+      if (fracture.n_increments == 0 ||
+          scene_parameters.model.analysis == Analysis::statics)
+        add(sizes_at_corners(physical_mesh, fracture.grading));
+      add(further_sizes);
       check_memory(scene_parameters, graded, physical_mesh, communicator);
       return make_graded_mesh(physical_mesh, graded, parameters.degree);
     }

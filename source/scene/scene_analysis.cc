@@ -88,7 +88,7 @@ namespace NMM
       if (fracture.tips == FractureParameters::Tips::automatic &&
           can_have_tip_covers())
         add_tip_covers(std::move(geometry));
-      crack_tips = std::make_unique<CrackTips>(scene, *physical_mesh);
+      crack_tips = std::make_unique<CrackTips>(scene, *physical_mesh, problem);
     }
 
 
@@ -286,7 +286,8 @@ namespace NMM
       summary.add("cleaning_actions", cleaning_actions.size());
       summary.add("notices",
                   scene.notices().size() + scene_notices.size() +
-                    physical_mesh->notices().size() + own_mesh_notices.size());
+                    physical_mesh->notices().size() + own_mesh_notices.size() +
+                    (crack_tips ? crack_tips->notices().size() : 0));
     }
 
 
@@ -308,7 +309,7 @@ namespace NMM
                                   return limit > 0. && area < limit;
                                 }));
       const PhysicalMesh::DanglingEnds &ends = physical_mesh->dangling_ends();
-      summary.add("crack_tips", ends.n_kept);
+      summary.add("crack_tips", find_crack_ends(*physical_mesh).size());
       summary.add("tip_covers", tip_covers.size());
       summary.add("crack_length", ends.length_kept, length);
       summary.add("dropped_ends", ends.n_dropped);
@@ -320,8 +321,9 @@ namespace NMM
     SceneAnalysis::tip_in_the_largest_cell() const
     {
       std::pair<dealii::Point<2>, double> largest;
-      for (const dealii::Point<2> &tip : physical_mesh->dangling_ends().tips)
+      for (const CrackEnd &end : find_crack_ends(*physical_mesh))
       {
+        const dealii::Point<2> &tip = end.point;
         if (std::any_of(tip_covers.begin(),
                         tip_covers.end(),
                         [&](const auto &cover) {
@@ -363,7 +365,9 @@ namespace NMM
         result.push_back(text.str());
       }
       const auto [tip, cell_size] = tip_in_the_largest_cell();
-      const double mean_length    = ends.length_kept / ends.n_kept;
+      double mean_length          = 0.;
+      for (const CrackEnd &end : find_crack_ends(*physical_mesh))
+        mean_length += end.length / summary.value("crack_tips");
       if (cell_size > 1e-3 * mean_length)
       {
         text.str("");
@@ -372,8 +376,7 @@ namespace NMM
              "of the tip at "
           << to_string(tip) << " is of " << cell_size << ' ' << length
           << ", cracks have a mean length of " << mean_length << ' ' << length
-          << " per tip; 'Fracture/Tips = graded' makes cells at tips "
-             "small";
+          << "; 'Fracture/Tips = graded' makes cells at tips small";
         result.push_back(text.str());
       }
       if (summary.value("small_blocks") > 0.)
@@ -415,6 +418,8 @@ namespace NMM
       add_notices(scene_notices);
       add_notices(physical_mesh->notices());
       add_notices(block_notices());
+      if (crack_tips)
+        add_notices(crack_tips->notices());
       add_notices(own_mesh_notices);
       if (contact)
         add_notices(contact->notices());
@@ -525,10 +530,12 @@ namespace NMM
         dealii::Tensor<1, 2>      u;
         if (entry.element >= first && entry.element < last)
           u = evaluator->displacement(entry.element, entry.x);
-        cracks->tips.push_back({entry.x,
-                                dealii::Utilities::MPI::sum(u, communicator),
-                                crack_tips->all_tips()[i].direction,
-                                crack_tips->all_factors()[i]});
+        u = dealii::Utilities::MPI::sum(u, communicator);
+        if (crack_tips->has_factors(i))
+          cracks->tips.push_back({entry.x,
+                                  u,
+                                  crack_tips->all_tips()[i].direction,
+                                  crack_tips->all_factors()[i]});
       }
       if (growth_table != nullptr)
         for (const Increment &increment : growth_table->increments())

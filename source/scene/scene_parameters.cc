@@ -180,7 +180,8 @@ namespace NMM
                 "direct: MUMPS; iterative: conjugate gradients with algebraic "
                 "multigrid, which needs less memory; automatic: direct up to "
                 "Direct limit unknowns, above it iterative, and direct after "
-                "all if that does not converge.");
+                "all if that takes more than Maximum iterations for the loads "
+                "and all functions at crack tips together.");
     entries.add(
       "Direct limit",
       parameters.direct_limit,

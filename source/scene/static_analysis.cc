@@ -76,11 +76,14 @@ namespace NMM
         const std::string iterations = "conjugate gradients, " +
                                        std::to_string(report.n_iterations) +
                                        " iterations";
-        stage.remark(!report.direct ? iterations
-                     : report.n_iterations == 0
-                       ? "direct solver"
-                       : "direct solver, since " + iterations +
-                           " did not converge");
+        stage.remark(
+          !report.direct ? iterations
+          : report.n_iterations == 0
+            ? "direct solver"
+            : "direct solver, since conjugate gradients would take "
+              "more than " +
+                std::to_string(scene.parameters().solver.max_iterations) +
+                " iterations in all");
         summary.add("solver_direct", report.direct ? 1. : 0.);
         summary.add("solver_iterations", report.n_iterations);
         summary.add("solver_relative_residual", report.relative_residual);

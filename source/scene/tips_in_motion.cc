@@ -1,5 +1,6 @@
 #include <deal.II/base/function.h>
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <scene/current_stress.h>
@@ -129,7 +130,9 @@ namespace NMM
       const auto [first, last] = covers->locally_owned_elements();
       Tensor<2, 2> local;
       for (unsigned int element = first; element < last; ++element)
-        if (manifold_mesh->region(element) == tip.region &&
+        if (std::find(tip.regions.begin(),
+                      tip.regions.end(),
+                      manifold_mesh->region(element)) != tip.regions.end() &&
             manifold_mesh->reference_point(element).distance(tip.point) <
               tip.free_radius)
           local +=

@@ -77,6 +77,111 @@ namespace
   }
 
 
+  TEST(CrackTip, LiesOnInterfacesAndTiedJoints)
+  {
+    // On the side of an inclusion: the disk may hold both parts of that side, up to its corners.
+    const std::string inclusion =
+      "interface name=inclusion material=ore POLYGON ((1 -1, 3 -1, 3 2, 1 "
+      "2))\n";
+    auto tips = tips_of(inclusion + "joint name=crack LINESTRING (-2 0, 1 0)");
+    ASSERT_EQ(tips.size(), 2u);
+    EXPECT_EQ(tips[0].tied_curve, NMM::invalid_index);
+    EXPECT_EQ(tips[0].regions.size(), 1u);
+    EXPECT_EQ(tips[1].point, Point<2>(1., 0.));
+    EXPECT_EQ(tips[1].direction, Point<2>(1., 0.));
+    EXPECT_NE(tips[1].tied_curve, NMM::invalid_index);
+    EXPECT_EQ(tips[1].regions.size(), 2u);
+    // The side of the inclusion runs on around all of it and ends in the tip again, so that nothing
+    // but the boundary at x = 5 and the other end of the crack are left.
+    EXPECT_DOUBLE_EQ(tips[1].free_radius, 3.);
+    // In a corner of the inclusion.
+    tips = tips_of(inclusion + "joint LINESTRING (-2 -1, 1 -1)");
+    ASSERT_EQ(tips.size(), 2u);
+    EXPECT_EQ(tips[1].regions.size(), 2u);
+    // Along the lower side, from outside of it to its middle; where the crack arrives at the corner,
+    // the other sides begin.
+    tips = tips_of(inclusion + "joint LINESTRING (0 -1, 2 -1)");
+    ASSERT_EQ(tips.size(), 2u);
+    EXPECT_EQ(tips[1].point, Point<2>(2., -1.));
+    EXPECT_EQ(tips[1].regions.size(), 2u);
+    EXPECT_DOUBLE_EQ(tips[1].free_radius, 1.);
+    // Both ends on a side.
+    tips = tips_of(inclusion + "joint LINESTRING (1.5 -1, 2 -1)");
+    ASSERT_EQ(tips.size(), 2u);
+    EXPECT_DOUBLE_EQ(tips[0].free_radius, 0.5);
+    // On a joint that is tied, but not where that ends at the boundary.
+    const std::string tied = "joint state=closed LINESTRING (1 -6, 1 6)\n";
+    EXPECT_EQ(tips_of(tied + "joint LINESTRING (-2 0, 1 0)").size(), 2u);
+    EXPECT_EQ(tips_of(tied + "joint LINESTRING (-2 0, 1 5)").size(), 1u);
+    // A crack that crosses an interface has no tip there.
+    EXPECT_EQ(tips_of(inclusion + "joint LINESTRING (-2 0, 2 0)").size(), 2u);
+  }
+
+
+  TEST(CrackTip, WithoutRoomIsNamedApart)
+  {
+    const std::string outline = "boundary POLYGON ((-5 -5, 5 -5, 5 5, -5 5))\n";
+    const auto        mesh_of = [&](const std::string &joints) {
+      return NMM::PhysicalMesh(NMM::parse_geometry(outline + joints, ""));
+    };
+    // 1e4 eps times the largest coordinate is 1.1e-11.
+    const auto narrow =
+      mesh_of("joint name=a LINESTRING (-1 0, 4.99999999999 0)");
+    EXPECT_EQ(NMM::find_crack_tips(narrow).size(), 1u);
+    const auto crowded = NMM::find_tips_without_room(narrow);
+    ASSERT_EQ(crowded.size(), 1u);
+    EXPECT_EQ(narrow.curves()[crowded[0].nearest_curve].role,
+              NMM::CurveRole::boundary);
+    EXPECT_EQ(NMM::find_crack_ends(narrow).size(), 2u);
+    EXPECT_NEAR(NMM::find_crack_ends(narrow)[0].length, 6., 1e-10);
+    // There is room for a gap of 1e-10 of the size, and it is the free radius.
+    const auto wide = mesh_of("joint name=a LINESTRING (-1 0, 4.999999999 0)");
+    ASSERT_EQ(NMM::find_crack_tips(wide).size(), 2u);
+    EXPECT_NEAR(NMM::find_crack_tips(wide)[1].free_radius, 1e-9, 1e-15);
+    EXPECT_TRUE(NMM::find_tips_without_room(wide).empty());
+  }
+
+
+  TEST(CrackCorner, IsWhereTheSolidReachesIn)
+  {
+    const auto corners_of = [](const std::string &joints) {
+      return NMM::find_crack_corners(NMM::PhysicalMesh(NMM::parse_geometry(
+                                       "boundary POLYGON ((-5 -5, 5 -5, 5 5, "
+                                       "-5 5))\n" +
+                                         joints,
+                                       "")),
+                                     20. * pi / 180.);
+    };
+    const auto kink = corners_of("joint LINESTRING (-1 0, 0 0, 0 0.5)");
+    ASSERT_EQ(kink.size(), 1u);
+    EXPECT_EQ(kink[0].point, Point<2>(0., 0.));
+    EXPECT_NEAR(kink[0].angle, 1.5 * pi, 1e-14);
+    EXPECT_DOUBLE_EQ(kink[0].free_radius, 0.5);
+    // Turns of 17 and of 22 degrees.
+    EXPECT_TRUE(corners_of("joint LINESTRING (-1 0, 0 0, 1 0.3)").empty());
+    EXPECT_EQ(corners_of("joint LINESTRING (-1 0, 0 0, 1 0.4)").size(), 1u);
+    // Branches to one side, to both sides, and a tee.
+    EXPECT_EQ(corners_of("joint LINESTRING (-1 0, 0 0)\n"
+                         "joint LINESTRING (0 0, -0.5 0.5)\n"
+                         "joint LINESTRING (0 0, 0 1)")
+                .size(),
+              1u);
+    EXPECT_TRUE(corners_of("joint LINESTRING (-1 0, 0 0)\n"
+                           "joint LINESTRING (0 0, 1 1)\n"
+                           "joint LINESTRING (0 0, 1 -1)")
+                  .empty());
+    EXPECT_TRUE(corners_of("joint LINESTRING (-1 0, 1 0)\n"
+                           "joint LINESTRING (0 0, 0 1)")
+                  .empty());
+    // At the boundary the solid is on one side of it.
+    EXPECT_TRUE(corners_of("joint LINESTRING (-6 0, 0 0)").empty());
+    // An arc that goes on in the direction of its tangent.
+    EXPECT_TRUE(corners_of("joint COMPOUNDCURVE ((-2 1, 0 1), "
+                           "CIRCULARSTRING (0 1, 0.6 0.8, 1 0))")
+                  .empty());
+  }
+
+
   /// Follow the angle along a circle about the tip from the one face to the other: it has
   /// to be the circle's own angle.
   void

@@ -248,7 +248,8 @@ namespace
       GradedMeshParameters parameters;
       parameters.cell_size = cell_size;
       for (const CrackTip &tip : find_crack_tips(mesh))
-        parameters.local_sizes.push_back(grade_towards(tip, growth, cell_size));
+        parameters.local_sizes.push_back(
+          grade_towards(tip, growth, least_cell_size(mesh)));
       return make_graded_mesh(mesh, parameters, 2);
     });
   }
@@ -318,6 +319,24 @@ namespace
     // it; half of that is asked for.
     EXPECT_LT(error_of(fine.factors), error_of(coarse.factors) / 5.);
     EXPECT_LT(fine.errors.displacement, coarse.errors.displacement / 5.);
+  }
+
+
+  // Williams' exponents of corners, of which the literature gives four digits (M. Williams 1952; 0.5445
+  // for 270 degrees). Both ends of the range are known exactly.
+  TEST(IntensityFactors, CornersHaveWilliamsExponents)
+  {
+    constexpr double pi = dealii::numbers::PI;
+    EXPECT_NEAR(corner_exponent(1.5 * pi), 0.5445, 5e-5);
+    EXPECT_NEAR(corner_exponent(5. / 3. * pi), 0.5122, 5e-5);
+    EXPECT_NEAR(corner_exponent((2. - 1e-9) * pi), 0.5, 1e-6);
+    EXPECT_NEAR(corner_exponent((1. + 1e-9) * pi), 1., 1e-6);
+    const CrackCorner corner{{1., 2.}, 1.5 * pi, 3.};
+    const LocalSize   size = grade_towards(corner, 0.25, 0.);
+    // (s / R)^(2 lambda) is 1e-6.
+    EXPECT_NEAR(std::pow(size.size / 3., 2. * 0.5444837), 1e-6, 1e-11);
+    EXPECT_NEAR(size.exponent, 1. - 0.5444837 / 3., 1e-7);
+    EXPECT_EQ(grade_towards(corner, 0.25, 0.1).size, 0.1);
   }
 
 

@@ -267,7 +267,7 @@ namespace
     const PhysicalMesh physical_mesh(geometry);
     const std::vector<CrackTip> tips = find_crack_tips(physical_mesh);
     GradedMeshParameters mesh;
-    mesh.local_sizes = sizes_at_tips(physical_mesh, 0.25, mesh.cell_size);
+    mesh.local_sizes = sizes_at_tips(physical_mesh, 0.25);
     for (const CrackTip &tip : tips)
       {
         const IntensityFactors k = compute_intensity_factors(field, problem, tip);

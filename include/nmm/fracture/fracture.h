@@ -38,7 +38,7 @@
  * const PhysicalMesh physical_mesh(geometry);
  * const std::vector<CrackTip> tips = find_crack_tips(physical_mesh);
  * GradedMeshParameters mesh;                        // with its cell size
- * mesh.local_sizes = sizes_at_tips(physical_mesh, 0.25, mesh.cell_size);
+ * mesh.local_sizes = sizes_at_tips(physical_mesh, 0.25);
  * // ... covers, StaticElasticity, DisplacementField field ...
  * for (const CrackTip &tip : tips)
  *   {

@@ -99,6 +99,19 @@ namespace NMM
 
 
   /**
+   * Whether the stress at a tip grows like the inverse root of the distance, so that it has intensity
+   * factors: whether all materials around it have the same elasticity. Where they differ, the
+   * exponent is another one, or a complex number if the crack runs along the interface. Materials
+   * whose initial stress differs do not count as equal either, since the integrals would need terms
+   * on their interface. Density and toughness may differ.
+   */
+  bool
+  has_intensity_factors(const CrackTip          &tip,
+                        const PhysicalMesh      &physical_mesh,
+                        const ElasticityProblem &problem);
+
+
+  /**
    * Intensity factors of a crack tip by interaction integrals in domain form, for each of several
    * disks about the tip. The displacement can be any function.
    *
@@ -145,9 +158,10 @@ namespace NMM
    * In motion the inertia -rho d^2u/dt^2 is a part of the body force; at the tip it is left in the
    * part that varies. The factors are those of the crack as it stands still.
    *
-   * Limits: displacements are small, and initial stress is uniform in the region. Within the disk
-   * there is no inelastic strain, no viscous stress, and no curve but this crack
-   * (CrackTip::free_radius).
+   * Limits: displacements are small, and initial stress is uniform in the regions at the tip. Within
+   * the disk there is no inelastic strain, no viscous stress, and no curve but this crack
+   * (CrackTip::free_radius) and interfaces through its tip between materials of the same elasticity
+   * (has_intensity_factors()). Traction and displacement are continuous there, and so is P_jn_j.
    *
    * Sources: M. Stern, E. Becker, R. Dunham, Int. J. Fract. 12 (1976), 359-368; J. Yau, S. Wang, H.
    * Corten, J. Appl. Mech. 47 (1980), 335-341; the form for bent cracks is derived here.

@@ -76,7 +76,7 @@ namespace NMM
    * which the crack is straight, 0.8 times the distance to point forces and fixed points of
    * @p problem, and 0.45 times the distance to other tips, so that disks do not overlap. A tip where
    * this is less than @p least_radius [m], or less than @p least_share of the free radius [-], has no
-   * cover. A cover makes intensity factors more accurate however small it is, but spares cells only
+   * cover, nor has a tip on an interface. A cover makes intensity factors more accurate however small it is, but spares cells only
    * from a share of about 0.4 on, since the mesh must be graded towards its circle.
    */
   std::vector<std::unique_ptr<TipCover>>

@@ -10,26 +10,44 @@
 namespace NMM
 {
   /**
-   * The cell sizes about a crack tip that distribute the error of second-order displacements
-   * equally among cells. The error of displacements is h^3 times their third derivatives, which
-   * grow like r^(-5/2). Its square, times h^(-2) for the strain and times the area h^2 of a cell,
-   * is the energy of the error in a cell,
-   * @f[ h^6\,r^{-5} = \mathrm{const.}
-       \quad\Rightarrow\quad h = g R \left(\frac rR\right)^{5/6}, @f]
-   * where R is the free radius of the tip and g = @p growth is the size of cells at the distance R
-   * over R [-]. About 44 / g^2 cells lie in the disk r < R, for any cell size at
-   * the tip. That size is @p smallest times R: the crack is open only up to the cell that contains
-   * its tip, and a crack that is too short by a fraction of its length has a K that is too small
-   * by about half of that fraction.
-   *
-   * A cell can be halved at most 20 times, so that the size of cells elsewhere, @p cell_size [m],
-   * bounds the size at the tip from below.
+   * The cell sizes about a singular point that distribute the error of second-order displacements
+   * equally among cells, where the displacement is of degree @f$\lambda@f$ in the distance r: 1/2
+   * at a crack tip, corner_exponent() at a corner. The error of displacements is h^3 times their
+   * third derivatives, which grow like @f$r^{\lambda-3}@f$. Its square, times h^(-2) for the strain
+   * and times the area h^2 of a cell, is the energy of the error in a cell,
+   * @f[ h^6\,r^{2\lambda-6} = \mathrm{const.}
+       \quad\Rightarrow\quad h = g R \left(\frac rR\right)^{1-\lambda/3}, @f]
+   * where R is the free radius and g = @p growth is the size of cells at the distance R over R [-].
+   * About 22 / (lambda g^2) cells lie in the disk r < R, for any cell size at the point. That size s
+   * is R times @p smallest at a tip, and at least @p least_size [m] (least_cell_size()). The crack
+   * is open only up to the cell that contains its tip, and a crack that is too short by a fraction
+   * of its length has a K that is too small by about half of that fraction.
    */
   LocalSize
   grade_towards(const CrackTip &tip,
                 double          growth,
-                double          cell_size,
+                double          least_size,
                 double          smallest = 1e-6);
+
+  /**
+   * The cell sizes about a corner of a crack. The energy of the field within the distance s of it is
+   * the share @f$(s/R)^{2\lambda}@f$ of that within R. Cells at the corner are so small that this is
+   * @p smallest, as at a tip.
+   */
+  LocalSize
+  grade_towards(const CrackCorner &corner,
+                double             growth,
+                double             least_size,
+                double             smallest = 1e-6);
+
+  /**
+   * The exponent lambda of the displacement r^lambda at a corner with free faces, whose solid has
+   * the angle alpha = @p angle in (pi, 2 pi) [rad]: the root in (1/2, 1) of
+   * @f[ \sin\lambda\alpha + \lambda\sin\alpha = 0. @f]
+   * Source: M. Williams, J. Appl. Mech. 19 (1952), 526-528.
+   */
+  double
+  corner_exponent(double angle);
 
 
   /**
@@ -42,8 +60,13 @@ namespace NMM
   std::vector<LocalSize>
   sizes_at_tips(const PhysicalMesh &solid,
                 double              growth,
-                double              cell_size,
                 double              smallest = 1e-6);
+
+  /// The cell sizes about the corners of cracks that turn by more than 20 degrees.
+  std::vector<LocalSize>
+  sizes_at_corners(const PhysicalMesh &solid,
+                   double              growth,
+                   double              smallest = 1e-6);
 } // namespace NMM
 
 #endif

@@ -33,7 +33,8 @@ namespace NMM
     enum class Type
     {
       /// Direct up to `direct_limit` unknowns, iterative above. If iterations do
-      /// not converge, direct.
+      /// not converge, or if all right-hand sides together would take more than
+      /// `max_iterations` of them, direct.
       automatic,
       /// Symmetric factorization, see DirectSolver.
       direct,
@@ -43,7 +44,8 @@ namespace NMM
     };
     /// Which solver is used.
     Type type = Type::automatic;
-    /// Largest number of unknowns for which `automatic` is direct; see the table.
+    /// Largest number of unknowns for which `automatic` is direct; see the table. Covers that are
+    /// aggregated have none.
     unsigned int direct_limit = 100000;
     /// Relative residual |b - A x| / |b| at which iterations end [-].
     double tolerance = 1e-11;
@@ -60,7 +62,7 @@ namespace NMM
   struct LinearSolverReport
   {
     /// Whether the direct solver found the solution. If `n_iterations` is not 0, iterations
-    /// had been tried before and did not converge. Also true if the right-hand side is zero, so
+    /// had been tried before and did not converge, or would have taken too long. Also true if the right-hand side is zero, so
     /// that nothing was solved.
     bool direct = true;
     /// Iterations of conjugate gradients; 0 if they were not tried.

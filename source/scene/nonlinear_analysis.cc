@@ -1,4 +1,5 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/base/stop.h>
 
 #include <algorithm>
 #include <cmath>
@@ -83,6 +84,12 @@ namespace NMM
           run_incremental();
       }
       catch (const NumericalFailure &)
+      {
+        finish();
+        verify();
+        throw;
+      }
+      catch (const Stopped &)
       {
         finish();
         verify();
@@ -348,6 +355,7 @@ namespace NMM
                       *evaluator,
                       sample_cracks().get());
       }
+      stop_if_asked(communicator);
     }
 
 

@@ -1,5 +1,6 @@
 #include "driver.h"
 
+#include <nmm/base/memory.h>
 #include <nmm/base/program.h>
 #include <nmm/output/progress.h>
 #include <nmm/scene/run_scene.h>
@@ -90,7 +91,9 @@ namespace
             "Scene files are explained in "
             "doc/scene-format.md.\n\n"
             "Exit codes: 0 success, 1 internal error, 2 bad input (nothing "
-            "is written),\n3 no solution (what is known is written).\n";
+            "is written),\n3 no solution (what is known is written), 4 "
+            "stopped by Ctrl-C or SIGTERM at the end\nof a step (what is known "
+            "is written).\n";
     return text.str();
   }
 
@@ -247,6 +250,7 @@ namespace
       return print_from_first_rank(text.str(), communicator);
     }
     dealii::MultithreadInfo::set_thread_limit(options.n_threads);
+    NMM::reserve_work_space();
     run_scene(options, communicator, has_output);
   }
 

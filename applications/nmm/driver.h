@@ -11,7 +11,7 @@
  *
  * Returns the exit code of the program: 0 for success, 2 for bad input (nothing is
  * written), 3 if there is no solution (what is known is written) or results cannot
- * be written, 1 for mistakes in this program.
+ * be written, 4 if a signal has stopped it at the end of a step, 1 for mistakes in this program.
  *
  * It may be called repeatedly in one process: tests of bad input do so.
  */

@@ -1,6 +1,8 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/base/memory.h>
 
+#include <deal.II/lac/full_matrix.h>
+
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -172,6 +174,22 @@ namespace NMM
     AvailableMemory result = available_memory(n_processes);
     result.bytes           = MPI::min(result.bytes, communicator);
     return result;
+  }
+
+
+  void
+  reserve_work_space()
+  {
+    // The buffer of OpenBLAS on 64-bit machines is 2^27 bytes, and a page more.
+    constexpr double size = 134.3e6;
+    require_memory(size,
+                   available_memory(1u),
+                   "the work space of the linear algebra",
+                   "the start of the program",
+                   [](double) { return "raise this limit"; });
+    constexpr unsigned int     n = 64;
+    dealii::FullMatrix<double> a(n, n), product(n, n);
+    a.mmult(product, a);
   }
 
 

@@ -1,8 +1,10 @@
 #include <nmm/base/program.h>
+#include <nmm/base/stop.h>
 
 #include <boost/serialization/utility.hpp>
 #include <cerrno>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <new>
@@ -45,6 +47,10 @@ namespace NMM
     catch (const OutputFailure &error)
     {
       return {ExitCode::numerical_failure, error.message()};
+    }
+    catch (const Stopped &error)
+    {
+      return {ExitCode::stopped, error.message()};
     }
     catch (const UserError &error)
     {
@@ -110,6 +116,8 @@ namespace NMM
         throw InputError(end.second, "", "");
       case ExitCode::numerical_failure:
         throw NumericalFailure(end.second, "", "");
+      case ExitCode::stopped:
+        throw Stopped(end.second, "", "");
       case ExitCode::internal_error:
         throw std::runtime_error(end.second);
     }
@@ -135,8 +143,22 @@ namespace NMM
   }
 
 
+  namespace
+  {
+    /// Lets a process that no launcher has started initialize MPI without the daemon that Open MPI
+    /// starts beside it otherwise, which takes longer than a small scene. Its only use is to start
+    /// further processes. Under a launcher this has no effect. Returns its argument.
+    const char *
+    without_daemon(const char *program_name)
+    {
+      setenv("OMPI_MCA_ess_singleton_isolated", "1", /* overwrite = */ 0);
+      return program_name;
+    }
+  } // namespace
+
+
   MPISession::MPISession(const char *program_name)
-    : name(program_name)
+    : name(without_daemon(program_name))
     , words{name.data(), nullptr}
     , mpi(n_words, first_word, 1)
   {

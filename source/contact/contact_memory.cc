@@ -1,6 +1,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <base/archive.h>
 #include <contact/contact_memory.h>
 
 namespace NMM
@@ -22,6 +23,64 @@ namespace NMM
         for (const auto &part : Parallel::all_gather(communicator, items))
           all.insert(all.end(), part.begin(), part.end());
         items = std::move(all);
+      }
+
+
+      /// Checks that a history fits a surface: it may come from a file.
+      void
+      check(const ContactHistory &history, const ContactSurface &surface)
+      {
+        const unsigned int n_edges      = surface.edges().size();
+        const auto         require_edge = [&](const unsigned int edge) {
+          require_in_checkpoint(edge < n_edges,
+                                "a face in contact is not there");
+        };
+        const auto require_place = [&](const unsigned int place) {
+          // The corners of masters are of the last two kinds.
+          const unsigned int n_places = (PointKind::master_ends + 3) * n_edges;
+          require_in_checkpoint(place < n_places,
+                                "a place in contact is not there");
+        };
+        const auto require_finite = [](const auto &numbers) {
+          require_in_checkpoint(are_finite(numbers),
+                                "a number of the contact is not finite");
+        };
+        for (const ContactHistory::Stick &stick : history.sticks)
+        {
+          require_place(stick.place);
+          require_edge(stick.edge);
+          require_finite(std::vector<double>{stick.s, stick.t, stick.slip});
+        }
+        for (const auto &[place, edge] : history.entrances)
+        {
+          require_place(place);
+          require_edge(edge);
+        }
+        for (const auto &[edge, other] : history.touching)
+        {
+          require_edge(edge);
+          require_edge(other);
+        }
+        const unsigned int n_bodies = surface.n_bodies();
+        for (const ContactHistory::PairEnergy &pair : history.pair_energies)
+        {
+          require_in_checkpoint(pair.first < n_bodies && pair.second < n_bodies,
+                                "a body in contact is not there");
+          require_finite(pair.energies);
+        }
+        require_in_checkpoint(history.former_bodies.empty() ||
+                                history.former_bodies.size() == n_bodies,
+                              "bodies have come from another number of them");
+        require_finite(history.multipliers);
+        require_finite(history.searched_displacements);
+        require_in_checkpoint(history.searched_displacements.empty() ||
+                                history.searched_displacements.size() ==
+                                  2 * surface.cover_system().n_covers(),
+                              "it is of another number of covers in contact");
+        require_in_checkpoint(std::isfinite(history.searched_time) &&
+                                std::isfinite(history.searched_reach) &&
+                                history.searched_reach >= 0.,
+                              "time or reach of the search is no number");
       }
     } // namespace
 
@@ -94,6 +153,7 @@ namespace NMM
     ContactMemory::restore(const ContactHistory &history,
                            const ContactSurface &surface)
     {
+      check(history, surface);
       const unsigned int n_edges = surface.edges().size();
       has_accepted_state         = history.has_accepted_state;
       touching_reach             = history.touching_reach;

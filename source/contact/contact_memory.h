@@ -56,7 +56,8 @@ namespace NMM
       void
       save(MPI_Comm communicator, ContactHistory &history) const;
 
-      /// Take over the part of the history that this rank needs.
+      /// Take over the part of the history that this rank needs. @throws InputError for a history
+      /// that does not fit the surface, as that of a damaged file.
       void
       restore(const ContactHistory &history, const ContactSurface &surface);
     };

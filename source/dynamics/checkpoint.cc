@@ -2,18 +2,18 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <boost/archive/binary_iarchive.hpp>
-#include <boost/archive/binary_oarchive.hpp>
-#include <boost/serialization/array.hpp>
-#include <boost/serialization/vector.hpp>
+#include <algorithm>
+#include <base/archive.h>
+#include <cmath>
 #include <dynamics/checkpoint_file.h>
 #include <dynamics/hash.h>
-#include <sstream>
 #include <vector>
 
 namespace NMM
 {
+  using internal::are_finite;
   using internal::refuse_checkpoint;
+  using internal::require_in_checkpoint;
 
   namespace
   {
@@ -45,6 +45,43 @@ namespace NMM
       archive &state.sums.fracture &state.sums.cuts;
       archive &state.closing.begin &state.closing.end;
       archive &state.left_blocks &state.rest;
+    }
+
+
+    /// Checks the numbers of a state that was read, of @p n_blocks blocks.
+    void
+    check_scalars(const DynamicState &state, const unsigned int n_blocks)
+    {
+      const EnergySums &sums = state.sums;
+      require_in_checkpoint(
+        are_finite(std::vector<double>{state.time,
+                                       state.events_passed,
+                                       state.next_step,
+                                       state.kinetic,
+                                       sums.initial,
+                                       sums.external_work,
+                                       sums.dissipated,
+                                       sums.left,
+                                       sums.fracture,
+                                       sums.cuts,
+                                       state.closing.begin,
+                                       state.closing.end}) &&
+          state.time >= 0. && state.next_step >= 0.,
+        "times and energies in it are not finite, or times negative");
+      std::vector<bool> has_left(n_blocks, false);
+      for (const unsigned int block : state.left_blocks)
+      {
+        require_in_checkpoint(block < n_blocks && !has_left[block],
+                              "a block that has left is not there");
+        has_left[block] = true;
+      }
+      require_in_checkpoint(state.rest.empty() || state.rest.size() == n_blocks,
+                            "it is of another number of blocks");
+      for (const auto &[since, force_x, force_y, moment] : state.rest)
+        require_in_checkpoint(
+          since >= 0. &&
+            are_finite(std::vector<double>{force_x, force_y, moment}),
+          "the rest of a block is no time, or the force on it not finite");
     }
 
 
@@ -83,23 +120,13 @@ namespace NMM
     const DynamicState    &state = integrator.state();
     const MechanicalModel &model = integrator.model();
     const SavedModel      &saved = model_interface<SavedModel>(model);
-    std::ostringstream     out;
-    {
-      boost::archive::binary_oarchive archive(out);
-      const std::uint64_t             mesh = saved.fingerprint();
-      const std::uint64_t scheme      = scheme_fingerprint(integrator.scheme());
-      const bool          is_closing  = state.closing.act_at(state.time);
-      const auto          model_state = saved.internal_state();
-      archive << mesh << scheme << is_closing << model_state;
-      archive_scalars(archive, state);
-      for (const Vector *vector : vectors_of(state))
-      {
-        const std::vector<double> values = global_values(*vector);
-        archive << values;
-      }
-    }
-    const std::string text = out.str();
-    internal::CheckpointFile{kind, of_caller, {text.begin(), text.end()}}.write(
+    internal::ByteWriter   archive;
+    archive &saved.fingerprint() & scheme_fingerprint(integrator.scheme()) &
+      state.closing.act_at(state.time) & saved.internal_state();
+    archive_scalars(archive, state);
+    for (const Vector *vector : vectors_of(state))
+      archive &global_values(*vector);
+    internal::CheckpointFile{kind, of_caller, archive.written}.write(
       filename, model.communicator());
   }
 
@@ -119,12 +146,11 @@ namespace NMM
     const MechanicalModel &model = integrator.model();
     const auto             file =
       internal::CheckpointFile::read(filename, model.communicator(), kind);
-    std::istringstream in(std::string(file.state.begin(), file.state.end()));
-    boost::archive::binary_iarchive archive(in);
-    std::uint64_t                   mesh, scheme;
-    bool                            is_closing;
-    std::vector<char>               model_state;
-    archive >> mesh >> scheme >> is_closing >> model_state;
+    internal::ByteReader               archive(file.state);
+    std::uint64_t                      mesh, scheme;
+    bool                               is_closing;
+    std::vector<char>                  model_state;
+    archive &mesh &scheme &is_closing &model_state;
     if (mesh != model_interface<SavedModel>(model).fingerprint())
       refuse_checkpoint(
         "The checkpoint is of another mesh, geometry, material or kinematics",
@@ -134,16 +160,16 @@ namespace NMM
                         filename);
     DynamicState state = integrator.state();
     archive_scalars(archive, state);
-    const unsigned int n_blocks = model_interface<BlockModel>(model).n_blocks();
-    if (state.left_blocks.size() > n_blocks || state.rest.size() > n_blocks)
-      refuse_checkpoint("The checkpoint is of more blocks than the " +
-                          std::to_string(n_blocks) + " of the scene",
-                        filename);
+    check_scalars(state, model_interface<BlockModel>(model).n_blocks());
+    require_in_checkpoint(is_closing == state.closing.act_at(state.time),
+                          "its closing forces do not fit its time");
     state.closing.forces = is_closing ? state.u : Vector();
     for (Vector *vector : vectors_of(state))
     {
       std::vector<double> values;
-      archive >> values;
+      archive            &values;
+      require_in_checkpoint(are_finite(values),
+                            "a value of an unknown is not finite");
       if (values.size() != vector->size())
         refuse_checkpoint("The checkpoint has " +
                             std::to_string(values.size()) +
@@ -154,8 +180,16 @@ namespace NMM
         (*vector)(i) = values[i];
       vector->compress(dealii::VectorOperation::insert);
     }
+    require_in_checkpoint(archive.n_left() == 0, "it is longer than its state");
     model_interface<SavedModel>(integrator.model())
       .restore_internal_state(model_state);
-    integrator.restore(state);
+    try
+    {
+      integrator.restore(state);
+    }
+    catch (const NumericalFailure &failure)
+    {
+      require_in_checkpoint(false, failure.description());
+    }
   }
 } // namespace NMM

@@ -1,9 +1,6 @@
 #include <nmm/base/program.h>
 
-#include <deal.II/base/utilities.h>
-
-#include <boost/serialization/string.hpp>
-#include <boost/serialization/vector.hpp>
+#include <base/archive.h>
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
@@ -11,6 +8,7 @@
 #include <dynamics/checkpoint_file.h>
 #include <dynamics/hash.h>
 #include <fcntl.h>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <libgen.h>
@@ -99,7 +97,7 @@ namespace NMM
         const Head expected;
         Head       head;
         if (bytes.empty())
-          return "it is missing or empty";
+          return "it is missing or empty, or no ordinary file";
         if (bytes.size() >= sizeof(head))
           std::memcpy(&head, bytes.data(), sizeof(head));
         if (bytes.size() < sizeof(head) ||
@@ -132,9 +130,8 @@ namespace NMM
       std::string reason;
       if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
       {
-        const Bytes content =
-          dealii::Utilities::pack(*this, /* allow_compression = */ false);
-        Head head;
+        const Bytes content = to_bytes(kind, preparation, state);
+        Head        head;
         head.length = content.size() + sizeof(std::uint64_t);
         Bytes       bytes;
         const auto *begin = reinterpret_cast<const char *>(&head);
@@ -159,8 +156,11 @@ namespace NMM
                          const MPI_Comm     communicator,
                          const std::string &kind)
     {
-      Bytes bytes;
-      if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+      Bytes           bytes;
+      std::error_code error;
+      // Of a device or a pipe there may be no end.
+      if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0 &&
+          std::filesystem::is_regular_file(filename, error))
       {
         std::ifstream in(filename, std::ios::binary);
         bytes.assign(std::istreambuf_iterator<char>(in), {});
@@ -171,10 +171,12 @@ namespace NMM
                   InputError("The checkpoint cannot be used: " + fault,
                              filename,
                              "take another one, or start anew"));
-      auto file = dealii::Utilities::unpack<CheckpointFile>(
-        bytes.begin() + sizeof(Head),
-        bytes.end() - sizeof(std::uint64_t),
-        /* allow_compression = */ false);
+      CheckpointFile file;
+      from_bytes({bytes.begin() + sizeof(Head),
+                  bytes.end() - sizeof(std::uint64_t)},
+                 file.kind,
+                 file.preparation,
+                 file.state);
       if (file.kind != kind)
         refuse_checkpoint("The checkpoint is of " + file.kind +
                             ", and the scene is of " + kind,
@@ -192,5 +194,6 @@ namespace NMM
                              "continue with the scene it was written with"));
       std::abort();
     }
+
   } // namespace internal
 } // namespace NMM

@@ -14,8 +14,11 @@ namespace NMM
      * A file from which a run can continue. It is complete or not there, whenever the program is
      * killed, and a damaged one is recognized.
      *
-     * File (little endian): "NMMSTATE", version, length of what follows, the members as Boost's
-     * binary archive, and a 64-bit FNV-1a check sum of everything before. Rank 0 writes and reads.
+     * File (little endian): "NMMSTATE", version, length of what follows, the members by to_bytes(),
+     * and a 64-bit FNV-1a check sum of everything before. Rank 0 writes and reads.
+     *
+     * Who can write the file can make the check sum fit. Therefore what reads the members checks
+     * all indices and lists, see require_in_checkpoint().
      */
     struct CheckpointFile
     {
@@ -26,13 +29,6 @@ namespace NMM
       std::vector<char> preparation;
       /// The state of the equations.
       std::vector<char> state;
-
-      template <typename Archive>
-      void
-      serialize(Archive &archive, const unsigned int /*version*/)
-      {
-        archive &kind &preparation &state;
-      }
 
       /// Writes a temporary file beside @p filename, synchronizes it to disk and renames it.
       /// Collective. @throws OutputFailure, with the reason given by the system.
@@ -52,6 +48,7 @@ namespace NMM
     /// always.
     [[noreturn]] void
     refuse_checkpoint(const std::string &what, const std::string &filename);
+
   } // namespace internal
 } // namespace NMM
 

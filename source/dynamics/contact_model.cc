@@ -5,6 +5,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <base/archive.h>
 #include <cmath>
 #include <limits>
 #include <linear_algebra/active_items.h>
@@ -399,18 +400,17 @@ namespace NMM
   std::vector<char>
   ContactModel::internal_state() const
   {
-    return dealii::Utilities::pack(
-      std::make_pair(data->contact->history(), data->saved->internal_state()),
-      /* allow_compression = */ false);
+    return internal::to_bytes(data->contact->history(),
+                              data->saved->internal_state());
   }
 
 
   void
   ContactModel::restore_internal_state(const std::vector<char> &state)
   {
-    const auto [history, of_model] =
-      dealii::Utilities::unpack<std::pair<ContactHistory, std::vector<char>>>(
-        state, /* allow_compression = */ false);
+    ContactHistory    history;
+    std::vector<char> of_model;
+    internal::from_bytes(state, history, of_model);
     restore_history(history);
     data->saved->restore_internal_state(of_model);
   }

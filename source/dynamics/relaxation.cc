@@ -39,7 +39,8 @@ namespace NMM
   RelaxationReport
   relax(TimeIntegrator                                &integrator,
         const RelaxationParameters                    &parameters,
-        const std::function<void(const StepRecord &)> &after_step)
+        const std::function<void(const StepRecord &)> &after_step,
+        const std::function<void(double length)>      &before_step)
   {
     RelaxationReport             report;
     const TimeIntegrator::Vector begin = integrator.state().u;
@@ -49,9 +50,13 @@ namespace NMM
                               : 0.01 * parameters.max_displacement;
     StepSequence sequence({"time", "s", 1e-6 * parameters.step},
                           integrator.state().time,
-                          parameters.step);
+                          parameters.continued_step > 0.
+                            ? parameters.continued_step
+                            : parameters.step);
     while (report.n_steps < parameters.max_steps)
     {
+      if (before_step)
+        before_step(sequence.length());
       StepRecord record;
       sequence.advance(
         std::numeric_limits<double>::infinity(),

@@ -4,9 +4,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <boost/archive/binary_iarchive.hpp>
-#include <boost/archive/binary_oarchive.hpp>
-#include <boost/serialization/vector.hpp>
+#include <base/archive.h>
 #include <cmath>
 #include <limits>
 #include <mechanics/finite_elasticity_data.h>
@@ -467,13 +465,7 @@ namespace NMM
          Parallel::all_gather(data->elastic->covers->communicator(),
                               data->accepted))
       all.insert(all.end(), part.begin(), part.end());
-    std::ostringstream out;
-    {
-      boost::archive::binary_oarchive archive(out);
-      archive << all;
-    }
-    const std::string text = out.str();
-    return {text.begin(), text.end()};
+    return to_bytes(all);
   }
 
 
@@ -481,11 +473,12 @@ namespace NMM
   InelasticTerms::restore_internal_state(const std::vector<char> &state)
   {
     std::vector<MaterialState> all;
-    std::istringstream         in(std::string(state.begin(), state.end()));
-    {
-      boost::archive::binary_iarchive archive(in);
-      archive >> all;
-    }
+    from_bytes(state, all);
+    for (const MaterialState &point : all)
+      require_in_checkpoint(std::isfinite(point.plastic_strain.norm()) &&
+                              std::isfinite(point.plastic_strain_zz) &&
+                              std::isfinite(point.equivalent_plastic_strain),
+                            "a plastic strain is not finite");
     Data             &d     = *data;
     const MPI_Comm    ranks = d.elastic->covers->communicator();
     const std::size_t total = Parallel::sum(d.accepted.size(), ranks);

@@ -4,6 +4,8 @@
 
 #include "geometry/piece_geometry.h"
 #include <algorithm>
+#include <output/double_points.h>
+#include <sstream>
 #include <tuple>
 
 namespace NMM
@@ -56,7 +58,12 @@ namespace NMM
     DataOutBase::VtkFlags flags;
     flags.print_date_and_time = false;
     directory.write_text(name, [&](std::ostream &out) {
-      DataOutBase::write_vtu(patches, names, vectors, flags, out);
+      std::ostringstream text;
+      DataOutBase::write_vtu(patches, names, vectors, flags, text);
+      std::vector<Point<2>> points;
+      for (const TipSample &tip : tips)
+        points.push_back(tip.x);
+      out << internal::with_double_points(text.str(), points);
     });
   }
 

@@ -1,9 +1,10 @@
 #include <nmm/base/program.h>
 #include <nmm/output/csv_series.h>
 
+#include <array>
+#include <charconv>
 #include <cstdio>
 #include <cstdlib>
-#include <iomanip>
 #include <regex>
 #include <sstream>
 
@@ -35,13 +36,23 @@ namespace NMM
   }
 
 
+  std::string
+  shortest_text(const double number)
+  {
+    // 17 digits, a sign, a point and an exponent are 24 characters.
+    std::array<char, 32> text;
+    const auto           end =
+      std::to_chars(text.data(), text.data() + text.size(), number);
+    return std::string(text.data(), end.ptr);
+  }
+
+
   namespace
   {
     std::string
-    head_of_steps(const std::string              &comment,
-                  const std::vector<std::string> &columns)
+    head_of_steps(const std::vector<std::string> &columns)
     {
-      std::string head = comment + "\ntime,step";
+      std::string head = "time,step";
       for (const std::string &column : columns)
         head += "," + quoted(column);
       return head + "\n";
@@ -108,11 +119,10 @@ namespace NMM
 
 
   CsvSeries::CsvSeries(std::string                     file_name,
-                       const std::string              &comment,
                        const std::vector<std::string> &columns,
                        const int                       continue_after)
     : CsvSeries(std::move(file_name),
-                head_of_steps(comment, columns),
+                head_of_steps(columns),
                 rows_up_to(continue_after))
   {
   }
@@ -131,11 +141,9 @@ namespace NMM
                     const unsigned int         step,
                     const std::vector<double> &values)
   {
-    std::ostringstream row;
-    row << std::setprecision(17) << time << ',' << step;
+    std::string row = shortest_text(time) + ',' + std::to_string(step);
     for (const double value : values)
-      row << ',' << value;
-    row << '\n';
-    append(row.str());
+      row += ',' + shortest_text(value);
+    append(row + '\n');
   }
 } // namespace NMM

@@ -8,6 +8,8 @@
 #include <cstring>
 #include <fstream>
 #include <iomanip>
+#include <ios>
+#include <output/folder_lock.h>
 #include <system_error>
 #include <unistd.h>
 
@@ -50,6 +52,7 @@ namespace NMM
                              "' cannot be written to",
                            where,
                            "change its permissions or name another one"));
+    lock();
     const std::string in_the_way = folder_in_the_way();
     AssertThrow(
       in_the_way.empty(),
@@ -204,10 +207,20 @@ namespace NMM
 
 
   void
+  OutputDirectory::lock() const
+  {
+    std::error_code error;
+    if (!folder_lock && fs::is_directory(folder, error))
+      folder_lock = std::make_shared<internal::FolderLock>(folder);
+  }
+
+
+  void
   OutputDirectory::create() const
   {
     check();
     fs::create_directories(folder);
+    lock();
     remove_results(/* of_end_only = */ false);
   }
 
@@ -217,6 +230,7 @@ namespace NMM
   {
     check();
     fs::create_directories(folder);
+    lock();
     remove_results(/* of_end_only = */ true);
   }
 
@@ -268,12 +282,21 @@ namespace NMM
     const std::function<void(std::ostream &)> &write) const
   {
     write_file(name, [&](const std::string &file_name) {
-      errno = 0;
-      std::ofstream out(file_name);
-      AssertThrow(out.good(), OutputFailure(file_name));
-      write(out);
-      out.close();
-      AssertThrow(!out.fail(), OutputFailure((folder / name).string()));
+      // The stream itself throws when it fails: what writes to it, such as deal.II, would throw
+      // something else.
+      try
+      {
+        errno = 0;
+        std::ofstream out;
+        out.exceptions(std::ios::failbit | std::ios::badbit);
+        out.open(file_name);
+        write(out);
+        out.close();
+      }
+      catch (const std::ios_base::failure &)
+      {
+        AssertThrow(false, OutputFailure((folder / name).string()));
+      }
     });
   }
 

@@ -9,6 +9,7 @@
 #include <iomanip>
 #include <memory>
 #include <output/picture_canvas.h>
+#include <output/picture_labels.h>
 #include <sstream>
 
 namespace NMM
@@ -17,7 +18,9 @@ namespace NMM
   {
     using dealii::Point;
     using internal::Canvas;
+    using internal::draw_text;
     using internal::Layout;
+    using internal::number_text;
 
     /// Width of the space for the colour bar right of the solid [thousandths of the picture width].
     constexpr double bar_space = 160.;
@@ -81,45 +84,6 @@ namespace NMM
     }
 
 
-    void
-    draw_text(cairo_t           *cr,
-              const std::string &text,
-              const double       x,
-              const double       y,
-              const double       size,
-              const double       max_width,
-              const bool         bold           = false,
-              const bool         right_adjusted = false)
-    {
-      cairo_select_font_face(cr,
-                             "sans-serif",
-                             CAIRO_FONT_SLANT_NORMAL,
-                             bold ? CAIRO_FONT_WEIGHT_BOLD
-                                  : CAIRO_FONT_WEIGHT_NORMAL);
-      cairo_set_font_size(cr, size);
-      cairo_text_extents_t extents;
-      cairo_text_extents(cr, text.c_str(), &extents);
-      if (extents.x_advance > max_width)
-        cairo_set_font_size(cr, size * max_width / extents.x_advance);
-      cairo_set_source_rgb(cr, 0.1, 0.1, 0.1);
-      cairo_move_to(cr,
-                    right_adjusted
-                      ? x + std::max(0., max_width - extents.x_advance)
-                      : x,
-                    y);
-      cairo_show_text(cr, text.c_str());
-    }
-
-
-    std::string
-    number_text(const double value, const unsigned int n_digits = 4)
-    {
-      std::ostringstream text;
-      text << std::setprecision(n_digits) << value;
-      return text.str();
-    }
-
-
     /// Exponent of the power of ten that is taken out of the numbers at the colour bar, a multiple
     /// of three; 0 if the largest one is in [0.1, 1e4).
     int
@@ -144,11 +108,35 @@ namespace NMM
     }
 
 
+    /// Draws a triangle at an end of the colour bar, which shows that values lie beyond it. Its
+    /// base of this @p width is at (@p x, @p y) [pixels]; it is as high as @p height, downwards
+    /// if that is positive.
     void
-    draw_colour_bar(cairo_t      *cr,
-                    const Layout &layout,
-                    const double  minimum,
-                    const double  maximum)
+    draw_end_of_bar(cairo_t                     *cr,
+                    const Point<2>              &x,
+                    const double                 width,
+                    const double                 height,
+                    const std::array<double, 3> &colour)
+    {
+      cairo_move_to(cr, x[0], x[1]);
+      cairo_line_to(cr, x[0] + 0.5 * width, x[1] + height);
+      cairo_line_to(cr, x[0] + width, x[1]);
+      cairo_close_path(cr);
+      cairo_set_source_rgb(cr, colour[0], colour[1], colour[2]);
+      cairo_fill_preserve(cr);
+      cairo_set_source_rgb(cr, 0.1, 0.1, 0.1);
+      cairo_stroke(cr);
+    }
+
+
+    /// Draws the colour bar. @p values are the least and the largest value in the picture; where
+    /// they lie beyond an end of the bar, that ends in a triangle.
+    void
+    draw_colour_bar(cairo_t                         *cr,
+                    const Layout                    &layout,
+                    const double                     minimum,
+                    const double                     maximum,
+                    const std::pair<double, double> &values)
     {
       const double factor = std::pow(10., choose_exponent(minimum, maximum));
       const double u      = layout.unit;
@@ -174,6 +162,11 @@ namespace NMM
       cairo_set_source_rgb(cr, 0.1, 0.1, 0.1);
       cairo_set_line_width(cr, u);
       cairo_stroke(cr);
+      const double rounding = 1e-9 * (maximum - minimum);
+      if (values.first < minimum - rounding)
+        draw_end_of_bar(cr, {x, y + height}, width, 20. * u, colour_map(0.));
+      if (values.second > maximum + rounding)
+        draw_end_of_bar(cr, {x, y}, width, -20. * u, colour_map(1.));
 
       // Values that differ by rounding errors only count as equal.
       const double resolution =
@@ -554,9 +547,10 @@ namespace NMM
     {
       PictureExtents extents;
       extents.add(data, data.deformation_scale);
-      const Layout layout =
-        make_layout(frame.view ? *frame.view : extents.view(),
-                    parameters.picture_width);
+      auto view = frame.view ? *frame.view : extents.view();
+      if (const std::vector<double> &w = parameters.window; !w.empty())
+        view = {{w[0], w[1]}, {w[2], w[3]}};
+      const Layout layout = make_layout(view, parameters.picture_width);
       const auto [minimum, maximum] = value_range(extents, parameters, frame);
 
       Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24,
@@ -600,7 +594,18 @@ namespace NMM
       if (!data.contacts.empty())
         draw_legend_of_bars(cr.get(), data, layout, largest, parameters);
       draw_legend_of_cracks(cr.get(), data, layout);
-      draw_colour_bar(cr.get(), layout, minimum, maximum);
+      internal::draw_length_scale(cr.get(), layout, parameters.length_unit);
+      if (parameters.quantity == Quantity::block)
+        internal::draw_block_numbers(cr.get(), data, layout);
+      if (parameters.quantity == Quantity::material &&
+          !parameters.material_names.empty())
+        internal::draw_names(cr.get(),
+                             layout,
+                             layout.width - (bar_space - 30.) * u,
+                             {minimum, maximum},
+                             parameters.material_names);
+      else
+        draw_colour_bar(cr.get(), layout, minimum, maximum, extents.range());
       cairo_surface_flush(surface.get());
       return surface;
     }

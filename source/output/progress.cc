@@ -5,6 +5,7 @@
 #include <exception>
 #include <iomanip>
 #include <map>
+#include <output/wrapped.h>
 #include <regex>
 #include <sstream>
 #include <sys/ioctl.h>
@@ -181,7 +182,10 @@ namespace NMM
       running->last_news = std::chrono::steady_clock::now();
     // On a terminal the message overwrites the line of a running stage.
     if (prints)
-      out << (is_terminal ? "\r\033[K" : "") << text << std::endl;
+      out << (is_terminal
+                ? "\r\033[K" + internal::wrapped(text, terminal_width() - 1)
+                : text)
+          << std::endl;
   }
 
 

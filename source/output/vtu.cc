@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <output/double_points.h>
 #include <regex>
 #include <sstream>
 #include <tuple>
@@ -154,11 +155,16 @@ namespace NMM
                           : base + "." + std::to_string(r) + ".vtu";
     };
     directory.write_text(piece_name(rank), [&](std::ostream &out) {
+      std::ostringstream text;
       DataOutBase::write_vtu(make_patches(covers, triangles),
                              names,
                              vector_ranges(names),
                              flags,
-                             out);
+                             text);
+      std::vector<dealii::Point<2>> points;
+      for (const QuadraticTriangle &triangle : triangles.nodes)
+        points.insert(points.end(), triangle.begin(), triangle.end());
+      out << internal::with_double_points(text.str(), points);
     });
     if (n_ranks == 1)
       return piece_name(0);
@@ -171,7 +177,7 @@ namespace NMM
         std::ostringstream text;
         DataOutBase::write_pvtu_record(
           text, pieces, names, vector_ranges(names), flags);
-        out << without_comments(text.str());
+        out << internal::with_double_points(without_comments(text.str()));
       });
     return base + ".pvtu";
   }

@@ -5,6 +5,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <base/archive.h>
 #include <cmath>
 #include <scene/contact_analysis.h>
 #include <scene/parsing.h>
@@ -337,9 +338,16 @@ namespace NMM
 
 
     void
-    ContactAnalysis::continue_from(const ContactAnalysis &former)
+    ContactAnalysis::continue_from(const double earlier_penetration)
     {
-      largest_penetration = former.largest_penetration;
+      largest_penetration = std::max(largest_penetration, earlier_penetration);
+    }
+
+
+    double
+    ContactAnalysis::largest_penetration_so_far() const
+    {
+      return largest_penetration;
     }
 
 
@@ -571,9 +579,9 @@ namespace NMM
     std::vector<char>
     AccountedContactModel::internal_state() const
     {
-      return dealii::Utilities::pack(
-        std::make_pair(work, ContactModel::internal_state()),
-        /* allow_compression = */ false);
+      return to_bytes(work,
+                      analysis->largest_penetration_so_far(),
+                      ContactModel::internal_state());
     }
 
 
@@ -581,10 +589,14 @@ namespace NMM
     AccountedContactModel::restore_internal_state(
       const std::vector<char> &state)
     {
-      const auto [saved_work, of_contact] =
-        dealii::Utilities::unpack<std::pair<double, std::vector<char>>>(
-          state, /* allow_compression = */ false);
+      double            saved_work, penetration;
+      std::vector<char> of_contact;
+      from_bytes(state, saved_work, penetration, of_contact);
+      require_in_checkpoint(std::isfinite(saved_work) &&
+                              std::isfinite(penetration),
+                            "work or penetration of contact is not finite");
       work = saved_work;
+      analysis->continue_from(penetration);
       ContactModel::restore_internal_state(of_contact);
     }
 

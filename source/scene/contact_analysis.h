@@ -55,9 +55,14 @@ namespace NMM
       const ContactSurface &
       faces() const;
 
-      /// Takes over the largest penetration of @p former, whose solid was cut again since.
+      /// Largest penetration over all states that were taken [m].
+      double
+      largest_penetration_so_far() const;
+
+      /// Takes over the largest penetration [m] of an earlier part of the run: before the solid was
+      /// cut again, or before the checkpoint from which the run continues.
       void
-      continue_from(const ContactAnalysis &former);
+      continue_from(double earlier_penetration);
 
       /// A sentence on the faces and the parameters that were chosen, for the report.
       std::string

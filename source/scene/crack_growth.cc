@@ -3,6 +3,7 @@
 #include <deal.II/physics/transformations.h>
 
 #include <algorithm>
+#include <base/archive.h>
 #include <base/cross.h>
 #include <cmath>
 #include <scene/crack_growth.h>
@@ -34,6 +35,27 @@ namespace NMM
                          [](const Material &material) {
                            return material.fracture_strength > 0.;
                          });
+    }
+
+
+    void
+    check_increments(const std::vector<Increment> &increments)
+    {
+      for (const Increment &increment : increments)
+      {
+        const CrackAdvance &advance = increment.advance;
+        require_in_checkpoint(are_finite(
+                                std::vector<double>{advance.tip[0],
+                                                    advance.tip[1],
+                                                    advance.length,
+                                                    increment.end[0],
+                                                    increment.end[1],
+                                                    increment.angle}) &&
+                                advance.length > 0. &&
+                                std::abs(advance.direction.norm() - 1.) < 1e-6,
+                              "an increment of a crack has no length or "
+                              "direction");
+      }
     }
 
 

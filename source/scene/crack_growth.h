@@ -6,7 +6,6 @@
 #include <nmm/geometry/crack_extension.h>
 #include <nmm/output/output_directory.h>
 
-#include <boost/serialization/string.hpp>
 #include <optional>
 #include <scene/crack_tips.h>
 #include <string>
@@ -15,7 +14,7 @@
 
 namespace NMM
 {
-  /// Reads or writes intensity factors by one of Boost's archives.
+  /// Reads or writes intensity factors, for checkpoints.
   template <typename Archive>
   void
   serialize(Archive          &archive,
@@ -128,6 +127,12 @@ namespace NMM
         archive &step &value &advance &factors &angle &end &met &start_stress;
       }
     };
+
+
+    /// Checks increments of a checkpoint, from which cracks are to grow again. @throws InputError
+    /// if their numbers cannot be those of an increment.
+    void
+    check_increments(const std::vector<Increment> &increments);
 
 
     /// The increments by which cracks have grown, and growth.csv.

@@ -1,10 +1,11 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/base/stop.h>
 #include <nmm/contact/carried_history.h>
 #include <nmm/mechanics/carried_covers.h>
 #include <nmm/output/csv_series.h>
 
 #include <algorithm>
-#include <boost/serialization/vector.hpp>
+#include <base/archive.h>
 #include <cmath>
 #include <dynamics/checkpoint_file.h>
 #include <dynamics/solid_hash.h>
@@ -40,7 +41,8 @@ namespace NMM
         scene, *covers, *quadrature, constraints, problem, *contact, progress);
       if (former)
       {
-        contact->continue_from(*former->first.contact);
+        contact->continue_from(
+          former->first.contact->largest_penetration_so_far());
         carried = carry_over();
       }
       else if (is_restart && earlier_path->carried_factor > 0.)
@@ -50,6 +52,9 @@ namespace NMM
                                         communicator),
                    earlier_path->history,
                    earlier_path->friction_work};
+        require_in_checkpoint(earlier_path->displacement.size() ==
+                                carried.displacement.locally_owned_size(),
+                              "it has another number of unknowns");
         std::copy(earlier_path->displacement.begin(),
                   earlier_path->displacement.end(),
                   carried.displacement.begin());
@@ -118,13 +123,30 @@ namespace NMM
     {
       if (restart.empty())
         return {};
-      earlier_path = dealii::Utilities::unpack<SavedPath>(
-        CheckpointFile::read(restart, communicator, kind_of_checkpoint)
-          .preparation,
-        /* allow_compression = */ false);
+      earlier_path.emplace();
+      from_bytes(CheckpointFile::read(restart, communicator, kind_of_checkpoint)
+                   .preparation,
+                 *earlier_path);
+      check(*earlier_path);
       for (const Increment &increment : earlier_path->increments)
         increments.add(increment);
       return earlier_path->increments;
+    }
+
+
+    void
+    CrackGrowthAnalysis::check(const SavedPath &path)
+    {
+      check_increments(path.increments);
+      require_in_checkpoint(!path.states.empty(), "it has no state");
+      for (const State &state : path.states)
+        require_in_checkpoint(state.probes.size() ==
+                                path.states.back().probes.size(),
+                              "states have other numbers of probes");
+      require_in_checkpoint(are_finite(path.displacement) &&
+                              std::isfinite(path.carried_factor) &&
+                              std::isfinite(path.friction_work),
+                            "the state before the last cut is not finite");
     }
 
 
@@ -183,11 +205,8 @@ namespace NMM
                            {carried.displacement.begin(),
                             carried.displacement.end()},
                            carried.history};
-      CheckpointFile{kind_of_checkpoint,
-                     dealii::Utilities::pack(path,
-                                             /* allow_compression = */ false),
-                     {}}
-        .write(checkpoint_file(), communicator);
+      CheckpointFile{kind_of_checkpoint, to_bytes(path), {}}.write(
+        checkpoint_file(), communicator);
     }
 
 
@@ -385,11 +404,18 @@ namespace NMM
               return std::to_string(states.size() - 1) + " of " +
                      std::to_string(n) + " increments";
             });
+            stop_if_asked(communicator);
           }
         }
         catch (const NumericalFailure &)
         {
           write_checkpoint();
+          throw;
+        }
+        catch (const Stopped &)
+        {
+          write_checkpoint();
+          verify();
           throw;
         }
         write_checkpoint();

@@ -105,6 +105,10 @@ namespace NMM
         }
       };
 
+      /// @throws InputError if the parts of @p path do not fit each other, or numbers are not finite.
+      static void
+      check(const SavedPath &path);
+
       /// Null without contact.
       std::unique_ptr<ContactLoading> contact_loading;
       /// With contact, the solid before the increments that are tried, and its state.

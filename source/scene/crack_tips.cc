@@ -1,6 +1,7 @@
 #include <nmm/base/exceptions.h>
 
 #include <algorithm>
+#include <base/archive.h>
 #include <cmath>
 #include <scene/crack_growth.h>
 #include <scene/parsing.h>
@@ -135,8 +136,8 @@ namespace NMM
     void
     CrackTips::restore(std::vector<IntensityFactors> earlier)
     {
-      Assert(earlier.empty() || earlier.size() == tips.size(),
-             dealii::ExcDimensionMismatch(earlier.size(), tips.size()));
+      require_in_checkpoint(earlier.empty() || earlier.size() == tips.size(),
+                            "it has factors of another number of crack tips");
       factors = std::move(earlier);
     }
 

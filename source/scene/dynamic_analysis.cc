@@ -1,4 +1,5 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/base/stop.h>
 #include <nmm/dynamics/checkpoint.h>
 
 #include <algorithm>
@@ -150,6 +151,15 @@ namespace NMM
     DynamicAnalysis::set_first_state()
     {
       const SceneParameters &parameters = scene.parameters();
+      if (continues_in_start())
+      {
+        if (contact)
+          contact->hold_obstacles(true);
+        make_relaxation();
+        Checkpoint::read(restart, relaxing->integrator());
+        relaxing->continued_step = earlier_part->next_step_of_start;
+        return;
+      }
       if (!restart.empty())
       {
         Checkpoint::read(restart, *integrator);
@@ -269,8 +279,48 @@ namespace NMM
     bool
     DynamicAnalysis::has_start() const
     {
-      return restart.empty() && kind == Analysis::dynamics &&
-             scene.parameters().time.start != TimeParameters::Start::undeformed;
+      return continues_in_start() ||
+             (restart.empty() && kind == Analysis::dynamics &&
+              scene.parameters().time.start !=
+                TimeParameters::Start::undeformed);
+    }
+
+
+    bool
+    DynamicAnalysis::continues_in_start() const
+    {
+      return earlier_part && earlier_part->next_step_of_start > 0.;
+    }
+
+
+    StartInput
+    DynamicAnalysis::start_input()
+    {
+      return {scene,
+              *covers,
+              *quadrature,
+              *mass_quadrature,
+              constraints,
+              problem,
+              contact.get(),
+              progress};
+    }
+
+
+    void
+    DynamicAnalysis::make_relaxation()
+    {
+      relaxing              = std::make_unique<StartRelaxation>(start_input());
+      relaxing->before_step = [this](const double length) {
+        const unsigned int step    = relaxing->integrator().state().step;
+        const bool         is_last = is_asked_to_stop(communicator);
+        if (is_last || (step > 0 && is_checkpoint_due(step)))
+          Checkpoint::write(relaxing->integrator(),
+                            checkpoint_file(),
+                            part_to_save(length));
+        if (is_last)
+          stop();
+      };
     }
 
 
@@ -278,17 +328,16 @@ namespace NMM
     DynamicAnalysis::run_start()
     {
       last_good = integrator->state();
+      // The checkpoint is that of the relaxation, not of the undeformed solid.
+      can_be_saved = false;
       if (contact)
         contact->hold_obstacles(true);
-      const Vector u = find_start({scene,
-                                   *covers,
-                                   *quadrature,
-                                   *mass_quadrature,
-                                   constraints,
-                                   problem,
-                                   contact.get(),
-                                   progress},
-                                  start);
+      if (scene.parameters().time.start == TimeParameters::Start::relaxation &&
+          !relaxing)
+        make_relaxation();
+      const Vector u = relaxing ? find_start(start_input(), *relaxing, start)
+                                : find_start(start_input(), start);
+      relaxing.reset();
       if (contact)
         contact->hold_obstacles(false);
       if (InelasticTerms *const terms = inelastic_terms())
@@ -298,8 +347,11 @@ namespace NMM
         v = initial_velocity();
       // This applies the releases at 0 s.
       integrator->initialize(u, v);
-      last_good = integrator->state();
+      last_good    = integrator->state();
+      can_be_saved = true;
       write_first_state();
+      if (scene.parameters().output.checkpoint_every > 0)
+        write_checkpoint();
     }
 
 
@@ -340,6 +392,12 @@ namespace NMM
         show();
         verify();
         explain_balance(error.message());
+        throw;
+      }
+      catch (const Stopped &)
+      {
+        show();
+        verify();
         throw;
       }
       if (balance_is_off())

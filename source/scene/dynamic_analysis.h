@@ -44,6 +44,28 @@ namespace NMM
     private:
       using Vector = MechanicalModel::Vector;
 
+      /// What a checkpoint holds beside the state of the motion.
+      struct SavedPart
+      {
+        /// Length of the next step if the state is one of the relaxation from which the motion
+        /// starts [s], else 0.
+        double next_step_of_start = 0.;
+        /// Largest energy imbalance and largest energy of all steps so far [J/m].
+        double largest_balance = 0., largest_energy = 0.;
+        /// Whether cracks may grow.
+        bool        has_growth = false;
+        SavedGrowth growth;
+
+        template <typename Archive>
+        void
+        serialize(Archive &archive, const unsigned int /*version*/)
+        {
+          archive &next_step_of_start &largest_balance &largest_energy
+                  &has_growth;
+          archive &growth;
+        }
+      };
+
       Analysis kind;
 
       // Each object refers to those above it.
@@ -66,8 +88,8 @@ namespace NMM
 
       /// Null if cracks do not grow.
       std::unique_ptr<GrowthInMotion> growth;
-      /// The growth before the checkpoint from which this run continues, if there was any.
-      std::optional<SavedGrowth> earlier_growth;
+      /// What the checkpoint holds from which this run continues, if it does.
+      std::optional<SavedPart> earlier_part;
 
       /// Velocity of the state that is shown [m/s].
       std::unique_ptr<DisplacementField> velocity_field;
@@ -84,12 +106,15 @@ namespace NMM
       bool             can_be_saved = true;
       RelaxationReport relaxation;
       StartReport      start;
+      /// The relaxation from which the motion starts; null if there is none, and afterwards.
+      std::unique_ptr<StartRelaxation> relaxing;
       /// Numbers of this run, without those of the run that wrote the checkpoint.
       unsigned int n_steps = 0, n_iterations = 0, n_lost_iterations = 0,
                    n_cuts = 0;
       /// Time at which this run starts [s].
       double start_time = 0.;
-      /// Largest energy imbalance and largest energy of all steps [J/m].
+      /// Largest energy imbalance and largest energy of all steps, also of those before the
+      /// checkpoint [J/m].
       double           largest_balance = 0., largest_energy = 0.;
       Progress::Stage *stage = nullptr;
 
@@ -122,9 +147,25 @@ namespace NMM
       void
       continue_growth();
 
-      /// What read_of_caller() returns to earlier_increments(); empty if cracks do not grow.
+      /// The SavedPart of this run as bytes.
       std::vector<char>
-      growth_to_save() const;
+      part_to_save(double next_step_of_start = 0.) const;
+
+      /// Whether the run continues within the relaxation from which the motion starts.
+      bool
+      continues_in_start() const;
+
+      /// The objects that the start needs.
+      StartInput
+      start_input();
+
+      /// Makes `relaxing`.
+      void
+      make_relaxation();
+
+      /// Whether a checkpoint is to be written after the step with this number.
+      bool
+      is_checkpoint_due(unsigned int step) const;
 
       /// Lets cracks grow whose tips have reached the toughness in the present state. Returns
       /// whether there were any.
@@ -216,7 +257,7 @@ namespace NMM
       dealii::Point<2>
       centroid(unsigned int block) const;
 
-      /// Whether the run begins with the search for an equilibrium.
+      /// Whether the run begins with the search for an equilibrium, or with the rest of it.
       bool
       has_start() const;
 
@@ -259,6 +300,10 @@ namespace NMM
 
       void
       show_progress();
+
+      /// Ends the run after a signal. @throws Stopped
+      void
+      stop() const;
 
       /// Restores the last accepted state after a failure, and writes a checkpoint of it if the
       /// contact history allows that.

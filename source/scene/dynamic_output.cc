@@ -1,4 +1,5 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/base/stop.h>
 #include <nmm/dynamics/checkpoint.h>
 
 #include <algorithm>
@@ -17,10 +18,12 @@ namespace NMM
     DynamicAnalysis::open_files()
     {
       const bool is_continued = continues_in_folder();
+      // The first state follows after the start.
+      const bool has_rows = is_continued && !continues_in_start();
       const int  continue_after =
-        is_continued ? static_cast<int>(step_number()) : -1;
+        has_rows ? static_cast<int>(step_number()) : -1;
       if (is_continued)
-        series->resume(time());
+        series->resume(has_rows ? time() : -1.);
       on_first_rank([&]() {
         if (!is_continued)
           directory->create();
@@ -29,13 +32,6 @@ namespace NMM
                               continue_after);
         history = std::make_unique<CsvSeries>(
           directory->file("history.csv"),
-          incremental
-            ? "# per unit thickness: energies [J/m], angular momentum about "
-              "the "
-              "origin [kg m/s]; time and size [s], displacement [m], area [m^2]"
-            : "# per unit thickness: energies [J/m], linear momentum [kg/s], "
-              "angular momentum about the origin [kg m/s]; time and size [s], "
-              "displacement and error [m], intensity factors [Pa m^0.5]",
           history_columns(),
           continue_after);
         open_departures(continue_after);
@@ -107,10 +103,33 @@ namespace NMM
       if (output.fields_every > 0 && step_number() % output.fields_every == 0)
         write_state_of_series();
       // The checkpoint is written last, so that all files of the steps before it are complete.
-      if (output.checkpoint_every > 0 &&
-          step_number() % output.checkpoint_every == 0)
+      const bool is_last_step = is_asked_to_stop(communicator);
+      if (is_checkpoint_due(step_number()) ||
+          (is_last_step && scene.parameters().may_be_continued()))
         write_checkpoint();
       show_progress();
+      if (is_last_step)
+        stop();
+    }
+
+
+    bool
+    DynamicAnalysis::is_checkpoint_due(const unsigned int step) const
+    {
+      const unsigned int every = scene.parameters().output.checkpoint_every;
+      return every > 0 && step % every == 0;
+    }
+
+
+    void
+    DynamicAnalysis::stop() const
+    {
+      AssertThrow(false,
+                  Stopped("stopped by a signal; what is known is written",
+                          "t = " + std::to_string(time()) + " s",
+                          scene.parameters().may_be_continued()
+                            ? "continue with --restart " + checkpoint_file()
+                            : ""));
     }
 
 
@@ -245,7 +264,7 @@ namespace NMM
     void
     DynamicAnalysis::write_checkpoint()
     {
-      Checkpoint::write(*integrator, checkpoint_file(), growth_to_save());
+      Checkpoint::write(*integrator, checkpoint_file(), part_to_save());
     }
 
 

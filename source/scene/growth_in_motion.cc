@@ -5,6 +5,7 @@
 #include <nmm/mechanics/carried_covers.h>
 
 #include <algorithm>
+#include <base/archive.h>
 #include <cmath>
 #include <scene/dynamic_analysis.h>
 #include <scene/growth_in_motion.h>
@@ -134,6 +135,18 @@ namespace NMM
     GrowthInMotion::restore(const SavedGrowth &saved)
     {
       Assert(increments.n_increments() == 0, dealii::ExcInternalError());
+      check_increments(saved.increments);
+      require_in_checkpoint(std::isfinite(saved.arrival),
+                            "the arrival of a crack is not finite");
+      for (const LocalSize &size : saved.sizes)
+        require_in_checkpoint(are_finite(std::vector<double>{size.point[0],
+                                                             size.point[1],
+                                                             size.size,
+                                                             size.length}) &&
+                                size.size > 0. && size.growth > 0. &&
+                                size.growth <= 1. && size.exponent > 0. &&
+                                size.exponent <= 1. && size.length > 0.,
+                              "the size of cells at a tip cannot be");
       for (const Increment &increment : saved.increments)
         increments.add(increment);
       running_tips = saved.running_tips;
@@ -144,43 +157,55 @@ namespace NMM
     std::vector<Increment>
     DynamicAnalysis::earlier_increments()
     {
-      if (restart.empty() || !growth)
+      if (restart.empty())
         return {};
-      const std::vector<char> bytes =
-        Checkpoint::read_of_caller(restart, communicator);
-      // The cracks of the earlier part may have been at rest.
-      if (bytes.empty())
+      earlier_part.emplace();
+      from_bytes(Checkpoint::read_of_caller(restart, communicator),
+                 *earlier_part);
+      require_in_checkpoint(
+        std::isfinite(earlier_part->next_step_of_start) &&
+          earlier_part->next_step_of_start >= 0. &&
+          are_finite(std::vector<double>{earlier_part->largest_balance,
+                                         earlier_part->largest_energy}),
+        "its largest energies are not finite");
+      largest_balance = earlier_part->largest_balance;
+      largest_energy  = earlier_part->largest_energy;
+      // The cracks of the earlier part may have been at rest, or this part holds them.
+      const SavedGrowth &earlier = earlier_part->growth;
+      if (!growth || !earlier_part->has_growth)
         return {};
-      earlier_growth =
-        dealii::Utilities::unpack<SavedGrowth>(bytes,
-                                               /* allow_compression = */ false);
-      growth->restore(*earlier_growth);
-      further_sizes = earlier_growth->sizes;
-      return earlier_growth->increments;
+      growth->restore(earlier);
+      further_sizes = earlier.sizes;
+      return earlier.increments;
     }
 
 
     void
     DynamicAnalysis::continue_growth()
     {
-      if (earlier_growth)
+      if (earlier_part && earlier_part->has_growth)
         // Contact has all points sticking now, while factors are those of the state before that.
-        crack_tips->restore(earlier_growth->factors);
+        crack_tips->restore(earlier_part->growth.factors);
       else if (!restart.empty())
         compute_tips_in_motion();
     }
 
 
     std::vector<char>
-    DynamicAnalysis::growth_to_save() const
+    DynamicAnalysis::part_to_save(const double next_step_of_start) const
     {
-      if (!growth)
-        return {};
-      SavedGrowth saved;
-      growth->save(saved);
-      saved.sizes   = further_sizes;
-      saved.factors = crack_tips->all_factors();
-      return dealii::Utilities::pack(saved, /* allow_compression = */ false);
+      SavedPart saved;
+      saved.next_step_of_start = next_step_of_start;
+      saved.largest_balance    = largest_balance;
+      saved.largest_energy     = largest_energy;
+      saved.has_growth         = growth != nullptr && next_step_of_start == 0.;
+      if (saved.has_growth)
+      {
+        growth->save(saved.growth);
+        saved.growth.sizes   = further_sizes;
+        saved.growth.factors = crack_tips->all_factors();
+      }
+      return to_bytes(saved);
     }
 
 
@@ -295,7 +320,8 @@ namespace NMM
           state.left_blocks.push_back(block);
       if (contact)
       {
-        contact->continue_from(*former.solid.contact);
+        contact->continue_from(
+          former.solid.contact->largest_penetration_so_far());
         contact_model->restore(
           former.friction_work,
           carry_history(former.history,

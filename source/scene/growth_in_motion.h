@@ -5,13 +5,12 @@
 #include <nmm/materials/material.h>
 #include <nmm/mechanics/elasticity_problem.h>
 
-#include <boost/serialization/vector.hpp>
 #include <scene/crack_growth.h>
 #include <vector>
 
 namespace NMM
 {
-  /// Reads or writes the size of cells at a point by one of Boost's archives.
+  /// Reads or writes the size of cells at a point, for checkpoints.
   template <typename Archive>
   void
   serialize(Archive &archive, LocalSize &size, const unsigned int /*version*/)

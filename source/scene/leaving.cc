@@ -38,9 +38,6 @@ namespace NMM
       if (leaving)
         departures = std::make_unique<CsvSeries>(
           directory->file("left-blocks.csv"),
-          "# time [s]; a point of the block in the undeformed solid and the "
-          "middle of the box around it where it left [m]; per unit thickness: "
-          "energies that left with it [J/m], momentum [kg/s]",
           std::vector<std::string>{"block",
                                    "reference_x",
                                    "reference_y",

@@ -1,4 +1,5 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/base/stop.h>
 #include <nmm/output/csv_series.h>
 
 #include <algorithm>
@@ -84,6 +85,12 @@ namespace NMM
           run_incremental();
       }
       catch (const NumericalFailure &)
+      {
+        finish();
+        verify();
+        throw;
+      }
+      catch (const Stopped &)
       {
         finish();
         verify();
@@ -349,6 +356,7 @@ namespace NMM
                       *evaluator,
                       sample_cracks().get());
       }
+      stop_if_asked(communicator);
     }
 
 

@@ -59,12 +59,7 @@ namespace NMM
       for (const std::string &name : names)
         for (const char *suffix : {"_x", "_y", "_vx", "_vy"})
           columns.push_back(name + suffix);
-      table =
-        std::make_unique<CsvSeries>(file_name,
-                                    "# time [s]; displacement _x, _y [m] and "
-                                    "velocity _vx, _vy [m/s] of probes",
-                                    columns,
-                                    continue_after);
+      table = std::make_unique<CsvSeries>(file_name, columns, continue_after);
     }
 
 

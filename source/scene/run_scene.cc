@@ -1,5 +1,6 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/base/program.h>
+#include <nmm/base/stop.h>
 #include <nmm/output/output_directory.h>
 #include <nmm/scene/run_scene.h>
 
@@ -53,7 +54,24 @@ namespace NMM
     }
 
 
-    /// Solves the problem; if that fails, writes the results so far and passes on the exception.
+    /// Writes the results of a run that ends for this @p reason.
+    void
+    save(internal::SceneAnalysis &analysis, const std::string &reason)
+    {
+      try
+      {
+        analysis.write();
+      }
+      catch (const UserError &error)
+      {
+        AssertThrow(
+          false, NumericalFailure(reason + "; and " + error.message(), "", ""));
+      }
+    }
+
+
+    /// Solves the problem; if that fails, or if a signal ends it, writes the results so far and
+    /// passes on the exception.
     void
     solve_or_save(internal::SceneAnalysis &analysis)
     {
@@ -63,18 +81,12 @@ namespace NMM
       }
       catch (const NumericalFailure &failure)
       {
-        const std::string reason = failure.message();
-        try
-        {
-          analysis.write();
-        }
-        catch (const UserError &error)
-        {
-          AssertThrow(false,
-                      NumericalFailure(reason + "; and " + error.message(),
-                                       "",
-                                       ""));
-        }
+        save(analysis, failure.message());
+        throw;
+      }
+      catch (const Stopped &end)
+      {
+        save(analysis, end.message());
         throw;
       }
     }
@@ -112,6 +124,11 @@ namespace NMM
     analysis->print_report();
     if (options.check_only)
       return;
+    AssertThrow(!is_asked_to_stop(communicator),
+                Stopped("stopped by a signal before the solution; nothing is "
+                        "written",
+                        "",
+                        ""));
 
     analysis->open(directory);
     has_output = true;

@@ -1,4 +1,5 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/base/stop.h>
 #include <nmm/output/csv_series.h>
 
 #include <algorithm>
@@ -112,7 +113,12 @@ namespace NMM
       }
       RelaxationParameters relaxation = parameters.relaxation.relaxation;
       relaxation.max_displacement = parameters.safety_factor.max_displacement;
-      const StrengthTrial trial = try_to_stand(integrator, relaxation, factor);
+      const StrengthTrial trial   = try_to_stand(integrator,
+                                               relaxation,
+                                               factor,
+                                               [this](const StepRecord &) {
+                                                 stop_if_asked(communicator);
+                                               });
 
       if (tells_more(trial))
       {
@@ -153,16 +159,26 @@ namespace NMM
         scene.parameters().safety_factor;
       if (parameters.start == Start::settled)
         settle();
+      try
       {
         Stage search(progress, "trials");
         result = find_safety_factor(
           [this](const double factor) { return try_factor(factor); },
           parameters.search);
       }
-      if (contact)
-        contact->show_state(shown_contact);
-      Stage recovery_stage(progress, "stress recovery");
-      show();
+      catch (const Stopped &)
+      {
+        for (const StrengthTrial &trial : trials)
+          if (trial.stands())
+            result.stands_at = std::max(result.stands_at, trial.factor);
+          else if (!trial.fails())
+            result.moves_at = std::min(result.moves_at, trial.factor);
+        if (!trials.empty())
+          show_best_trial();
+        verify();
+        throw;
+      }
+      show_best_trial();
       is_solved = result.stands_at > 0. && std::isfinite(result.moves_at) &&
                   !result.has_failed();
       if (!is_solved)
@@ -171,6 +187,16 @@ namespace NMM
       line << "  factor of safety " << result.value() << ": stands at "
            << result.stands_at << ", moves at " << result.moves_at;
       progress.message(line.str());
+    }
+
+
+    void
+    SafetyFactorAnalysis::show_best_trial()
+    {
+      if (contact)
+        contact->show_state(shown_contact);
+      Stage recovery_stage(progress, "stress recovery");
+      show();
     }
 
 
@@ -277,9 +303,12 @@ namespace NMM
     void
     SafetyFactorAnalysis::verify()
     {
-      summary.add("safety_factor", result.value());
-      summary.add("factor_stands", result.stands_at);
-      summary.add("factor_moves", result.moves_at);
+      if (!trials.empty())
+      {
+        summary.add("safety_factor", result.value());
+        summary.add("factor_stands", result.stands_at);
+        summary.add("factor_moves", result.moves_at);
+      }
       summary.add("trials", trials.size());
       unsigned int n_steps = n_start_steps;
       for (const StrengthTrial &trial : trials)

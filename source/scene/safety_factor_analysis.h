@@ -86,6 +86,10 @@ namespace NMM
       void
       show();
 
+      /// The same, and its contact.
+      void
+      show_best_trial();
+
       double
       last_value() const override;
 

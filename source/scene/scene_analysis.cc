@@ -631,6 +631,12 @@ namespace NMM
             cracks.get());
         if (evaluator)
           series->finish_contact(last_value());
+        // A motion is at some time; load steps and lengths of cracks end with the scene.
+        std::ostringstream when;
+        if (is_solved &&
+            (scene.parameters().model.analysis == Analysis::dynamics ||
+             scene.parameters().model.analysis == Analysis::relaxation))
+          when << ", t = " << last_value() << " s";
         PictureData drawn;
         if (parameters.picture)
           write_picture(scene,
@@ -639,7 +645,7 @@ namespace NMM
                         cracks.get(),
                         triangles,
                         evaluator.get(),
-                        scene.title() +
+                        scene.title() + when.str() +
                           (is_solved ? "" : " (" + unsolved_note() + ")"),
                         "picture.png",
                         *directory,

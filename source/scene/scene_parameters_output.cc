@@ -92,6 +92,11 @@ namespace NMM
                 range,
                 "Values at the ends of the colour bar [Pa or m]; equal: the "
                 "least and greatest value of the solution.");
+    entries.add("Picture window",
+                window,
+                Patterns::List(Patterns::Double(), 0, 4),
+                "Part of the plane that pictures show: left, lower, right and "
+                "upper end [m]; empty: all.");
     entries.add("Picture width",
                 picture_width,
                 Patterns::Integer(300, 10000),
@@ -126,6 +131,13 @@ namespace NMM
   void
   OutputParameters::check() const
   {
+    AssertThrow(window.empty() ||
+                  (window.size() == 4 && window[0] < window[2] &&
+                   window[1] < window[3]),
+                InputError("the window of pictures has no width or height, or "
+                           "is not of four numbers",
+                           "parameter 'Output/Picture window'",
+                           "give its left, lower, right and upper end"));
     AssertThrow(range_min <= range_max,
                 InputError("the picture's range runs from " +
                              std::to_string(range_min) + " down to " +

@@ -23,13 +23,12 @@ namespace NMM
       }
 
 
-      /// Whether displacements are drawn without scaling, unless the scene gives a factor.
-      /// Otherwise faces in contact would overlap.
+      /// Whether displacements are drawn without scaling, unless the scene gives a factor. Small
+      /// ones would not be seen then.
       bool
       shows_true_size(const Scene &scene)
       {
-        return scene.parameters().model.kinematics != Kinematics::small ||
-               scene.parameters().contact.is_present();
+        return scene.parameters().model.kinematics != Kinematics::small;
       }
     } // namespace
 
@@ -51,6 +50,8 @@ namespace NMM
         parameters.quantity = Quantity::block;
       if (shows_true_size(scene) && parameters.deformation_scale < 0.)
         parameters.deformation_scale = 1.;
+      parameters.material_names =
+        covers.manifold_mesh().physical_mesh().material_names();
       PictureData data =
         make_picture_data(covers, triangles, evaluator, parameters);
       if (contact != nullptr)
@@ -207,6 +208,8 @@ namespace NMM
       parameters.time_unit = is_dynamic ? "s" : "";
       parameters.smallest_hole =
         smallest_hole(covers->manifold_mesh().physical_mesh());
+      output.material_names =
+        covers->manifold_mesh().physical_mesh().material_names();
       if (shows_true_size(*scene) && output.deformation_scale < 0.)
         output.deformation_scale = 1.;
       // The final state is a further frame that is not stored, since a run that continues this one

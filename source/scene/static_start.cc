@@ -1,4 +1,5 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/base/stop.h>
 #include <nmm/contact/contact_statics.h>
 #include <nmm/dynamics/contact_model.h>
 #include <nmm/dynamics/elastic_models.h>
@@ -112,6 +113,7 @@ namespace NMM
             ++report.n_steps;
             report.n_iterations += step.n_iterations + step.n_lost_iterations;
             show_load(stage, report, step.load_factor);
+            stop_if_asked(input.covers.communicator());
           });
           keep_materials();
           return owned_part(input, statics.solution());
@@ -124,6 +126,7 @@ namespace NMM
           ++report.n_steps;
           report.n_iterations += step.n_iterations + step.n_lost_iterations;
           show_load(stage, report, step.load_factor);
+          stop_if_asked(input.covers.communicator());
         });
         keep_materials();
         return owned_part(input, statics.solution());
@@ -132,65 +135,112 @@ namespace NMM
 
       Vector
       relax_to_rest(const StartInput &input,
+                    StartRelaxation  &relaxing,
                     Progress::Stage  &stage,
                     StartReport      &report)
       {
-        const Scene           &scene      = input.scene;
-        const SceneParameters &parameters = scene.parameters();
-        FiniteElasticity       elasticity(input.covers,
-                                    input.quadrature,
-                                    input.constraints,
-                                    input.problem,
-                                    /* may_float = */ true);
-        // Time advances during the relaxation, but loads keep their values of t = 0.
-        const LoadAmplitudes amplitudes = amplitudes_at_start(scene);
-        Loading              loading;
-        loading.amplitudes = [amplitudes](const double) { return amplitudes; };
-        std::unique_ptr<ElasticModel> model;
-        if (is_small(scene))
-          model = std::make_unique<SmallModel>(elasticity,
-                                               input.mass_quadrature,
-                                               std::move(loading));
-        else
-          model = std::make_unique<FiniteModel>(elasticity,
-                                                input.mass_quadrature,
-                                                std::move(loading));
-        std::unique_ptr<ContactModel> contact_model;
-        if (input.contact != nullptr)
-          contact_model =
-            std::make_unique<ContactModel>(*model, input.contact->contact());
-        MechanicalModel *moved = contact_model.get();
-        if (input.contact == nullptr)
-          moved = model.get();
-
-        TimeParameters time = parameters.time;
-        time.scheme         = TimeParameters::Scheme::automatic;
-        TimeIntegrator integrator(*moved,
-                                  time.time_scheme(Analysis::relaxation,
-                                                   parameters.model.kinematics,
-                                                   input.contact != nullptr),
-                                  {},
-                                  motion_newton_parameters(scene,
-                                                           input.progress));
-        relax(integrator,
-              parameters.relaxation.relaxation,
-              [&](const StepRecord &record) {
-                ++report.n_steps;
-                report.n_iterations +=
-                  record.report.n_iterations + record.n_lost_iterations;
-                stage.update([&](double) {
-                  std::ostringstream line;
-                  line << "relaxation step " << report.n_steps << ", imbalance "
-                       << std::setprecision(2)
-                       << integrator.account().imbalance;
-                  return line.str();
-                });
-              });
-        if (const InelasticTerms *terms = inelastic_terms_of(model.get()))
+        const TimeIntegrator &integrator = relaxing.integrator();
+        RelaxationParameters  parameters =
+          input.scene.parameters().relaxation.relaxation;
+        parameters.continued_step = relaxing.continued_step;
+        relax(
+          relaxing.integrator(),
+          parameters,
+          [&](const StepRecord &record) {
+            ++report.n_steps;
+            report.n_iterations +=
+              record.report.n_iterations + record.n_lost_iterations;
+            stage.update([&](double) {
+              std::ostringstream line;
+              line << "relaxation step " << report.n_steps << ", imbalance "
+                   << std::setprecision(2) << integrator.account().imbalance;
+              return line.str();
+            });
+          },
+          [&](const double length) {
+            if (relaxing.before_step)
+              relaxing.before_step(length);
+            stop_if_asked(input.covers.communicator());
+          });
+        if (const InelasticTerms *terms = relaxing.inelastic_terms())
           report.material_state = terms->internal_state();
         return integrator.state().u;
       }
+
+
+      /// Calls @p find, and names the parameter of the start if there is none.
+      Vector
+      find_or_explain(const StartInput &input,
+                      const bool        is_relaxed,
+                      const std::function<Vector(Progress::Stage &)> &find)
+      {
+        Progress::Stage stage(input.progress, "start");
+        try
+        {
+          return find(stage);
+        }
+        catch (const NumericalFailure &error)
+        {
+          AssertThrow(
+            false,
+            NumericalFailure(
+              "There is no equilibrium to start from: " + error.message(),
+              input.scene.parameters().model.analysis == Analysis::safety_factor
+                ? "parameter 'Safety factor/Start'"
+                : "parameter 'Time/Start'",
+              is_relaxed ? "see that obstacles and supports hold every "
+                           "block"
+                         : "let faces touch at the start, with friction, "
+                           "or set it to relaxation"));
+          throw;
+        }
+      }
     } // namespace
+
+
+    StartRelaxation::StartRelaxation(const StartInput &input)
+      : elasticity(input.covers,
+                   input.quadrature,
+                   input.constraints,
+                   input.problem,
+                   /* may_float = */ true)
+    {
+      const SceneParameters &parameters = input.scene.parameters();
+      const LoadAmplitudes   amplitudes = amplitudes_at_start(input.scene);
+      Loading                loading;
+      loading.amplitudes = [amplitudes](const double) { return amplitudes; };
+      if (is_small(input.scene))
+        model = std::make_unique<SmallModel>(elasticity,
+                                             input.mass_quadrature,
+                                             std::move(loading));
+      else
+        model = std::make_unique<FiniteModel>(elasticity,
+                                              input.mass_quadrature,
+                                              std::move(loading));
+      if (input.contact != nullptr)
+        contact_model =
+          std::make_unique<ContactModel>(*model, input.contact->contact());
+      MechanicalModel *moved = contact_model.get();
+      if (input.contact == nullptr)
+        moved = model.get();
+
+      TimeParameters time = parameters.time;
+      time.scheme         = TimeParameters::Scheme::automatic;
+      time_integrator     = std::make_unique<TimeIntegrator>(
+        *moved,
+        time.time_scheme(Analysis::relaxation,
+                         parameters.model.kinematics,
+                         input.contact != nullptr),
+        RayleighDamping(),
+        motion_newton_parameters(input.scene, input.progress));
+    }
+
+
+    InelasticTerms *
+    StartRelaxation::inelastic_terms() const
+    {
+      return inelastic_terms_of(model.get());
+    }
 
 
     InelasticTerms *
@@ -219,29 +269,33 @@ namespace NMM
     find_start(const StartInput &input, StartReport &report)
     {
       const SceneParameters &parameters = input.scene.parameters();
-      const bool             is_relaxed =
-        parameters.model.analysis == Analysis::safety_factor ||
-        parameters.time.start == TimeParameters::Start::relaxation;
-      Progress::Stage stage(input.progress, "start");
-      try
+      if (parameters.model.analysis == Analysis::safety_factor ||
+          parameters.time.start == TimeParameters::Start::relaxation)
       {
-        return is_relaxed ? relax_to_rest(input, stage, report)
-                          : solve_statics(input, stage, report);
+        StartRelaxation relaxation(input);
+        return find_start(input, relaxation, report);
       }
-      catch (const NumericalFailure &error)
-      {
-        AssertThrow(
-          false,
-          NumericalFailure(
-            "There is no equilibrium to start from: " + error.message(),
-            parameters.model.analysis == Analysis::safety_factor
-              ? "parameter 'Safety factor/Start'"
-              : "parameter 'Time/Start'",
-            is_relaxed ? "see that obstacles and supports hold every block"
-                       : "let faces touch at the start, with friction, or "
-                         "set it to relaxation"));
-        throw;
-      }
+      return find_or_explain(input,
+                             /* is_relaxed = */ false,
+                             [&](Progress::Stage &stage) {
+                               return solve_statics(input, stage, report);
+                             });
+    }
+
+
+    Vector
+    find_start(const StartInput &input,
+               StartRelaxation  &relaxation,
+               StartReport      &report)
+    {
+      return find_or_explain(input,
+                             /* is_relaxed = */ true,
+                             [&](Progress::Stage &stage) {
+                               return relax_to_rest(input,
+                                                    relaxation,
+                                                    stage,
+                                                    report);
+                             });
     }
   } // namespace internal
 } // namespace NMM

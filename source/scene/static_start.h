@@ -2,7 +2,9 @@
 #define nmm_source_scene_static_start_h
 
 #include <nmm/covers/cover_system.h>
+#include <nmm/dynamics/contact_model.h>
 #include <nmm/dynamics/elastic_models.h>
+#include <nmm/dynamics/time_integrator.h>
 #include <nmm/mechanics/finite_elasticity.h>
 #include <nmm/output/progress.h>
 #include <nmm/quadrature/element_quadrature.h>
@@ -11,6 +13,8 @@
 
 #include <deal.II/lac/affine_constraints.h>
 
+#include <functional>
+#include <memory>
 #include <scene/contact_analysis.h>
 #include <vector>
 
@@ -31,6 +35,38 @@ namespace NMM
       ContactAnalysis *contact;
       /// The start is a stage of it.
       Progress &progress;
+    };
+
+
+    /// The equations of a relaxation from which a motion starts. Loads keep their values of t = 0
+    /// while its time advances.
+    class StartRelaxation
+    {
+    public:
+      /// The objects of @p input must outlive this one.
+      explicit StartRelaxation(const StartInput &input);
+
+      TimeIntegrator &
+      integrator()
+      {
+        return *time_integrator;
+      }
+
+      /// The terms of inelastic materials; null if there are none.
+      InelasticTerms *
+      inelastic_terms() const;
+
+      /// Length of the first step [s] if the relaxation goes on from a state that the integrator
+      /// was given, else 0.
+      double continued_step = 0.;
+      /// Called before each step with its length [s], if given.
+      std::function<void(double)> before_step;
+
+    private:
+      FiniteElasticity                elasticity;
+      std::unique_ptr<ElasticModel>   model;
+      std::unique_ptr<ContactModel>   contact_model;
+      std::unique_ptr<TimeIntegrator> time_integrator;
     };
 
 
@@ -63,6 +99,13 @@ namespace NMM
      */
     FiniteElasticity::Vector
     find_start(const StartInput &input, StartReport &report);
+
+
+    /// As find_start(), by a relaxation that may have begun already.
+    FiniteElasticity::Vector
+    find_start(const StartInput &input,
+               StartRelaxation  &relaxation,
+               StartReport      &report);
   } // namespace internal
 } // namespace NMM
 

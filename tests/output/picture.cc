@@ -81,21 +81,84 @@ namespace
   }
 
 
+  /// A triangle with a right angle at @p corner and legs of this size [m].
+  PictureData::Triangle
+  triangle(const double    size,
+           const double    value,
+           const Point<2> &corner = Point<2>())
+  {
+    PictureData::Triangle result;
+    const Point<2>        corners[3] = {corner,
+                                        {corner[0] + size, corner[1]},
+                                        {corner[0], corner[1] + size}};
+    for (unsigned int i = 0; i < 3; ++i)
+    {
+      result.vertices[i].position = corners[i];
+      result.vertices[i + 3].position =
+        corners[i] + 0.5 * (corners[(i + 1) % 3] - corners[i]);
+    }
+    std::fill(std::begin(result.values), std::end(result.values), value);
+    return result;
+  }
+
+
+  // The triangles have the same colours: a value beyond the range has that of its end.
+  TEST(Picture, ColourBarShowsThatValuesLieBeyondIt)
+  {
+    PictureParameters parameters;
+    parameters.picture_width = 300;
+    parameters.range_max     = 1.;
+    PictureData within, above, below;
+    within.triangles = {triangle(1., 1.), triangle(1., 0., {2., 0.})};
+    above.triangles  = {triangle(1., 1.5), triangle(1., 0., {2., 0.})};
+    below.triangles  = {triangle(1., 1.), triangle(1., -2., {2., 0.})};
+    const auto drawn = [&](const PictureData &data) {
+      return draw_picture_in_memory(data, parameters, "");
+    };
+    EXPECT_TRUE(drawn(within) != drawn(above));
+    EXPECT_TRUE(drawn(within) != drawn(below));
+    EXPECT_TRUE(drawn(above) != drawn(below));
+  }
+
+
+  // What is outside of the window does not matter.
+  TEST(Picture, WindowShowsAPart)
+  {
+    PictureParameters parameters;
+    parameters.picture_width = 300;
+    parameters.range_max     = 1.;
+    PictureData one, two;
+    one.triangles    = {triangle(1., 0.5)};
+    two.triangles    = {triangle(1., 0.5), triangle(1., 0.5, {5., 3.})};
+    const auto drawn = [&](const PictureData &data) {
+      return draw_picture_in_memory(data, parameters, "");
+    };
+    const std::string whole = drawn(one);
+    EXPECT_TRUE(drawn(two) != whole);
+    parameters.window = {0., 0., 1., 1.};
+    EXPECT_TRUE(drawn(one) == whole);
+    EXPECT_TRUE(drawn(two) == whole);
+  }
+
+
+  TEST(Picture, MaterialsHaveNames)
+  {
+    PictureParameters parameters;
+    parameters.picture_width = 300;
+    parameters.quantity      = Quantity::material;
+    PictureData data;
+    data.triangles   = {triangle(1., 0.), triangle(1., 1., {2., 0.})};
+    const auto drawn = [&](const std::vector<std::string> &names) {
+      parameters.material_names = names;
+      return draw_picture_in_memory(data, parameters, "");
+    };
+    EXPECT_TRUE(drawn({"granite", "clay"}) != drawn({"granite", "marl"}));
+  }
+
+
   // About a crack tip values grow without bound in triangles too small to be seen.
   TEST(PictureExtents, RangeLeavesOutWhatIsTooSmallToBeSeen)
   {
-    const auto triangle = [](const double size, const double value) {
-      PictureData::Triangle result;
-      const Point<2>        corners[3] = {{0., 0.}, {size, 0.}, {0., size}};
-      for (unsigned int i = 0; i < 3; ++i)
-      {
-        result.vertices[i].position = corners[i];
-        result.vertices[i + 3].position =
-          corners[i] + 0.5 * (corners[(i + 1) % 3] - corners[i]);
-      }
-      std::fill(std::begin(result.values), std::end(result.values), value);
-      return result;
-    };
     PictureData data;
     data.triangles = {triangle(1., 1.),
                       triangle(0.1, 2.),

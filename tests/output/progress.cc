@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <sstream>
+#include <unistd.h>
 
 using namespace NMM;
 
@@ -13,6 +14,26 @@ namespace
     EXPECT_EQ(cut_to_width("1234567890", 10), "1234567890");
     EXPECT_EQ(cut_to_width("12345678901", 10), "123456 ...");
     EXPECT_EQ(cut_to_width("12345", 3), "123");
+  }
+
+
+  // No line of a terminal, here of 80 characters, is cut within a word.
+  TEST(Progress, MessagesAreWrappedOnATerminal)
+  {
+    if (isatty(STDOUT_FILENO) != 0)
+      GTEST_SKIP() << "this terminal may have another width";
+    const std::string text =
+      "  contact: 12 faces of 3 blocks; stiffness 1e12 Pa/m, friction 35 "
+      "degrees, cohesion 2e4 Pa, reach 0.02 m, points 3 a face";
+    std::ostringstream plain, terminal;
+    Progress(plain, false, MPI_COMM_SELF).message(text);
+    EXPECT_EQ(plain.str(), text + "\n");
+    Progress(terminal, true, MPI_COMM_SELF).message(text);
+    EXPECT_EQ(
+      terminal.str(),
+      "\r\033[K  contact: 12 faces of 3 blocks; stiffness 1e12 Pa/m, "
+      "friction 35 degrees,\n    cohesion 2e4 Pa, reach 0.02 m, points 3 "
+      "a face\n");
   }
 
 

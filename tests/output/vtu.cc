@@ -90,7 +90,7 @@ namespace
     EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in_again), {}), file);
     std::filesystem::remove_all(folder);
 
-    const auto points = read_array<float>(file, "<Points>");
+    const auto points = read_array<double>(file, "<Points>");
     const auto connectivity =
       read_array<std::int32_t>(file, "\"connectivity\"");
     const auto offsets = read_array<std::int32_t>(file, "\"offsets\"");
@@ -113,10 +113,10 @@ namespace
     {
       const FieldSample      &sample = triangles.samples[k / 6][k % 6];
       const dealii::Point<2> &x      = triangles.nodes[k / 6][k % 6];
-      // the same numbers, rounded to single precision
+      // The same positions, and other numbers rounded to single precision.
       for (unsigned int d = 0; d < 2; ++d)
       {
-        ASSERT_EQ(points[3 * k + d], static_cast<float>(x[d]));
+        ASSERT_EQ(points[3 * k + d], x[d]);
         ASSERT_EQ(u[3 * k + d], static_cast<float>(sample.displacement[d]));
         ASSERT_EQ(v[3 * k + d], static_cast<float>(sample.velocity[d]));
       }
@@ -164,7 +164,8 @@ namespace
     const auto expect_is = [&](const std::string &name, const Floats &values) {
       EXPECT_EQ(read_array<float>(file, name), values) << name;
     };
-    expect_is("<Points>", {1.f, 0.3f, 0.f, 2.f, 0.3f, 0.f});
+    EXPECT_EQ(read_array<double>(file, "<Points>"),
+              (std::vector<double>{1., 0.3, 0., 2., 0.3, 0.}));
     expect_is("\"K_I\"", {1e6f, 1000001.f});
     expect_is("\"K_II\"", {-2e5f, -2e5f});
     expect_is("\"T\"", {-3e6f, -3e6f});

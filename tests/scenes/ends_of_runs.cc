@@ -1,7 +1,12 @@
 #include "rejected_input.h"
 #include <algorithm>
+#include <csignal>
+#include <fcntl.h>
 #include <iterator>
 #include <regex>
+#include <sys/file.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 // How runs end that meet a limit: of memory, of numbers, of contact, of the disk.
 using namespace rejected_input;
@@ -217,6 +222,55 @@ namespace
     EXPECT_EQ(content("probes.csv"), probes);
     EXPECT_EQ(content("fields.pvd"), series);
     EXPECT_TRUE(content("animation.html") == page);
+  }
+
+
+  // The disk is full after so many bytes of a file: of a table, a picture, fields, or the last of
+  // these.
+  TEST(EndsOfRuns, FilesThatDoNotFitAreNoInternalError)
+  {
+    rlimit limit;
+    getrlimit(RLIMIT_FSIZE, &limit);
+    const rlim_t unlimited = limit.rlim_cur;
+    const auto   action    = std::signal(SIGXFSZ, SIG_IGN);
+    for (const rlim_t bytes : {300, 3000, 10000, 20000, 30000})
+    {
+      SCOPED_TRACE(bytes);
+      limit.rlim_cur = bytes;
+      setrlimit(RLIMIT_FSIZE, &limit);
+      const DriverResult result = run_with(moving);
+      limit.rlim_cur            = unlimited;
+      setrlimit(RLIMIT_FSIZE, &limit);
+      EXPECT_EQ(result.exit_code, 3) << result.output;
+      if (is_first_rank())
+        EXPECT_NE(result.output.find("cannot be written (File too large)"),
+                  std::string::npos)
+          << result.output;
+      EXPECT_EQ(result.output.find("internal error"), std::string::npos)
+        << result.output;
+      if (is_first_rank())
+        for (const auto &entry : fs::directory_iterator(folder))
+          EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+    }
+    std::signal(SIGXFSZ, action);
+  }
+
+
+  TEST(EndsOfRuns, ASecondRunInAFolderIsRefused)
+  {
+    EXPECT_EQ(run_with({}).exit_code, 0);
+    const std::string before = content("summary.csv");
+    const int         other  = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY);
+    ASSERT_EQ(::flock(other, LOCK_EX | LOCK_NB), 0);
+    const DriverResult result = run_with({});
+    EXPECT_EQ(result.exit_code, 2) << result.output;
+    EXPECT_NE(result.output.find("another run writes its results to this "
+                                 "folder, at --output "),
+              std::string::npos)
+      << result.output;
+    EXPECT_EQ(content("summary.csv"), before);
+    ::close(other);
+    EXPECT_EQ(run_with({}).exit_code, 0);
   }
 
 

@@ -23,6 +23,18 @@ namespace
   }
 
 
+  /// The rows of summary.csv: the text of the value of each name.
+  std::map<std::string, std::string>
+  read_summary(const std::string &folder)
+  {
+    const auto columns = read_columns(folder + "/summary.csv");
+    std::map<std::string, std::string> rows;
+    for (std::size_t i = 0; i < columns.at("name").size(); ++i)
+      rows[columns.at("name")[i]] = columns.at("value")[i];
+    return rows;
+  }
+
+
   /// To the end in one go, and with a stop at @p half.
   void
   check_stop(const std::string &scene,
@@ -43,6 +55,12 @@ namespace
     expect_same_histories(straight, stopped);
     EXPECT_TRUE(read_text(straight + "/checkpoint.nmm") ==
                 read_text(stopped + "/checkpoint.nmm"));
+    // These are maxima over all steps, not over those of the second part.
+    const auto summary = read_summary(straight),
+               of_both = read_summary(stopped);
+    for (const char *row : {"energy_balance_relative", "largest_penetration"})
+      if (summary.count(row) > 0)
+        EXPECT_EQ(of_both.at(row), summary.at(row)) << row;
     EXPECT_TRUE(fs::exists(stopped + "/fields.vtu") ||
                 fs::exists(stopped + "/fields.pvtu"));
   }
@@ -71,6 +89,42 @@ namespace
                {"--set", "Time/End time=0.2"});
     // The first block leaves in the first part, the second one in the second.
     check_stop("leaving-blocks/scene.prm", "0.9", {});
+  }
+
+
+  // A relaxation with which a motion starts is saved, too: it may take longer than the motion.
+  TEST(Restart, StartsByRelaxationGoOnWithTheSameBits)
+  {
+    const Arguments   settings{"--set",
+                             "Output/Checkpoint every=3",
+                             "--set",
+                             "Time/Start=relaxation",
+                             "--set",
+                             "Relaxation/Step=0.01",
+                             "--set",
+                             "Contact/Friction angle=35",
+                             "--set",
+                             "Time/End time=0.05",
+                             cases_dir + "contact-incline/scene.prm"};
+    const std::string straight = fresh_output_dir("straight-start");
+    const std::string stopped  = fresh_output_dir("stopped-start");
+    run(settings + Arguments{"-o", straight});
+    // It does not come to rest in so few steps.
+    run(settings +
+          Arguments{"-o", stopped, "--set", "Relaxation/Maximum steps=7"},
+        3);
+    run(settings +
+        Arguments{"-o", stopped, "--restart", stopped + "/checkpoint.nmm"});
+    expect_same_histories(straight, stopped);
+    EXPECT_TRUE(read_text(straight + "/checkpoint.nmm") ==
+                read_text(stopped + "/checkpoint.nmm"));
+    EXPECT_GT(std::stoi(read_summary(straight).at("start_steps")), 7);
+    // Once it has started, the motion goes on from its own checkpoint.
+    const std::string further = fresh_output_dir("further-start");
+    run(settings + Arguments{"-o", further, "--set", "Time/End time=0.02"});
+    run(settings +
+        Arguments{"-o", further, "--restart", further + "/checkpoint.nmm"});
+    expect_same_histories(straight, further);
   }
 
 
@@ -272,8 +326,8 @@ namespace
         Arguments{"-o", second, "--restart", first + "/checkpoint.nmm"});
     EXPECT_TRUE(before == contents(first));
     const std::string history = read_text(second + "/history.csv");
-    // Two lines of names, the state it starts from, 25 steps.
-    EXPECT_EQ(std::count(history.begin(), history.end(), '\n'), 28);
+    // A line of names, the state it starts from, 25 steps.
+    EXPECT_EQ(std::count(history.begin(), history.end(), '\n'), 27);
     EXPECT_NE(history.find(",25,0,0,0,"), std::string::npos) << history;
   }
 

@@ -69,6 +69,88 @@ namespace
   }
 
 
+  /// Let it run until the file @p awaited is there, then send @p signal. Returns the exit code, or
+  /// minus the signal that has ended the program.
+  int
+  stop_after(const pid_t child, const fs::path &awaited, const int signal)
+  {
+    const auto deadline = time(nullptr) + 120;
+    int        status   = 0;
+    while (time(nullptr) < deadline && !fs::exists(awaited))
+    {
+      if (waitpid(child, &status, WNOHANG) == child)
+        return WEXITSTATUS(status);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    kill(child, signal);
+    waitpid(child, &status, 0);
+    return WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
+  }
+
+
+  // Ctrl-C and SIGTERM end a run at the end of a step, with a checkpoint although the scene asks
+  // for none.
+  TEST(Driver, StoppedRunsGoOnWithTheSameBits)
+  {
+    const Arguments   settings{"--set",
+                             "Output/Fields every=20",
+                             "--set",
+                             "Time/Initial step=0.002",
+                             "--set",
+                             "Time/Largest step=0.004",
+                             "--set",
+                             "Time/Largest displacement=0.015",
+                             "--set",
+                             "Time/End time=2",
+                             cases_dir + "spinning-block/scene.prm"};
+    const std::string straight = fresh_output_dir("not-stopped");
+    EXPECT_EQ(run_driver(settings + Arguments{"-o", straight}).exit_code, 0);
+    const std::string stopped = fresh_output_dir("stopped");
+    const fs::path    series  = stopped + "/fields-0001.vtu";
+    EXPECT_EQ(stop_after(start(settings + Arguments{"-o", stopped}),
+                         series,
+                         SIGINT),
+              4);
+    const Arguments restart{"-o",
+                            stopped,
+                            "--restart",
+                            stopped + "/checkpoint.nmm"};
+    EXPECT_TRUE(fs::exists(stopped + "/summary.csv"));
+    EXPECT_TRUE(fs::exists(stopped + "/picture.png"));
+    EXPECT_EQ(stop_after(start(settings + restart),
+                         stopped + "/fields-0003.vtu",
+                         SIGTERM),
+              4);
+    EXPECT_EQ(run_driver(settings + restart).exit_code, 0);
+    expect_same_histories(straight, stopped);
+  }
+
+
+  // Where nothing can be continued, what is known is written.
+  TEST(Driver, StoppedRelaxationsSayWhatIsKnown)
+  {
+    const std::string folder = fresh_output_dir("stopped-relaxation");
+    EXPECT_EQ(stop_after(start({"--set",
+                                "Relaxation/Tolerance=1e-30",
+                                "--set",
+                                "Relaxation/Maximum steps=100000000",
+                                "--set",
+                                "Output/Fields every=1",
+                                "-o",
+                                folder,
+                                "--set",
+                                "Model/Analysis=relaxation",
+                                "--set",
+                                "Relaxation/Step=0.01",
+                                cases_dir + "contact-stack/scene.prm"}),
+                         folder + "/fields-0002.vtu",
+                         SIGTERM),
+              4);
+    EXPECT_TRUE(fs::exists(folder + "/summary.csv"));
+    EXPECT_FALSE(fs::exists(folder + "/checkpoint.nmm"));
+  }
+
+
   TEST(Driver, KilledRunsGoOnWithTheSameBits)
   {
     const unsigned int seed = std::random_device()();

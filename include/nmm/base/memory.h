@@ -32,6 +32,15 @@ namespace NMM
   available_memory(MPI_Comm communicator);
 
   /**
+   * Lets the linear algebra take its work space now, so that it is a part of the memory in use
+   * afterwards. OpenBLAS takes 134 MB of address space for each thread in its first product of
+   * matrices, and if a limit of the process (`ulimit -v`) does not leave them, it asks for them
+   * without end. @throws InputError if they are not left.
+   */
+  void
+  reserve_work_space();
+
+  /**
    * Checks that there is enough memory, before a large allocation. @p needed is an estimate for
    * this process [bytes], @p purpose says what it is for, e.g. "1e9 cells", and @p where is the
    * place in the message. @p remedy makes the advice in the message from @p needed over the

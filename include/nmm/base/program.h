@@ -17,7 +17,8 @@ namespace NMM
     success           = 0,
     internal_error    = 1,
     input_error       = 2,
-    numerical_failure = 3
+    numerical_failure = 3,
+    stopped           = 4
   };
 
 

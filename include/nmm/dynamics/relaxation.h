@@ -13,6 +13,8 @@ namespace NMM
   {
     /// First step [s]. The longest natural period of the solid is a good choice.
     double step = std::numeric_limits<double>::signaling_NaN();
+    /// First step of a relaxation that continues an earlier one [s]; 0: `step`.
+    double continued_step = 0.;
     /// Largest Account::imbalance that counts as rest [-].
     double tolerance = 1e-8;
     /// Number of steps after which the relaxation is given up.
@@ -58,14 +60,17 @@ namespace NMM
    * from which a step of this scheme bounces back with the same speed: a slope of 329 blocks then has
    * no rest after 100 steps, and rests after 54 as it is.
    * Loads must not depend on time, because time goes on. @p after_step, if given, is called after each
-   * step, before the motion is stopped.
+   * step, before the motion is stopped. @p before_step, if given, is called before
+   * each step with its length [s]: a relaxation from the state of @p integrator at that time, with
+   * this length as RelaxationParameters::continued_step, takes the same steps.
    * @throws NumericalFailure if rest is not reached within the steps allowed, or as
    * StepSequence::advance() if steps become shorter than a millionth of the first one.
    */
   RelaxationReport
   relax(TimeIntegrator                                &integrator,
         const RelaxationParameters                    &parameters,
-        const std::function<void(const StepRecord &)> &after_step = {});
+        const std::function<void(const StepRecord &)> &after_step  = {},
+        const std::function<void(double length)>      &before_step = {});
 } // namespace NMM
 
 #endif

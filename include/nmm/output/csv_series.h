@@ -15,6 +15,11 @@ namespace NMM
   quoted(const std::string &text);
 
 
+  /// The shortest text that reads back as the same number, such as 0.03.
+  std::string
+  shortest_text(double number);
+
+
   /**
    * A CSV file to which rows are appended while a run goes on; it is valid after each of
    * them. A run that continues an earlier one removes the rows after its start.
@@ -35,12 +40,11 @@ namespace NMM
               const std::function<bool(const std::string &)> &is_kept = {});
 
     /**
-     * Makes a file with the line @p comment and the columns time, step and @p columns. The rows
-     * of an earlier file up to the step @p continue_after are kept; a negative number stands
+     * Makes a file with the columns time, step and @p columns, whose names are its first line. The
+     * rows of an earlier file up to the step @p continue_after are kept; a negative number stands
      * for no earlier file.
      */
     CsvSeries(std::string                     file_name,
-              const std::string              &comment,
               const std::vector<std::string> &columns,
               int                             continue_after);
 
@@ -48,7 +52,7 @@ namespace NMM
     void
     append(const std::string &rows);
 
-    /// Appends a row. Numbers have 17 digits, so that different numbers have different texts.
+    /// Appends a row, with numbers by shortest_text().
     void
     append(double time, unsigned int step, const std::vector<double> &values);
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <ostream>
 #include <set>
 #include <string>
@@ -10,11 +11,18 @@
 
 namespace NMM
 {
+  namespace internal
+  {
+    class FolderLock;
+  }
+
   /**
    * The folder to which results are written. Each file is written under a temporary
    * name and renamed when it is complete, so that no file is ever incomplete, and none is left
    * from an earlier run. Names of results are listed in the file `.nmm-results` of the folder, and
    * only files on this list are removed: files of the user's own stay, whatever their names.
+   * From the first check on that finds the folder, no other run may write to it
+   * while this object and its copies exist.
    */
   class OutputDirectory
   {
@@ -27,8 +35,8 @@ namespace NMM
     path() const;
 
     /// Checks whether the folder can be made and written to; files and folders that are made for
-    /// that are removed again. @throws InputError if it cannot, or if a folder in it has the name
-    /// of a file of results.
+    /// that are removed again. @throws InputError if it cannot, if another run writes to it, or if a
+    /// folder in it has the name of a file of results.
     void
     check() const;
 
@@ -73,9 +81,15 @@ namespace NMM
     std::string
     try_to_write() const;
 
+    /// Keeps other runs out of the folder, if it exists. @throws InputError if one is in it.
+    void
+    lock() const;
+
     std::filesystem::path folder;
     /// Names that this object has put on the list.
     mutable std::set<std::string> listed;
+    /// Null until lock() has been called for a folder that exists.
+    mutable std::shared_ptr<internal::FolderLock> folder_lock;
   };
 
 

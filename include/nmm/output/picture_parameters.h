@@ -62,8 +62,12 @@ namespace NMM
     /// Value at the upper end of the colour bar; if it equals range_min, the bar spans the
     /// values of the solution.
     double range_max = 0.;
+    /// Part of the plane that is shown: left, lower, right and upper end [m]; empty: all.
+    std::vector<double> window;
     /// Whether the edges of the mathematical mesh are drawn.
-    bool mesh_lines = true;
+    bool mesh_lines = false;
+    /// Names of materials in a picture that shows these.
+    std::vector<std::string> material_names;
     /// Width of the picture [pixels]; the height follows from the shape of the solid.
     unsigned int picture_width = 1600;
     /// Word for the unit of length in pictures and files; numbers are not converted.

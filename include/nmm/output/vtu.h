@@ -15,7 +15,7 @@ namespace NMM
    * and .pvtu. Manifold elements are written as VTK's quadratic triangles with six nodes. The
    * fields are displacement, direct and recovered stress, von Mises and principal stresses
    * (of the recovered stress), the numbers of block, region and material, the rank, and velocity
-   * and plastic strain if there are any. Numbers have single precision. ParaView's "Warp
+   * and plastic strain if there are any. Positions have double precision, other numbers single precision. ParaView's "Warp
    * by vector" of the displacement shows the deformed shape. Returns the name of
    * the file, for FileSeries. Collective, but does not wait for the files of other ranks.
    *

@@ -16,7 +16,10 @@ namespace NMM
                  const double                furthest,
                  StepReport                 &report)
     {
-      report = integrator.try_step(h);
+      // Forces of a step need only be as good as those that the next one begins with.
+      constexpr double part = 1e-3;
+
+      report = integrator.try_step(h, part * integrator.account().imbalance);
       if (!report.converged)
         return StepVerdict::rejected(
           {report.reason, report.remedy, report.retry}, report.n_iterations);

@@ -495,14 +495,15 @@ namespace NMM
 
 
   void
-  TimeIntegrator::Data::solve_nonlinear(StepReport &report)
+  TimeIntegrator::Data::solve_nonlinear(StepReport  &report,
+                                        const double residual_tolerance)
   {
     do
     {
       if (report.converged)
         predict();
-      const NewtonReport result =
-        newton.solve(*this, model->constraints(), u_end);
+      const NewtonReport result = newton.solve(
+        *this, model->constraints(), u_end, nullptr, residual_tolerance);
       report.converged = result.converged;
       report.reason    = result.reason;
       report.n_iterations += result.iterations.size();

@@ -194,7 +194,7 @@ namespace NMM
 
     /// Solve the step by Newton's method, and repeat it whenever the result wakes a block.
     void
-    solve_nonlinear(StepReport &report);
+    solve_nonlinear(StepReport &report, double residual_tolerance);
 
     /// Let blocks fall asleep after a step.
     void

@@ -196,7 +196,7 @@ namespace NMM
 
 
   StepReport
-  TimeIntegrator::try_step(const double step)
+  TimeIntegrator::try_step(const double step, const double residual_tolerance)
   {
     Data &d = *data;
     AssertThrow(step > 0. && std::isfinite(step),
@@ -216,7 +216,7 @@ namespace NMM
       report.converged         = true;
     }
     else
-      d.solve_nonlinear(report);
+      d.solve_nonlinear(report, residual_tolerance);
     if (report.converged)
       d.measure(report);
     if (report.converged)

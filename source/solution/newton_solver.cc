@@ -59,6 +59,8 @@ namespace NMM
     bool   use_increment = true;
     /// Force scale of the last assembly of all blocks, or else of the first assembly [N/m].
     double scale = 0.;
+    /// Tolerance of this solution, relative to the force scale [-].
+    double tolerance = 0.;
     /// @{
     /// Rounding of the forces in the last assembly, and by that of the unknowns; negative: not known
     /// yet [N/m].
@@ -477,7 +479,7 @@ namespace NMM
     // Residuals below this multiple of the tolerance may be due to rounding.
     constexpr double near = 1e4;
     if (rounding_by_unknowns >= 0. || system->body_tangent() != nullptr ||
-        report->relative_residual > near * parameters.residual_tolerance)
+        report->relative_residual > near * tolerance)
       return;
     const internal::MatrixRows rows(system->tangent());
     // On several ranks the columns of others are left out, which are few.
@@ -518,7 +520,7 @@ namespace NMM
   {
     const double part =
       static_cast<double>(group.n_unknowns) / groups.n_unknowns();
-    const double allowed = parameters.residual_tolerance * scale;
+    const double allowed = tolerance * scale;
     if (group.square <= allowed * allowed * part &&
         std::abs(group.product) <=
           parameters.energy_tolerance * largest_energy * part)
@@ -594,7 +596,7 @@ namespace NMM
       return false;
     }
     groups.sum_squares(residual);
-    const double allowed = parameters.residual_tolerance * scale;
+    const double allowed = tolerance * scale;
     touched.clear();
     for (const unsigned int root : groups.roots())
       if (groups[root].square * groups.n_unknowns() >
@@ -610,7 +612,8 @@ namespace NMM
   NewtonSolver::solve(NonlinearSystem                         &system,
                       const dealii::AffineConstraints<double> &constraints,
                       Vector                                  &u,
-                      const Vector                            *increment)
+                      const Vector                            *increment,
+                      const double residual_tolerance)
   {
     NewtonReport report;
     Data        &d  = *data;
@@ -624,8 +627,9 @@ namespace NMM
     d.before.reinit(d.owned);
     if (d.use_increment)
       d.last_increment.reinit(u);
-    d.scale                = 0.;
-    d.rounding             = 0.;
+    d.tolerance = std::max(d.parameters.residual_tolerance, residual_tolerance);
+    d.scale     = 0.;
+    d.rounding  = 0.;
     d.rounding_by_unknowns = -1.;
     d.groups.reinit(system.blocks_of_unknowns(),
                     system.held_blocks(),

@@ -204,7 +204,7 @@ namespace
     directory.create();
     directory.write_text("summary.csv",
                          [](std::ostream &out) { out << "results"; });
-    const CsvSeries history(directory.file("history.csv"), "#", {"a"}, -1);
+    const CsvSeries history(directory.file("history.csv"), {"a"}, -1);
     std::string     content;
     std::ifstream(victim) >> content;
     EXPECT_EQ(content, "precious");

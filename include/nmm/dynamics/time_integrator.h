@@ -267,9 +267,10 @@ namespace NMM
     restore(const DynamicState &state);
 
     /// Try a step of @p step [s]. Expected failures (no convergence, a fault that the model
-    /// finds) are results. The state does not change.
+    /// finds) are results. The state does not change. @p residual_tolerance: see
+    /// NewtonSolver::solve().
     [[nodiscard]] StepReport
-    try_step(double step);
+    try_step(double step, double residual_tolerance = 0.);
 
     /// Accept the step that was tried last. @pre It converged.
     void

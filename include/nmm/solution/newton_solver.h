@@ -284,13 +284,15 @@ namespace NMM
      * Solve r(u) = 0, starting from @p u, which has the locally relevant unknowns and satisfies
      * the constraints. Without convergence u is undefined. Corrections satisfy @p constraints
      * without their inhomogeneities. @p increment, or null, is the change by which the initial u
-     * was extrapolated; it is passed to the first assembly of the tangent.
+     * was extrapolated; it is passed to the first assembly of the tangent. The tolerance is the larger
+     * one of NewtonParameters::residual_tolerance and @p residual_tolerance.
      */
     NewtonReport
     solve(NonlinearSystem                         &system,
           const dealii::AffineConstraints<double> &constraints,
           Vector                                  &u,
-          const Vector                            *increment = nullptr);
+          const Vector                            *increment          = nullptr,
+          double                                   residual_tolerance = 0.);
 
   private:
     struct Data;

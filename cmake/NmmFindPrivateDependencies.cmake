@@ -8,10 +8,6 @@ find_package(CGAL 5.5 REQUIRED QUIET)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE QUIET)
 find_package(PkgConfig REQUIRED QUIET)
 pkg_check_modules(cairo REQUIRED QUIET IMPORTED_TARGET cairo)
-pkg_check_modules(dxflib QUIET IMPORTED_TARGET dxflib)
-if(NOT dxflib_FOUND)
-  message(STATUS "dxflib (libdxflib-dev) is not there: DXF drawings cannot be read")
-endif()
 
 # SuiteSparse of Debian 12 has no package file.
 find_path(NMM_KLU_INCLUDE_DIR klu.h PATH_SUFFIXES suitesparse REQUIRED)

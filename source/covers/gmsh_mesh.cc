@@ -111,16 +111,19 @@ namespace NMM
                                               17, 18, 19, 20, 21, 22, 23, 24,
                                               25, 26, 27, 28, 29, 30, 31};
       const auto          counts           = count_types(text, generation == 4);
+      unsigned int        n_second         = 0;
+      for (const auto &[type, n] : counts)
+        n_second += second_order.count(type) > 0 ? n : 0;
+      if (n_second > 0)
+        refuse("the mesh has " + std::to_string(n_second) +
+                 " elements of second or higher order",
+               file_name,
+               "save it with elements of first order (gmsh -order 1)");
       for (const auto &[type, n] : counts)
       {
         const std::string number = std::to_string(n);
         if (type == 3)
           refuse("the mesh has " + number + " quadrilaterals", file_name);
-        if (second_order.count(type) > 0)
-          refuse("the mesh has " + number +
-                   " elements of second or higher order",
-                 file_name,
-                 "save it with elements of first order (gmsh -order 1)");
         if (type != 2 && points_and_lines.count(type) == 0)
           refuse("the mesh has " + number +
                    " elements that are neither triangles nor lines",

@@ -63,7 +63,7 @@ namespace NMM
         std::smatch match;
         return std::regex_search(text,
                                  match,
-                                 std::regex("Message: (.*?)\\.? Formula:"))
+                                 std::regex("The parser said: (.*?)\\.? *$"))
                  ? " (" + match.str(1) + ")"
                  : "";
       }

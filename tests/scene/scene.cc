@@ -438,7 +438,7 @@ namespace
               "subsection Materials\n  subsection rock\n"
               "    set Density = 1\n  end\nend\n"
               "subsection Initial velocities\n  set Names = push\n"
-              "  subsection push\n    set Velocity = 1, 0\n  end\nend\n";
+              "  subsection push\n    set Translation = 1, 0\n  end\nend\n";
     }
     EXPECT_EQ(message_of_scene(name), "");
     EXPECT_TRUE(Scene(name).notices().empty());

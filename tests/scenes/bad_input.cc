@@ -88,7 +88,7 @@ namespace
                                  "subsection Model\n  Thickness = 1\nend\n")},
                     {"syntax.prm:2"});
     expect_rejected({write_scene("open.prm", "subsection Model\n")},
-                    {"open.prm", "subsection"});
+                    {"open.prm", "'Model' is never closed"});
     expect_rejected({write_scene("empty.prm", "")}, {"empty.prm"});
     expect_rejected({write_scene("syntax.json", "{\"Model\": \n}")},
                     {"syntax.json:2"});

@@ -150,14 +150,14 @@ namespace
                           "Regions/pit/Material=rock"},
                          "Regions/pit/Use=excavation",
                          {"'rock'", "Regions/pit/Material", "taken out"});
-    rejects("Use=limit", {"'pit'", "Regions/pit/Use", "static analysis"});
+    rejects("Use=limit", {"Regions/pit/Use", "static analysis"});
     const std::vector<std::string> limit = {"Regions/Names=edge",
                                             "Regions/edge/Use=limit"};
     expect_rejected_with(dynamic + limit +
                            std::vector<std::string>{
                              "Model/Kinematics=incremental"},
                          "Regions/edge/Shape=CIRCLE (0.5 0.5, 1)",
-                         {"'edge'", "Regions/edge/Use", "incremental"});
+                         {"Regions/edge/Use", "incremental"});
     expect_rejected_with(dynamic + limit,
                          "Regions/edge/Shape=CIRCLE (5 0.5, 1)",
                          {"Regions/edge/Shape", "outside", "(0, 0)"});

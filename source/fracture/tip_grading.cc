@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace NMM
 {
@@ -101,11 +102,28 @@ namespace NMM
                    const double        growth,
                    const double        smallest)
   {
-    constexpr double       least_turn = 20. * dealii::numbers::PI / 180.;
-    std::vector<LocalSize> sizes;
-    for (const CrackCorner &corner : find_crack_corners(solid, least_turn))
-      sizes.push_back(
-        grade_towards(corner, growth, least_cell_size(solid), smallest));
+    constexpr double least_turn = 20. * dealii::numbers::PI / 180.,
+                     roughness = 0.25, coarsening = 1.6;
+    const std::vector<CrackCorner> corners =
+      find_crack_corners(solid, least_turn);
+    if (corners.empty())
+      return {};
+    const auto nearest = [](const dealii::Point<2> &x, const auto &others) {
+      double distance = std::numeric_limits<double>::max();
+      for (const auto &other : others)
+        if (other.point != x)
+          distance = std::min(distance, x.distance(other.point));
+      return distance;
+    };
+    const std::vector<CrackTip> tips = find_crack_tips(solid);
+    std::vector<LocalSize>      sizes;
+    for (const CrackCorner &corner : corners)
+      if (nearest(corner.point, corners) >=
+          roughness * nearest(corner.point, tips))
+        sizes.push_back(grade_towards(corner,
+                                      std::min(1., coarsening * growth),
+                                      least_cell_size(solid),
+                                      smallest));
     return sizes;
   }
 } // namespace NMM

@@ -1,4 +1,5 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/fracture/tip_cover.h>
 
 #include <algorithm>
 #include <base/archive.h>
@@ -82,6 +83,19 @@ namespace NMM
         reason_at_rest = on_curve(at_rest) + ", where cracks end";
       if (!at_rest.empty() && fracture.n_increments > 0)
         tip_notices.push_back(reason_at_rest + ": it does not grow");
+      std::vector<CrackTip> coarse;
+      for (const CrackTip &tip : tips)
+        if (!has_tip_cover(physical_mesh, tip) &&
+            least_cell_size(physical_mesh) > 1e-3 * tip.free_radius)
+          coarse.push_back(tip);
+      if (!coarse.empty())
+        tip_notices.push_back(
+          "coordinates cannot tell cells apart that are much smaller than the "
+          "distance to what is nearest, " +
+          to_text(coarse.front().free_radius) + " " +
+          scene.parameters().output.length_unit + " at " +
+          describe_tips(coarse) +
+          ": intensity factors there may be too small by half a percent");
       const std::vector<CrackTip> without_room =
         find_tips_without_room(physical_mesh);
       if (without_room.empty())
@@ -100,7 +114,7 @@ namespace NMM
         "; it has no intensity factors and cells are not small there, so that "
         "the factors of tips nearby can be wrong by a third; let the joint go "
         "on to the next curve, or leave at least " +
-        to_text(1e6 * least_cell_size(physical_mesh)) + " " +
+        to_text(1e4 * least_cell_size(physical_mesh)) + " " +
         scene.parameters().output.length_unit);
     }
 

@@ -368,7 +368,9 @@ namespace NMM
       double mean_length          = 0.;
       for (const CrackEnd &end : find_crack_ends(*physical_mesh))
         mean_length += end.length / summary.value("crack_tips");
-      if (cell_size > 1e-3 * mean_length)
+      // Where the mesh is graded, CrackTips names the tips at which it is not.
+      if (cell_size > 1e-3 * mean_length &&
+          !(crack_tips && scene.parameters().fracture.grades_mesh()))
       {
         text.str("");
         text

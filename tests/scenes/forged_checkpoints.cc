@@ -184,13 +184,6 @@ namespace
                     {"-s", "Time/End time=0.05"},
                     {"-s", "Time/End time=0.0505"},
                     n_forgeries / 5);
-#ifndef DEBUG
-    check_forgeries(
-      "closed-crack/scene.prm",
-      {"-s", "Fracture/Increment=0.1", "-s", "Fracture/Increments=1"},
-      {"-s", "Fracture/Increment=0.1", "-s", "Fracture/Increments=1"},
-      n_forgeries / 10);
-#endif
   }
 
 

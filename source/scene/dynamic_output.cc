@@ -42,7 +42,8 @@ namespace NMM
       });
       if (!has_start() && !is_continued)
         write_first_state();
-      else if (contact)
+      // The states of a relaxation at the start are none of the run.
+      else if (contact && !continues_in_start())
         take_contact();
     }
 

@@ -335,7 +335,7 @@ namespace NMM
     }
     fixed.law = &laws(point.edge, projection.master);
     if (transmits_shear && (point.stick_edge == invalid_index ||
-                         !goes_on(point.stick_edge, projection.master)))
+                            !goes_on(point.stick_edge, projection.master)))
     {
       point.stick_edge = projection.master;
       point.stick_t    = projection.t;

@@ -51,8 +51,9 @@ namespace NMM
   /**
    * Dynamic relaxation to static equilibrium: the motion is stopped whenever the
    * kinetic energy has passed a peak (kinetic damping, Cundall 1976), and
-   * steps grow. Loads must not depend on time, because time goes on. @p after_step, if given, is
-   * called after each step, before the motion is stopped.
+   * steps grow. Loads must not depend on time, because time goes on; where prescribed displacements
+   * grow at first, the caller lets the relaxation go on until they have grown. @p after_step, if
+   * given, is called after each step, before the motion is stopped.
    * @throws NumericalFailure if rest is not reached within the steps allowed, or as
    * StepSequence::advance() if steps become shorter than a millionth of the first one.
    */

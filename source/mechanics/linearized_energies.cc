@@ -168,6 +168,8 @@ namespace NMM
   FiniteElasticity::evaluate_linearized(const Vector &u)
   {
     Data &d = *data;
+    if (!d.active_elements.all())
+      return;
     read_nodal_values(*d.covers, u, d.nodal);
     const std::vector<HyperelasticLaw::Response> at_rest = d.laws_at_rest();
     const auto [first, last] = d.covers->locally_owned_elements();

@@ -372,6 +372,7 @@ namespace NMM
                "at rest)";
         progress.message(line.str());
       }
+      warn_of_flutter();
       try
       {
         if (has_start())
@@ -410,6 +411,22 @@ namespace NMM
         for (const std::string &line : crack_tips->description())
           progress.message("  " + line);
       is_solved = true;
+    }
+
+
+    void
+    DynamicAnalysis::warn_of_flutter() const
+    {
+      if (kind != Analysis::dynamics || !integrator || !contact ||
+          !has_friction() || damping.stiffness > 0. ||
+          scene.parameters().time.damping.stiffness >= 0. ||
+          scene.parameters().time.scheme != TimeParameters::Scheme::newmark)
+        return;
+      progress.message(
+        "  notice: the scheme 'newmark' keeps all vibrations, so that blocks "
+        "hop on faces with friction, and what depends on slip counts only "
+        "while they touch: leave 'Time/Scheme' out, choose 'generalized "
+        "alpha', or set 'Time/Stiffness damping'");
     }
 
 

@@ -202,6 +202,10 @@ namespace NMM
       bool
       has_friction() const;
 
+      /// Say that nothing damps the vibrations of blocks on faces with friction, if that is so.
+      void
+      warn_of_flutter() const;
+
       void
       make_incremental();
 

@@ -185,9 +185,9 @@ namespace
   first_frequency(const Body &body)
   {
     (void)body.mechanics->assemble(body.zero(), 0., Tangent::consistent);
-    const MechanicalModel::Matrix &K = body.mechanics->tangent();
-    const MechanicalModel::Matrix &M = body.mechanics->mass();
-    dealii::SolverControl          control;
+    const MechanicalModel::Matrix         &K = body.mechanics->tangent();
+    const MechanicalModel::Matrix         &M = body.mechanics->mass();
+    dealii::SolverControl                  control;
     dealii::TrilinosWrappers::SolverDirect solver(control);
     solver.initialize(K);
     Vector x = body.velocity([](const Point<2> &p) {

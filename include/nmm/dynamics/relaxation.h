@@ -59,7 +59,8 @@ namespace NMM
    * kinetic energy has passed a peak lets loose blocks of a network rattle between their neighbours,
    * from which a step of this scheme bounces back with the same speed: a slope of 329 blocks then has
    * no rest after 100 steps, and rests after 54 as it is.
-   * Loads must not depend on time, because time goes on. @p after_step, if given, is called after each
+   * Loads must not depend on time, because time goes on; where prescribed displacements
+   * grow at first, the caller lets the relaxation go on until they have grown. @p after_step, if given, is called after each
    * step, before the motion is stopped. @p before_step, if given, is called before
    * each step with its length [s]: a relaxation from the state of @p integrator at that time, with
    * this length as RelaxationParameters::continued_step, takes the same steps.

@@ -139,7 +139,7 @@ namespace NMM
      * With K and r assembled at u = 0, its derivative is K u + r. Afterwards energies() has the
      * first integral as `strain` and the second one, with the springs of fixed points, as
      * `conditions`, and force_scale() is that of the forces of both. Residual and tangent stay as
-     * they are.
+     * they are. While some blocks are inactive, nothing is evaluated.
      */
     void
     evaluate_linearized(const Vector &u);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <contact/contact_crossings.h>
 #include <limits>
+#include <map>
 #include <sstream>
 #include <tuple>
 
@@ -143,6 +144,7 @@ namespace NMM
         }
         least_thickness = std::min(least_thickness, bodies[body].thickness);
       }
+      find_incident_ends();
     }
 
 
@@ -361,6 +363,54 @@ namespace NMM
     }
 
 
+    void
+    ContactCrossings::find_incident_ends()
+    {
+      const auto &edges = surface->edges();
+      const auto  key = [&](const std::pair<unsigned int, unsigned int> &end) {
+        const auto     &edge = edges[end.first];
+        const Point<2> &x    = end.second == 0 ? edge.start : edge.end;
+        return std::make_tuple(edge.body, x[0], x[1]);
+      };
+      for (unsigned int e = 0; e < edges.size(); ++e)
+        for (const unsigned int end : {0U, 1U})
+          incident_ends.emplace_back(e, end);
+      std::sort(incident_ends.begin(),
+                incident_ends.end(),
+                [&](const auto &a, const auto &b) { return key(a) < key(b); });
+      range_of_end.resize(incident_ends.size());
+      for (unsigned int first = 0, i = 1; i <= incident_ends.size(); ++i)
+        if (i == incident_ends.size() ||
+            key(incident_ends[i]) != key(incident_ends[first]))
+        {
+          for (unsigned int k = first; k < i; ++k)
+            range_of_end[2 * incident_ends[k].first + incident_ends[k].second] =
+              {first, i};
+          first = i;
+        }
+    }
+
+
+    std::vector<ContactCrossings::Passage>
+    ContactCrossings::continuations(const Passage &passage) const
+    {
+      std::vector<Passage> result;
+      const auto          &edge = surface->edges()[passage.edge];
+      const unsigned int   next = passage.forward ? edge.next : edge.previous;
+      if (next != invalid_index)
+        result.push_back({next, passage.forward});
+      const auto [first, last] =
+        range_of_end[2 * passage.edge + (passage.forward ? 1 : 0)];
+      for (unsigned int i = first; i < last; ++i)
+      {
+        const auto [other, end] = incident_ends[i];
+        if (other != passage.edge && other != next)
+          result.push_back({other, end == 0});
+      }
+      return result;
+    }
+
+
     bool
     ContactCrossings::reaches(const Place &from,
                               const Place &to,
@@ -368,26 +418,41 @@ namespace NMM
     {
       const auto        &edges     = surface->edges();
       const Tensor<1, 2> to_normal = normal(to);
+      // Length of a passage that looks another way than the place to be reached.
+      const auto others_of =
+        [&](const unsigned int edge, const double t, const double length) {
+          Place place;
+          place.edge = edge;
+          place.t    = t;
+          return normal(place) * to_normal < same_way ? length : 0.;
+        };
+      std::vector<std::pair<Passage, double>>         waiting;
+      std::map<std::pair<unsigned int, bool>, double> known;
       for (const bool forward : {true, false})
+        waiting.emplace_back(Passage{from.edge, forward},
+                             others_of(from.edge,
+                                       from.t,
+                                       edges[from.edge].length *
+                                         (forward ? 1. - from.t : from.t)));
+      while (!waiting.empty())
       {
-        double others = 0.;
-        Place  place  = from;
-        double length =
-          edges[from.edge].length * (forward ? 1. - from.t : from.t);
-        // Follow the boundary once round.
-        do
+        const auto [passage, others] = waiting.back();
+        waiting.pop_back();
+        if (others > tau)
+          continue;
+        for (const Passage &next : continuations(passage))
         {
-          if (normal(place) * to_normal < same_way)
-            others += length;
-          place.edge =
-            forward ? edges[place.edge].next : edges[place.edge].previous;
-          if (place.edge == to.edge && others <= tau)
+          if (next.edge == to.edge)
             return true;
-          if (place.edge == invalid_index)
-            break;
-          place.t = 0.5;
-          length  = edges[place.edge].length;
-        } while (others <= tau && place.edge != from.edge);
+          const double sum =
+            others + others_of(next.edge, 0.5, edges[next.edge].length);
+          const auto [entry, is_new] =
+            known.insert({{next.edge, next.forward}, sum});
+          if (!is_new && entry->second <= sum)
+            continue;
+          entry->second = sum;
+          waiting.emplace_back(next, sum);
+        }
       }
       return false;
     }

@@ -38,7 +38,8 @@ namespace NMM
      * it crosses or, if it is inside at the end, the nearest one. It has not passed through the
      * body if E and X are connected along the boundary by faces that look the same way as E (or X)
      * to within 32 degrees and at most a length tau of other faces, because points may pass by a
-     * corner when blocks slide. tau is half of the reach of the contact,
+     * corner when blocks slide. Faces that meet in a point are connected there: the mouth of a crack
+     * in a face has no width, and a point that glides over it does not pass through the body. tau is half of the reach of the contact,
      * and at most a fortieth of the body's circumference. A point that begins outside or at a face
      * (less than tau/10 deep), ends deeper than tau, and is in contact with none of the body's
      * faces then has been missed by the contact, and is treated as a crossing.
@@ -168,6 +169,22 @@ namespace NMM
       bool
       reaches(const Place &from, const Place &to, double tau) const;
 
+      /// An edge, and whether the boundary is followed along it or against it.
+      struct Passage
+      {
+        unsigned int edge    = invalid_index;
+        bool         forward = true;
+      };
+
+      /// The passages that continue a passage where its edge ends: to the next edge of the boundary,
+      /// and to all edges of the body that meet in the same point.
+      std::vector<Passage>
+      continuations(const Passage &passage) const;
+
+      /// Set incident_ends and range_of_end.
+      void
+      find_incident_ends();
+
       /// Examine the motion of one point past one body.
       void
       examine(unsigned int              edge,
@@ -181,6 +198,10 @@ namespace NMM
       double                least_thickness;
       /// Positions at both ends of the step, relative to the start of the first edge.
       std::vector<dealii::Point<2>> at_begin, at_end;
+      /// Edges with their ends (0, 1), sorted by the points where they end, and the range of those of
+      /// the same body and point for each edge and end.
+      std::vector<std::pair<unsigned int, unsigned int>> incident_ends;
+      std::vector<std::pair<unsigned int, unsigned int>> range_of_end;
     };
   } // namespace internal
 } // namespace NMM

@@ -16,7 +16,9 @@ namespace NMM
       append(std::vector<unsigned char> &bytes, const Number number)
       {
         const auto *begin = reinterpret_cast<const unsigned char *>(&number);
-        bytes.insert(bytes.end(), begin, begin + sizeof(Number));
+        // g++ 12 warns of an overflow in insert() where there is none.
+        for (std::size_t i = 0; i < sizeof(Number); ++i)
+          bytes.push_back(begin[i]);
       }
 
 

@@ -148,7 +148,7 @@ namespace
     // The second vertex is drawn, unless it is a control point of a spline's frame (16).
     EXPECT_EQ(read(polyline("4", "8")).curves[0].pieces.size(), 2u);
     EXPECT_EQ(read(polyline("4", "16")).curves[0].pieces.size(), 1u);
-    for (const std::string &mesh : {"16", "17", "48"})
+    for (const std::string mesh : {"16", "17", "48"})
     {
       const Drawing drawing = read(polyline(mesh, "64"));
       EXPECT_TRUE(drawing.curves.empty());

@@ -499,7 +499,7 @@ namespace
                                      "below/../beside.wkt",
                                      "./beside.wkt"})
       EXPECT_FALSE(is_refused(inside, true)) << inside;
-    for (const std::string outside : {std::string("../outside.wkt"),
+    for (const std::string &outside : {std::string("../outside.wkt"),
                                       std::string("link.wkt"),
                                       std::string("below/../../outside.wkt"),
                                       (folder / "outside.wkt").string()})

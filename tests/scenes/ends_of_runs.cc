@@ -243,14 +243,18 @@ namespace
       setrlimit(RLIMIT_FSIZE, &limit);
       EXPECT_EQ(result.exit_code, 3) << result.output;
       if (is_first_rank())
+      {
         EXPECT_NE(result.output.find("cannot be written (File too large)"),
                   std::string::npos)
           << result.output;
+      }
       EXPECT_EQ(result.output.find("internal error"), std::string::npos)
         << result.output;
       if (is_first_rank())
         for (const auto &entry : fs::directory_iterator(folder))
+        {
           EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+        }
     }
     std::signal(SIGXFSZ, action);
   }

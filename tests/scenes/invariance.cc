@@ -128,10 +128,12 @@ namespace
                       1e-6 * std::abs(here.at(row)))
             << moved.scene << ": " << row << " at (" << dx << ", " << dy << ")";
         if (here.count("newton_iterations") > 0)
+        {
           EXPECT_NEAR(here.at("newton_iterations"),
                       there.at("newton_iterations"),
                       2. + 0.05 * here.at("newton_iterations"))
             << moved.scene;
+        }
       }
     }
   }

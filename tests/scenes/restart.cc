@@ -60,7 +60,9 @@ namespace
                of_both = read_summary(stopped);
     for (const char *row : {"energy_balance_relative", "largest_penetration"})
       if (summary.count(row) > 0)
+      {
         EXPECT_EQ(of_both.at(row), summary.at(row)) << row;
+      }
     EXPECT_TRUE(fs::exists(stopped + "/fields.vtu") ||
                 fs::exists(stopped + "/fields.pvtu"));
   }

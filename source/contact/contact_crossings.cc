@@ -85,8 +85,6 @@ namespace NMM
     {
       // Parts of tau, see the class.
       constexpr double reach_part = 0.5, circumference_part = 1. / 40.;
-      // Bodies that are thinner than this part of their circumference are slivers.
-      constexpr double sliver = 1e-6;
 
       const auto         &edges = surface.edges();
       std::vector<double> circumference(bodies.size(), 0.),
@@ -127,12 +125,6 @@ namespace NMM
         bodies[body].width         = area[body] > 0. && n == n_edges[body]
                                        ? 2. * area[body] / circumference[body]
                                        : circumference[body];
-        // Whoever passes through a sliver meets what is behind it: nothing is lost.
-        if (bodies[body].width < sliver * circumference[body])
-        {
-          bodies[body].thickness = std::numeric_limits<double>::max();
-          continue;
-        }
         // A straight line is the boundary of a half-plane.
         if (n_edges[body] == 1 && edges[first[body]].next == invalid_index &&
             edges[first[body]].radius == 0.)

@@ -54,8 +54,7 @@ namespace NMM
      * Two bodies whose relative motion and penetration together are less than T/2 are not examined
      * (1/2, since arcs are longer than their chords by a factor of pi/2 at most). An obstacle that
      * is one straight line has T = tau; other bodies, such as those that are not convex, have
-     * T = 0. Slivers, thinner than a millionth of their circumference, are left out: they come from
-     * joints that were drawn twice, and what is behind them stops a point that passes through.
+     * T = 0.
      *
      * If a crossing is found, the step is to be repeated so that it ends a quarter of the way from
      * where the point enters to where it leaves (or to the end of the step). For a point that

@@ -161,7 +161,8 @@ namespace NMM
     DynamicState state = integrator.state();
     archive_scalars(archive, state);
     check_scalars(state, model_interface<BlockModel>(model).n_blocks());
-    require_in_checkpoint(is_closing == state.closing.act_at(state.time),
+    // the forces follow below
+    require_in_checkpoint(!is_closing || state.time < state.closing.end,
                           "its closing forces do not fit its time");
     state.closing.forces = is_closing ? state.u : Vector();
     for (Vector *vector : vectors_of(state))

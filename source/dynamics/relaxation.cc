@@ -2,6 +2,7 @@
 #include <nmm/dynamics/relaxation.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace NMM
 {
@@ -48,14 +49,16 @@ namespace NMM
     RelaxationReport             report;
     const TimeIntegrator::Vector begin = integrator.state().u;
     TimeIntegrator::Vector       motion(begin);
-    const double furthest = parameters.max_step_displacement > 0.
-                              ? parameters.max_step_displacement
-                              : 0.01 * parameters.max_displacement;
-    StepSequence sequence({"time", "s", 1e-6 * parameters.step},
+    const double           furthest = parameters.max_step_displacement > 0.
+                                        ? parameters.max_step_displacement
+                                        : 0.01 * parameters.max_displacement;
+    TimeIntegrator::Vector velocity(integrator.state().v);
+    double                 previous = integrator.account().kinetic;
+    StepSequence           sequence({"time", "s", 1e-6 * parameters.step},
                           integrator.state().time,
                           parameters.continued_step > 0.
-                            ? parameters.continued_step
-                            : parameters.step);
+                                      ? parameters.continued_step
+                                      : parameters.step);
     while (report.n_steps < parameters.max_steps)
     {
       if (before_step)
@@ -84,10 +87,21 @@ namespace NMM
           return report;
         }
       }
-      integrator.stop_motion();
-      report.imbalance = integrator.account().imbalance;
-      if (report.imbalance <= parameters.tolerance)
-        return report;
+      const double kinetic = integrator.account().kinetic;
+      // twice the kinetic energy is (v, M v)
+      const bool turns_back =
+        integrator.model().mass().matrix_scalar_product(velocity,
+                                                        integrator.state().v) <
+        -std::sqrt(kinetic * previous);
+      if (kinetic <= previous || turns_back)
+      {
+        integrator.stop_motion();
+        report.imbalance = integrator.account().imbalance;
+        if (report.imbalance <= parameters.tolerance)
+          return report;
+      }
+      previous = integrator.account().kinetic;
+      velocity = integrator.state().v;
     }
     AssertThrow(
       false,

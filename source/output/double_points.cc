@@ -47,13 +47,13 @@ namespace NMM
     with_double_points(const std::string                   &vtu,
                        const std::vector<dealii::Point<2>> &points)
     {
+      // A file without points stays as it is: deal.II writes no list of them.
+      if (points.empty())
+        return vtu;
       const std::size_t begin = vtu.find("<Points>"),
                         end   = vtu.find("</Points>");
       AssertThrow(begin != std::string::npos && end != std::string::npos,
                   dealii::ExcInternalError());
-      // A file without points stays as it is.
-      if (points.empty())
-        return vtu;
       std::vector<unsigned char> bytes;
       bytes.reserve(3 * sizeof(double) * points.size());
       for (const dealii::Point<2> &x : points)

@@ -50,7 +50,7 @@ namespace NMM
       analysis,
       analyses,
       "static: equilibrium; dynamic: the motion, see section Time; relaxation: "
-      "equilibrium, found by a motion that is stopped after each step, "
+      "equilibrium, found by a motion that is stopped again and again, "
       "see section Relaxation; safety factor: by how much the "
       "strength of contact can be divided before blocks move, see section "
       "Safety factor.");

@@ -506,9 +506,9 @@ namespace NMM
   double
   NewtonSolver::Data::floor() const
   {
-    // A larger part of the forces than this is not put down to rounding.
-    constexpr double most = 1e-6;
-    return std::min(most * scale,
+    // A residual of more tolerances than these is not put down to rounding.
+    constexpr double most = 10.;
+    return std::min(most * tolerance * scale,
                     std::hypot(rounding, std::max(0., rounding_by_unknowns)));
   }
 
@@ -525,7 +525,10 @@ namespace NMM
         std::abs(group.product) <=
           parameters.energy_tolerance * largest_energy * part)
       return true;
-    if (group.square > floor() * floor())
+    // At the floor an iteration gains nothing any more.
+    constexpr double gain = 0.25;
+    if (group.square > floor() * floor() ||
+        group.square < gain * group.squares.back() * scale * scale)
       return false;
     report->is_at_floor =
       report->is_at_floor || group.square > allowed * allowed * part;

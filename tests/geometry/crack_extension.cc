@@ -75,7 +75,8 @@ namespace
       {"interface name=seam LINESTRING (2.3 -6, 3.7 6)",
        "interface 'seam'",
        {3.0354132, 0.3035413},
-       1},
+       // the tip on the interface stays one, since the solid is all around
+       2},
       {"joint name=other LINESTRING (2.3 0.5, 3.7 0.1)",
        "joint 'other'",
        {3., 0.3},

@@ -82,7 +82,7 @@ namespace
     expect_rejected_with(moving,
                          "Model/Kinematics=incremental",
                          {"incremental", "Intensity factors"});
-    rejects("Fracture/Speed=100", {"speed", "Model/Analysis = dynamic"});
+    rejects("Fracture/Speed=100", {"Speed", "Model/Analysis = dynamic"});
     expect_rejected_with(cracked,
                          "Fracture/Speed=100",
                          {"'Speed'", "Increments"});

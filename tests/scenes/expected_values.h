@@ -59,7 +59,7 @@ struct Case
 std::vector<std::string>
 case_names();
 
-/// Those whose scenes have a section Fracture.
+/// Those beside the reports whose scenes have a section Fracture.
 std::vector<std::string>
 fracture_case_names();
 

@@ -63,8 +63,9 @@ namespace
   {
     std::string              scene;
     std::vector<std::string> settings;
-    /// Rows that are numbers of steps and must agree exactly, and rows that must agree to 1e-6.
+    /// Rows that are numbers of steps and must agree exactly, and rows that must agree to the tolerance.
     std::vector<std::string> counts, values;
+    double                   tolerance = 1e-6;
   };
 
 
@@ -108,10 +109,13 @@ namespace
        {},
        {},
        {"safety_factor"}},
+      // An inclined face: rounded coordinates, to 1e-9 m in the grid, are steps of 2e-5 of the
+      // compression of its springs, over which the block first settles.
       {"applications/nmm/scenes/sliding-block.prm",
        {},
        {"time_steps"},
-       {"max_displacement"}}};
+       {"max_displacement"},
+       1e-4}};
     for (const Moved &moved : all)
     {
       const auto here = run_moved(moved, 0., 0.);
@@ -125,7 +129,9 @@ namespace
         for (const std::string &row : moved.values)
           EXPECT_NEAR(here.at(row),
                       there.at(row),
-                      1e-6 * std::abs(here.at(row)))
+                      moved.tolerance * std::abs(here.at(row)) +
+                        // coordinates of both faces are rounded
+                        8e-16 * std::hypot(dx, dy))
             << moved.scene << ": " << row << " at (" << dx << ", " << dy << ")";
         if (here.count("newton_iterations") > 0)
         {

@@ -116,7 +116,6 @@ namespace
                             "--restart",
                             stopped + "/checkpoint.nmm"};
     EXPECT_TRUE(fs::exists(stopped + "/summary.csv"));
-    EXPECT_TRUE(fs::exists(stopped + "/picture.png"));
     EXPECT_EQ(stop_after(start(settings + restart),
                          stopped + "/fields-0003.vtu",
                          SIGTERM),

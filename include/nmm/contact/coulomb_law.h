@@ -68,7 +68,7 @@ namespace NMM
     Response
     cohesion_under(const double pressure, const double c) const
     {
-      constexpr double slope = 10.;
+      constexpr double slope = 1000.;
       if (is_bond)
         return {};
       return slope * pressure < c ? Response{slope * pressure, slope}

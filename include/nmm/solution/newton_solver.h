@@ -262,7 +262,7 @@ namespace NMM
    * NonlinearSystem::force_rounding(), for example of stiff springs that multiply the rounding of gaps,
    * and from the rounding of the unknowns, @f$ \epsilon\,(\sum_{ij} (K_{ij} u_j)^2)^{1/2} @f$, for example
    * in cells that are much thinner than the displacements are large. A residual below this floor, but
-   * at most 1e-6 of the forces, counts as converged, because further iterations gain nothing.
+   * at most ten times the tolerance, counts as converged once an iteration has not halved it.
    *
    * Expected failures (no convergence, an inadmissible deformation, a singular tangent) are
    * results with a reason; the caller decides whether to try a smaller step. The direct solver

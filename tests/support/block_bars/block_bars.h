@@ -26,8 +26,8 @@ namespace NMM
       double youngs_modulus = 1e11;
       /// Pressure over penetration, times 10 m over Young's modulus [-].
       double stiffness = 10.;
-      /// First step of the relaxation [s].
-      double step      = 0.02;
+      /// First step of the relaxation [s]. With steps of 0.02 s columns stand at 0.977 of the limit.
+      double step      = 0.005;
       double tolerance = 0.005;
       double bound     = 0.02;
     };

@@ -30,10 +30,9 @@ namespace NMM
         if (!probe_history->is_empty())
           probe_history->open(directory->file("probes-history.csv"),
                               continue_after);
-        history = std::make_unique<CsvSeries>(
-          directory->file("history.csv"),
-          history_columns(),
-          continue_after);
+        history = std::make_unique<CsvSeries>(directory->file("history.csv"),
+                                              history_columns(),
+                                              continue_after);
         open_departures(continue_after);
         if (is_continued)
           directory->resume();

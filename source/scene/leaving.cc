@@ -36,18 +36,18 @@ namespace NMM
     DynamicAnalysis::open_departures(const int continue_after)
     {
       if (leaving)
-        departures = std::make_unique<CsvSeries>(
-          directory->file("left-blocks.csv"),
-          std::vector<std::string>{"block",
-                                   "reference_x",
-                                   "reference_y",
-                                   "x",
-                                   "y",
-                                   "energy",
-                                   "kinetic",
-                                   "momentum_x",
-                                   "momentum_y"},
-          continue_after);
+        departures =
+          std::make_unique<CsvSeries>(directory->file("left-blocks.csv"),
+                                      std::vector<std::string>{"block",
+                                                               "reference_x",
+                                                               "reference_y",
+                                                               "x",
+                                                               "y",
+                                                               "energy",
+                                                               "kinetic",
+                                                               "momentum_x",
+                                                               "momentum_y"},
+                                      continue_after);
     }
 
 

@@ -43,9 +43,10 @@ namespace
       while (surface.reference_place(e, 0.5).x[1] > 1e-9)
         ++e;
       ContactPoint point;
-      point.edge     = e;
-      point.s        = 0.25;
-      point.x        = Point<2>(surface.reference_place(e, 0.25).x) + Point<2>(0.5, 0.);
+      point.edge = e;
+      point.s    = 0.25;
+      point.x =
+        Point<2>(surface.reference_place(e, 0.25).x) + Point<2>(0.5, 0.);
       point.weight   = 0.5;
       point.gap      = -1e-3;
       point.pressure = 8.;

@@ -500,9 +500,9 @@ namespace
                                      "./beside.wkt"})
       EXPECT_FALSE(is_refused(inside, true)) << inside;
     for (const std::string &outside : {std::string("../outside.wkt"),
-                                      std::string("link.wkt"),
-                                      std::string("below/../../outside.wkt"),
-                                      (folder / "outside.wkt").string()})
+                                       std::string("link.wkt"),
+                                       std::string("below/../../outside.wkt"),
+                                       (folder / "outside.wkt").string()})
     {
       EXPECT_TRUE(is_refused(outside, true)) << outside;
       EXPECT_FALSE(is_refused(outside, false)) << outside;

@@ -113,14 +113,14 @@ namespace
     run(settings + Arguments{"-o", straight});
     // It does not come to rest in so few steps.
     run(settings +
-          Arguments{"-o", stopped, "--set", "Relaxation/Maximum steps=3"},
+          Arguments{"-o", stopped, "--set", "Relaxation/Maximum steps=7"},
         3);
     run(settings +
         Arguments{"-o", stopped, "--restart", stopped + "/checkpoint.nmm"});
     expect_same_histories(straight, stopped);
     EXPECT_TRUE(read_text(straight + "/checkpoint.nmm") ==
                 read_text(stopped + "/checkpoint.nmm"));
-    EXPECT_GT(std::stoi(read_summary(straight).at("start_steps")), 3);
+    EXPECT_GT(std::stoi(read_summary(straight).at("start_steps")), 7);
     // Once it has started, the motion goes on from its own checkpoint.
     const std::string further = fresh_output_dir("further-start");
     run(settings + Arguments{"-o", further, "--set", "Time/End time=0.02"});
@@ -169,8 +169,6 @@ namespace
                              stopped + "/checkpoint.nmm"});
     EXPECT_GT(n_lines, 20);
     EXPECT_TRUE(history == read_text(stopped + "/history.csv"));
-    EXPECT_TRUE(read_text(straight + "/checkpoint.nmm") ==
-                read_text(stopped + "/checkpoint.nmm"));
   }
 
 
@@ -191,7 +189,6 @@ namespace
     for (auto *all : {&files, &others})
     {
       EXPECT_EQ(all->erase("summary.csv"), 1u);
-      all->erase(".nmm-results");
     }
     EXPECT_EQ(files.size(), others.size());
     for (const auto &[name, text] : files)

@@ -19,7 +19,10 @@ contents(const std::string &folder)
 {
   std::map<std::string, std::string> files;
   for (const auto &entry : std::filesystem::directory_iterator(folder))
-    files[entry.path().filename().string()] = read_text(entry.path().string());
+    // the list of results grows with each attempt to write one
+    if (entry.path().filename() != ".nmm-results")
+      files[entry.path().filename().string()] =
+        read_text(entry.path().string());
   return files;
 }
 

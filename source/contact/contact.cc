@@ -70,6 +70,9 @@ namespace NMM
              parameters_in.integration == ContactIntegration::points)
     , laws((parameters.check(), surface), parameters)
     , transmits_shear(parameters.transmit_shear())
+    , rounded(surface,
+              parameters_in.rounded_corners,
+              parameters_in.corner_rounding)
     , corner_size(corner_sizes(surface))
     , active(surface)
     , matrix(surface, constraints, search, memory.stick_places, active)
@@ -88,8 +91,37 @@ namespace NMM
       multiplier_space = std::make_unique<MultiplierSpace>(surface);
       memory.multipliers.assign(multiplier_space->size(), 0.);
     }
+    AssertThrow(parameters.initial_stress.empty() ||
+                  parameters.initial_stress.size() == surface.edges().size(),
+                InputError("there are initial stresses of " +
+                             std::to_string(parameters.initial_stress.size()) +
+                             " faces, but there are " +
+                             std::to_string(surface.edges().size()),
+                           "the contact parameters",
+                           "take those of initial_stress_at_faces()"));
+    largest_initial_closure = bound_initial_closure();
     nodal.resize(surface.cover_system().n_covers());
     surface.set_displacements(&nodal);
+  }
+
+
+  double
+  Contact::Data::bound_initial_closure() const
+  {
+    double pressure = 0.;
+    for (unsigned int e = 0; e < parameters.initial_stress.size(); ++e)
+      for (const double s : {0., 0.5, 1.})
+      {
+        const Tensor<1, 2> n = surface->reference_place(e, s).normal();
+        pressure =
+          std::max(pressure, -n * (parameters.initial_stress[e].stress * n));
+      }
+    if (pressure == 0.)
+      return 0.;
+    double closure = parameters.law->penetration(pressure);
+    for (const ContactPair &pair : parameters.pairs)
+      closure = std::max(closure, pair.law->penetration(pressure));
+    return std::min(closure, parameters.reach);
   }
 
 
@@ -142,8 +174,10 @@ namespace NMM
     // What touches is found again, however deep it is and however little moves in the step.
     d.reach =
       std::max({least_reach, d.parameters.reach, d.memory.touching_reach});
-    // Faces that have parted by dilation are still in contact.
-    const double reach = d.reach + d.largest_opening();
+    // Faces that have parted by dilation are still in contact, and so are those that part by less
+    // than the initial stress has closed them.
+    const double reach =
+      d.reach + d.largest_opening() + d.largest_initial_closure;
     if (d.search.update(reach))
     {
       d.memory.searched_nodal = d.nodal;
@@ -233,18 +267,27 @@ namespace NMM
     point.state             = ContactState::slip;
     if (law.transmits_shear())
     {
-      const Tensor<1, 2> distance = way_from_stick(q, slave);
-      const Tensor<1, 2> tangent =
-        projection.place.a / projection.place.a.norm();
-      traction.normal_distance = distance * projection.normal;
+      traction.normal_distance = way_from_stick(q, slave) * projection.normal;
       find_shear(q,
-                 law.shear_spring() * (distance * tangent),
+                 trial_shear(q, slave, projection),
                  law.shear_spring(),
                  was_slipping,
                  traction);
       report.energy += shear_energy(q, point.shear);
     }
     return traction;
+  }
+
+
+  double
+  Contact::Data::trial_shear(const unsigned int           q,
+                             const ContactSurface::Place &slave,
+                             const ContactProjection     &projection) const
+  {
+    return initial_shear(q) +
+           point_data[q].law->shear_spring() *
+             (way_from_stick(q, slave) * projection.place.a) /
+             projection.place.a.norm();
   }
 
 
@@ -296,10 +339,9 @@ namespace NMM
       return result;
 
     // Trial shear and closure if nothing slides.
-    const Tensor<1, 2> tangent = projection.place.a / projection.place.a.norm();
-    const double       eps     = law.shear_spring();
-    const double       trial   = eps * (way_from_stick(q, slave) * tangent);
-    const double       closure = result.opening + fixed.offset - projection.gap;
+    const double eps     = law.shear_spring();
+    const double trial   = trial_shear(q, slave, projection);
+    const double closure = result.opening + fixed.offset - projection.gap;
     // Solve |trial| - eps_t s = S(p(closure + tan psi s), kappa + s) for the slip s by Newton's
     // method, which needs one step if everything is linear.
     double slip = 0., by_closure = 0., h = 1.;
@@ -427,14 +469,16 @@ namespace NMM
     // The largest penetration is taken over points with pressure. This leaves out points that were
     // found behind a face without having passed it, which store no energy, and pieces of faces that
     // are too short to bear anything, because the other face of the corner does.
-    double depth = point.opening - projection.gap;
+    // The closure by the initial stress is no penetration.
+    const double opening = point.opening - initial_closure(q);
+    double       depth   = opening - projection.gap;
     if (point.pressure > 0. && depth > report.largest_penetration &&
         (fixed.corner < PointKind::along ||
          fixed.piece_length > CornerRules::shortest_piece * size_at(q)))
     {
       // A point is pushed out through the face by which it came in, which may be further away than
       // another face.
-      if (point.opening == 0.)
+      if (opening == 0.)
         depth =
           std::min(depth,
                    search.depth_inside(fixed.slave,
@@ -444,7 +488,7 @@ namespace NMM
     }
     deepest = std::max(deepest,
                        (is_between() ? fixed.offset_end : fixed.offset) +
-                         point.opening - projection.gap);
+                         opening - projection.gap);
 
     ContactSurface::Weights master, stick;
     surface->weights(projection.master, projection.t, master);

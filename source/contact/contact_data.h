@@ -13,6 +13,7 @@
 #include <contact/contact_points.h>
 #include <contact/contact_search.h>
 #include <contact/contact_terms.h>
+#include <contact/rounded_corners.h>
 #include <memory>
 #include <vector>
 
@@ -146,6 +147,8 @@ namespace NMM
       /// Derivatives of the mean pressure of a step, times the weight, by the gap at the end and by
       /// the relative normal motion of both faces [N/m^2].
       double pressure_by_gap = 0., pressure_by_opening = 0.;
+      /// Pressure and shear of the initial stress in the reference configuration [Pa].
+      double initial_pressure = 0., initial_shear = 0.;
       /// Slip that causes dilation or weakening: at the last accepted state, and since then [m].
       double slip = 0., new_slip = 0.;
       /// Dilation at the end of a time step.
@@ -268,6 +271,13 @@ namespace NMM
     dealii::Tensor<1, 2>
     way_from_stick(unsigned int q, const ContactSurface::Place &slave) const;
 
+    /// Parameter of the anchor of a point that has none. Where the point lies on its master in the
+    /// reference configuration it is that place, at which the point has the initial shear; elsewhere
+    /// the point begins without shear.
+    double
+    new_anchor(unsigned int                       q,
+               const internal::ContactProjection &projection) const;
+
     /// The master of a point by ContactSearch, for a point along an edge or a corner.
     internal::ContactProjection
     find_master(unsigned int q, const ContactSurface::Place &slave) const;
@@ -340,13 +350,64 @@ namespace NMM
                   const ContactSurface::Place       &slave,
                   const internal::ContactProjection &projection);
 
-    /// Opening by the slip at the last accepted state [m].
+    /// Opening by the slip at the last accepted state, and by the initial stress [m].
     double
     opening_before(const unsigned int q) const
     {
       const ContactLaw *law = point_data[q].law;
-      return law == nullptr ? 0. : law->opening(point_data[q].slip);
+      return law == nullptr
+               ? 0.
+               : law->opening(point_data[q].slip) + initial_closure(q);
     }
+
+    /// Whether a point bears the initial stress: tension only as long as it is bonded.
+    bool
+    bears_initial_stress(const unsigned int q) const
+    {
+      return point_data[q].initial_pressure > 0. || points[q].is_bonded;
+    }
+
+    /// Shear of the initial stress [Pa]. The spring adds to it.
+    double
+    initial_shear(const unsigned int q) const
+    {
+      return bears_initial_stress(q) ? point_data[q].initial_shear : 0.;
+    }
+
+    /// Closure of the spring of a point by the initial stress [m]; its law must be known.
+    double
+    initial_closure(const unsigned int q) const
+    {
+      const double pressure =
+        bears_initial_stress(q)
+          ? point_data[q].initial_pressure - initial_multiplier(q)
+          : 0.;
+      return pressure == 0. ? 0. : point_data[q].law->penetration(pressure);
+    }
+
+    /// Part of the multiplier of a point that is the pressure of the initial stress [Pa].
+    double
+    initial_multiplier(const unsigned int q) const
+    {
+      return multiplier_space == nullptr
+               ? 0.
+               : std::max(0., point_data[q].initial_pressure);
+    }
+
+    /// Set the pressure and shear of the initial stress at a point that has its place.
+    void
+    set_initial_traction(PointData &fixed) const;
+
+    /// Upper bound on the closure of springs by the initial stress, over all edges and laws, but at
+    /// most the reach [m].
+    double
+    bound_initial_closure() const;
+
+    /// Shear of the spring of a point if nothing slides [Pa].
+    double
+    trial_shear(unsigned int                       q,
+                const ContactSurface::Place       &slave,
+                const internal::ContactProjection &projection) const;
 
     /// Upper bound on the opening of all points of all ranks at the last accepted state [m].
     double
@@ -500,12 +561,15 @@ namespace NMM
       std::vector<bool>                        is_known;
     };
 
-    ContactSurface         *surface;
-    ContactParameters       parameters;
-    MPI_Comm                communicator;
-    internal::ContactSearch search;
-    internal::ContactLaws   laws;
-    bool                    transmits_shear;
+    ContactSurface          *surface;
+    ContactParameters        parameters;
+    MPI_Comm                 communicator;
+    internal::ContactSearch  search;
+    internal::ContactLaws    laws;
+    internal::RoundedCorners rounded;
+    bool                     transmits_shear;
+    /// See bound_initial_closure().
+    double largest_initial_closure = 0.;
     /// See corner_sizes().
     std::vector<double> corner_size;
     std::vector<double> rule_points, rule_weights;

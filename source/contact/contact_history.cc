@@ -26,9 +26,9 @@ namespace NMM
     const MultiplierSpace &space  = *d.multiplier_space;
     const unsigned int     n      = space.size();
     const unsigned int     n_rule = d.rule_points.size();
-    // Integrals along the slaves of three products: spring pressure times function, function, and
-    // stiffness times function.
-    std::vector<double> sums(3 * n, 0.);
+    // Integrals along the slaves of four products: spring pressure times function, function,
+    // stiffness times function, and pressure of the initial stress times function.
+    std::vector<double> sums(4 * n, 0.);
     // Points of corners follow those along edges.
     for (unsigned int begin = 0; begin < d.points.size() &&
                                  d.point_data[begin].corner >= PointKind::along;
@@ -52,6 +52,7 @@ namespace NMM
           sums[i] -= eps * value * (point.gap - point.opening);
           sums[n + i] += value;
           sums[2 * n + i] += eps * value;
+          sums[3 * n + i] += d.initial_multiplier(begin + q) * value;
         };
         add(f.first, weight * (1. - share));
         add(f.second, weight * share);
@@ -64,7 +65,9 @@ namespace NMM
     {
       double value = 0.;
       if (sums[n + i] > 0.)
-        value = std::max(0., d.memory.multipliers[i] + sums[i] / sums[n + i]);
+        // Their sum with the pressure of the initial stress is not negative.
+        value = std::max(-sums[3 * n + i] / sums[n + i],
+                         d.memory.multipliers[i] + sums[i] / sums[n + i]);
       const double difference = std::abs(value - d.memory.multipliers[i]);
       const double eps        = sums[n + i] > 0. ? sums[2 * n + i] / sums[n + i]
                                                  : d.parameters.law->normal_stiffness;
@@ -77,7 +80,8 @@ namespace NMM
       if (fixed.corner >= PointKind::along)
         d.points[q].multiplier = space.value(d.memory.multipliers,
                                              d.search.slaves()[fixed.slave],
-                                             fixed.s);
+                                             fixed.s) +
+                                 d.initial_multiplier(q);
     }
     return change;
   }
@@ -130,9 +134,11 @@ namespace NMM
       // The point slides from now on, and its anchor is dragged along.
       const double length =
         d.surface->place(point.stick_edge, point.stick_t).a.norm();
-      point.stick_t += (point.shear - shear) / (law.shear_spring() * length);
-      point.shear     = shear;
-      point.is_bonded = false;
+      const double initial = d.initial_shear(q);
+      point.is_bonded      = false;
+      point.stick_t += (point.shear - initial - shear + d.initial_shear(q)) /
+                       (law.shear_spring() * length);
+      point.shear = shear;
       if (point.pressure < 0.)
       {
         point.pressure = 0.;
@@ -192,15 +198,16 @@ namespace NMM
     }
     else if (point.state == ContactState::slip)
     {
-      const Tensor<1, 2> a = surface->place(point.master, point.t).a;
-      place.t -= point.shear / (eps * a.norm());
+      const Tensor<1, 2> a       = surface->place(point.master, point.t).a;
+      const double       elastic = (point.shear - initial_shear(q)) / eps;
+      place.t -= elastic / a.norm();
       if (!is_between())
         dissipated +=
           point.weight * std::abs(point.shear) *
           std::abs((surface->place(point.edge, point.s).x -
                     surface->place(point.stick_edge, point.stick_t).x) *
                      a / a.norm() -
-                   point.shear / eps);
+                   elastic);
     }
     const unsigned int key    = place_key(*surface, point.edge, fixed.corner);
     const auto        *places = memory.stick_places.find(key);

@@ -64,9 +64,34 @@ namespace NMM
       point.is_bonded  = stick.is_bonded;
       fixed.slip       = stick.slip;
     }
-    if (multiplier_space != nullptr && fixed.corner >= PointKind::along)
+    if (fixed.corner < PointKind::along)
+      return;
+    set_initial_traction(fixed);
+    if (multiplier_space != nullptr)
       point.multiplier =
-        multiplier_space->value(memory.multipliers, slave, fixed.s);
+        multiplier_space->value(memory.multipliers, slave, fixed.s) +
+        std::max(0., fixed.initial_pressure);
+  }
+
+
+  void
+  Contact::Data::set_initial_traction(PointData &fixed) const
+  {
+    if (parameters.initial_stress.empty())
+      return;
+    const unsigned int       slave   = search.slaves()[fixed.slave];
+    const InitialFaceStress &initial = parameters.initial_stress[slave];
+    // Of two faces that touch, the slave bears the traction; next to a corner, the other one may be
+    // the slave of a third body.
+    if (initial.mate == invalid_index ||
+        !search.comes_first(slave, initial.mate))
+      return;
+    const ContactSurface::Place place =
+      surface->reference_place(slave, fixed.s);
+    const Tensor<1, 2> normal   = place.normal();
+    const Tensor<1, 2> traction = initial.stress * normal;
+    fixed.initial_pressure      = -(traction * normal);
+    fixed.initial_shear         = traction * place.a / place.a.norm();
   }
 
 

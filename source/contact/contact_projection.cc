@@ -8,6 +8,7 @@
 namespace NMM
 {
   using namespace internal;
+  using dealii::Point;
   using dealii::Tensor;
 
   namespace
@@ -98,6 +99,33 @@ namespace NMM
   }
 
 
+  double
+  Contact::Data::new_anchor(const unsigned int       q,
+                            const ContactProjection &projection) const
+  {
+    // Fraction of the reach within which places coincide in the reference configuration.
+    constexpr double same = 1e-6;
+
+    const double initial = initial_shear(q);
+    if (initial == 0.)
+      return projection.t;
+    const Point<2> x = surface->reference_place(points[q].edge, points[q].s).x;
+    double         t = projection.t;
+    for (unsigned int i = 0; i < 3; ++i)
+    {
+      const ContactSurface::Place place =
+        surface->reference_place(projection.master, t);
+      t += (x - place.x) * place.a / place.a.norm_square();
+    }
+    if (t >= -same && t <= 1. + same &&
+        surface->reference_place(projection.master, t).x.distance(x) <=
+          same * reach)
+      return t;
+    return projection.t + initial / (point_data[q].law->shear_spring() *
+                                     projection.place.a.norm());
+  }
+
+
   AdmittedContact
   Contact::Data::find_admitted(const unsigned int q) const
   {
@@ -108,6 +136,7 @@ namespace NMM
     const PointData &fixed  = point_data[q];
     admitted.beside         = {faces_beside.data() + fixed.beside_begin,
                                fixed.beside_end - fixed.beside_begin};
+    admitted.rounded        = rounded.excluded(points[q].edge, points[q].s);
     if (points[q].edge < memory.touching.size())
     {
       const auto &known = memory.touching[points[q].edge];
@@ -342,7 +371,7 @@ namespace NMM
                             !goes_on(point.stick_edge, projection.master)))
     {
       point.stick_edge = projection.master;
-      point.stick_t    = projection.t;
+      point.stick_t    = new_anchor(q, projection);
     }
     return projection;
   }

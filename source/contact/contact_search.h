@@ -63,6 +63,8 @@ namespace NMM
       /// Faces that the point is beside, see ContactSearch::append_faces_beside(); they are
       /// excluded.
       dealii::ArrayView<const unsigned int> beside;
+      /// Faces that the point does not touch, see RoundedCorners.
+      dealii::ArrayView<const unsigned int> rounded;
       /// Least value of minus the product of both unit normals; faces that are less parallel do not
       /// touch.
       double least_facing = CornerRules::least_facing;
@@ -83,7 +85,7 @@ namespace NMM
         };
         return (projection.gap >= -depth ||
                 (projection.gap >= -touching_depth && is_in(touching))) &&
-               !is_in(beside);
+               !is_in(beside) && !is_in(rounded);
       }
     };
 

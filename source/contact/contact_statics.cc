@@ -17,6 +17,15 @@ namespace NMM
     Contact         *contact;
     Vector           sum;
     double           scale = 0.;
+    /// See ContactSystem::hold(); empty if nothing is held.
+    Vector held;
+    double share = 0.;
+
+    bool
+    is_plain() const
+    {
+      return contact->is_idle() && held.size() == 0;
+    }
   };
 
 
@@ -42,11 +51,15 @@ namespace NMM
     if (state != Deformation::admissible)
       return state;
     d.scale = d.elasticity->force_scale();
+    if (d.is_plain())
+      return state;
+    d.sum = d.elasticity->residual();
+    if (d.held.size() > 0)
+      d.sum.add(-d.share, d.held);
     if (d.contact->is_idle())
       return state;
     const bool with_tangent = tangent != Tangent::none;
     d.contact->assemble(u, with_tangent);
-    d.sum = d.elasticity->residual();
     d.sum += d.contact->residual();
     d.scale = std::hypot(d.scale, d.contact->residual().l2_norm());
     if (with_tangent)
@@ -58,7 +71,21 @@ namespace NMM
   const ContactSystem::Vector &
   ContactSystem::residual() const
   {
-    return data->contact->is_idle() ? data->elasticity->residual() : data->sum;
+    return data->is_plain() ? data->elasticity->residual() : data->sum;
+  }
+
+
+  void
+  ContactSystem::hold(const Vector &forces)
+  {
+    data->held = forces;
+  }
+
+
+  void
+  ContactSystem::set_held_share(const double share)
+  {
+    data->share = share;
   }
 
 
@@ -139,6 +166,7 @@ namespace NMM
           contact->assemble(u, /* with_tangent = */ false);
         found.dissipated = contact->accept();
         reached          = found.load_factor;
+        largest_reached  = std::max(largest_reached, reached);
       }
 
       void
@@ -149,6 +177,11 @@ namespace NMM
 
       /// Data of the last step beside its LoadStep.
       ContactStep found;
+      /// Hold the forces of the undeformed state @p u, to which contact has just been accepted, that
+      /// are out of balance without loads.
+      void
+      hold_initial_forces(const Vector &u);
+
       /// Load factor of the last accepted step, at which the next one begins.
       double reached = 0.;
 
@@ -168,8 +201,29 @@ namespace NMM
       NewtonSolver     newton;
       NewtonParameters parameters;
       ContactHistory   history;
-      unsigned int     n_breaks = 0;
+      unsigned int     n_breaks        = 0;
+      double           largest_reached = 0.;
     };
+
+
+    void
+    ContactEquilibrium::hold_initial_forces(const Vector &u)
+    {
+      const auto &materials =
+        elasticity->elasticity().elasticity_problem().materials;
+      if (std::all_of(materials.begin(),
+                      materials.end(),
+                      [](const Material &material) {
+                        return material.initial_stress.norm() == 0.;
+                      }))
+        return;
+      elasticity->set_load_factor(0.);
+      (void)elasticity->assemble(u, Tangent::none, nullptr);
+      Vector forces = elasticity->residual();
+      if (!contact->is_idle())
+        forces += contact->residual();
+      system.hold(forces);
+    }
 
 
     /// Break the bonds with the largest stress. The remaining ones get a new equilibrium before
@@ -221,6 +275,9 @@ namespace NMM
       const unsigned int n =
         is_augmented ? contact->parameters().max_augmentations + 1 : n_plain;
 
+      // What has been released once stays so.
+      system.set_held_share(
+        std::max(0., 1. - std::max(largest_reached, step.load_factor)));
       found              = ContactStep();
       found.load_factor  = step.load_factor;
       n_breaks           = 0;
@@ -367,6 +424,7 @@ namespace NMM
       d.contact->detect(solution());
       d.contact->assemble(solution(), false);
       d.contact->accept();
+      d.search.hold_initial_forces(solution());
     }
     std::vector<ContactStep> result;
     d.statics.run(steps, [&](const LoadStep &step, const Vector &u) {

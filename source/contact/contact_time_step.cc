@@ -86,9 +86,8 @@ namespace NMM
       const double length = d.surface->place(point.master, point.t).a.norm();
       point.stick_edge    = point.master;
       point.stick_t       = point.t;
-      if (point.shear != 0.)
-        point.stick_t -=
-          point.shear / (d.point_data[q].law->shear_spring() * length);
+      point.stick_t -= (point.shear - d.initial_shear(q)) /
+                       (d.point_data[q].law->shear_spring() * length);
     }
     d.stage = Data::Stage::step_begun;
   }
@@ -304,7 +303,9 @@ namespace NMM
     {
       // The anchor is where the point was at the beginning of the step.
       point.stick_edge = projection.master;
-      point.stick_t    = projection.t - 0.5 * slip / length;
+      point.stick_t =
+        projection.t +
+        (initial_shear(q) / law.shear_spring() - 0.5 * slip) / length;
     }
     const double by_half_slip =
       law.shear_spring() + 2. * law.shear_damping / step.length;

@@ -1,6 +1,7 @@
 #include <nmm/contact/locked_corners.h>
 
 #include <algorithm>
+#include <base/cross.h>
 #include <cmath>
 
 namespace NMM
@@ -82,10 +83,24 @@ namespace NMM
             std::abs(other->x[1] - corner.x[1]) <= same)
           near.push_back(*other);
     };
-    const auto is_filled = [&](const End &side) {
-      return std::any_of(near.begin(), near.end(), [&](const End &face) {
-        return lies_on(side, face);
-      });
+    // Whether a direction goes from the corner into the body of a face that begins there.
+    const auto goes_into = [&](const Tensor<1, 2> &way, const End &face) {
+      const auto        &e     = edges[face.edge];
+      const unsigned int other = face.end == 0 ? e.previous : e.next;
+      if (other == invalid_index)
+        return true;
+      const auto         place = surface.reference_place(other, 1. - face.end);
+      const Tensor<1, 2> away =
+        (face.end == 0 ? -1. : 1.) * place.a / place.a.norm();
+      // The interior is to the left of the edge that begins at the corner.
+      const Tensor<1, 2> &first = face.end == 0 ? face.away : away,
+                         &last  = face.end == 0 ? away : face.away;
+      const auto angle          = [&](const Tensor<1, 2> &d) {
+        const double turn = std::atan2(internal::cross(first, d), first * d);
+        return turn < 0. ? turn + 2. * dealii::numbers::PI : turn;
+      };
+      return angle(way) > same_direction &&
+             angle(way) < angle(last) - same_direction;
     };
 
     std::vector<LockedCorner> result;
@@ -105,7 +120,7 @@ namespace NMM
            {std::make_pair(corner, next), std::make_pair(next, corner)})
       {
         const Tensor<1, 2> way = -side.away;
-        if (is_filled(other) || gravity * way < 0.)
+        if (gravity * way < 0.)
           continue;
         const auto along =
           std::find_if(near.begin(), near.end(), [&](const End &face) {
@@ -114,13 +129,17 @@ namespace NMM
         const auto ahead =
           std::find_if(near.begin(), near.end(), [&](const End &face) {
             return way * face.normal < -same_direction &&
-                   way * face.away > least_ahead;
+                   way * face.away > least_ahead && !lies_on(other, face) &&
+                   goes_into(way, face);
           });
         if (along != near.end() && ahead != near.end())
           result.push_back({corner.x,
                             edge.body,
                             surface.name(along->edge),
-                            surface.name(ahead->edge)});
+                            surface.name(ahead->edge),
+                            corner.edge,
+                            ahead->edge,
+                            ahead->end});
       }
     }
     return result;

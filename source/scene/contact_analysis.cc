@@ -1,5 +1,5 @@
 #include <nmm/base/exceptions.h>
-#include <nmm/contact/locked_corners.h>
+#include <nmm/contact/initial_stress.h>
 #include <nmm/dynamics/strength_reduction.h>
 
 #include <deal.II/base/mpi.h>
@@ -229,8 +229,7 @@ namespace NMM
             surface->obstacles()[i].name +
             "', which is rigid there: draw its line in the other "
             "direction if they are to touch");
-      const auto corners =
-        find_locked_corners(*surface, scene->parameters().model.gravity);
+      const auto &corners = full_strength.rounded_corners;
       if (!corners.empty())
       {
         const LockedCorner &first = corners.front();
@@ -238,15 +237,60 @@ namespace NMM
           corners.size() == 1 ? ""
                                 : " (and " + std::to_string(corners.size() - 1) +
                                   " more of this kind)";
+        std::ostringstream length;
+        length.precision(3);
+        length << full_strength.corner_rounding << ' '
+               << scene->parameters().output.length_unit;
         result.push_back(
           "a corner of block " + std::to_string(first.block) + " at " +
           to_string(first.place) + " lies where '" + first.along +
           "' ends and '" + first.ahead + "' is ahead" + more +
-          ": it cannot slide that way, however sharp it is. If it "
-          "is to slide, let the face that it lies on end above the "
-          "one ahead, by more than the way it is to slide");
+          ": a sharp corner could not slide that way, so its faces give way "
+          "within " +
+          length.str() +
+          " of it ('Contact/Corner rounding'). If it is to slide further than "
+          "that, raise the rounding, or let the face that it lies on end above "
+          "the one ahead");
       }
+      add_notices_of_initial_stress(result);
       return result;
+    }
+
+
+    void
+    ContactAnalysis::add_notices_of_initial_stress(
+      std::vector<std::string> &notices) const
+    {
+      if (!full_strength.initial_stress.empty() &&
+          full_strength.integration == ContactIntegration::points)
+        notices.push_back(
+          "springs at vertices do not bear the initial stress, so that blocks "
+          "move until their faces are pressed: choose 'Contact/Integration = "
+          "length' for blocks that are to begin at rest");
+      const OutputParameters &output = scene->parameters().output;
+      for (const ExceededStrength &faces :
+           find_exceeded_strength(*surface, full_strength))
+      {
+        const bool is_pulled = -faces.pressure > faces.shear - faces.strength;
+        std::ostringstream text;
+        text.precision(3);
+        text << "the initial stress is more than "
+             << (faces.first == faces.second
+                   ? "'" + faces.first + "' bears"
+                   : "'" + faces.first + "' and '" + faces.second +
+                       "' bear between each other")
+             << ", on " << faces.length << ' ' << output.length_unit << ": at "
+             << to_string(faces.place);
+        if (is_pulled)
+          text << " a tension of " << -faces.pressure << ' '
+               << output.stress_unit;
+        else
+          text << " a shear of " << faces.shear << ' ' << output.stress_unit
+               << " instead of " << faces.strength << ' ' << output.stress_unit;
+        text << ". These faces begin with what they bear, and blocks move "
+                "until the rest is in balance";
+        notices.push_back(text.str());
+      }
     }
 
 

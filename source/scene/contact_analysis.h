@@ -68,8 +68,8 @@ namespace NMM
       std::string
       description() const;
 
-      /// Warnings for the report: obstacles with the whole solid on the wrong side, and corners of
-      /// blocks that cannot slide.
+      /// Warnings for the report: obstacles with the whole solid on the wrong side, corners of blocks
+      /// that cannot slide, and faces that cannot bear the initial stress.
       std::vector<std::string>
       notices() const;
 
@@ -162,6 +162,10 @@ namespace NMM
       /// Whether a part of the solid lies on the right of the obstacle's line, where it is free.
       bool
       is_in_front(unsigned int obstacle) const;
+
+      /// Adds sentences on faces that cannot bear the initial stress.
+      void
+      add_notices_of_initial_stress(std::vector<std::string> &notices) const;
 
       /// Number of points on all ranks whose state differs from that of the nearest stored point,
       /// see remember_states().

@@ -1,5 +1,7 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/contact/coulomb_law.h>
+#include <nmm/contact/initial_stress.h>
+#include <nmm/contact/locked_corners.h>
 #include <nmm/covers/crack_tip.h>
 #include <nmm/scene/parameter_tree.h>
 #include <nmm/scene/scene.h>
@@ -244,6 +246,17 @@ namespace NMM
     parameters.n_points       = section.n_points;
     parameters.integration    = section.integration;
     parameters.slave_priority = ranks(moduli);
+    parameters.initial_stress = initial_stress_at_faces(surface, problem);
+    parameters.rounded_corners =
+      find_locked_corners(surface, scene_parameters.model.gravity);
+    // A block that moves further than a trial of the factor of safety allows does not stand. Elsewhere
+    // the rounding is a small part of what the mesh resolves.
+    constexpr double further = 1.5, of_cell = 0.01;
+    parameters.corner_rounding =
+      section.corner_rounding > 0. ? section.corner_rounding
+      : analysis == Analysis::safety_factor
+        ? further * scene_parameters.safety_factor.max_displacement
+        : of_cell * size;
     return parameters;
   }
 

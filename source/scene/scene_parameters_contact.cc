@@ -162,6 +162,13 @@ namespace NMM
                 Patterns::Double(),
                 "A step fails in which faces are deeper in each other [m]; 0: "
                 "the cell size at faces.");
+    entries.add("Corner rounding",
+                corner_rounding,
+                Patterns::Double(0.),
+                "Length of its faces within which the corner of a block gives "
+                "way that would slide into a face ahead [m]; 0: safety factor "
+                "1.5 times the largest displacement, otherwise a hundredth of "
+                "the cell size at faces.");
     entries.add("Number of points",
                 n_points,
                 Patterns::Integer(2, 20),

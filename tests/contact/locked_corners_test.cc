@@ -81,4 +81,34 @@ namespace
                       JointState::open);
     EXPECT_EQ(locked_corners(wall).size(), 0u);
   }
+
+
+  // The passive wedge fills the other side of the active wedge's corner, but it moves away.
+  TEST(LockedCorners, WedgeBesideAnother)
+  {
+    Geometry wedges;
+    wedges.add_polygon({{0., 0.}, {5., 6.}, {0., 6.}}, "active");
+    wedges.add_polygon({{0., 0.}, {0., 6.}, {-10., -2.5}}, "passive");
+    wedges.add_polygon(
+      {{-10., -8.}, {5., -8.}, {5., 6.}, {0., 0.}, {-10., -2.5}}, "base");
+    const auto corners = locked_corners(wedges);
+    ASSERT_EQ(corners.size(), 1u);
+    EXPECT_EQ(corners[0].place.norm(), 0.);
+    EXPECT_EQ(corners[0].ahead, "base");
+    EXPECT_NE(corners[0].ahead_edge, invalid_index);
+  }
+
+
+  // Where joints cross at an angle of less than 60 degrees, each block slides along the two beyond.
+  TEST(LockedCorners, JointsThatCross)
+  {
+    Geometry mass;
+    add_box(mass, {-6., -6.}, {6., 6.});
+    for (const double rise : {3., -3.})
+      mass.add_polyline({{-7., -7. / 6. * rise}, {7., 7. / 6. * rise}},
+                        "joint",
+                        CurveRole::joint,
+                        JointState::open);
+    EXPECT_EQ(locked_corners(mass).size(), 0u);
+  }
 } // namespace

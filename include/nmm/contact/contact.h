@@ -6,7 +6,9 @@
 #include <nmm/contact/contact_integration.h>
 #include <nmm/contact/contact_law.h>
 #include <nmm/contact/contact_surface.h>
+#include <nmm/contact/locked_corners.h>
 
+#include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
@@ -28,6 +30,16 @@ namespace NMM
     std::string second;
     /// Law of this pair; must not be null.
     std::shared_ptr<const ContactLaw> law;
+  };
+
+
+  /// The initial stress at a face that touches another one in the reference configuration.
+  struct InitialFaceStress
+  {
+    /// The edge that it touches; invalid_index if there is none.
+    unsigned int mate = invalid_index;
+    /// Stress at both faces, tension positive [Pa].
+    dealii::SymmetricTensor<2, 2> stress;
   };
 
 
@@ -54,6 +66,14 @@ namespace NMM
     /// which carries the contact points. The softer or finer block is the better slave. If this is
     /// empty, it is the number of the block.
     std::vector<unsigned int> slave_priority;
+    /// Stress in the reference configuration at each edge of the surface, see
+    /// initial_stress_at_faces(). Springs bear its traction there. Empty: none.
+    std::vector<InitialFaceStress> initial_stress;
+    /// Corners of blocks that give way, see find_locked_corners(): the faces within corner_rounding of
+    /// them do not touch the face ahead.
+    std::vector<LockedCorner> rounded_corners;
+    /// Length of the faces at these corners that gives way [m].
+    double corner_rounding = 0.;
 
     /// Check all values and laws. @throws InputError naming the value that is out of range.
     void
@@ -100,7 +120,8 @@ namespace NMM
     /// Distance from the master along its normal, negative for penetration [m]; the reach of the
     /// search if there is no master.
     double gap = 0.;
-    /// Gap at which the pressure vanishes, where dilation has opened the faces [m].
+    /// Gap at which the pressure vanishes [m]: where dilation has opened the faces, and by how much
+    /// the initial stress has closed them before.
     double opening = 0.;
     /// Normal force per reference length of the slave, positive for compression [Pa].
     double pressure = 0.;
@@ -186,6 +207,14 @@ namespace NMM
    * pushed out through the face by which it came in (Shi's entrance edge). Between angles of 18 and
    * 37 degrees both kinds of contact are blended. Where an end of a master lies on a slave, that
    * corner is the contact point, so that it can slide along the slave.
+   *
+   * Initial stress sigma_0: a point of a slave with the outward normal n and the tangent a/|a| bears
+   * in the reference configuration, as far as its strength allows,
+   * @f[ p_0 = -n\cdot\sigma_0 n, \qquad q_0 = \frac{a}{|a|}\cdot\sigma_0 n. @f]
+   * Its spring is at rest where the faces are V'^{-1}(p_0) apart, and q_0 is added to the shear of
+   * the spring. Both are functions of the place on the slave and no history. Corners that touch as
+   * points, and springs at vertices, bear none. With the augmented Lagrangian p_0 is added to the
+   * multiplier instead.
    *
    * Augmented Lagrangian (Uzawa's iteration; Alart & Curnier 1991): the multipliers lambda_i >= 0
    * belong to functions phi_i that are continuous and linear along the slave's boundary, on

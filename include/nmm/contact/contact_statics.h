@@ -50,6 +50,15 @@ namespace NMM
     unsigned int
     pattern_version() const override;
 
+    /// Subtract a share of @p forces from the residual (owned unknowns [N/m]): what still holds an
+    /// initial stress that is out of balance.
+    void
+    hold(const Vector &forces);
+
+    /// Set that share, from 0 to 1 [-]; 0 initially.
+    void
+    set_held_share(double share);
+
   private:
     struct Data;
     std::unique_ptr<Data> data;
@@ -79,6 +88,11 @@ namespace NMM
    * and, with a penetration tolerance, multipliers, too. This is repeated until residual and
    * penetration are below their tolerances. All loops are bounded: a step converges, or it is
    * halved, with the reason.
+   *
+   * The forces r_0 by which an initial stress is out of balance without loads, such as at the wall
+   * of an excavation, are released with the load factor lambda: the residual is
+   * @f$ r(u) - \langle 1 - \lambda\rangle_+ r_0 @f$, since friction depends on the way. So a state
+   * that is in balance with all loads stays at rest in all load steps.
    *
    * Order of calls: the constructor, run(), then solution().
    * Lifetime: the elasticity and the contact must outlive this object.

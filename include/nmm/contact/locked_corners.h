@@ -20,6 +20,10 @@ namespace NMM
     std::string along;
     /// Name of the curve or obstacle into which the corner would slide.
     std::string ahead;
+    /// Edge of the block that ends at the corner; the next one begins there.
+    unsigned int edge = invalid_index;
+    /// Edge into which the corner would slide, and its end at the corner, 0 or 1.
+    unsigned int ahead_edge = invalid_index, ahead_end = 0;
   };
 
 
@@ -30,9 +34,10 @@ namespace NMM
    * without penetrating the ground, however sharp its corner is. It is stable in the computation
    * where limit equilibrium, which neglects corners, predicts sliding.
    *
-   * The result are convex corners at which one side lies along a face that ends there, the other
-   * side is free, and a face of another body begins less than 60 degrees off the direction of
-   * sliding. Directions against @p gravity (any unit) do not count; if @p gravity is zero, all
+   * The result are convex corners at which one side lies along a face that ends there, and a face
+   * of another body begins less than 60 degrees off the direction of sliding, which goes into that
+   * body. What is on the other side of the corner does not matter, since it may move away, unless it
+   * is that face itself: then the whole side of the block rests on it. Directions against @p gravity (any unit) do not count; if @p gravity is zero, all
    * directions count. Positions are those of the reference configuration.
    * Cost: O(n log n) for n edges.
    */

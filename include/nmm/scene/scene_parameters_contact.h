@@ -86,6 +86,9 @@ namespace NMM
     /// Distance within which faces are searched [m]; 0 stands for a tenth of the longest edge of an
     /// element.
     double reach = 0.;
+    /// Length of the faces at locked corners that gives way [m]; 0 stands for
+    /// Scene::make_contact_parameters().
+    double corner_rounding = 0.;
     /// Penetration above which a step fails [m]; 0 stands for the cell size at faces.
     double max_penetration = 0.;
     /// Number of Gauss-Lobatto contact points on each piece of an edge.

@@ -129,11 +129,9 @@ namespace NMM
         const Mechanism mechanism =
           find_mechanism(*loading,
                          system,
+                         contact.contact(),
                          reached,
-                         covers,
-                         problem,
-                         quadrature,
-                         contact.contact().parameters().reach);
+                         quadrature);
         loading.reset();
         AssertThrow(false,
                     NumericalFailure(error.description() + ". " +

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <contact/collapse.h>
 #include <scene/mechanism.h>
 #include <sstream>
 
@@ -27,25 +28,14 @@ namespace NMM
     } // namespace
 
 
-    Mechanism
-    find_mechanism(std::vector<BlockMotion> motions,
-                   const double             power,
-                   const double             reach)
+    std::string
+    describe(std::vector<BlockMotion> motions, const double sign)
     {
-      Mechanism  result;
-      const auto is_finite = [](const BlockMotion &motion) {
-        return std::isfinite(motion.size());
-      };
-      if (!std::all_of(motions.begin(), motions.end(), is_finite))
-      {
-        result.description =
-          "The iteration produced displacements that are not finite";
-        return result;
-      }
-      const auto is_larger = [](const BlockMotion &a, const BlockMotion &b) {
-        return a.size() > b.size();
-      };
-      std::sort(motions.begin(), motions.end(), is_larger);
+      std::sort(motions.begin(),
+                motions.end(),
+                [](const BlockMotion &a, const BlockMotion &b) {
+                  return a.size() > b.size();
+                });
       const BlockMotion &first  = motions.front();
       const double       extent = first.center.norm() + first.radius;
 
@@ -53,16 +43,6 @@ namespace NMM
       text.precision(3);
       text << "Block " << first.block << " around "
            << rounded(first.center, extent);
-      result.does_anything_move = first.size() > std::max(reach, first.radius);
-      if (!result.does_anything_move)
-      {
-        result.description =
-          "No block gives way: contact points keep changing between sticking "
-          "and slipping, or between open and closed";
-        return result;
-      }
-
-      const double sign = power < 0. ? -1. : 1.;
       const double turn = sign * first.rotation;
       // The motion counts as a translation if its centre of rotation is more than ten times the
       // radius of the block away.
@@ -89,7 +69,37 @@ namespace NMM
                       });
       if (n_more > 0)
         text << ", and " << n_more << " more block(s) move with it";
-      result.description = text.str();
+      return text.str();
+    }
+
+
+    Mechanism
+    find_mechanism(const std::vector<BlockMotion> &motions,
+                   const double                    power,
+                   const double                    reach)
+    {
+      Mechanism  result;
+      const auto is_finite = [](const BlockMotion &motion) {
+        return std::isfinite(motion.size());
+      };
+      if (!std::all_of(motions.begin(), motions.end(), is_finite))
+      {
+        result.description =
+          "The iteration produced displacements that are not finite";
+        return result;
+      }
+      const BlockMotion &first =
+        *std::max_element(motions.begin(),
+                          motions.end(),
+                          [](const BlockMotion &a, const BlockMotion &b) {
+                            return a.size() < b.size();
+                          });
+      result.does_anything_move = first.size() > std::max(reach, first.radius);
+      result.description =
+        result.does_anything_move
+          ? describe(motions, power < 0. ? -1. : 1.)
+          : "No block gives way: contact points keep changing between sticking "
+            "and slipping, or between open and closed";
       return result;
     }
 
@@ -97,11 +107,9 @@ namespace NMM
     Mechanism
     find_mechanism(const ContactStatics       &statics,
                    ElasticSystem              &system,
+                   Contact                    &contact,
                    const double                last,
-                   const CoverSystem          &covers,
-                   const ElasticityProblem    &problem,
-                   const QuadratureCollection &quadrature,
-                   const double                reach)
+                   const QuadratureCollection &quadrature)
     {
       using Vector        = ContactStatics::Vector;
       const auto assemble = [&](const double factor) {
@@ -118,13 +126,38 @@ namespace NMM
       before = statics.solution();
       motion -= before;
       const auto field_of = [&](const Vector &u) {
-        return DisplacementField(covers, problem, u);
+        return DisplacementField(system.elasticity().cover_system(),
+                                 system.elasticity().elasticity_problem(),
+                                 u);
       };
-      return find_mechanism(block_motions(field_of(statics.solution()),
-                                          field_of(statics.last_iterate()),
-                                          quadrature),
-                            change * motion,
-                            reach);
+      const std::vector<BlockMotion> motions =
+        block_motions(field_of(statics.solution()),
+                      field_of(statics.last_iterate()),
+                      quadrature);
+      const Mechanism of_search =
+        find_mechanism(motions, change * motion, contact.parameters().reach);
+      if (of_search.does_anything_move)
+        return of_search;
+
+      // Elastic blocks give way at their corners, and collapse a little before rigid ones.
+      for (const double more : {1., 1.02, 1.05, 1.1})
+      {
+        const std::vector<BlockMotion> collapse =
+          find_collapse(system,
+                        contact,
+                        statics.solution(),
+                        motions,
+                        more * statics.last_attempt().load_factor);
+        if (collapse.empty())
+          continue;
+        std::ostringstream text;
+        text << describe(collapse, 1.)
+             << ": rigid blocks have no equilibrium under these loads";
+        if (more > 1.)
+          text << ", multiplied by " << more;
+        return {true, text.str()};
+      }
+      return of_search;
     }
   } // namespace internal
 } // namespace NMM

@@ -34,24 +34,30 @@ namespace NMM
      * positive.
      */
     Mechanism
-    find_mechanism(std::vector<BlockMotion> motions,
-                   double                   power,
-                   double                   reach);
+    find_mechanism(const std::vector<BlockMotion> &motions,
+                   double                          power,
+                   double                          reach);
+
+
+    /// Says how the block with the largest of the @p motions, multiplied by @p sign, moves, and how
+    /// many move with it: a sentence without its full stop.
+    std::string
+    describe(std::vector<BlockMotion> motions, double sign);
 
 
     /**
      * Finds the mechanism after @p statics, the loading of @p system, has failed. @p last is the
-     * load factor of the last equilibrium [-]. On return the last assembly is that of this
-     * equilibrium.
+     * load factor of the last equilibrium [-]. If the search for an equilibrium has moved no block
+     * far, the mechanism is that of rigid blocks, see find_collapse(): a block that topples is held
+     * at its corner, so that the search need not run away. On return the last assembly is
+     * that of this equilibrium.
      */
     Mechanism
     find_mechanism(const ContactStatics       &statics,
                    ElasticSystem              &system,
+                   Contact                    &contact,
                    double                      last,
-                   const CoverSystem          &covers,
-                   const ElasticityProblem    &problem,
-                   const QuadratureCollection &quadrature,
-                   double                      reach);
+                   const QuadratureCollection &quadrature);
   } // namespace internal
 } // namespace NMM
 

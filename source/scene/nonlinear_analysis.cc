@@ -198,11 +198,9 @@ namespace NMM
       const Mechanism mechanism =
         find_mechanism(statics,
                        *system,
+                       contact->contact(),
                        reached_load_factor(),
-                       *covers,
-                       problem,
-                       *quadrature,
-                       contact->contact().parameters().reach);
+                       *quadrature);
       const std::string reason =
         error.description() + ". " + mechanism.description;
       if (history.empty())

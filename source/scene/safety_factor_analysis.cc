@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <scene/current_stress.h>
+#include <scene/mechanism.h>
 #include <scene/safety_factor_analysis.h>
 #include <scene/static_start.h>
 #include <sstream>
@@ -244,14 +245,34 @@ namespace NMM
            << " at all factors tried, from " << search.first
            << (stands ? " up to " : " down to ")
            << (stands ? result.stands_at : result.moves_at);
-      AssertThrow(false,
-                  NumericalFailure(what.str(),
-                                   std::string("parameter 'Safety factor/") +
-                                     (stands ? "Highest'" : "Lowest'"),
-                                   stands
-                                     ? "raise it, if blocks can move at all"
-                                     : "lower it, or see safety_factor.csv "
-                                       "for what moves"));
+      if (!stands)
+        what << ": there is no factor of safety, since strength does not hold "
+                "them. At the factor "
+             << shown.factor << ' ' << describe_motion();
+      AssertThrow(
+        false,
+        NumericalFailure(
+          what.str(),
+          std::string("parameter 'Safety factor/") +
+            (stands ? "Highest'" : "Lowest'"),
+          stands ? "raise it, if blocks can move at all"
+                 : "see that nothing topples or falls whatever its strength, "
+                   "and that 'Largest displacement' is more than blocks "
+                   "settle; or lower the lowest factor"));
+    }
+
+
+    std::string
+    SafetyFactorAnalysis::describe_motion() const
+    {
+      Vector                  at_rest(model->locally_owned(),
+                     model->locally_relevant(),
+                     communicator);
+      const DisplacementField before(*covers, problem, at_rest);
+      std::string             text =
+        describe(block_motions(before, *field, *quadrature), 1.);
+      text[0] = 'b';
+      return text;
     }
 
 
@@ -303,9 +324,11 @@ namespace NMM
     void
     SafetyFactorAnalysis::verify()
     {
+      // One end of the bracket alone is no factor of safety.
+      if (result.stands_at > 0. && std::isfinite(result.moves_at))
+        summary.add("safety_factor", result.value());
       if (!trials.empty())
       {
-        summary.add("safety_factor", result.value());
         summary.add("factor_stands", result.stands_at);
         summary.add("factor_moves", result.moves_at);
       }

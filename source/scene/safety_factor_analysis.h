@@ -82,6 +82,10 @@ namespace NMM
       void
       write_trials() const;
 
+      /// Which blocks have moved in the trial that is shown, as a part of a sentence.
+      std::string
+      describe_motion() const;
+
       /// Makes field, recovery and evaluator of the trial that is shown.
       void
       show();

@@ -209,13 +209,7 @@ namespace NMM
     void
     ContactEquilibrium::hold_initial_forces(const Vector &u)
     {
-      const auto &materials =
-        elasticity->elasticity().elasticity_problem().materials;
-      if (std::all_of(materials.begin(),
-                      materials.end(),
-                      [](const Material &material) {
-                        return material.initial_stress.norm() == 0.;
-                      }))
+      if (contact->parameters().initial_stress.empty())
         return;
       elasticity->set_load_factor(0.);
       (void)elasticity->assemble(u, Tangent::none, nullptr);

@@ -8,7 +8,6 @@
 namespace NMM
 {
   using namespace internal;
-  using dealii::Point;
   using dealii::Tensor;
 
   namespace
@@ -109,7 +108,8 @@ namespace NMM
     const double initial = initial_shear(q);
     if (initial == 0.)
       return projection.t;
-    const Point<2> x = surface->reference_place(points[q].edge, points[q].s).x;
+    const ContactPosition x =
+      surface->reference_place(points[q].edge, points[q].s).x;
     double         t = projection.t;
     for (unsigned int i = 0; i < 3; ++i)
     {

@@ -699,7 +699,8 @@ namespace NMM
           best_facing    = facing;
         }
       }
-      if (best.master == invalid_index || best.gap >= 0.)
+      // Where corners meet, rounding must not decide which of two sides of a body is nearer.
+      if (best.master == invalid_index || best.gap >= -same_gap * reach)
         return best;
       const ContactSurface::Edge &edge    = surface->edges()[best.master];
       constexpr auto              concave = ContactSurface::Corner::concave;

@@ -66,7 +66,7 @@ namespace NMM
       {
         const Corner &corner = corners[i];
         const double  distance =
-          surface->reference_place(edge, s).x.distance(corner.place);
+          (surface->reference_place(edge, s).x - corner.place).norm();
         const bool is_ahead =
           std::find(corner.ahead.begin(), corner.ahead.end(), edge) !=
           corner.ahead.end();

@@ -402,29 +402,39 @@ namespace NMM
     }
 
 
-    /// Whether at most a few edges lead from one edge to the other past a convex corner; some of
-    /// them may be slivers.
     bool
     ContactSearch::meet_in_convex_corner(const unsigned int edge,
                                          const unsigned int other) const
+    {
+      return corner_between(edge, other) == ContactSurface::Corner::convex;
+    }
+
+
+    /// Some of the edges between both may be slivers.
+    ContactSurface::Corner
+    ContactSearch::corner_between(const unsigned int edge,
+                                  const unsigned int other) const
     {
       const auto &edges = surface->edges();
       for (const auto &[from, to] :
            {std::make_pair(edge, other), std::make_pair(other, edge)})
       {
-        bool         is_convex = false;
-        unsigned int e         = from;
+        auto         corner = ContactSurface::Corner::smooth;
+        unsigned int e      = from;
         for (unsigned int i = 0; i < most_edges_of_corner && e != invalid_index;
              ++i)
         {
           if (e == to)
-            return is_convex;
-          is_convex =
-            is_convex || edges[e].at_end == ContactSurface::Corner::convex;
+            return corner;
+          const auto at_end = edges[e].at_end;
+          if (at_end == ContactSurface::Corner::convex ||
+              (at_end == ContactSurface::Corner::concave &&
+               corner == ContactSurface::Corner::smooth))
+            corner = at_end;
           e = edges[e].next;
         }
       }
-      return false;
+      return ContactSurface::Corner::smooth;
     }
 
 
@@ -679,11 +689,17 @@ namespace NMM
           std::max({0.,
                     -now.t - inside_slack(edge.at_start, slack),
                     now.t - 1. - inside_slack(edge.at_end, slack)});
-        bool is_better = best.master == invalid_index;
-        if (!is_better &&
-            std::abs(overshoot - best_overshoot) > same_gap * reach)
+        bool       is_better = best.master == invalid_index;
+        const bool is_corner = !is_better && corner_between(best.master, master) !=
+                                               ContactSurface::Corner::smooth;
+        // Where corners of both bodies coincide, neither a small slip nor the closure of springs
+        // moves a point to the face round the corner; after a larger slip the slave is divided
+        // there.
+        const double same_overshoot =
+          is_corner ? end_of_home * edge.length : same_gap * reach;
+        if (!is_better && std::abs(overshoot - best_overshoot) > same_overshoot)
           is_better = overshoot < best_overshoot;
-        else if (!is_better && meet_in_convex_corner(best.master, master))
+        else if (is_corner)
           is_better = facing > best_facing + same_gap;
         else if (!is_better)
         {

@@ -370,6 +370,11 @@ namespace NMM
       bool
       meet_in_convex_corner(unsigned int edge, unsigned int other) const;
 
+      /// The corner past which at most a few edges lead from one edge to the other; smooth if there
+      /// is none.
+      ContactSurface::Corner
+      corner_between(unsigned int edge, unsigned int other) const;
+
       /// Length of the part of an edge that lies behind a face and ends at a corner of the edge
       /// [m]; infinite if the edge continues behind the face beyond its end.
       double

@@ -66,14 +66,7 @@ namespace NMM
   protected:
     /// min(c, 1000 p) and its derivative by the pressure p; 0 for a bond that has broken.
     Response
-    cohesion_under(const double pressure, const double c) const
-    {
-      constexpr double slope = 1000.;
-      if (is_bond)
-        return {};
-      return slope * pressure < c ? Response{slope * pressure, slope}
-                                  : Response{c, 0.};
-    }
+    cohesion_under(const double pressure, const double c) const;
   };
 } // namespace NMM
 

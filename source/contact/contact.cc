@@ -452,6 +452,70 @@ namespace NMM
     report.n_changes += before != point.state;
     if (point.state != ContactState::open)
       assemble_point(q, projection, traction, with_tangent);
+    else
+      note_depth(q, projection);
+  }
+
+
+  /// The gap of a contact of relative curvature k at the distance d from a point is
+  /// @f$ g + d\,t\cdot n + k d^2 / 2, @f$ t being the tangent of the slave and n the normal of the
+  /// master. It is least at @f$ d = -t\cdot n / k. @f$
+  std::pair<double, double>
+  Contact::Data::deepest_beside(const unsigned int       q,
+                                const ContactProjection &projection) const
+  {
+    const ContactPoint &point = points[q];
+    const PointData    &fixed = point_data[q];
+    const double        curvature =
+      search.relative_curvature(point.edge, projection.master);
+    if (fixed.corner != PointKind::along || curvature <= 0.)
+      return {0., 0.};
+    const Tensor<1, 2> a      = surface->place(point.edge, point.s).a;
+    const double       length = a.norm();
+    const double       way    = -(a * projection.normal) / (curvature * length);
+    const double       s      = point.s + way / length;
+    if (s < 0. || s > 1. || std::abs(way) > fixed.piece_length)
+      return {0., 0.};
+    return {way, 0.5 * curvature * way * way};
+  }
+
+
+  void
+  Contact::Data::note_depth(const unsigned int       q,
+                            const ContactProjection &projection)
+  {
+    const ContactPoint &point = points[q];
+    const PointData    &fixed = point_data[q];
+    // The largest penetration is taken over points with pressure, and where a round face is in the
+    // other one between points that are not. This leaves out points that were found behind a face
+    // without having passed it, which store no energy, and pieces of faces that are too short to
+    // bear anything, because the other face of the corner does.
+    // The closure by the initial stress is no penetration.
+    const double opening = point.opening - initial_closure(q);
+    double       depth   = opening - projection.gap;
+    if (point.pressure <= 0. && depth > 0.)
+      return;
+    const auto [way, more] = deepest_beside(q, projection);
+    depth += more;
+    if (depth <= report.largest_penetration ||
+        (fixed.corner >= PointKind::along &&
+         fixed.piece_length <= CornerRules::shortest_piece * size_at(q)))
+      return;
+    // A point is pushed out through the face by which it came in, which may be further away than
+    // another face.
+    if (opening == 0.)
+    {
+      const ContactSurface::Place here = surface->place(point.edge, point.s);
+      const ContactSurface::Place deepest_place =
+        way == 0. ? here
+                  : surface->place(point.edge, point.s + way / here.a.norm());
+      depth =
+        std::min(depth,
+                 search.depth_inside(fixed.slave,
+                                     surface->edges()[projection.master].body,
+                                     deepest_place.x));
+    }
+    report.largest_penetration = std::max(report.largest_penetration, depth);
   }
 
 
@@ -466,29 +530,10 @@ namespace NMM
     active.note_pressed(point.edge, point.master);
     ++(point.state == ContactState::stick ? report.n_stick : report.n_slip);
     report.n_bonded += point.is_bonded;
-    // The largest penetration is taken over points with pressure. This leaves out points that were
-    // found behind a face without having passed it, which store no energy, and pieces of faces that
-    // are too short to bear anything, because the other face of the corner does.
-    // The closure by the initial stress is no penetration.
-    const double opening = point.opening - initial_closure(q);
-    double       depth   = opening - projection.gap;
-    if (point.pressure > 0. && depth > report.largest_penetration &&
-        (fixed.corner < PointKind::along ||
-         fixed.piece_length > CornerRules::shortest_piece * size_at(q)))
-    {
-      // A point is pushed out through the face by which it came in, which may be further away than
-      // another face.
-      if (opening == 0.)
-        depth =
-          std::min(depth,
-                   search.depth_inside(fixed.slave,
-                                       surface->edges()[projection.master].body,
-                                       surface->place(point.edge, point.s).x));
-      report.largest_penetration = std::max(report.largest_penetration, depth);
-    }
+    note_depth(q, projection);
     deepest = std::max(deepest,
                        (is_between() ? fixed.offset_end : fixed.offset) +
-                         opening - projection.gap);
+                         point.opening - initial_closure(q) - projection.gap);
 
     ContactSurface::Weights master, stick;
     surface->weights(projection.master, projection.t, master);

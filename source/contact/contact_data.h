@@ -166,6 +166,9 @@ namespace NMM
     void
     add_points_of(unsigned int slave);
 
+    unsigned int
+    n_parts_of(unsigned int slave) const;
+
     void
     add_corner(unsigned int slave);
 
@@ -288,6 +291,16 @@ namespace NMM
 
     /// @name One point in an assembly
     /// @{
+    /// Include the penetration at a point in the report, or at the deepest place beside it.
+    void
+    note_depth(unsigned int q, const internal::ContactProjection &projection);
+
+    /// Distance along the slave from a point to the place between it and the next points where a
+    /// curved contact is deepest [m], and how much deeper it is there [m]; 0 if there is none.
+    std::pair<double, double>
+    deepest_beside(unsigned int                       q,
+                   const internal::ContactProjection &projection) const;
+
     void
     assemble_point(unsigned int                       q,
                    const internal::ContactProjection &projection,

@@ -366,13 +366,16 @@ namespace NMM
 
 
     std::vector<ContactSearch::Division>
-    ContactSearch::divisions(const unsigned int position) const
+    ContactSearch::divisions(const unsigned int position,
+                             const unsigned int n_parts) const
     {
       const unsigned int    slave = slave_edges[position];
       std::vector<Division> found;
       for (const unsigned int master : masters(position))
         for (const unsigned int end : {0U, 1U})
         {
+          if (n_parts > 1 && !is_corner(master, end))
+            continue;
           const ContactPosition x = surface->place(master, end).x;
           double                t;
           Place                 place;
@@ -382,8 +385,10 @@ namespace NMM
               along_face(
                 -(place.normal() * surface->place(master, end).normal())) > 0.)
             found.push_back(
-              {t, is_corner(master, end) ? master : invalid_index, end});
+              {t, is_corner(master, end) ? master : invalid_index, end, false});
         }
+      for (unsigned int i = 1; i < n_parts; ++i)
+        found.push_back({i / double(n_parts), invalid_index, 0, true});
       // Of divisions at the same place, those with corners come first.
       std::sort(found.begin(),
                 found.end(),
@@ -398,6 +403,42 @@ namespace NMM
           result.back() = division;
       result.emplace_back();
       result.back().s = 1.;
+      return result;
+    }
+
+
+    double
+    ContactSearch::relative_curvature(const unsigned int edge,
+                                      const unsigned int other) const
+    {
+      double sum = 0.;
+      for (const unsigned int e : {edge, other})
+        if (surface->edges()[e].radius != 0.)
+          sum += 1. / surface->edges()[e].radius;
+      return sum;
+    }
+
+
+    double
+    ContactSearch::largest_curvature(const unsigned int position) const
+    {
+      const unsigned int slave  = slave_edges[position];
+      double             result = 0.;
+      for (const unsigned int master : masters(position))
+      {
+        const double curvature = relative_curvature(slave, master);
+        if (curvature <= result)
+          continue;
+        for (const double s : {0., 0.5, 1.})
+        {
+          const Place here = surface->place(slave, s);
+          double      t;
+          Place       there;
+          if (find_nearest(master, here.x, t, there) &&
+              along_face(-(here.normal() * there.normal())) > 0.)
+            result = curvature;
+        }
+      }
       return result;
     }
 

@@ -225,15 +225,33 @@ namespace NMM
       {
         double       s      = 0.;
         unsigned int master = invalid_index, end = 0;
+        /// Whether it only divides a curved contact into equal parts, see divisions().
+        bool is_of_parts = false;
       };
 
       /**
        * Divisions of the slave at a position, ascending from 0 to 1: its ends, and the places
        * nearest to the ends of its masters. On the pieces in between, the displacements of both
        * sides are polynomials.
+       *
+       * With @p n_parts > 1 the slave is divided into that many equal parts and at corners of
+       * masters, but not where masters continue smoothly. Points of bodies that roll on each other
+       * then stay where they are, and the parts are so short that polynomials need not end at
+       * their ends.
        */
       std::vector<Division>
-      divisions(unsigned int position) const;
+      divisions(unsigned int position, unsigned int n_parts = 1) const;
+
+      /// Curvature of the gap between two edges that touch [1/m]: the sum of both curvatures, which
+      /// are positive where a body is convex. It is 0 if one lies on the other, as straight faces
+      /// and both faces of an arc do.
+      double
+      relative_curvature(unsigned int edge, unsigned int other) const;
+
+      /// Largest relative curvature of the slave at a position and those masters that it can touch
+      /// along its length [1/m]; 0 if none is positive.
+      double
+      largest_curvature(unsigned int position) const;
 
       /**
        * The nearest of the masters that face the normal of @p slave_place (product of unit normals

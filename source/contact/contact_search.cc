@@ -387,8 +387,17 @@ namespace NMM
             found.push_back(
               {t, is_corner(master, end) ? master : invalid_index, end, false});
         }
-      for (unsigned int i = 1; i < n_parts; ++i)
-        found.push_back({i / double(n_parts), invalid_index, 0, true});
+      // Whether something is in reach of the last two divisions.
+      bool is_before = false, is_here = false;
+      for (unsigned int i = 0; n_parts > 1 && i <= n_parts; ++i)
+      {
+        const bool is_next =
+          is_in_reach(position, surface->place(slave, i / double(n_parts)).x);
+        if (i > 1 && (is_before || is_here || is_next))
+          found.push_back({(i - 1) / double(n_parts), invalid_index, 0, true});
+        is_before = is_here;
+        is_here   = is_next;
+      }
       // Of divisions at the same place, those with corners come first.
       std::sort(found.begin(),
                 found.end(),
@@ -404,6 +413,24 @@ namespace NMM
       result.emplace_back();
       result.back().s = 1.;
       return result;
+    }
+
+
+    bool
+    ContactSearch::is_in_reach(const unsigned int     position,
+                               const ContactPosition &x) const
+    {
+      for (const unsigned int master : masters(position))
+      {
+        double t;
+        Place  place;
+        if (!surface->is_further(master, x, reach, 0., 0.) &&
+            find_nearest(master, x, t, place) &&
+            surface->place(master, std::clamp(t, 0., 1.)).x.distance(x) <=
+              reach)
+          return true;
+      }
+      return false;
     }
 
 

@@ -237,7 +237,8 @@ namespace NMM
        * With @p n_parts > 1 the slave is divided into that many equal parts and at corners of
        * masters, but not where masters continue smoothly. Points of bodies that roll on each other
        * then stay where they are, and the parts are so short that polynomials need not end at
-       * their ends.
+       * their ends. Parts without a master within the reach are left whole, since nothing touches
+       * there in this step.
        */
       std::vector<Division>
       divisions(unsigned int position, unsigned int n_parts = 1) const;
@@ -341,6 +342,10 @@ namespace NMM
                    const ContactPosition &x) const;
 
     private:
+      /// Whether a master of the slave at a position is within the reach of @p x.
+      bool
+      is_in_reach(unsigned int position, const ContactPosition &x) const;
+
       /// The edge of the corner at a division that goes on above the slave's piece towards @p
       /// s_inside and faces it; invalid_index if there is none.
       unsigned int

@@ -110,7 +110,7 @@ namespace NMM
       return projection.t;
     const ContactPosition x =
       surface->reference_place(points[q].edge, points[q].s).x;
-    double         t = projection.t;
+    double t = projection.t;
     for (unsigned int i = 0; i < 3; ++i)
     {
       const ContactSurface::Place place =

@@ -758,8 +758,9 @@ namespace NMM
                     -now.t - inside_slack(edge.at_start, slack),
                     now.t - 1. - inside_slack(edge.at_end, slack)});
         bool       is_better = best.master == invalid_index;
-        const bool is_corner = !is_better && corner_between(best.master, master) !=
-                                               ContactSurface::Corner::smooth;
+        const bool is_corner =
+          !is_better &&
+          corner_between(best.master, master) != ContactSurface::Corner::smooth;
         // Where corners of both bodies coincide, neither a small slip nor the closure of springs
         // moves a point to the face round the corner; after a larger slip the slave is divided
         // there.

@@ -126,12 +126,8 @@ namespace NMM
           loading.reset();
           throw;
         }
-        const Mechanism mechanism =
-          find_mechanism(*loading,
-                         system,
-                         contact.contact(),
-                         reached,
-                         quadrature);
+        const Mechanism mechanism = find_mechanism(
+          *loading, system, contact.contact(), reached, quadrature);
         loading.reset();
         AssertThrow(false,
                     NumericalFailure(error.description() + ". " +

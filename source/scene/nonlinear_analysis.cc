@@ -195,12 +195,11 @@ namespace NMM
     NonlinearAnalysis::explain(const NumericalFailure &error,
                                const ContactStatics   &statics)
     {
-      const Mechanism mechanism =
-        find_mechanism(statics,
-                       *system,
-                       contact->contact(),
-                       reached_load_factor(),
-                       *quadrature);
+      const Mechanism   mechanism = find_mechanism(statics,
+                                                 *system,
+                                                 contact->contact(),
+                                                 reached_load_factor(),
+                                                 *quadrature);
       const std::string reason =
         error.description() + ". " + mechanism.description;
       if (history.empty())

@@ -172,7 +172,8 @@ namespace NMM
     entries.add("Number of points",
                 n_points,
                 Patterns::Integer(2, 20),
-                "Contact points on each piece of an edge (Gauss-Lobatto).");
+                "Contact points on each piece of an edge (Gauss-Lobatto); "
+                "round faces are divided into short pieces.");
     entries.add(
       "Integration",
       integration,

@@ -31,8 +31,8 @@ namespace
   }
 
 
-  /// Largest distance of neighbouring points along edges, within 0.2 m of the origin: further up the
-  /// disk does not face what it lies on [m].
+  /// Largest distance of neighbouring points along edges, within 0.15 m of the origin: further up the
+  /// disk is out of reach of what it lies on [m].
   double
   largest_distance(const Bodies &bodies)
   {
@@ -42,7 +42,7 @@ namespace
     {
       const Point<2> x =
         bodies.surface.reference_place(points[q].edge, points[q].s).x;
-      if (points[q].edge == points[q + 1].edge && x.norm() < 0.2)
+      if (points[q].edge == points[q + 1].edge && x.norm() < 0.15)
         result = std::max(result,
                           (points[q + 1].s - points[q].s) *
                             bodies.surface.edges()[points[q].edge].length);

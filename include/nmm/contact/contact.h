@@ -58,7 +58,9 @@ namespace NMM
     /// Candidate pairs of faces are searched for within this distance [m]; 0 stands for a tenth
     /// of the longest edge. No point may move further than this in a step.
     double reach = 0.;
-    /// Number of Gauss-Lobatto points on each piece of an edge, from 2 to 20.
+    /// Number of Gauss-Lobatto points on each piece of an edge, from 2 to 20. Round faces are divided
+    /// into so short pieces that points are at most a hundredth of the relative radius of curvature
+    /// apart.
     unsigned int n_points = 4;
     /// Whether springs act per length of a face or at vertices only.
     ContactIntegration integration = ContactIntegration::length;
@@ -165,7 +167,8 @@ namespace NMM
     unsigned int n_changes = 0;
     /// Number of points that stick because their bond holds.
     unsigned int n_bonded = 0;
-    /// Largest penetration over all closed points, from the nearest face of the other body [m].
+    /// Largest penetration over all closed points, from the nearest face of the other body [m]. On
+    /// round faces it is that of the deepest place, which may lie between points.
     double largest_penetration = 0.;
     /// Whether the assembly was one of ContactTimeStep::assemble(), whose penetrations are those in
     /// the mean position of the step, or one at the end of such a step.
@@ -189,7 +192,8 @@ namespace NMM
    * @f[ \Pi = \sum_q w_q\left(\tfrac{1}{2\epsilon_n}\langle\lambda - \epsilon_n
    *     g\rangle_+^2 + \tfrac{\epsilon_t}{2} g_t^2\right). @f]
    * A slave edge is divided where edges of the other side end, so that the integrand is a
-   * polynomial on each piece. The paper has springs at corners only, see ContactIntegration; here
+   * polynomial on each piece, and a round one into short pieces, so that bodies roll on their faces
+   * and not on polygons. The paper has springs at corners only, see ContactIntegration; here
    * the stiffness is per length and does not depend on the mesh.
    *
    * Pressure and strength of each point are those of a ContactLaw; each pair of faces may have a law

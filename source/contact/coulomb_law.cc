@@ -41,8 +41,8 @@ namespace NMM
   CoulombLaw::Response
   CoulombLaw::cohesion_under(const double pressure, const double c) const
   {
-    static const double slope =
-      std::getenv("SLOPE") ? std::atof(std::getenv("SLOPE")) : 1000.;
+    constexpr double slope = 1000.;
+
     if (is_bond)
       return {};
     return slope * pressure < c ? Response{slope * pressure, slope}

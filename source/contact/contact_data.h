@@ -579,8 +579,8 @@ namespace NMM
     MPI_Comm                 communicator;
     internal::ContactSearch  search;
     internal::ContactLaws    laws;
-    internal::RoundedCorners rounded;
     bool                     transmits_shear;
+    internal::RoundedCorners rounded;
     /// See bound_initial_closure().
     double largest_initial_closure = 0.;
     /// See corner_sizes().

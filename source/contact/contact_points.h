@@ -39,6 +39,13 @@ namespace NMM
     }
 
 
+    /// Parameter in [0, 1] of the place of an edge, a segment or an arc in the reference
+    /// configuration, that is nearest to @p x.
+    double
+    nearest_parameter(const ContactSurface::Edge &edge,
+                      const dealii::Point<2>     &x);
+
+
     /// Gauss-Lobatto rule of @p n points on [0, 1].
     void
     lobatto_rule(unsigned int         n,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <contact/contact_points.h>
 #include <sstream>
 
 namespace NMM
@@ -10,9 +11,8 @@ namespace NMM
   using dealii::Point;
   using dealii::Tensor;
 
-  namespace
+  namespace internal
   {
-    /// Parameter in [0, 1] of the point of a segment or an arc that is nearest to @p x.
     double
     nearest_parameter(const ContactSurface::Edge &edge, const Point<2> &x)
     {
@@ -34,7 +34,7 @@ namespace NMM
         return std::max(0., t);
       return x.distance(edge.start) < x.distance(edge.end) ? 0. : 1.;
     }
-  } // namespace
+  } // namespace internal
 
 
   ContactSurface::Nearest
@@ -49,7 +49,7 @@ namespace NMM
          ++e)
     {
       const Edge  &edge  = all_edges[e];
-      const double t     = nearest_parameter(edge, x - shift);
+      const double t     = internal::nearest_parameter(edge, x - shift);
       Place        place = reference_place(e, t);
       place.x += shift;
       const Tensor<1, 2> d    = -(place.x - x);
@@ -115,10 +115,12 @@ namespace NMM
           double distance = std::numeric_limits<double>::max();
           for (unsigned int k = 0; k < all_edges.size(); ++k)
             if (all_edges[k].body == mesh.block(e))
-              distance = std::min(
-                distance,
-                x.distance(
-                  reference_place(k, nearest_parameter(all_edges[k], x)).x));
+              distance =
+                std::min(distance,
+                         x.distance(
+                           reference_place(
+                             k, internal::nearest_parameter(all_edges[k], x))
+                             .x));
           if (distance > tolerance && -distance < deepest[mesh.block(e)])
           {
             deepest[mesh.block(e)]     = -distance;

@@ -42,27 +42,6 @@ namespace NMM
     }
 
 
-    /// The parameter of the place of an edge nearest to @p x, limited to the edge.
-    double
-    nearest_parameter(const ContactSurface::Edge &edge, const Point<2> &x)
-    {
-      double t;
-      if (edge.radius == 0.)
-        t = (x - edge.start) * (edge.end - edge.start) /
-            (edge.end - edge.start).norm_square();
-      else
-      {
-        const double       range  = edge.last_angle - edge.first_angle;
-        const double       middle = edge.first_angle + 0.5 * range;
-        const Tensor<1, 2> d      = x - edge.center;
-        t = 0.5 + std::remainder(std::atan2(d[1], d[0]) - middle,
-                                 2. * dealii::numbers::PI) /
-                    range;
-      }
-      return std::min(1., std::max(0., t));
-    }
-
-
     /// For each edge of a block, the edge that touches its middle in the reference configuration, or
     /// invalid_index.
     std::vector<unsigned int>
@@ -93,9 +72,9 @@ namespace NMM
                    std::back_inserter(near));
         for (const TreeValue &value : near)
         {
-          const unsigned int          f = value.second;
-          const ContactSurface::Place there =
-            surface.reference_place(f, nearest_parameter(edges[f], here.x));
+          const unsigned int          f     = value.second;
+          const ContactSurface::Place there = surface.reference_place(
+            f, internal::nearest_parameter(edges[f], here.x));
           const double distance = here.x.distance(there.x);
           if (f != e && distance <= least &&
               here.normal() * there.normal() < opposite)

@@ -544,7 +544,11 @@ namespace NMM
     const auto is_new = [](const Group &group) { return group.has_converged; };
     const std::vector<bool> blocks =
       groups.are_there_several() ? groups.active(is_new) : std::vector<bool>();
-    for (unsigned int i = 0; i < parameters.n_refinements; ++i)
+    // With a coarser tolerance contact may still change, and the last tangent is that of another
+    // state: its correction may be far too large.
+    const unsigned int n =
+      tolerance > parameters.residual_tolerance ? 0 : parameters.n_refinements;
+    for (unsigned int i = 0; i < n; ++i)
     {
       solve(residual, correction, blocks);
       const auto x = owned.begin();

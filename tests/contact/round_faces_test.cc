@@ -8,7 +8,7 @@ using namespace NMM::Test;
 
 namespace
 {
-  constexpr double radius = 0.5;
+  constexpr double disk_radius = 0.5;
 
 
   /// A disk that touches the origin from above.
@@ -17,7 +17,8 @@ namespace
   {
     Geometry geometry;
     geometry.add(
-      single_piece_curve("disk", CurvePiece::circle({0., radius}, radius)));
+      single_piece_curve("disk",
+                         CurvePiece::circle({0., disk_radius}, disk_radius)));
     Bodies::Options options;
     options.obstacles = obstacles;
     return Bodies(std::move(geometry), options);
@@ -64,9 +65,9 @@ namespace
     hill.name   = "hill";
     hill.pieces = {CurvePiece::arc({0.6, -0.2}, {0., 0.}, {-0.6, -0.2})};
     for (const auto &[face, curvature] :
-         {std::make_pair(floor_below(), 1. / radius),
-          std::make_pair(bowl, 1. / radius - 1. / bowl_radius),
-          std::make_pair(hill, 1. / radius + 1. / bowl_radius)})
+         {std::make_pair(floor_below(), 1. / disk_radius),
+          std::make_pair(bowl, 1. / disk_radius - 1. / bowl_radius),
+          std::make_pair(hill, 1. / disk_radius + 1. / bowl_radius)})
     {
       SCOPED_TRACE(face.name);
       Bodies bodies = disk_on({face});
@@ -87,7 +88,7 @@ namespace
     Geometry geometry;
     add_named_box(geometry, "", {-1., -1.}, {1., 1.});
     Curve joint =
-      single_piece_curve("joint", CurvePiece::circle({0., 0.}, radius));
+      single_piece_curve("joint", CurvePiece::circle({0., 0.}, disk_radius));
     joint.role  = CurveRole::joint;
     joint.state = JointState::open;
     geometry.add(joint);
@@ -98,7 +99,7 @@ namespace
       [](const Point<2> &, unsigned int) { return Tensor<1, 2>(); }));
     unsigned int n_slaves = 0;
     for (const auto &edge : bodies.surface.edges())
-      n_slaves += edge.radius > 0.;
+      n_slaves += edge.disk_radius > 0.;
     ASSERT_GT(n_slaves, 0U);
     EXPECT_EQ(bodies.contact->points().size(), 4 * n_slaves);
   }
@@ -119,7 +120,7 @@ namespace
           parameters.n_points          = n_points;
           bodies.start(parameters);
           Motion motion;
-          motion.center  = {0., radius};
+          motion.center  = {0., disk_radius};
           motion.angle   = 0.37 * k;
           motion.shift   = Tensor<1, 2>({0., -depth});
           const Vector u = bodies.interpolate(
@@ -128,7 +129,7 @@ namespace
           bodies.contact->assemble(u, false);
           EXPECT_NEAR(bodies.contact->report().largest_penetration,
                       depth,
-                      1e-8 * radius);
+                      1e-8 * disk_radius);
         }
   }
 } // namespace

@@ -99,7 +99,7 @@ namespace
       [](const Point<2> &, unsigned int) { return Tensor<1, 2>(); }));
     unsigned int n_slaves = 0;
     for (const auto &edge : bodies.surface.edges())
-      n_slaves += edge.disk_radius > 0.;
+      n_slaves += edge.radius > 0.;
     ASSERT_GT(n_slaves, 0U);
     EXPECT_EQ(bodies.contact->points().size(), 4 * n_slaves);
   }

@@ -37,8 +37,9 @@ namespace NMM
    * The result are convex corners at which one side lies along a face that ends there, and a face
    * of another body begins less than 60 degrees off the direction of sliding, which goes into that
    * body. What is on the other side of the corner does not matter, since it may move away, unless it
-   * is that face itself: then the whole side of the block rests on it. Directions against @p gravity (any unit) do not count; if @p gravity is zero, all
-   * directions count. Positions are those of the reference configuration.
+   * is that face itself: then the whole side of the block rests on it. Directions against @p gravity
+   * (any unit) do not count; if @p gravity is zero, all directions count. Positions are those of the
+   * reference configuration.
    * Cost: O(n log n) for n edges.
    */
   std::vector<LockedCorner>

@@ -210,9 +210,11 @@ namespace NMM
     constexpr double rounding = 1e-6;
     // Conserving steps need no limit: contact that is found deep inside brings no energy, and would
     // be lost for good if it were missed once.
-    admitted_depth = is_conserving()
-                       ? std::numeric_limits<double>::max()
-                       : 2. * search.motion_since_begin() + rounding * reach;
+    edge_motions.clear();
+    admitted_depth =
+      is_conserving() ? std::numeric_limits<double>::max() : rounding * reach;
+    if (!is_conserving())
+      search.find_motions_since_begin(edge_motions);
   }
 
 

@@ -241,6 +241,14 @@ namespace NMM
             unsigned int other,
             unsigned int n_edges = 4) const;
 
+    /// Whether @p face ends near @p s of an edge, compared with the piece of the edge that ends at
+    /// @p s and @p other_s.
+    bool
+    ends_near(unsigned int face,
+              unsigned int edge,
+              double       s,
+              double       other_s) const;
+
     /// Set the depth that new contact may have: as far as faces have moved since the beginning of
     /// the step, and in the first step since the reference configuration, in which blocks do not
     /// overlap. In steps that conserve energy there is no limit.
@@ -603,8 +611,11 @@ namespace NMM
     /// Faces that each point is beside, see ContactSearch::append_faces_beside(). They are found
     /// when points are made, so that they do not change within a step.
     std::vector<unsigned int> faces_beside;
-    /// Reach of the last search, and largest depth of new contact, see AdmittedContact [m].
+    /// Reach of the last search, and largest depth of new contact of an edge that has not moved, see
+    /// AdmittedContact [m].
     double reach = 0., admitted_depth = 0.;
+    /// Way of each edge since the last accepted state [m], where it bounds the depth of new contact.
+    std::vector<double> edge_motions;
     /// Time of set_time() [s].
     double time    = 0.;
     bool   is_idle = true;

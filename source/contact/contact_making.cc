@@ -152,6 +152,21 @@ namespace NMM
   }
 
 
+  bool
+  Contact::Data::ends_near(const unsigned int face,
+                           const unsigned int edge,
+                           const double       s,
+                           const double       other_s) const
+  {
+    using CornerRules::near_division;
+    const ContactPosition x      = surface->place(edge, s).x;
+    const double          length = x.distance(surface->place(edge, other_s).x);
+    return std::min(x.distance(surface->place(face, 0.).x),
+                    x.distance(surface->place(face, 1.).x)) <=
+           near_division * length;
+  }
+
+
   void
   Contact::Data::add_points_of(const unsigned int slave)
   {
@@ -167,6 +182,17 @@ namespace NMM
       const double at_end =
         end.is_of_parts ? 0. : search.end_slack(slave, end, begin.s, last);
       const double length = end.s - begin.s;
+      // Where a joint crosses others, corners of several bodies coincide, and that of the division
+      // may belong to a body behind the one that the piece touches.
+      const unsigned int between =
+        search.face_at(slave, begin.s + 0.5 * length);
+      const bool is_known = between != invalid_index;
+      if (is_known && first != invalid_index &&
+          ends_near(between, edge, begin.s, end.s))
+        first = between;
+      if (is_known && last != invalid_index &&
+          ends_near(between, edge, end.s, begin.s))
+        last = between;
       for (unsigned int q = 0; q < rule_points.size(); ++q)
       {
         const bool   is_last = q + 1 == rule_points.size();
@@ -187,7 +213,9 @@ namespace NMM
         point.weight       = rule_weights[q] * length * speed;
         const ContactSearch::Division &at = q == 0 ? begin : end;
         // A corner of another body does not end the face on which this piece lies.
-        const unsigned int on = is_last ? last : first;
+        const unsigned int on = is_last               ? last
+                                : q == 0 || !is_known ? first
+                                                      : between;
         if ((q == 0 || is_last) && fixed.slack > 0. &&
             at.master != invalid_index &&
             surface->edges()[at.master].body == surface->edges()[on].body)

@@ -130,9 +130,11 @@ namespace NMM
   Contact::Data::find_admitted(const unsigned int q) const
   {
     AdmittedContact admitted;
-    admitted.depth = admitted_depth;
+    const double own = edge_motions.empty() ? 0. : edge_motions[points[q].edge];
+    admitted.depth   = admitted_depth + own;
+    admitted.motions = {edge_motions.data(), edge_motions.size()};
     // Another point of the same edge may be far behind the same face, beyond a corner of it.
-    admitted.touching_depth = admitted_depth + memory.touching_reach;
+    admitted.touching_depth = admitted.depth + memory.touching_reach;
     const PointData &fixed  = point_data[q];
     admitted.beside         = {faces_beside.data() + fixed.beside_begin,
                                fixed.beside_end - fixed.beside_begin};

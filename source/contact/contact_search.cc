@@ -327,6 +327,17 @@ namespace NMM
     }
 
 
+    void
+    ContactSearch::find_motions_since_begin(std::vector<double> &motions) const
+    {
+      motions.assign(accepted_positions.size() / 3, 0.);
+      for (unsigned int i = 0; i < accepted_positions.size(); ++i)
+        motions[i / 3] = std::max(motions[i / 3],
+                                  surface->place(i / 3, 0.5 * (i % 3))
+                                    .x.distance(accepted_positions[i]));
+    }
+
+
     bool
     ContactSearch::find_nearest(const unsigned int     edge,
                                 const ContactPosition &x,
@@ -629,6 +640,22 @@ namespace NMM
     }
 
 
+    unsigned int
+    ContactSearch::face_at(const unsigned int position, const double s) const
+    {
+      AdmittedContact admitted;
+      admitted.least_facing = least_facing_along;
+      return project_within(surface->place(slave_edges[position], s),
+                            masters(position),
+                            0.,
+                            invalid_index,
+                            invalid_index,
+                            reach_of_piece * reach,
+                            admitted)
+        .master;
+    }
+
+
     double
     ContactSearch::end_slack(const unsigned int position,
                              const Division    &division,
@@ -640,18 +667,7 @@ namespace NMM
       if (master != invalid_index)
         return beyond_division;
 
-      const Place     place = surface->place(slave_edges[position],
-                                         s + inside_of_piece * (s_inside - s));
-      AdmittedContact admitted;
-      admitted.least_facing = least_facing_along;
-      master                = project_within(place,
-                              masters(position),
-                              0.,
-                              invalid_index,
-                              invalid_index,
-                              reach_of_piece * reach,
-                              admitted)
-                 .master;
+      master = face_at(position, s + inside_of_piece * (s_inside - s));
       return master == invalid_index ? -beyond_division : beyond_division;
     }
 
@@ -789,10 +805,15 @@ namespace NMM
         return best;
       const ContactSurface::Edge &edge    = surface->edges()[best.master];
       constexpr auto              concave = ContactSurface::Corner::concave;
+      // At the tip of a wedge the springs may be compressed by more than the wedge is thick. A point
+      // whose piece was laid on this face stays with it there.
+      const bool is_at_tip = best.master == home && (best.t < end_of_home ||
+                                                     best.t > 1. - end_of_home);
       for (const auto &[far, gap] : outside)
         if (
           surface->edges()[far].body == edge.body &&
           std::abs(gap) < -best.gap && (gap > 0. || admitted.is_bound()) &&
+          !(is_at_tip && meet_in_convex_corner(far, best.master)) &&
           // Exclude the two faces of a notch, which have the body on either side.
           !(far == edge.previous && edge.at_start == concave) &&
           !(far == edge.next && edge.at_end == concave))

@@ -53,9 +53,11 @@ namespace NMM
     /// Restrictions on the contact of a point.
     struct AdmittedContact
     {
-      /// Largest depth of new contact [m]. A face that is further from the point has not been
-      /// reached from outside.
+      /// Largest depth of new contact [m], without the motion of the face. A face that is further
+      /// from the point has not been reached from outside.
       double depth = std::numeric_limits<double>::max();
+      /// Way of each face since the last accepted state [m], or empty.
+      dealii::ArrayView<const double> motions;
       /// Faces that the edge of the point has penetrated at the last accepted state, and how deep the
       /// point may be behind them [m].
       dealii::ArrayView<const unsigned int> touching;
@@ -83,8 +85,10 @@ namespace NMM
           return std::find(faces.begin(), faces.end(), projection.master) !=
                  faces.end();
         };
-        return (projection.gap >= -depth ||
-                (projection.gap >= -touching_depth && is_in(touching))) &&
+        const double way =
+          motions.size() == 0 ? 0. : motions[projection.master];
+        return (projection.gap >= -depth - way ||
+                (projection.gap >= -touching_depth - way && is_in(touching))) &&
                !is_in(beside) && !is_in(rounded);
       }
     };
@@ -209,12 +213,10 @@ namespace NMM
       void
       begin(Begin where);
 
-      /// Largest distance as in motion(), since begin() [m].
-      double
-      motion_since_begin() const
-      {
-        return largest_distance(accepted_positions);
-      }
+      /// Largest distance [m] that an end or the middle of each edge has moved since begin(); empty
+      /// if the beginning is unknown.
+      void
+      find_motions_since_begin(std::vector<double> &motions) const;
 
       /// Value of the home of project() that stands for all masters.
       static constexpr unsigned int any_edge = invalid_index - 1;
@@ -299,6 +301,11 @@ namespace NMM
                      dealii::ArrayView<const unsigned int> masters,
                      unsigned int                          entrance,
                      const AdmittedContact &admitted = AdmittedContact()) const;
+
+      /// The nearest face along which the slave touches at @p s, within twice the reach; invalid_index
+      /// if there is none.
+      unsigned int
+      face_at(unsigned int position, double s) const;
 
       /**
        * Slack for the division at which a piece of a slave begins or ends. A master's corner lies

@@ -21,18 +21,15 @@ namespace NMM
       constexpr double weights[3]   = {5. / 18., 8. / 18., 5. / 18.};
 
 
-      /// The strain E = (H + H^T + H^T H) / 2 with H = F - I, a form that is accurate for small
-      /// strains.
+      /// The strain E = (H + H^T + H^T H) / 2, a form that is accurate for small strains.
       SymmetricTensor<2, 2>
-      accurate_green_strain(const Tensor<2, 2> &F)
+      green_strain(const Tensor<2, 2> &H)
       {
-        const double h00 = F[0][0] - 1., h11 = F[1][1] - 1.;
-        const double h01 = F[0][1], h10 = F[1][0];
-
         SymmetricTensor<2, 2> E;
-        E[0][0] = h00 + 0.5 * (h00 * h00 + h10 * h10);
-        E[1][1] = h11 + 0.5 * (h01 * h01 + h11 * h11);
-        E[0][1] = 0.5 * (h01 + h10 + h00 * h01 + h10 * h11);
+        E[0][0] = H[0][0] + 0.5 * (H[0][0] * H[0][0] + H[1][0] * H[1][0]);
+        E[1][1] = H[1][1] + 0.5 * (H[0][1] * H[0][1] + H[1][1] * H[1][1]);
+        E[0][1] =
+          0.5 * (H[0][1] + H[1][0] + H[0][0] * H[0][1] + H[1][0] * H[1][1]);
         return E;
       }
 
@@ -100,16 +97,17 @@ namespace NMM
 
 
     Deformation
-    ConservingLaw::discrete_gradient(const Tensor<2, 2>    &F_0,
-                                     const Tensor<2, 2>    &F_1,
+    ConservingLaw::discrete_gradient(const Tensor<2, 2>    &H_0,
+                                     const Tensor<2, 2>    &H_1,
                                      const bool             with_tangent,
                                      SymmetricTensor<2, 2> &S,
                                      double (&D)[4][4]) const
     {
+      const Tensor<2, 2> F_0 = with_identity(H_0), F_1 = with_identity(H_1);
       if (!(dealii::determinant(F_0) > 0.) || !(dealii::determinant(F_1) > 0.))
         return Deformation::inverted;
-      const SymmetricTensor<2, 2> E_0    = accurate_green_strain(F_0);
-      const SymmetricTensor<2, 2> change = accurate_green_strain(F_1) - E_0;
+      const SymmetricTensor<2, 2> E_0    = green_strain(H_0);
+      const SymmetricTensor<2, 2> change = green_strain(H_1) - E_0;
       S                                  = 0.;
       for (auto &row : D)
         std::fill_n(row, 4, 0.);
@@ -206,16 +204,16 @@ namespace NMM
 
 
     Deformation
-    ConservingLaw::secant(const Tensor<2, 2> &F_0,
-                          const Tensor<2, 2> &F_1,
+    ConservingLaw::secant(const Tensor<2, 2> &H_0,
+                          const Tensor<2, 2> &H_1,
                           Secant             &result) const
     {
-      result.E_0 = accurate_green_strain(F_0);
-      result.E_1 = accurate_green_strain(F_1);
+      result.E_0 = green_strain(H_0);
+      result.E_1 = green_strain(H_1);
       if (!law->is_linear_in_green_strain())
       {
-        if (!(dealii::determinant(F_0) > 0.) ||
-            !(dealii::determinant(F_1) > 0.))
+        if (!(dealii::determinant(with_identity(H_0)) > 0.) ||
+            !(dealii::determinant(with_identity(H_1)) > 0.))
           return Deformation::inverted;
         SymmetricTensor<2, 2> S_0, S_1;
         double                D[4][4];
@@ -276,27 +274,27 @@ namespace NMM
 
 
     Deformation
-    ConservingLaw::evaluate(const Tensor<2, 2> &F_0,
-                            const Tensor<2, 2> &F_1,
+    ConservingLaw::evaluate(const Tensor<2, 2> &H_0,
+                            const Tensor<2, 2> &H_1,
                             const bool          with_tangent,
                             const double        damping,
                             Tensor<2, 2>       &P,
                             double (&A)[4][4],
                             double &dissipated) const
     {
-      const Tensor<2, 2>    F = 0.5 * (F_0 + F_1);
+      const Tensor<2, 2>    F = with_identity(0.5 * (H_0 + H_1));
       SymmetricTensor<2, 2> S;
       double                D[4][4];
       if (!law->is_linear_in_green_strain())
       {
-        if (discrete_gradient(F_0, F_1, with_tangent, S, D) !=
+        if (discrete_gradient(H_0, H_1, with_tangent, S, D) !=
             Deformation::admissible)
           return Deformation::inverted;
       }
       else
       {
         const SymmetricTensor<2, 2> E =
-          0.5 * (accurate_green_strain(F_0) + accurate_green_strain(F_1));
+          0.5 * (green_strain(H_0) + green_strain(H_1));
         S                     = initial_stress + 2. * elasticity.mu * E;
         const double pressure = elasticity.lambda * dealii::trace(E);
         S[0][0] += pressure;
@@ -306,7 +304,7 @@ namespace NMM
       if (damping > 0.)
       {
         const SymmetricTensor<2, 2> change =
-          accurate_green_strain(F_1) - accurate_green_strain(F_0);
+          green_strain(H_1) - green_strain(H_0);
         SymmetricTensor<2, 2> viscous = (2. * damping * elasticity.mu) * change;
         const double          pressure =
           damping * elasticity.lambda * dealii::trace(change);
@@ -325,6 +323,7 @@ namespace NMM
         (law->is_linear_in_green_strain() ? 1. : 0.) + 2. * damping;
       const double       lambda = moduli * elasticity.lambda;
       const double       mu     = moduli * elasticity.mu;
+      const Tensor<2, 2> F_1    = with_identity(H_1);
       const Tensor<2, 2> b      = F * dealii::transpose(F_1);
       for (unsigned int i = 0; i < 2; ++i)
         for (unsigned int J = 0; J < 2; ++J)
@@ -366,8 +365,8 @@ namespace NMM
         {
           const double(*g)[2] = table.gradients + q * n;
           const double weight = table.weights[q];
-          if (law.evaluate(deformation_gradient(n, begin.values, g),
-                           deformation_gradient(n, end.values, g),
+          if (law.evaluate(displacement_gradient(n, begin.values, g),
+                           displacement_gradient(n, end.values, g),
                            with_tangent,
                            damping,
                            P,

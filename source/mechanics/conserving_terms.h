@@ -30,6 +30,16 @@ namespace NMM
     }
 
 
+    /// I + @p H.
+    inline dealii::Tensor<2, 2>
+    with_identity(dealii::Tensor<2, 2> H)
+    {
+      H[0][0] += 1.;
+      H[1][1] += 1.;
+      return H;
+    }
+
+
     /**
      * The conserving stress between two states 0 and 1, whose work is exactly the change of the
      * strain energy W. With F_m = (F_0 + F_1) / 2 and the Green-Lagrange strain E,
@@ -57,6 +67,10 @@ namespace NMM
                     const dealii::SymmetricTensor<2, 2>   &initial_stress);
 
       /**
+       * The states are given by their displacement gradients H = F - I. With F, whose diagonal is 1,
+       * strains would be rounded by 1e-16, however small they are, and damping multiplies that by
+       * beta / h.
+       *
        * Compute P [Pa] and, if @p with_tangent, A = 2 dP/dF_1, the derivative with respect to F_m
        * at fixed F_0, where A_iJkL is stored at [2i + J][2k + L]. A is not symmetric.
        *
@@ -67,8 +81,8 @@ namespace NMM
        * momenta are conserved. @p dissipated is S_v : (E_1 - E_0) >= 0 [J/m^3].
        */
       Deformation
-      evaluate(const dealii::Tensor<2, 2> &F_0,
-               const dealii::Tensor<2, 2> &F_1,
+      evaluate(const dealii::Tensor<2, 2> &H_0,
+               const dealii::Tensor<2, 2> &H_1,
                bool                        with_tangent,
                double                      damping,
                dealii::Tensor<2, 2>       &P,
@@ -89,9 +103,10 @@ namespace NMM
         double end_moduli[4][4];
       };
 
+      /// The secant between two states, given by their displacement gradients.
       Deformation
-      secant(const dealii::Tensor<2, 2> &F_0,
-             const dealii::Tensor<2, 2> &F_1,
+      secant(const dealii::Tensor<2, 2> &H_0,
+             const dealii::Tensor<2, 2> &H_1,
              Secant                     &result) const;
 
       /// Derivative of (`moduli` : @p X) with respect to E_1, stored at [2M + J][c] for the strain
@@ -118,8 +133,8 @@ namespace NMM
       /// Compute the conserving stress of a law that is not linear in E and, if @p with_tangent,
       /// D = 2 dS/dE_1, with D_MJNL at [2M + J][2N + L].
       Deformation
-      discrete_gradient(const dealii::Tensor<2, 2>    &F_0,
-                        const dealii::Tensor<2, 2>    &F_1,
+      discrete_gradient(const dealii::Tensor<2, 2>    &H_0,
+                        const dealii::Tensor<2, 2>    &H_1,
                         bool                           with_tangent,
                         dealii::SymmetricTensor<2, 2> &S,
                         double (&D)[4][4]) const;

@@ -43,11 +43,14 @@ namespace NMM
                const bool          with_tangent,
                SideState          &state)
       {
-        const Tensor<2, 2> F_0 =
-          deformation_gradient(n_per_cell, begin, side.gradients);
-        state.F_1 = deformation_gradient(n_per_cell, end, side.gradients);
-        state.F_m = 0.5 * (F_0 + state.F_1);
-        if (law.secant(F_0, state.F_1, state.secant) != Deformation::admissible)
+        const Tensor<2, 2> H_0 =
+          displacement_gradient(n_per_cell, begin, side.gradients);
+        const Tensor<2, 2> H_1 =
+          displacement_gradient(n_per_cell, end, side.gradients);
+        const Tensor<2, 2> F_0 = with_identity(H_0);
+        state.F_1              = with_identity(H_1);
+        state.F_m              = 0.5 * (F_0 + state.F_1);
+        if (law.secant(H_0, H_1, state.secant) != Deformation::admissible)
           return Deformation::inverted;
         const Tensor<1, 2> a = 0.5 * (d_0 * F_0 + d_1 * state.F_1);
         const Tensor<2, 2> X = dealii::outer_product(a, normal);

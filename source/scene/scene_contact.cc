@@ -188,6 +188,74 @@ namespace NMM
         result.push_back(std::distance(steps.begin(), steps.find(value)));
       return result;
     }
+
+
+    /// The size of cells at faces [m] below which a tenth of the faces lies, by their length or by
+    /// their number of edges; an edge is in one cell. Slivers are left out, since their cells can be
+    /// as thin as they are, unless all regions are slivers.
+    double
+    smaller_cell_size(const ContactSurface &surface, const bool is_by_length)
+    {
+      const ManifoldMesh &mesh    = surface.cover_system().manifold_mesh();
+      const auto         &regions = mesh.physical_mesh().regions();
+      const bool          with_slivers =
+        std::all_of(regions.begin(), regions.end(), [](const auto &region) {
+          return region.is_sliver;
+        });
+      std::vector<std::pair<double, double>> sizes;
+      double                                 sum = 0.;
+      for (unsigned int e = 0; e < surface.edges().size(); ++e)
+      {
+        const auto &edge = surface.edges()[e];
+        if (surface.is_rigid(e) ||
+            (!with_slivers && regions[mesh.region(edge.element)].is_sliver))
+          continue;
+        // The size is the edge length of the equilateral triangle with the same area.
+        const double twice_area =
+          1. / std::abs(dealii::determinant(edge.inverse));
+        const double weight = is_by_length ? edge.start.distance(edge.end) : 1.;
+        sizes.emplace_back(std::sqrt(2. * twice_area / std::sqrt(3.)), weight);
+        sum += weight;
+      }
+      Assert(!sizes.empty(), dealii::ExcMessage("A solid has a boundary."));
+      std::sort(sizes.begin(), sizes.end());
+      double left = 0.1 * sum;
+      auto   size = sizes.begin();
+      while (left >= size->second && size + 1 != sizes.end())
+        left -= (size++)->second;
+      return size->first;
+    }
+
+
+    /// Cracks with tips towards which the mesh is graded.
+    struct FineCracks
+    {
+      FineCracks() = default;
+
+      explicit FineCracks(const PhysicalMesh &mesh)
+      {
+        for (const CrackTip &tip : find_crack_tips(mesh))
+        {
+          shortest = std::min(shortest, tip.free_radius);
+          names.insert(mesh.curves()[tip.curve].name);
+        }
+      }
+
+      /// The cell size [m] that the stiffness of springs between their faces follows. Cells at tips
+      /// are up to a million times smaller than the crack; with springs as stiff as such cells the
+      /// pressure oscillates. With a stiffness of 30 E / (0.003 R), the intensity factors of a closed
+      /// crack of length R are wrong by less than 1e-4.
+      double
+      cell_size(const ContactSurface &surface) const
+      {
+        return std::max(smaller_cell_size(surface, /* is_by_length = */ false),
+                        3e-3 * shortest);
+      }
+
+      std::set<std::string> names;
+      /// The smallest free radius of a tip [m].
+      double shortest = std::numeric_limits<double>::max();
+    };
   } // namespace
 
 
@@ -199,23 +267,14 @@ namespace NMM
     const ContactSectionParameters &section = scene_parameters.contact;
     const bool                      is_augmented =
       section.enforcement == Enforcement::augmented_lagrangian;
-    const bool has_fine_tips = scene_parameters.fracture.grades_mesh();
-    double     size          = contact_cell_size(surface);
-    if (has_fine_tips)
-    {
-      // Cells at tips are up to a million times smaller than the crack. With springs as stiff as
-      // such cells the pressure oscillates. With a stiffness of 30 E / (0.003 R), the intensity
-      // factors of a closed crack of length R are wrong by less than 1e-4.
-      double shortest = std::numeric_limits<double>::max();
-      for (const CrackTip &tip : find_crack_tips(
-             surface.cover_system().manifold_mesh().physical_mesh()))
-        shortest = std::min(shortest, tip.free_radius);
-      if (shortest < std::numeric_limits<double>::max())
-        size = std::max(size, 3e-3 * shortest);
-    }
-    const std::vector<double> moduli =
-      block_moduli(surface.cover_system().manifold_mesh().physical_mesh(),
-                   problem);
+    const double        size = contact_cell_size(surface);
+    const PhysicalMesh &mesh =
+      surface.cover_system().manifold_mesh().physical_mesh();
+    const FineCracks cracks =
+      scene_parameters.fracture.grades_mesh() ? FineCracks(mesh) : FineCracks();
+    const double fine_size =
+      cracks.names.empty() ? size : std::min(size, cracks.cell_size(surface));
+    const std::vector<double> moduli = block_moduli(mesh, problem);
     const double modulus = *std::min_element(moduli.begin(), moduli.end());
 
     // The penalty method needs stiff springs to be accurate, which a static
@@ -224,24 +283,38 @@ namespace NMM
     // lose contact repeatedly slide too far.
     const Analysis analysis = scene_parameters.model.analysis;
     const bool     is_stiff = !is_augmented && analysis == Analysis::statics;
-    CoulombLaw     chosen;
-    // A spring at a vertex represents the length of a cell, which does not enter its stiffness.
-    const double length =
-      section.integration == ContactIntegration::points ? 1. : size;
-    chosen.normal_stiffness = (is_stiff ? 30. : 10.) * modulus / length;
-    chosen.shear_stiffness =
-      (analysis == Analysis::dynamics ? 10. : 1.) * modulus / length;
-    if (has_fine_tips)
-      chosen.shear_stiffness = chosen.normal_stiffness;
+    const auto     make_law = [&](const double cell_size) {
+      // A spring at a vertex represents the length of a cell, which does not enter its stiffness.
+      const double length =
+        section.integration == ContactIntegration::points ? 1. : cell_size;
+      CoulombLaw chosen;
+      chosen.normal_stiffness = (is_stiff ? 30. : 10.) * modulus / length;
+      chosen.shear_stiffness =
+        cracks.names.empty()
+              ? (analysis == Analysis::dynamics ? 10. : 1.) * modulus / length
+              : chosen.normal_stiffness;
+      return section.law.make_law(chosen);
+    };
     ContactParameters parameters;
-    parameters.law = section.law.make_law(chosen);
+    parameters.law           = make_law(size);
+    const auto law_of_cracks = make_law(fine_size);
+    const auto may_be_crack  = [&](const std::string &name) {
+      return name.empty() || cracks.names.count(name) > 0;
+    };
     for (const ContactLawParameters &law : section.laws)
-      parameters.pairs.push_back(
-        {law.between[0], law.between[1], law.make_law(*parameters.law)});
+      parameters.pairs.push_back({law.between[0],
+                                  law.between[1],
+                                  law.make_law(may_be_crack(law.between[0]) &&
+                                                   may_be_crack(law.between[1])
+                                                 ? *law_of_cracks
+                                                 : *parameters.law)});
+    // the first law that fits holds
+    for (const std::string &crack : cracks.names)
+      parameters.pairs.push_back({crack, crack, law_of_cracks});
     if (is_augmented)
       parameters.penetration_tolerance = section.penetration_tolerance > 0.
                                            ? section.penetration_tolerance
-                                           : 1e-5 * size;
+                                           : 1e-5 * fine_size;
     parameters.reach          = section.reach;
     parameters.n_points       = section.n_points;
     parameters.integration    = section.integration;
@@ -301,28 +374,6 @@ namespace NMM
   double
   contact_cell_size(const ContactSurface &surface)
   {
-    const ManifoldMesh &mesh    = surface.cover_system().manifold_mesh();
-    const auto         &regions = mesh.physical_mesh().regions();
-    // Slivers are left out, since their cells can be as thin as they are, unless all regions are
-    // slivers.
-    const bool with_slivers =
-      std::all_of(regions.begin(), regions.end(), [](const auto &region) {
-        return region.is_sliver;
-      });
-    std::vector<double> sizes;
-    for (unsigned int e = 0; e < surface.edges().size(); ++e)
-      if (!surface.is_rigid(e) &&
-          (with_slivers ||
-           !regions[mesh.region(surface.edges()[e].element)].is_sliver))
-      {
-        // The size is the edge length of the equilateral triangle with the same area.
-        const double twice_area =
-          1. / std::abs(dealii::determinant(surface.edges()[e].inverse));
-        sizes.push_back(std::sqrt(2. * twice_area / std::sqrt(3.)));
-      }
-    Assert(!sizes.empty(), dealii::ExcMessage("A solid has a boundary."));
-    const auto tenth = sizes.begin() + sizes.size() / 10;
-    std::nth_element(sizes.begin(), tenth, sizes.end());
-    return *tenth;
+    return smaller_cell_size(surface, /* is_by_length = */ true);
   }
 } // namespace NMM

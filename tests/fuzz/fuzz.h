@@ -72,6 +72,16 @@ namespace NMM
     Case
     make_growth_in_motion_case(std::uint64_t seed);
 
+    /// Blocks that move on a floor, far from the origin of the coordinates, as case.prm, and the same
+    /// at the origin, as origin.prm.
+    Case
+    make_block_case(std::uint64_t seed);
+
+    /// Runs both scenes. Wrong are, besides what run_scene_case() finds, different ends, and far away
+    /// many more iterations than at the origin.
+    std::string
+    run_block_case(const Case &c);
+
     /// Runs the scene as the program nmm does. Wrong are exit codes other than 0, 2 and 3, files written with
     /// 2, and tables with values that are not finite with 0.
     std::string

@@ -60,6 +60,13 @@ TEST(Fuzz, GrowthInMotion)
 }
 
 
+TEST(Fuzz, BlocksInMotionFarFromTheOrigin)
+{
+  for (unsigned int seed = 1; seed <= n_samples(4); ++seed)
+    expect_good("blocks", seed);
+}
+
+
 // Joints that run within rounding along others and end inside a block: the patch test was
 // off by up to 2e-2 there, or the system singular.
 TEST(Fuzz, StripsThatEndInABlock)

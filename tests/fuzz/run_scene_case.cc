@@ -145,45 +145,106 @@ namespace NMM
           }
         return "";
       }
+
+
+      /// How a scene ended: what is wrong, its exit code (-1: there was no time), and the number of
+      /// iterations with those that were in vain.
+      struct End
+      {
+        std::string failure;
+        int         code         = 0;
+        double      n_iterations = 0.;
+      };
+
+
+      /// Sum of the columns `iterations` and `lost_iterations` of history.csv in @p folder.
+      double
+      count_iterations(const fs::path &folder)
+      {
+        double        sum = 0.;
+        std::ifstream in(folder / "history.csv");
+        for (std::string line; std::getline(in, line);)
+        {
+          std::istringstream       fields(line);
+          std::vector<std::string> row;
+          for (std::string field; std::getline(fields, field, ',');)
+            row.push_back(field);
+          // the first row has names, and a second one may have units
+          if (row.size() > 4 &&
+              row[3].find_first_not_of("0123456789") == std::string::npos)
+            sum += std::stod(row[3]) + std::stod(row[4]);
+        }
+        return sum;
+      }
+
+
+      End
+      run_scene_file(const Case &c, const std::string &file)
+      {
+        const fs::path folder =
+          fs::temp_directory_path() / ("nmm-fuzz-" + std::to_string(getpid()));
+        fs::remove_all(folder);
+        write(c, folder.string());
+        SceneRunOptions options;
+        options.output          = (folder / "results").string();
+        bool         has_output = false;
+        End          end;
+        std::string &failure = end.failure;
+        try
+        {
+          Terminal    terminal;
+          Progress    progress(terminal.out(), true, MPI_COMM_WORLD);
+          const Scene scene((folder / file).string(), {});
+          run_scene(scene, options, progress, MPI_COMM_WORLD, has_output);
+          if (const std::string row = find_non_finite(options.output);
+              !row.empty())
+            failure = "exit code 0, but " + row;
+        }
+        catch (const TimeIsUp &)
+        {
+          end.code = -1;
+        }
+        catch (...)
+        {
+          const ProgramEnd what = explain_exception(has_output);
+          end.code              = static_cast<int>(what.code);
+          if (what.code == ExitCode::input_error && fs::exists(options.output))
+            failure = "exit code 2, but results are written: " + what.message;
+          else if (what.code != ExitCode::input_error &&
+                   what.code != ExitCode::numerical_failure)
+            failure =
+              "exit code " + std::to_string(end.code) + ": " + what.message;
+        }
+        end.n_iterations = count_iterations(options.output);
+        fs::remove_all(folder);
+        return end;
+      }
     } // namespace
 
 
     std::string
     run_scene_case(const Case &c)
     {
-      const fs::path folder =
-        fs::temp_directory_path() / ("nmm-fuzz-" + std::to_string(getpid()));
-      fs::remove_all(folder);
-      write(c, folder.string());
-      SceneRunOptions options;
-      options.output         = (folder / "results").string();
-      bool        has_output = false;
-      std::string failure;
-      try
-      {
-        Terminal    terminal;
-        Progress    progress(terminal.out(), true, MPI_COMM_WORLD);
-        const Scene scene((folder / "case.prm").string(), {});
-        run_scene(scene, options, progress, MPI_COMM_WORLD, has_output);
-        if (const std::string row = find_non_finite(options.output);
-            !row.empty())
-          failure = "exit code 0, but " + row;
-      }
-      catch (const TimeIsUp &)
-      {
-      }
-      catch (...)
-      {
-        const ProgramEnd end = explain_exception(has_output);
-        if (end.code == ExitCode::input_error && fs::exists(options.output))
-          failure = "exit code 2, but results are written: " + end.message;
-        else if (end.code != ExitCode::input_error &&
-                 end.code != ExitCode::numerical_failure)
-          failure = "exit code " + std::to_string(static_cast<int>(end.code)) +
-                    ": " + end.message;
-      }
-      fs::remove_all(folder);
-      return failure;
+      return run_scene_file(c, "case.prm").failure;
+    }
+
+
+    std::string
+    run_block_case(const Case &c)
+    {
+      const End here = run_scene_file(c, "origin.prm"),
+                far  = run_scene_file(c, "case.prm");
+      if (!here.failure.empty() || !far.failure.empty())
+        return here.failure + far.failure;
+      if (here.code < 0 || far.code < 0)
+        return "";
+      std::ostringstream text;
+      if (here.code != far.code)
+        text << "exit code " << far.code << ", at the origin " << here.code;
+      else if (far.n_iterations > 1.5 * here.n_iterations + 20.)
+        text << far.n_iterations << " iterations, at the origin "
+             << here.n_iterations;
+      return text.str();
     }
   } // namespace Fuzz
 } // namespace NMM

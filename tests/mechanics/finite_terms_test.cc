@@ -4,6 +4,7 @@
 #include <nmm/materials/material_law.h>
 
 #include <gtest/gtest.h>
+#include <mechanics/conserving_terms.h>
 #include <mechanics/finite_model.h>
 
 using namespace NMM;
@@ -372,4 +373,31 @@ TEST(FiniteTerms, AmplitudesScaleAndRelease)
 
   amplitudes.point_forces = {1.};
   EXPECT_THROW(elasticity->set_amplitudes(amplitudes), InputError);
+}
+
+
+// Strains are rounded relative to themselves: a change by 1e-10 of a strain of 1e-8, which damping
+// multiplies by 1e9, is as exact as 1e-16 / 1e-10 of it, and not lost beside the 1 of F = I + H.
+TEST(FiniteTerms, DampingOfSmallStrainsIsNotRounded)
+{
+  const double damping = 1e9;
+  Material     material;
+  material.youngs_modulus = 2.;
+  material.poissons_ratio = 0.25;
+  const internal::ConservingLaw law(material.hyperelastic_law(
+                                      PlaneState::plane_strain),
+                                    dealii::SymmetricTensor<2, 2>());
+  Tensor<2, 2>                  H_0;
+  H_0[0][0]                 = 1e-8;
+  const Tensor<2, 2> H_1    = (1. + 1e-10) * H_0;
+  const double       change = H_1[0][0] - H_0[0][0];
+  Tensor<2, 2>       P, unused;
+  double             A[4][4], dissipated = 0.;
+  ASSERT_EQ(law.evaluate(H_0, H_1, false, damping, P, A, dissipated),
+            Deformation::admissible);
+  // E (1 - nu) / ((1 + nu) (1 - 2 nu)) = 2.4 of the strain 1e-8 and of its change
+  EXPECT_NEAR(P[0][0],
+              2.4 * (1e-8 + damping * change),
+              2.4 * 1e-5 * damping * 1e-18);
+  EXPECT_NEAR(dissipated, 2.4 * damping * change * change, 1e-5 * dissipated);
 }

@@ -210,6 +210,43 @@ namespace
   }
 
 
+  // Cells towards a tip are small, but at a small part of the faces: springs of other faces do not
+  // follow them, those between the faces of the crack do. Cells grow with 0.6 r at the distance r of
+  // the tip, so that cells below the half of a regular one lie within 0.4 regular ones of the tip,
+  // less than a tenth of the 4 m of the boundary and 2 * 0.5 m of the crack.
+  TEST(Scene, CellsAtTipsHaveNoPartInContactStiffnessOfOtherFaces)
+  {
+    const Scene          scene(base_scene,
+                      {"Geometry/Text=boundary name=square material=rock "
+                                         "POLYGON ((0 0, 1 0, 1 1, 0 1)); joint name=crack "
+                                         "LINESTRING (0.5 1, 0.5 0.5)",
+                                "Mathematical mesh/Cell size=0.1",
+                                "Contact/Enforcement=penalty",
+                                "Contact/Friction angle=30",
+                                "Fracture/Intensity factors=true",
+                                "Fracture/Grading=0.6"});
+    const PhysicalMesh   mesh(scene.make_geometry());
+    const auto           cells = scene.make_mathematical_mesh(mesh);
+    const ManifoldMesh   manifold_mesh(cells, mesh);
+    CoverSystem          covers(manifold_mesh, MPI_COMM_SELF);
+    const ContactSurface surface(covers);
+    const double         size = contact_cell_size(surface);
+    EXPECT_GT(size, 0.5 * 0.1);
+    EXPECT_LT(size, 1.5 * 0.1);
+    const ContactParameters parameters =
+      scene.make_contact_parameters(surface, scene.make_problem());
+    // E = 1, static penalty
+    EXPECT_NEAR(parameters.law->normal_stiffness, 30. / size, 1e-9 / size);
+    ASSERT_EQ(parameters.pairs.size(), 1u);
+    EXPECT_EQ(parameters.pairs[0].first, "crack");
+    EXPECT_EQ(parameters.pairs[0].second, "crack");
+    const double stiffness = parameters.pairs[0].law->normal_stiffness;
+    EXPECT_GT(stiffness, 4. * parameters.law->normal_stiffness);
+    // the free radius is 0.5
+    EXPECT_LE(stiffness, 30. / (0.003 * 0.5) * (1. + 1e-9));
+  }
+
+
   // What the scene leaves open is chosen for the softest block and the cells at
   // faces; laws have the section's stiffnesses, but not its strengths.
   TEST(Scene, ContactLawsAndWhatIsChosen)

@@ -158,8 +158,10 @@ namespace NMM
      * contact_cell_size(). The normal stiffness is 10 E/h (30 E/h in a static analysis by penalty);
      * the shear stiffness is E/h (10 E/h in dynamics), but not more than the normal one; the
      * penetration tolerance of the augmented Lagrangian is 1e-5 h. For springs at points h is 1 m.
-     * If the mesh is graded towards crack tips, h is at least 0.003 of the smallest free radius of
-     * a tip, and the shear stiffness is the normal one. Of two blocks, the
+     * If the mesh is graded towards crack tips, the shear stiffness is the normal one, and between
+     * the faces of a crack with a tip, whose factors depend on it, h is the cell size that a tenth of
+     * all edges at faces lies below, but at least 0.003 of the smallest free radius of a tip. All
+     * other faces do not become stiffer by the cells at tips. Of two blocks, the
      * softer one is the slave, which carries the contact points.
      * @throws InputError for a law between faces that do not exist.
      */
@@ -232,8 +234,13 @@ namespace NMM
   };
 
 
-  /// Edge length of the smaller cells at faces [m]: a tenth of the edges belong to cells that are
-  /// smaller. Slivers (PhysicalMesh::Region::is_sliver) are left out.
+  /**
+   * Edge length of the smaller cells at faces [m]: a tenth of the length of all faces lies in cells
+   * that are smaller. Cells that are small about a tip or in a corner are many, but at a small part
+   * of the faces: with cells of the size g r at the distance r of a tip, n of them per face reach
+   * from r to (1 + g)^n r, so that half of the edges may lie within a thousandth of the length.
+   * Slivers (PhysicalMesh::Region::is_sliver) are left out.
+   */
   double
   contact_cell_size(const ContactSurface &surface);
 } // namespace NMM

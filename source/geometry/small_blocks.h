@@ -14,15 +14,16 @@ namespace NMM
   namespace internal
   {
     /**
-     * Merge blocks that are smaller than a limit, or slivers if that is asked for, into neighbours, the smallest one first, until
-     * none is left that has a neighbour. The neighbour of a block is the one with which it shares
-     * the longest boundary of joints; of equal ones (to 1e-9), the first from the left.
+     * Merge blocks that are smaller than a limit, or slivers if that is asked for, into neighbours,
+     * the smallest one first, until none is left that has a neighbour. The neighbour of a block is
+     * the one with which it shares the longest boundary of joints; of equal ones (to 1e-9), the
+     * first from the left.
      *
      * Each region of the small block becomes a part of the region of the neighbour with which it
      * shares the longest boundary that is a joint only, and has the material there. Joints vanish
-     * between regions of one material, and on interfaces, which then bond the blocks. A joint between
-     * regions of different materials that no interface separates remains: both materials would meet
-     * without a curve between them.
+     * between regions of one material, and on interfaces, which then bond the blocks. A joint
+     * between regions of different materials that no interface separates remains: both materials
+     * would meet without a curve between them.
      *
      * Areas that differ in the last digits count as equal, so that rounding does not decide about
      * the order.

@@ -90,6 +90,7 @@ namespace NMM
     {
       multiplier_space = std::make_unique<MultiplierSpace>(surface);
       memory.multipliers.assign(multiplier_space->size(), 0.);
+      stiffening.assign(multiplier_space->size(), 1.);
     }
     AssertThrow(parameters.initial_stress.empty() ||
                   parameters.initial_stress.size() == surface.edges().size(),
@@ -246,7 +247,8 @@ namespace NMM
     // At the end of a step the spring is as find_end() has found it, by which the pressure in the
     // step is measured. Where corners of two bodies coincide, a second projection of the same state
     // may find another face, since rounding decides which is nearest.
-    const ContactLaw::Response spring = law.pressure(
+    const ContactLaw::Response spring = spring_pressure(
+      q,
       is_between() ? point_data[q].offset_end - point_data[q].gap_end
                    : point.opening - projection.gap + point_data[q].offset);
     point.pressure = point.multiplier + spring.value;
@@ -351,7 +353,7 @@ namespace NMM
     for (unsigned int i = 0; i < max_iterations; ++i)
     {
       const ContactLaw::Response spring =
-        law.pressure(closure + law.dilation * slip);
+        spring_pressure(q, closure + law.dilation * slip);
       const double pressure = point.multiplier + spring.value;
       is_held               = pressure > 0. || i == 0;
       if (!is_held)

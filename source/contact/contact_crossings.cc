@@ -1,4 +1,6 @@
 // Detection of bodies that pass through each other in a step.
+#include <nmm/base/exceptions.h>
+
 #include <algorithm>
 #include <base/cross.h>
 #include <cmath>
@@ -531,11 +533,14 @@ namespace NMM
         return;
       fault.retry = retry;
       std::ostringstream text;
-      text << "a point of '" << surface->name(edge) << "', at (" << x_0
-           << ") m when the step begins, " << what;
+      text << "a point of '" << surface->name(edge) << "', at "
+           << to_string(edges.front().start + Tensor<1, 2>(x_0))
+           << " when the step begins, " << what;
       fault.reason = text.str();
       fault.remedy =
-        "allow smaller steps, make what is hit thicker, or contact stiffer";
+        "allow smaller steps, make what is hit thicker, or contact stiffer; a "
+        "sliver between two lines vanishes with 'Geometry/Small blocks = "
+        "merge'";
     }
 
 

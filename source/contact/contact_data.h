@@ -149,6 +149,8 @@ namespace NMM
       double pressure_by_gap = 0., pressure_by_opening = 0.;
       /// Pressure and shear of the initial stress in the reference configuration [Pa].
       double initial_pressure = 0., initial_shear = 0.;
+      /// See Data::stiffening; 1 for the penalty method [-].
+      double stiffening = 1.;
       /// Slip that causes dilation or weakening: at the last accepted state, and since then [m].
       double slip = 0., new_slip = 0.;
       /// Dilation at the end of a time step.
@@ -403,8 +405,25 @@ namespace NMM
         bears_initial_stress(q)
           ? point_data[q].initial_pressure - initial_multiplier(q)
           : 0.;
-      return pressure == 0. ? 0. : point_data[q].law->penetration(pressure);
+      return pressure == 0. ? 0.
+                            : point_data[q].law->penetration(
+                                pressure / point_data[q].stiffening);
     }
+
+    /// Pressure of the normal spring of a point, and its derivative by the closure [m].
+    ContactLaw::Response
+    spring_pressure(const unsigned int q, const double closure) const
+    {
+      ContactLaw::Response spring = point_data[q].law->pressure(closure);
+      spring.value *= point_data[q].stiffening;
+      spring.derivative *= point_data[q].stiffening;
+      return spring;
+    }
+
+    /// Make springs stiffer where the weighted penetrations [m] of an update, by function of the
+    /// multiplier space, are not much smaller than those of the one before. See Contact.
+    void
+    stiffen_springs(const std::vector<double> &penetrations);
 
     /// Part of the multiplier of a point that is the pressure of the initial stress [Pa].
     double
@@ -507,8 +526,10 @@ namespace NMM
     double
     normal_energy(const unsigned int q, const double pressure) const
     {
-      const ContactLaw &law = *point_data[q].law;
-      return points[q].weight * law.energy(law.penetration(pressure));
+      const ContactLaw &law        = *point_data[q].law;
+      const double      stiffening = point_data[q].stiffening;
+      return points[q].weight * stiffening *
+             law.energy(law.penetration(pressure / stiffening));
     }
 
     double
@@ -596,6 +617,10 @@ namespace NMM
     std::vector<double> rule_points, rule_weights;
     /// Space of the multipliers; null for the penalty method.
     std::unique_ptr<internal::MultiplierSpace> multiplier_space;
+    /// By function of that space: normal springs are so much stiffer than their law [-], and weighted
+    /// penetrations of the last update [m]. Neither is a part of the history: the solution depends on
+    /// both within the tolerance only.
+    std::vector<double> stiffening, last_penetrations;
 
     internal::ContactMemory memory;
     internal::ActiveBodies  active;

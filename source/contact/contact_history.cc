@@ -47,8 +47,9 @@ namespace NMM
         const auto  &f      = space[edge];
         const double share  = f.share(d.point_data[begin + q].s);
         const double weight = d.rule_weights[q] * length;
-        const double eps    = d.point_data[begin + q].law->normal_stiffness;
-        const auto   add    = [&](const unsigned int i, const double value) {
+        const double eps    = d.point_data[begin + q].stiffening *
+                           d.point_data[begin + q].law->normal_stiffness;
+        const auto add = [&](const unsigned int i, const double value) {
           sums[i] -= eps * value * (point.gap - point.opening);
           sums[n + i] += value;
           sums[2 * n + i] += eps * value;
@@ -60,7 +61,8 @@ namespace NMM
     }
     Parallel::sum(sums, d.communicator, sums);
 
-    double change = 0.;
+    double              change = 0.;
+    std::vector<double> penetrations(n, 0.);
     for (unsigned int i = 0; i < n; ++i)
     {
       double value = 0.;
@@ -71,19 +73,49 @@ namespace NMM
       const double difference = std::abs(value - d.memory.multipliers[i]);
       const double eps        = sums[n + i] > 0. ? sums[2 * n + i] / sums[n + i]
                                                  : d.parameters.law->normal_stiffness;
-      change                  = std::max(change, difference / eps);
+      penetrations[i]         = difference / eps;
+      change                  = std::max(change, penetrations[i]);
       d.memory.multipliers[i] = value;
     }
+    if (change > d.parameters.penetration_tolerance)
+      d.stiffen_springs(penetrations);
+    else
+      d.last_penetrations.clear();
     for (unsigned int q = 0; q < d.points.size(); ++q)
     {
-      const Data::PointData &fixed = d.point_data[q];
-      if (fixed.corner >= PointKind::along)
-        d.points[q].multiplier = space.value(d.memory.multipliers,
-                                             d.search.slaves()[fixed.slave],
-                                             fixed.s) +
-                                 d.initial_multiplier(q);
+      Data::PointData   &fixed = d.point_data[q];
+      const unsigned int slave = d.search.slaves()[fixed.slave];
+      if (fixed.corner < PointKind::along)
+        continue;
+      d.points[q].multiplier =
+        space.value(d.memory.multipliers, slave, fixed.s) +
+        d.initial_multiplier(q);
+      fixed.stiffening = space.value(d.stiffening, slave, fixed.s);
     }
     return change;
+  }
+
+
+  void
+  Contact::Data::stiffen_springs(const std::vector<double> &penetrations)
+  {
+    // A ratio of successive penetrations above the first one is slow; springs are made so stiff that
+    // it becomes the second one. The last two bound a change, and all changes, since a ratio near
+    // 1 is known badly.
+    constexpr double slow = 0.25, wanted = 0.1, most = 100., most_in_all = 1e6;
+    std::vector<double> last = penetrations;
+    for (unsigned int i = 0; i < last_penetrations.size(); ++i)
+    {
+      const double ratio = penetrations[i] / last_penetrations[i];
+      if (!(penetrations[i] > parameters.penetration_tolerance) ||
+          !(ratio > slow && ratio < 1.))
+        continue;
+      stiffening[i] *= std::min(most, (1. / wanted - 1.) / (1. / ratio - 1.));
+      stiffening[i] = std::min(stiffening[i], most_in_all);
+      // The next ratio is that of springs of both kinds, and says nothing.
+      last[i] = 0.;
+    }
+    last_penetrations = last;
   }
 
 
@@ -356,6 +388,7 @@ namespace NMM
   {
     Data &d = *data;
     d.stage = Data::Stage::created;
+    d.last_penetrations.clear();
     if (history.is_conserving)
       d.problem = Data::Problem::conserving_motion;
     d.memory.restore(history, *d.surface);

@@ -67,10 +67,12 @@ namespace NMM
     if (fixed.corner < PointKind::along)
       return;
     set_initial_traction(fixed);
-    if (multiplier_space != nullptr)
-      point.multiplier =
-        multiplier_space->value(memory.multipliers, slave, fixed.s) +
-        std::max(0., fixed.initial_pressure);
+    if (multiplier_space == nullptr)
+      return;
+    point.multiplier =
+      multiplier_space->value(memory.multipliers, slave, fixed.s) +
+      std::max(0., fixed.initial_pressure);
+    fixed.stiffening = multiplier_space->value(stiffening, slave, fixed.s);
   }
 
 

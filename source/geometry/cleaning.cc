@@ -517,6 +517,13 @@ namespace NMM
         return "overshoot of " + who + " trimmed" + moved;
       case Kind::removed_piece:
         return "short piece of " + who + " removed," + moved;
+      case Kind::merged_block: {
+        std::ostringstream text;
+        text << "block of " << area << " m^2 at " << to_string(from)
+             << " became a part of the one at " << to_string(to) << ", behind "
+             << internal::describe_length(distance) << " of " << who;
+        return text.str();
+      }
     }
     Assert(false, dealii::ExcInternalError());
     return "";

@@ -139,6 +139,39 @@ namespace NMM
   }
 
 
+  void
+  Geometry::merge_blocks_below(const double area)
+  {
+    AssertThrow(area >= 0. && std::isfinite(area),
+                InputError("blocks are to be merged that are smaller than " +
+                             std::to_string(area) + " m^2",
+                           "",
+                           "give an area that is not negative, 0 for none"));
+    area_to_merge = area;
+  }
+
+
+  double
+  Geometry::merging_area() const
+  {
+    return area_to_merge;
+  }
+
+
+  void
+  Geometry::unite_doubled_joints()
+  {
+    unites_joints = true;
+  }
+
+
+  bool
+  Geometry::unites_doubled_joints() const
+  {
+    return unites_joints;
+  }
+
+
   const std::vector<Curve> &
   Geometry::regions() const
   {

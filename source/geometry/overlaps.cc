@@ -24,6 +24,10 @@ namespace NMM
       };
 
 
+      /// Width of a strip between doubled joints over its length [-].
+      constexpr double doubled = 1e-6;
+
+
       /// Projection of a point onto the segment from a to b.
       struct Projection
       {
@@ -52,12 +56,15 @@ namespace NMM
       class Overlaps
       {
       public:
-        explicit Overlaps(std::vector<Curve> &curves);
+        Overlaps(std::vector<Curve> &curves, bool unites_joints);
 
         std::string
         unite();
 
       private:
+        /// The largest distance of a vertex from a segment on which it lies [m].
+        double
+        width(const Chain &a, const Chain &b) const;
         /// Whether the segment belongs neither to a boundary nor to a hole.
         bool
         is_line(const Chain &chain) const;
@@ -75,12 +82,14 @@ namespace NMM
         store();
 
         std::vector<Curve> &curves;
+        const bool          unites_joints;
         std::vector<Chain>  chains;
       };
 
 
-      Overlaps::Overlaps(std::vector<Curve> &curves)
+      Overlaps::Overlaps(std::vector<Curve> &curves, const bool unites_joints)
         : curves(curves)
+        , unites_joints(unites_joints)
       {
         for (unsigned int c = 0; c < curves.size(); ++c)
           for (unsigned int p = 0; p < curves[c].pieces.size(); ++p)
@@ -104,19 +113,23 @@ namespace NMM
       }
 
 
-      /// delta of the comment in overlaps.h, for two boxes.
       double
-      rounding(const dealii::Point<2> &lower_a,
-               const dealii::Point<2> &upper_a,
-               const dealii::Point<2> &lower_b,
-               const dealii::Point<2> &upper_b)
+      Overlaps::width(const Chain &a, const Chain &b) const
       {
         double largest = 0.;
         for (unsigned int d = 0; d < 2; ++d)
           largest = std::max({largest,
-                              std::abs(std::max(lower_a[d], lower_b[d])),
-                              std::abs(std::min(upper_a[d], upper_b[d]))});
-        return 32. * std::numeric_limits<double>::epsilon() * largest;
+                              std::abs(std::max(a.lower[d], b.lower[d])),
+                              std::abs(std::min(a.upper[d], b.upper[d]))});
+        const double rounding =
+          32. * std::numeric_limits<double>::epsilon() * largest;
+        const Curve &first = curves[a.curve], &second = curves[b.curve];
+        if (!unites_joints || first.role != CurveRole::joint ||
+            second.role != CurveRole::joint || first.state != second.state)
+          return rounding;
+        return std::max(rounding,
+                        doubled * std::min(a.lower.distance(a.upper),
+                                           b.lower.distance(b.upper)));
       }
 
 
@@ -131,7 +144,7 @@ namespace NMM
       bool
       Overlaps::may_overlap(const Chain &a, const Chain &b) const
       {
-        const double delta = rounding(a.lower, a.upper, b.lower, b.upper);
+        const double delta = width(a, b);
         for (unsigned int d = 0; d < 2; ++d)
           if (a.lower[d] > b.upper[d] + delta ||
               b.lower[d] > a.upper[d] + delta)
@@ -151,7 +164,7 @@ namespace NMM
         const std::array<dealii::Point<2>, 2> ends[2]   = {
             {{a.vertices[i], a.vertices[i + 1]}},
             {{b.vertices[j], b.vertices[j + 1]}}};
-        const double delta = rounding(a.lower, a.upper, b.lower, b.upper);
+        const double delta = width(a, b);
 
         std::vector<dealii::Point<2>> contacts;
         // Pairs (segment that gets a vertex, vertex).
@@ -213,11 +226,12 @@ namespace NMM
         for (unsigned int i = 0; i < chains.size(); ++i)
           for (unsigned int j = i + 1; j < chains.size(); ++j)
           {
-            const double delta = rounding(chains[i].lower,
-                                          chains[i].upper,
-                                          chains[j].lower,
-                                          chains[j].upper);
-            if (chains[j].lower[0] > chains[i].upper[0] + delta)
+            const double bound =
+              std::max(width(chains[i], chains[j]),
+                       unites_joints
+                         ? doubled * chains[i].lower.distance(chains[i].upper)
+                         : 0.);
+            if (chains[j].lower[0] > chains[i].upper[0] + bound)
               break;
             if (may_overlap(chains[i], chains[j]) &&
                 unite(chains[i], chains[j]))
@@ -240,14 +254,18 @@ namespace NMM
         const auto &[i, j]  = pairs.front();
         const Curve &first  = curves[chains[i].curve];
         const Curve &second = curves[chains[j].curve];
-        const Chain &bent   = chains[chains[i].vertices.size() > 2 ? i : j];
+        const bool is_wide  = unites_joints && first.role == CurveRole::joint &&
+                             second.role == CurveRole::joint;
+        const Chain &bent = chains[chains[i].vertices.size() > 2 ? i : j];
         return (pairs.size() == 1
                   ? ""
                   : std::to_string(pairs.size()) +
                       " pairs of segments, the first of them of ") +
                describe(first) + " and " + describe(second) + " at " +
                describe_place(second, bent.vertices[1]) +
-               ", run along each other within rounding: there they are one";
+               ", run along each other within " +
+               (is_wide ? "a millionth of their length" : "rounding") +
+               ": there they are one";
       }
 
 
@@ -283,9 +301,9 @@ namespace NMM
 
 
     std::string
-    unite_overlaps(std::vector<Curve> &curves)
+    unite_overlaps(std::vector<Curve> &curves, const bool unites_joints)
     {
-      return Overlaps(curves).unite();
+      return Overlaps(curves, unites_joints).unite();
     }
   } // namespace internal
 } // namespace NMM

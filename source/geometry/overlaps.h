@@ -28,6 +28,9 @@ namespace NMM
      * of another one is not changed. Vertices do not move;
      * segments are bent by at most @f$ \delta @f$ for each inserted vertex.
      *
+     * With @p unites_joints, two joints of one state are one line if they are within a millionth
+     * of the shorter segment's length, which then takes the place of @f$ \delta @f$.
+     *
      * Arcs and circles are not changed, nor are two parts of one boundary or hole,
      * which must not overlap. A boundary or hole gets no vertex within
      * @f$ 2\,\delta @f$ of one that it has.
@@ -35,7 +38,7 @@ namespace NMM
      * @return a sentence for the user, empty if nothing was changed.
      */
     std::string
-    unite_overlaps(std::vector<Curve> &curves);
+    unite_overlaps(std::vector<Curve> &curves, bool unites_joints);
   } // namespace internal
 } // namespace NMM
 

@@ -9,6 +9,7 @@
 #include "geometry/messages.h"
 #include "geometry/outline.h"
 #include "geometry/overlaps.h"
+#include "geometry/small_blocks.h"
 #include "geometry/tiny_faces.h"
 #include "geometry/trimming.h"
 #include <algorithm>
@@ -30,6 +31,7 @@ namespace NMM
     dealii::BoundingBox<2>        bounding_box;
     std::vector<std::string>      notices;
     DanglingEnds                  dangling_ends;
+    std::vector<CleaningAction>   merged_blocks;
     internal::PhysicalArrangement arrangement;
     /// Loop of each curve, see internal::Loops, and loops around each region, see
     /// LabelledFaces::Face::loops.
@@ -57,6 +59,10 @@ namespace NMM
     assign_material_regions(
       const std::vector<Curve>                               &places,
       const std::vector<std::pair<std::string, std::string>> &materials);
+    /// Number regions and blocks again, as @p small_blocks has merged them.
+    void
+    merge_blocks(const internal::SmallBlocks &small_blocks,
+                 std::vector<unsigned int>   &region_to_face);
     void
     inspect_lines(const internal::LabelledFaces &faces);
     unsigned int
@@ -92,7 +98,8 @@ namespace NMM
     curves = std::move(geometry.curves());
     for (const Curve &curve : curves)
       curve.check();
-    const std::string overlaps = internal::unite_overlaps(curves);
+    const std::string overlaps =
+      internal::unite_overlaps(curves, geometry.unites_doubled_joints());
     if (!overlaps.empty())
       notices.push_back(overlaps);
     bool         has_boundary   = false;
@@ -390,6 +397,52 @@ namespace NMM
 
 
   void
+  PhysicalMesh::Data::merge_blocks(const internal::SmallBlocks &small_blocks,
+                                   std::vector<unsigned int>   &region_to_face)
+  {
+    merged_blocks = small_blocks.actions();
+    if (!small_blocks.notice().empty())
+      notices.push_back(small_blocks.notice());
+    if (merged_blocks.empty())
+      return;
+    // Regions remain in the order of their leftmost points.
+    const std::vector<Region>              old_regions = std::move(regions);
+    std::vector<unsigned int>              old_to_new(old_regions.size());
+    std::vector<unsigned int>              new_to_face;
+    std::vector<std::vector<unsigned int>> new_to_loops;
+    std::map<unsigned int, unsigned int>   owner_to_new, block_to_new;
+    regions.clear();
+    for (unsigned int r = 0; r < old_regions.size(); ++r)
+    {
+      const unsigned int owner = small_blocks.owner(r);
+      const auto [it, is_new]  = owner_to_new.insert({owner, regions.size()});
+      old_to_new[r]            = it->second;
+      if (is_new)
+      {
+        regions.push_back(old_regions[owner]);
+        regions.back().area = 0.;
+        regions.back().block =
+          block_to_new.insert({small_blocks.block(r), block_to_new.size()})
+            .first->second;
+        new_to_face.push_back(region_to_face[owner]);
+        new_to_loops.push_back(region_to_loops[owner]);
+      }
+      Region &region = regions[it->second];
+      region.area += old_regions[r].area;
+      region.is_sliver = region.is_sliver && old_regions[r].is_sliver;
+    }
+    n_blocks        = block_to_new.size();
+    region_to_face  = std::move(new_to_face);
+    region_to_loops = std::move(new_to_loops);
+    for (auto f = arrangement.arrangement.faces_begin();
+         f != arrangement.arrangement.faces_end();
+         ++f)
+      if (f->data().region != invalid_index)
+        f->data().region = old_to_new[f->data().region];
+  }
+
+
+  void
   PhysicalMesh::Data::inspect_lines(const internal::LabelledFaces &faces)
   {
     std::vector<LineUse>                                    uses(curves.size());
@@ -488,13 +541,19 @@ namespace NMM
     if (data->dangling_ends.length_dropped > 0.)
       faces = label();
     const internal::TinyFaces tiny(*faces, data->curves);
-    const auto                region_to_face = data->make_regions(*faces, tiny);
+    auto                      region_to_face = data->make_regions(*faces, tiny);
     data->make_blocks(*faces);
     data->assign_loop_materials(*faces, loops, region_to_face);
     data->assign_material_regions(geometry.regions(),
                                   geometry.material_regions());
     data->assign_material_points(points);
     data->inspect_lines(*faces);
+    const internal::SmallBlocks small_blocks(*faces,
+                                             data->curves,
+                                             data->regions,
+                                             geometry.merging_area(),
+                                             geometry.unites_doubled_joints());
+    data->merge_blocks(small_blocks, region_to_face);
     std::vector<unsigned int> slivers;
     for (unsigned int r = 0; r < region_to_face.size(); ++r)
       if (data->regions[r].is_sliver)
@@ -502,10 +561,19 @@ namespace NMM
     if (!slivers.empty())
       data->notices.push_back(
         internal::describe_slivers(*faces, slivers, data->curves));
-    for (const auto &edge : faces->edges())
-      if (faces->is_solid(edge.left) || faces->is_solid(edge.right))
+    for (unsigned int e = 0; e < faces->edges().size(); ++e)
+    {
+      const auto &edge = faces->edges()[e];
+      if ((faces->is_solid(edge.left) || faces->is_solid(edge.right)) &&
+          !small_blocks.vanishes(e))
         data->arrangement.solid_edges.push_back(faces->geometry(edge));
+    }
+    small_blocks.remove_joints(data->piece_to_curve,
+                               data->dangling_ends,
+                               arrangement);
     tiny.remove_edges(arrangement);
+    if (!data->merged_blocks.empty())
+      internal::merge_edges(arrangement);
   }
 
 
@@ -611,6 +679,13 @@ namespace NMM
   PhysicalMesh::dangling_ends() const
   {
     return data->dangling_ends;
+  }
+
+
+  const std::vector<CleaningAction> &
+  PhysicalMesh::merged_blocks() const
+  {
+    return data->merged_blocks;
   }
 
 

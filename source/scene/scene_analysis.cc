@@ -131,6 +131,12 @@ namespace NMM
       clear();
       const SceneParameters &parameters = scene.parameters();
       make_physical_mesh(std::move(geometry));
+      // The solid is made again only while cracks grow, and then no blocks are merged.
+      const std::vector<CleaningAction> &merged =
+        physical_mesh->merged_blocks();
+      cleaning_actions.insert(cleaning_actions.end(),
+                              merged.begin(),
+                              merged.end());
       {
         Stage stage(progress, "mathematical mesh");
         mathematical_mesh =
@@ -308,6 +314,11 @@ namespace NMM
                                 [&](const double area) {
                                   return limit > 0. && area < limit;
                                 }));
+      double merged_area = 0.;
+      for (const CleaningAction &action : physical_mesh->merged_blocks())
+        merged_area += action.area;
+      summary.add("merged_blocks", physical_mesh->merged_blocks().size());
+      summary.add("merged_area", merged_area, length + "^2");
       const PhysicalMesh::DanglingEnds &ends = physical_mesh->dangling_ends();
       summary.add("crack_tips", find_crack_ends(*physical_mesh).size());
       summary.add("tip_covers", tip_covers.size());
@@ -381,7 +392,9 @@ namespace NMM
           << "; 'Fracture/Tips = graded' makes cells at tips small";
         result.push_back(text.str());
       }
-      if (summary.value("small_blocks") > 0.)
+      // Where small blocks are merged, PhysicalMesh names those that remain.
+      if (summary.value("small_blocks") > 0. &&
+          !scene.parameters().geometry.merges_small_blocks)
       {
         text.str("");
         text << summary.value("small_blocks") << " of "
@@ -389,8 +402,9 @@ namespace NMM
              << scene.parameters().geometry.small_block << ' ' << length
              << "^2, the smallest " << summary.value("smallest_block_area")
              << ' ' << length
-             << "^2: 'Geometry/Cleaning tolerance' moves ends of joints that "
-                "nearly meet";
+             << "^2: 'Geometry/Small blocks = merge' makes them parts of their "
+                "neighbours, and 'Geometry/Cleaning tolerance' moves ends of "
+                "joints that nearly meet";
         result.push_back(text.str());
       }
       return result;

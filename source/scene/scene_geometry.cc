@@ -195,6 +195,10 @@ namespace NMM
     if (parameters.drops_ends)
       for (Curve &curve : geometry.curves())
         curve.drops_ends = curve.role == CurveRole::joint;
+    if (scene_parameters.contact.is_present())
+      geometry.unite_doubled_joints();
+    if (parameters.merges_small_blocks)
+      geometry.merge_blocks_below(parameters.small_block);
     return geometry;
   }
 } // namespace NMM

@@ -484,6 +484,12 @@ namespace NMM
           "remove it, or choose an elastic material");
     if (fracture.n_increments == 0)
       return;
+    // A crack would end at joints that have vanished, and what it cuts off would be merged again.
+    check(!geometry.merges_small_blocks,
+          "small blocks are not merged while cracks grow",
+          "Increments",
+          "remove it, or set 'Geometry/Small blocks = report' and draw the "
+          "joints without small blocks");
     check(is_static || time.sleep.speed == 0.,
           "sleeping blocks are not available while cracks grow in motion",
           "Increments",

@@ -20,6 +20,9 @@ namespace NMM
 
     const Words<bool> end_treatments = {{"keep", false}, {"drop", true}};
 
+    const Words<bool> small_block_treatments = {{"report", false},
+                                                {"merge", true}};
+
     const Words<JointState> joint_states = {{"open", JointState::open},
                                             {"closed", JointState::closed}};
 
@@ -85,7 +88,14 @@ namespace NMM
     entries.add("Small block area",
                 small_block,
                 Patterns::Double(0),
-                "Blocks smaller than this are reported [m^2]; 0: none are.");
+                "Blocks smaller than this are small: see Small blocks [m^2]. "
+                "0: none are.");
+    entries.add("Small blocks",
+                merges_small_blocks,
+                small_block_treatments,
+                "What becomes of small blocks. report: they are counted; "
+                "merge: each becomes a part of the block with which it shares "
+                "the longest joint, and the joint vanishes there.");
   }
 
 
@@ -99,6 +109,11 @@ namespace NMM
                            "section 'Geometry'",
                            "set either 'File' or 'Text', or take the outline "
                            "from a drawing in section 'Traces'"));
+    AssertThrow(!merges_small_blocks || small_block > 0.,
+                InputError("small blocks are merged, but none is small",
+                           "parameter 'Geometry/Small blocks'",
+                           "set 'Small block area' to the area below which a "
+                           "block is merged"));
     AssertThrow(!is_drawing(file),
                 InputError("a drawing does not say what its curves are",
                            "parameter 'Geometry/File'",

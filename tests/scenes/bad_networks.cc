@@ -52,6 +52,22 @@ namespace
   }
 
 
+  TEST(BadInput, SmallBlocks)
+  {
+    expect_rejected_override("Geometry/Small blocks=merge",
+                             {"none is small", "Small block area"});
+    expect_rejected_override("Geometry/Small blocks=remove",
+                             {"remove", "Geometry/Small blocks", "merge"});
+    expect_rejected_with({"Geometry/Small blocks=merge",
+                          "Geometry/Small block area=0.01",
+                          "Fracture/Intensity factors=true",
+                          "Fracture/Increment=0.1",
+                          "Materials/rock/Toughness=1"},
+                         "Fracture/Increments=1",
+                         {"small blocks", "cracks grow", "report"});
+  }
+
+
   TEST(BadInput, Traces)
   {
     expect_rejected_override("Traces/Names=survey", {"'survey'", "File"});

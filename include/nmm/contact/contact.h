@@ -224,7 +224,11 @@ namespace NMM
    * belong to functions phi_i that are continuous and linear along the slave's boundary, on
    * stretches about as long as cells. They grow by eps_n times the weighted penetration
    * @f$ -\int g\,\phi_i\,ds / \int \phi_i\,ds @f$
-   * until they change by less than eps_n times the tolerance.
+   * until they change by less than eps_n times the tolerance. Where C is the closure of the bodies
+   * under a pressure of 1 Pa [m/Pa], an update leaves @f$ 1/(1+\varepsilon_n C) @f$ of a
+   * penetration: most of it if springs are soft compared with bodies or cells. That ratio of two
+   * updates gives C, and where it is above 1/4, the springs of the stretch become so stiff that it is
+   * 1/10. The solution does not depend on them.
    *
    * Order of calls: both assemble(), ContactTimeStep::begin(), augment() and accept() assert (in
    * Debug mode) that they are called at a stage where they are allowed. The table has the stage

@@ -86,6 +86,25 @@ namespace NMM
     void
     add_material_region(const std::string &region, const std::string &material);
 
+    /// Let PhysicalMesh merge blocks smaller than @p area [m^2] into neighbours; 0, the default, lets
+    /// all blocks be as they are drawn. @throws InputError if the area is negative or not finite.
+    void
+    merge_blocks_below(double area);
+
+    /// The area of merge_blocks_below() [m^2].
+    double
+    merging_area() const;
+
+    /// Let PhysicalMesh take joints of one state that run along each other, nearer than a millionth of
+    /// their length, for one line that was drawn twice with other digits. A strip that is so thin
+    /// cannot be in contact: any penetration is deeper.
+    void
+    unite_doubled_joints();
+
+    /// Whether unite_doubled_joints() was called.
+    bool
+    unites_doubled_joints() const;
+
     /// All curves in the order in which they were added.
     const std::vector<Curve> &
     curves() const;
@@ -110,6 +129,8 @@ namespace NMM
     std::vector<Curve>                               all_curves, all_regions;
     std::vector<std::pair<std::string, std::string>> all_material_regions;
     std::vector<std::pair<dealii::Point<2>, std::string>> all_material_points;
+    double                                                area_to_merge = 0.;
+    bool                                                  unites_joints = false;
   };
 
   /**
@@ -125,7 +146,7 @@ namespace NMM
   Geometry
   parse_geometry(const std::string &text, const std::string &source_name);
 
-  /// One change made by clean().
+  /// One change made by clean(), or a block that PhysicalMesh has merged.
   struct CleaningAction
   {
     /// Kind of a change.
@@ -138,19 +159,27 @@ namespace NMM
       /// The part of a curve beyond another one was cut off.
       trimmed_overshoot,
       /// A piece that was not longer than the tolerance was removed.
-      removed_piece
+      removed_piece,
+      /// A small block became a part of its neighbour, see PhysicalMesh.
+      merged_block
     };
 
     /// Kind of this change.
     Kind kind;
-    /// Name of the curve that was changed.
+    /// Name of the curve that was changed; the longest joint between a merged block and its
+    /// neighbour.
     std::string curve;
-    /// Position of the end point before the change [m]; start of a removed piece.
+    /// Position of the end point before the change [m]; start of a removed piece; a point inside a
+    /// merged block.
     dealii::Point<2> from;
-    /// Position of the end point after the change [m]; end of a removed piece.
+    /// Position of the end point after the change [m]; end of a removed piece; a point inside the
+    /// neighbour of a merged block.
     dealii::Point<2> to;
-    /// Distance by which the end point was moved [m]; length of a removed piece.
+    /// Distance by which the end point was moved [m]; length of a removed piece, or of the joints
+    /// between a merged block and its neighbour.
     double distance;
+    /// Area of a merged block [m^2]; 0 for other changes.
+    double area = 0.;
 
     /// A sentence for the user that describes the change.
     std::string

@@ -41,7 +41,14 @@ namespace NMM
    * with which it shares the longest edge, as if the lines met in the point, and the
    * edge between them is removed. A face without such a neighbour is removed from the
    * solid. Before that, segments that run along each other within rounding, so that one of them may
-   * end inside a block, are made to coincide. Notices report both.
+   * end inside a block, are made to coincide. Notices report both. With
+   * Geometry::unite_doubled_joints() joints coincide within a millionth of their length, and blocks
+   * that are thinner than a millionth of their length count as small.
+   *
+   * Blocks smaller than Geometry::merging_area() are then merged, the smallest one first: each
+   * becomes a part of the block with which it shares the longest boundary of joints, and has the
+   * material there. The joints between both are removed; boundaries, holes and interfaces never
+   * are. A block without such a neighbour stays as it is, and a notice names it.
    */
   class PhysicalMesh
   {
@@ -148,6 +155,11 @@ namespace NMM
     /// Parts of joints that bound no block, kept or removed (Curve::drops_ends).
     const DanglingEnds &
     dangling_ends() const;
+
+    /// Small blocks that were merged into neighbours, in this order. A block may have absorbed
+    /// others before, which count in its area.
+    const std::vector<CleaningAction> &
+    merged_blocks() const;
 
     /// The exact arrangement of the curves, for the covers module.
     const internal::PhysicalArrangement &

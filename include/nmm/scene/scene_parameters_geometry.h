@@ -34,14 +34,16 @@ namespace NMM
     double cleaning_tolerance = 0.;
     /// Whether the parts of joints that bound no block are removed.
     bool drops_ends = false;
-    /// Area below which blocks are reported [m^2]; 0 if none is reported.
+    /// Area below which blocks are reported, or merged [m^2]; 0 if none is.
     double small_block = 0.;
+    /// Whether small blocks are merged into neighbours.
+    bool merges_small_blocks = false;
 
     /// Declares or reads the entries of the section.
     void
     list_entries(internal::Entries &entries);
-    /// Checks that there is one geometry, or none if drawings have the outlines. @throws InputError
-    /// otherwise.
+    /// Checks that there is one geometry, or none if drawings have the outlines, and that blocks are
+    /// merged below an area only. @throws InputError otherwise.
     void
     check(bool has_drawn_outline) const;
   };

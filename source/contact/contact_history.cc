@@ -74,7 +74,8 @@ namespace NMM
       const double eps        = sums[n + i] > 0. ? sums[2 * n + i] / sums[n + i]
                                                  : d.parameters.law->normal_stiffness;
       penetrations[i]         = difference / eps;
-      change                  = std::max(change, penetrations[i]);
+      // Stiffer springs must not make the pressure less accurate.
+      change = std::max(change, d.stiffening[i] * penetrations[i]);
       d.memory.multipliers[i] = value;
     }
     if (change > d.parameters.penetration_tolerance)

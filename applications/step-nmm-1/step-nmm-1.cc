@@ -28,16 +28,13 @@
 #include <deal.II/base/timer.h>
 #include <deal.II/base/utilities.h>
 
-// `study.cc` has the parameters, laps of time, samples of the hoop stress, tables and figures;
+// `study.cc` has the parameters, laps of time, samples of the hoop stress and figures;
 // `fitted_ring.cc` solves the same ring on triangles of deal.II that fit it. They are apart from
 // this page since nothing of the method is in them.
 #include "fitted_ring.h"
 #include "study.h"
 #include "tutorial/tutorial.h"
 #include <cmath>
-#include <iostream>
-#include <map>
-#include <random>
 
 namespace StepNMM1
 {
@@ -150,7 +147,7 @@ namespace StepNMM1
   run_manifold_method(const Parameters                &parameters,
                       const NMM::GradedMeshParameters &mesh_parameters,
                       const unsigned int               degree,
-                      HoopProfile                     *profile)
+                      Tutorial::Table                 *profile)
   {
     const NMM::Material  material = parameters.material();
     const NMM::ThickRing exact(parameters.inner_radius,
@@ -201,7 +198,7 @@ namespace StepNMM1
     elasticity.assemble();
     clock.lap("assembly");
 
-    elasticity.solve(parameters.solver);
+    elasticity.solve(NMM::LinearSolverParameters());
     clock.lap("solution");
     clock.stop();
 
@@ -216,8 +213,8 @@ namespace StepNMM1
 
     // Covers with too little support are expressed through others: they have
     // rows in the matrix, but are no unknowns.
-    result.n_constrained = 2 * aggregation.cover_to_root.size();
-    result.n_unknowns    = 2 * covers.n_covers() - result.n_constrained;
+    result.n_unknowns =
+      2 * (covers.n_covers() - aggregation.cover_to_root.size());
     result.n_elements    = manifold_mesh.n_elements();
     result.error_u       = errors.displacement;
     result.error_stress  = errors.stress;
@@ -261,7 +258,6 @@ namespace StepNMM1
     mesh.cell_size = cell_size;
     mesh.offset    = parameters.offset;
     mesh.rotation  = parameters.rotation;
-    mesh.pattern   = parameters.pattern;
     if (is_graded)
     {
       NMM::LocalSize near_inside;
@@ -276,66 +272,70 @@ namespace StepNMM1
 
 
   // Six mesh sizes, first and second order, and fitted triangles of deal.II
-  // beside them.
-  std::vector<Measurement>
-  run_convergence_study(const Parameters                   &parameters,
-                        std::map<std::string, HoopProfile> &profiles)
+  // beside them. The hoop stress is drawn for the coarsest regular meshes.
+  void
+  run_convergence_study(const Parameters &parameters, const std::string &prefix)
   {
+    Tutorial::Table          table("The ring: relative errors", 11);
     std::vector<Measurement> measurements;
+    const auto               add = [&](const Measurement &measurement) {
+      const bool is_coarsest =
+        measurements.empty() ||
+        measurements.back().method != measurement.method ||
+        measurements.back().degree != measurement.degree;
+      table.add(row(measurement, is_coarsest ? nullptr : &measurements.back()));
+      measurements.push_back(measurement);
+      return is_coarsest;
+    };
     const auto run = [&](const unsigned int degree, const bool is_graded) {
-      for (unsigned int level = 0; level < parameters.cell_sizes.size();
-           ++level)
+      for (const double size : parameters.cell_sizes)
       {
         // about the same number of unknowns with and without grading
-        const double cell_size =
-          (is_graded ? 1.35 : 1.) * parameters.cell_sizes[level];
-        HoopProfile profile;
-        measurements.push_back(run_manifold_method(
-          parameters,
-          make_mesh_parameters(parameters, cell_size, is_graded),
-          degree,
-          &profile));
-        print_progress(measurements.back());
-        profiles["p" + std::to_string(degree) +
-                 (is_graded ? " graded" : " uniform") + " level " +
-                 std::to_string(level)] = std::move(profile);
+        const double    cell_size = (is_graded ? 1.35 : 1.) * size;
+        Tutorial::Table profile;
+        if (add(run_manifold_method(
+              parameters,
+              make_mesh_parameters(parameters, cell_size, is_graded),
+              degree,
+              &profile)) &&
+            !is_graded)
+          profile.write(prefix + "hoop-" + std::to_string(degree) + ".csv");
       }
     };
     run(1, false);
     run(2, false);
     run(2, true);
     for (const double cell_size : parameters.cell_sizes)
-    {
-      measurements.push_back(run_fitted_elements(parameters, cell_size));
-      print_progress(measurements.back());
-    }
-    return measurements;
+      add(run_fitted_elements(parameters, cell_size));
+    table.write(prefix + "study.csv");
   }
 
 
   // An unfitted method must not care where its mesh happens to lie: the same
   // ring with the mesh moved and turned at random.
-  std::vector<Measurement>
-  run_placement_study(const Parameters &parameters)
+  void
+  run_placement_study(Parameters parameters, const std::string &prefix)
   {
-    std::mt19937 engine(parameters.seed);
-    const auto   uniform = [&](const double high) {
-      return high * (engine() / 4294967296.);
-    };
-    std::vector<Measurement> measurements;
-    for (unsigned int k = 0; k < parameters.n_placements; ++k)
+    Tutorial::Table table;
+    for (const Tutorial::Placement &placement :
+         Tutorial::random_placements(parameters.n_placements,
+                                     parameters.seed,
+                                     parameters.placement_cell_size))
     {
-      NMM::GradedMeshParameters mesh =
-        make_mesh_parameters(parameters,
-                             parameters.placement_cell_size,
-                             /* is_graded = */ true);
-      mesh.offset[0] = uniform(mesh.cell_size);
-      mesh.offset[1] = uniform(mesh.cell_size);
-      mesh.rotation  = uniform(60.);
-      measurements.push_back(run_manifold_method(parameters, mesh, 2, nullptr));
-      print_progress(measurements.back());
+      parameters.offset   = placement.offset;
+      parameters.rotation = placement.rotation;
+      table.add(row(
+        run_manifold_method(parameters,
+                            make_mesh_parameters(parameters,
+                                                 parameters.placement_cell_size,
+                                                 /* is_graded = */ true),
+                            2,
+                            nullptr)));
     }
-    return measurements;
+    table.print_ranges(
+      "The mesh moved and turned at random",
+      {"cell_size_m", "L2_u", "L2_stress", "hoop_recovered", "hoop_direct"});
+    table.write(prefix + "placements.csv");
   }
 } // namespace StepNMM1
 
@@ -346,23 +346,15 @@ int
 main(int argc, char **argv)
 {
   using namespace StepNMM1;
-  return Tutorial::run(argc,
-                       argv,
-                       [](const std::string &parameter_file,
-                          const std::string &output_directory) {
-                         const Parameters parameters =
-                           read_parameters(parameter_file, output_directory);
-                         Tutorial::make_output_directory(output_directory);
-
-                         std::map<std::string, HoopProfile> profiles;
-                         const std::vector<Measurement>     study =
-                           run_convergence_study(parameters, profiles);
-                         const std::vector<Measurement> placements =
-                           run_placement_study(parameters);
-
-                         print_table(study);
-                         print_placements(placements);
-                         write_results(parameters, study, placements, profiles);
-                         draw_figures(parameters);
-                       });
+  return Tutorial::run(
+    argc,
+    argv,
+    [](const std::string &parameter_file, const std::string &output_directory) {
+      const Parameters parameters = read_parameters(parameter_file);
+      Tutorial::make_output_directory(output_directory);
+      const std::string prefix = output_directory + "/step-nmm-1-";
+      run_convergence_study(parameters, prefix);
+      run_placement_study(parameters, prefix);
+      draw_figures(prefix);
+    });
 }

@@ -1,18 +1,16 @@
 #ifndef step_nmm_1_study_h
 #define step_nmm_1_study_h
 
-// What surrounds the method in step-nmm-1: parameters, measurements, tables and
-// figures.
+// What surrounds the method in step-nmm-1: parameters, measurements and figures.
 
 #include <nmm/covers/aggregation.h>
-#include <nmm/covers/mathematical_mesh.h>
 #include <nmm/mechanics/static_elasticity.h>
 #include <nmm/mechanics/thick_ring.h>
 
 #include <deal.II/base/timer.h>
 
+#include "tutorial/table.h"
 #include <functional>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -36,8 +34,7 @@ namespace StepNMM1
     /// Edge lengths of the regular triangles [m].
     std::vector<double> cell_sizes =
       {0.23, 0.12, 0.0603, 0.0301, 0.01505, 0.0076};
-    NMM::MeshPattern pattern               = NMM::MeshPattern::equilateral;
-    double           aggregation_threshold = NMM::default_aggregation_threshold;
+    double aggregation_threshold = NMM::default_aggregation_threshold;
     /// Width of the zone of smaller triangles at the inner circle [m].
     double refined_width = 0.3;
     /// Where the mesh lies against the ring [m], [degrees].
@@ -48,9 +45,6 @@ namespace StepNMM1
     unsigned int seed                = 1;
     double       placement_cell_size = 0.0575;
 
-    NMM::LinearSolverParameters solver;
-    std::string                 output_directory = ".";
-
     NMM::Material
     material() const;
   };
@@ -58,8 +52,7 @@ namespace StepNMM1
 
   /// @throws NMM::InputError for an unreadable file, unknown keys or bad values.
   Parameters
-  read_parameters(const std::string &file_name,
-                  const std::string &output_directory);
+  read_parameters(const std::string &file_name);
 
 
   /// One row of the table.
@@ -70,7 +63,7 @@ namespace StepNMM1
     double       cell_size = 0.;
     /// Unknowns of the linear system; values that aggregation expresses through
     /// them come on top.
-    unsigned int n_unknowns = 0, n_constrained = 0, n_elements = 0;
+    unsigned int n_unknowns = 0, n_elements = 0;
     /// Of the matrix; fitted elements only.
     std::size_t n_nonzeros = 0;
     /// Relative errors [-]: L2 of displacement and stress, largest of the hoop
@@ -109,14 +102,8 @@ namespace StepNMM1
   using StressAt =
     std::function<dealii::SymmetricTensor<2, 2>(const dealii::Point<2> &)>;
 
-  /// Hoop stress along the radius [Pa].
-  struct HoopProfile
-  {
-    std::vector<double> r, exact, direct, recovered;
-  };
-
-  /// Along the radius at 45 degrees.
-  HoopProfile
+  /// Hoop stress along the radius at 45 degrees [Pa].
+  Tutorial::Table
   sample_hoop(const NMM::ThickRing &exact,
               const Parameters     &parameters,
               const StressAt       &direct,
@@ -129,25 +116,14 @@ namespace StepNMM1
                      const Parameters     &parameters,
                      const StressAt       &stress);
 
-  void
-  print_progress(const Measurement &measurement);
-
-  void
-  print_table(const std::vector<Measurement> &measurements);
-
-  void
-  print_placements(const std::vector<Measurement> &measurements);
-
-  /// CSV files.
-  void
-  write_results(const Parameters                         &parameters,
-                const std::vector<Measurement>           &study,
-                const std::vector<Measurement>           &placements,
-                const std::map<std::string, HoopProfile> &profiles);
+  /// A row of the table, with orders of convergence from the next coarser mesh of the method, if
+  /// there is one.
+  Tutorial::Row
+  row(const Measurement &measurement, const Measurement *coarse = nullptr);
 
   /// PNG files by gnuplot; says so if it is not there.
   void
-  draw_figures(const Parameters &parameters);
+  draw_figures(const std::string &prefix);
 } // namespace StepNMM1
 
 #endif

@@ -1,10 +1,5 @@
-#include <deal.II/base/utilities.h>
-
 #include "study.h"
 #include "tutorial/tutorial.h"
-#include <cstdlib>
-#include <fstream>
-#include <iostream>
 
 // @sect3{Figures}
 
@@ -64,22 +59,22 @@ set autoscale
 set format '%.0e'
 set key top right
 f = 'PREFIXstudy.csv'
-row(load, kinematics, degree, mesh) = strcol(1) eq load && strcol(2) eq kinematics && $3 == degree && strcol(4) eq mesh ? $10 : NaN
+row(load, kinematics, degree, mesh) = strcol(1) eq load && strcol(2) eq kinematics && $3 == degree && strcol(4) eq mesh ? $9 : NaN
 set style data linespoints
-plot f skip 1 using 11:(row('dead', 'finite', 1, 'uniform')) pt 5 lc 'orange' title 'finite, p = 1, dead', \
-     f skip 1 using 11:(row('dead', 'finite', 2, 'uniform')) pt 7 lc 'skyblue' title 'finite, p = 2, dead', \
-     f skip 1 using 11:(row('dead', 'finite', 2, 'graded')) pt 7 lc 'blue' title 'finite, p = 2, refined corners, dead', \
-     f skip 1 using 11:(row('follower', 'finite', 2, 'graded')) pt 6 dt 2 lc 'blue' title 'the same, follower', \
-     f skip 1 using 11:(row('dead', 'incremental', 2, 'graded')) pt 9 lc 'dark-red' title 'incremental, dead', \
-     f skip 1 using 11:(row('follower', 'incremental', 2, 'graded')) pt 8 dt 2 lc 'dark-red' title 'incremental, follower'
+plot f skip 1 using 10:(row('dead', 'finite', 1, 'uniform')) pt 5 lc 'orange' title 'finite, p = 1, dead', \
+     f skip 1 using 10:(row('dead', 'finite', 2, 'uniform')) pt 7 lc 'skyblue' title 'finite, p = 2, dead', \
+     f skip 1 using 10:(row('dead', 'finite', 2, 'graded')) pt 7 lc 'blue' title 'finite, p = 2, refined corners, dead', \
+     f skip 1 using 10:(row('follower', 'finite', 2, 'graded')) pt 6 dt 2 lc 'blue' title 'the same, follower', \
+     f skip 1 using 10:(row('dead', 'incremental', 2, 'graded')) pt 9 lc 'dark-red' title 'incremental, dead', \
+     f skip 1 using 10:(row('follower', 'incremental', 2, 'graded')) pt 8 dt 2 lc 'dark-red' title 'incremental, follower'
 )";
   } // namespace
 
 
   void
-  draw_figures(const Parameters &parameters)
+  draw_figures(const std::string &prefix)
   {
-    Tutorial::draw_figures(parameters.output_directory + "/step-nmm-2-",
+    Tutorial::draw_figures(prefix,
                            figures_script,
                            {"shapes.png",
                             "curves.png",

@@ -19,7 +19,6 @@
 #include <nmm/materials/material_law.h>
 #include <nmm/mechanics/displacement_field.h>
 #include <nmm/mechanics/finite_elasticity.h>
-#include <nmm/mechanics/incremental_elasticity.h>
 #include <nmm/mechanics/nonlinear_statics.h>
 #include <nmm/mechanics/static_elasticity.h>
 #include <nmm/quadrature/element_quadrature.h>
@@ -28,13 +27,13 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
 
-// `study.cc` has the parameters, the reference values, tables and files of results, `figures.cc` the
+// The paper's scheme has a file of its own, `incremental_elasticity.cc`: the library has only Newton's
+// method. `study.cc` has the parameters and the reference values, `figures.cc` the
 // figures. They are apart from this page since nothing of the method is in them.
+#include "incremental_elasticity.h"
 #include "study.h"
 #include "tutorial/tutorial.h"
 #include <cmath>
-#include <iostream>
-#include <random>
 
 namespace StepNMM2
 {
@@ -167,11 +166,10 @@ namespace StepNMM2
                    covers.locally_owned_elements())
       , problem(make_problem(parameters, load))
     {
-      measurement.load       = load;
-      measurement.degree     = degree;
-      measurement.mesh       = mesh.local_sizes.empty() ? "uniform" : "graded";
-      measurement.cell_size  = mesh.cell_size;
-      measurement.n_elements = manifold_mesh.n_elements();
+      measurement.load      = load;
+      measurement.degree    = degree;
+      measurement.mesh      = mesh.local_sizes.empty() ? "uniform" : "graded";
+      measurement.cell_size = mesh.cell_size;
       measurement.n_unknowns =
         2 * (covers.n_covers() - aggregation.cover_to_root.size());
     }
@@ -194,11 +192,10 @@ namespace StepNMM2
 
     // (-v, -u) / L of the middle of the end.
     std::array<double, 2>
-    tip(const TrilinosWrappers::MPI::Vector &u) const
+    tip(const NMM::DisplacementField &field) const
     {
       const Point<2>     end(parameters.length, 0.5 * parameters.height);
-      const Tensor<1, 2> d =
-        moved(NMM::DisplacementField(covers, problem, u), end) - end;
+      const Tensor<1, 2> d = moved(field, end) - end;
       return {{-d[1] / parameters.length, -d[0] / parameters.length}};
     }
 
@@ -239,7 +236,7 @@ namespace StepNMM2
     const auto record      = [&](const NMM::LoadStep                 &step,
                             const TrilinosWrappers::MPI::Vector &u) {
       result.deflection[parameters.last_load * step.load_factor] =
-        model.tip(u)[0];
+        model.tip({model.covers, model.problem, u})[0];
       ++result.n_steps;
       result.n_iterations +=
         step.newton.iterations.size() + step.n_lost_iterations;
@@ -279,23 +276,23 @@ namespace StepNMM2
                   const Load                       load,
                   const unsigned int               n_steps)
   {
-    Timer                      timer;
-    Model                      model(parameters, mesh, 2, load);
-    NMM::IncrementalElasticity elasticity(model.covers,
-                                          model.quadrature,
-                                          model.constraints,
-                                          model.problem);
-    Measurement               &result = model.measurement;
-    result.kinematics                 = "incremental";
-    result.n_steps                    = n_steps;
-    result.n_iterations               = n_steps;
-    const double setup_time           = timer.wall_time();
+    Timer                 timer;
+    Model                 model(parameters, mesh, 2, load);
+    IncrementalElasticity elasticity(model.covers,
+                                     model.quadrature,
+                                     model.constraints,
+                                     model.problem);
+    Measurement          &result = model.measurement;
+    result.kinematics            = "incremental";
+    result.n_steps               = n_steps;
+    result.n_iterations          = n_steps;
+    const double setup_time      = timer.wall_time();
     for (unsigned int k = 1; k <= n_steps; ++k)
     {
       elasticity.step(static_cast<double>(k) / n_steps);
       if (parameters.n_load_steps * k % n_steps == 0)
-        result.deflection[parameters.last_load * k / n_steps] =
-          model.tip(elasticity.solution())[0];
+        result.deflection[parameters.last_load * k / n_steps] = model.tip(
+          {model.covers, model.problem, elasticity.displacements()})[0];
     }
     result.total_time     = timer.wall_time();
     result.iteration_time = (result.total_time - setup_time) / n_steps;
@@ -341,7 +338,7 @@ namespace StepNMM2
                 [&](const NMM::LoadStep                 &step,
                     const TrilinosWrappers::MPI::Vector &u) {
                   const double K = parameters.last_load * step.load_factor;
-                  curves.tip[K]  = model.tip(u);
+                  curves.tip[K]  = model.tip({model.covers, model.problem, u});
                   const auto k   = std::lround(n_steps * step.load_factor);
                   if (step.is_asked && k % 4 == 0)
                     add_outline(K, u);
@@ -354,67 +351,58 @@ namespace StepNMM2
 
   // Mesh sizes with and without smaller triangles at the corners, first and
   // second order; then increments.
-  std::vector<Measurement>
-  run_study(const Parameters &parameters)
+  void
+  run_study(const Parameters &parameters, const std::string &prefix)
   {
-    std::vector<Measurement> measurements;
-    print_header();
+    Tutorial::Table table(
+      "Largest error of w/L at K = 2, 4, ..., 10, relative to the solid of "
+      "cantilever.csv");
     for (const Load load : loads)
     {
       const auto finite = [&](const unsigned int degree, const bool is_graded) {
         for (const double cell_size : parameters.cell_sizes)
-        {
-          measurements.push_back(
+          table.add(row(
             run_finite(parameters,
                        make_mesh_parameters(parameters, cell_size, is_graded),
                        degree,
-                       load));
-          print(measurements.back());
-        }
+                       load)));
       };
       finite(1, false);
       finite(2, false);
       finite(2, true);
       for (const unsigned int n : parameters.increments)
-      {
-        measurements.push_back(
-          run_incremental(parameters,
-                          make_mesh_parameters(parameters,
-                                               parameters.cell_size,
-                                               /* is_graded = */ true),
-                          load,
-                          n));
-        print(measurements.back());
-      }
+        table.add(
+          row(run_incremental(parameters,
+                              make_mesh_parameters(parameters,
+                                                   parameters.cell_size,
+                                                   /* is_graded = */ true),
+                              load,
+                              n)));
     }
-    return measurements;
+    table.write(prefix + "study.csv");
   }
 
 
   // The mesh moved and turned at random: the error must not depend on luck.
-  std::vector<Measurement>
+  void
   run_placements(Parameters parameters)
   {
-    std::mt19937 engine(parameters.seed);
-    const auto   uniform = [&](const double high) {
-      return high * (engine() / 4294967296.);
-    };
-    std::vector<Measurement> measurements;
-    for (unsigned int k = 0; k < parameters.n_placements; ++k)
+    Tutorial::Table table;
+    for (const Tutorial::Placement &placement : Tutorial::random_placements(
+           parameters.n_placements, parameters.seed, parameters.cell_size))
     {
-      parameters.offset[0] = uniform(parameters.cell_size);
-      parameters.offset[1] = uniform(parameters.cell_size);
-      parameters.rotation  = uniform(60.);
+      parameters.offset   = placement.offset;
+      parameters.rotation = placement.rotation;
       for (const Load load : loads)
-        measurements.push_back(
-          run_finite(parameters,
-                     make_mesh_parameters(parameters,
-                                          parameters.cell_size,
-                                          /* is_graded = */ true),
-                     2,
-                     load));
+        table.add(row(run_finite(parameters,
+                                 make_mesh_parameters(parameters,
+                                                      parameters.cell_size,
+                                                      /* is_graded = */ true),
+                                 2,
+                                 load)));
     }
-    return measurements;
+    table.print_ranges("Mesh moved and turned at random, both loads",
+                       {"cell_size_m", "error", "iterations"});
   }
 } // namespace StepNMM2
 
@@ -425,22 +413,21 @@ int
 main(int argc, char **argv)
 {
   using namespace StepNMM2;
-  return Tutorial::run(argc,
-                       argv,
-                       [](const std::string &parameter_file,
-                          const std::string &output_directory) {
-                         Tutorial::check_that_there_is_one_rank("step-nmm-2");
-                         const Parameters parameters =
-                           read_parameters(parameter_file, output_directory);
-                         Tutorial::make_output_directory(output_directory);
+  return Tutorial::run(
+    argc,
+    argv,
+    [](const std::string &parameter_file, const std::string &output_directory) {
+      Tutorial::check_that_there_is_one_rank("step-nmm-2");
+      const Parameters parameters = read_parameters(parameter_file);
+      Tutorial::make_output_directory(output_directory);
 
-                         const std::vector<Measurement> study =
-                           run_study(parameters);
-                         print_placements(run_placements(parameters));
-                         std::map<Load, Curves> curves;
-                         for (const Load load : loads)
-                           curves[load] = compute_curves(parameters, load);
-                         write_results(parameters, study, curves);
-                         draw_figures(parameters);
-                       });
+      const std::string prefix = output_directory + "/step-nmm-2-";
+      run_study(parameters, prefix);
+      run_placements(parameters);
+      std::map<Load, Curves> curves;
+      for (const Load load : loads)
+        curves[load] = compute_curves(parameters, load);
+      write_curves(prefix, curves);
+      draw_figures(prefix);
+    });
 }

@@ -10,9 +10,6 @@
 #include "tutorial/tutorial.h"
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iomanip>
-#include <iostream>
 #include <limits>
 #include <sstream>
 
@@ -44,12 +41,9 @@ namespace StepNMM2
 
 
   Parameters
-  read_parameters(const std::string &file_name,
-                  const std::string &output_directory)
+  read_parameters(const std::string &file_name)
   {
-    Parameters parameters;
-    parameters.output_directory = output_directory;
-
+    Parameters             parameters;
     ParameterHandler       prm;
     const Patterns::Double positive(1e-300);
     prm.add_parameter("Cell sizes",
@@ -136,113 +130,51 @@ namespace StepNMM2
   }
 
 
-  // @sect3{Tables}
-
-  void
-  print_header()
-  {
-    std::cout << "Largest error of w/L at K = 2, 4, ..., 10, relative to the "
-                 "solid of cantilever.csv\n"
-              << "load      kinematics   p  mesh      unknowns  steps  "
-                 "iterations     error   total s  iteration / linear s\n";
-  }
-
-
-  void
-  print(const Measurement &m)
-  {
-    std::cout << std::left << std::setw(10) << name(m.load) << std::setw(13)
-              << m.kinematics << m.degree << "  " << std::setw(8) << m.mesh
-              << std::right << std::setw(10) << m.n_unknowns << std::setw(7)
-              << m.n_steps << std::setw(12) << m.n_iterations << std::scientific
-              << std::setprecision(1) << std::setw(10) << m.largest_error
-              << std::fixed << std::setprecision(3) << std::setw(10)
-              << m.total_time << std::setprecision(4) << std::setw(9)
-              << m.iteration_time;
-    if (m.linear_time > 0.)
-      std::cout << " / " << m.linear_time;
-    std::cout << std::defaultfloat << std::endl;
-  }
-
-
-  void
-  print_placements(const std::vector<Measurement> &measurements)
-  {
-    if (measurements.empty())
-      return;
-    double       low = 1e300, high = 0.;
-    unsigned int n_iterations = 0;
-    for (const Measurement &m : measurements)
-    {
-      low          = std::min(low, m.largest_error);
-      high         = std::max(high, m.largest_error);
-      n_iterations = std::max(n_iterations, m.n_iterations);
-    }
-    std::cout << "\nMesh moved and turned " << measurements.size() / 2
-              << " random ways, both loads, h = " << measurements[0].cell_size
-              << ": errors " << std::scientific << std::setprecision(1) << low
-              << " to " << high << std::defaultfloat << ", at most "
-              << n_iterations << " iterations" << std::endl;
-  }
-
-
   // @sect3{Files}
 
-  namespace
+  Tutorial::Row
+  row(const Measurement &m)
   {
-    void
-    write_measurements(const std::string              &file_name,
-                       const std::vector<Measurement> &measurements)
-    {
-      std::ofstream file(file_name);
-      file << "load,kinematics,degree,mesh,cell_size_m,unknowns,elements,steps,"
-              "iterations,largest_error,total_s,iteration_s,linear_s\n"
-           << std::setprecision(7);
-      for (const Measurement &m : measurements)
-      {
-        file << name(m.load) << ',' << m.kinematics << ',' << m.degree << ','
-             << m.mesh << ',' << m.cell_size << ',' << m.n_unknowns << ','
-             << m.n_elements << ',' << m.n_steps << ',' << m.n_iterations << ','
-             << m.largest_error << ',' << m.total_time << ','
-             << m.iteration_time << ',' << m.linear_time << '\n';
-      }
-    }
-  } // namespace
+    return {{"load", name(m.load)},
+            {"kinematics", m.kinematics},
+            {"degree", m.degree},
+            {"mesh", m.mesh},
+            {"cell_size_m", m.cell_size},
+            {"unknowns", m.n_unknowns},
+            {"steps", m.n_steps},
+            {"iterations", m.n_iterations},
+            {"error", m.largest_error},
+            {"total_s", m.total_time},
+            {"iteration_s", m.iteration_time},
+            {"linear_s", m.linear_time}};
+  }
 
 
   void
-  write_results(const Parameters               &parameters,
-                const std::vector<Measurement> &measurements,
-                const std::map<Load, Curves>   &curves)
+  write_curves(const std::string &prefix, const std::map<Load, Curves> &curves)
   {
-    const std::string prefix = parameters.output_directory + "/step-nmm-2-";
-    write_measurements(prefix + "study.csv", measurements);
     for (const auto &[load, curve] : curves)
     {
-      std::ofstream tip(prefix + "tip-" + name(load) + ".csv");
-      tip << "K,w_over_L,u_over_L\n" << std::setprecision(9);
+      Tutorial::Table tip, reference, shapes;
       for (const auto &[K, values] : curve.tip)
-        tip << K << ',' << values[0] << ',' << values[1] << '\n';
-
-      std::ofstream reference(prefix + "reference-" + name(load) + ".csv");
-      reference << "K,euler_w,euler_u,reissner_w,reissner_u,solid_w,solid_u\n"
-                << std::setprecision(9);
+        tip.add({{"K", K}, {"w_over_L", values[0]}, {"u_over_L", values[1]}});
       for (const auto &[K, r] : read_reference(load))
-      {
-        reference << K;
-        for (const auto &values : {r.euler, r.reissner, r.solid})
-          reference << ',' << values[0] << ',' << values[1];
-        reference << '\n';
-      }
-
-      std::ofstream shapes(prefix + "shapes-" + name(load) + ".csv");
-      shapes << "x_m,y_m,K\n" << std::setprecision(7);
+        reference.add({{"K", K},
+                       {"euler_w", r.euler[0]},
+                       {"euler_u", r.euler[1]},
+                       {"reissner_w", r.reissner[0]},
+                       {"reissner_u", r.reissner[1]},
+                       {"solid_w", r.solid[0]},
+                       {"solid_u", r.solid[1]}});
       for (const auto &[K, outline] : curve.outlines)
       {
         for (const Point<2> &x : outline)
-          shapes << x[0] << ',' << x[1] << ',' << K << '\n';
-        shapes << '\n';
+          shapes.add({{"x_m", x[0]}, {"y_m", x[1]}, {"K", K}});
+        shapes.add_break();
       }
+      tip.write(prefix + "tip-" + name(load) + ".csv");
+      reference.write(prefix + "reference-" + name(load) + ".csv");
+      shapes.write(prefix + "shapes-" + name(load) + ".csv");
     }
   }
 } // namespace StepNMM2

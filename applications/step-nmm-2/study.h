@@ -9,6 +9,7 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include "tutorial/table.h"
 #include <array>
 #include <map>
 #include <string>
@@ -53,7 +54,6 @@ namespace StepNMM2
     /// [m].
     double       cell_size    = 0.33;
     unsigned int n_placements = 5, seed = 1;
-    std::string  output_directory = ".";
 
     /// I of the section [m^3 per unit thickness].
     double
@@ -67,8 +67,7 @@ namespace StepNMM2
 
   /// @throws NMM::InputError for an unreadable file, unknown keys or bad values.
   Parameters
-  read_parameters(const std::string &file_name,
-                  const std::string &output_directory);
+  read_parameters(const std::string &file_name);
 
 
   /// -v / L and -u / L of the point (L, H/2) by K: Euler's elastica, Reissner's
@@ -90,7 +89,7 @@ namespace StepNMM2
     std::string  kinematics, mesh;
     unsigned int degree     = 2;
     double       cell_size  = 0.;
-    unsigned int n_unknowns = 0, n_elements = 0;
+    unsigned int n_unknowns = 0;
     unsigned int n_steps = 0, n_iterations = 0;
     /// K -> -v / L.
     std::map<double, double> deflection;
@@ -106,14 +105,9 @@ namespace StepNMM2
   void
   compare(Measurement &measurement);
 
-  void
-  print_header();
-
-  void
-  print(const Measurement &measurement);
-
-  void
-  print_placements(const std::vector<Measurement> &measurements);
+  /// A row of the table.
+  Tutorial::Row
+  row(const Measurement &measurement);
 
 
   /// For the figures: the tip by K, and outlines of the deformed beam.
@@ -125,15 +119,13 @@ namespace StepNMM2
     std::map<double, std::vector<dealii::Point<2>>> outlines;
   };
 
-  /// CSV files.
+  /// Write the curves as files whose names begin with @p prefix.
   void
-  write_results(const Parameters               &parameters,
-                const std::vector<Measurement> &measurements,
-                const std::map<Load, Curves>   &curves);
+  write_curves(const std::string &prefix, const std::map<Load, Curves> &curves);
 
   /// PNG files by gnuplot; says so if it is not there.
   void
-  draw_figures(const Parameters &parameters);
+  draw_figures(const std::string &prefix);
 } // namespace StepNMM2
 
 #endif

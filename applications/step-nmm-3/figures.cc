@@ -1,10 +1,5 @@
-#include <deal.II/base/utilities.h>
-
 #include "study.h"
 #include "tutorial/tutorial.h"
-#include <cstdlib>
-#include <fstream>
-#include <iostream>
 
 // @sect3{Figures}
 
@@ -49,7 +44,7 @@ set key top left
 g = 'PREFIXforces.csv'
 plot 'PREFIXhertz-forces.csv' skip 1 using 1:2 with lines dt 2 lc 'black' title 'Hertz', \
      'PREFIXreference.csv' skip 1 using 1:2 with points pt 6 ps 1.5 lc 'dark-red' title 'GetFEM', \
-     g skip 1 using 1:(strcol(3) eq 'augmented' ? $2 : NaN) with lines lw 1.5 lc 'blue' title 'manifold method', \
+     g skip 1 using 1:2 with lines lw 1.5 lc 'blue' title 'manifold method', \
      'PREFIXpress-forces.csv' skip 1 using 1:2 with points pt 2 lc 'dark-green' title 'whole cylinder, plates of 1000 E'
 set xlabel 'seconds, 20 load steps'
 set ylabel 'largest error of the force from 0.2 R on'
@@ -59,8 +54,8 @@ set yrange [1e-5:1e-2]
 set format y '%.0e'
 set key top right
 c = 'PREFIXcompression.csv'
-plot c skip 1 using 11:(strcol(1) eq 'penalty' ? $12 : NaN) with linespoints pt 8 lc 'dark-red' title 'penalty', \
-     c skip 1 using 11:(strcol(1) eq 'augmented' ? $12 : NaN) with linespoints pt 7 lc 'blue' title 'augmented'
+plot c skip 1 using 8:(strcol(1) eq 'penalty' ? $9 : NaN) with linespoints pt 8 lc 'dark-red' title 'penalty', \
+     c skip 1 using 8:(strcol(1) eq 'augmented' ? $9 : NaN) with linespoints pt 7 lc 'blue' title 'augmented'
 unset multiplot
 unset logscale
 set format
@@ -99,10 +94,10 @@ unset multiplot
 
 
   void
-  draw_figures(const Parameters &parameters)
+  draw_figures(const std::string &prefix)
   {
     Tutorial::draw_figures(
-      parameters.output_directory + "/step-nmm-3-",
+      prefix,
       figures_script,
       {"pressure.png", "force.png", "stages.png", "shapes.png"});
   }

@@ -26,17 +26,15 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
 
-// `study.cc` has the parameters, Hertz's formulas, reference values of other programs, tables and
+// `study.cc` has the parameters, Hertz's formulas, reference values of other programs and
 // files of results, `figures.cc` the figures. They are apart from this page since nothing of the
 // method is in them.
 #include "study.h"
 #include "tutorial/tutorial.h"
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <map>
 #include <memory>
-#include <random>
 
 namespace StepNMM3
 {
@@ -303,7 +301,6 @@ namespace StepNMM3
       std::make_unique<NMM::Contact>(*surface, constraints, setup.contact);
     statics = std::make_unique<NMM::ContactStatics>(*system, *contact);
     measurement.setup_time = timer.cpu_time() - measurement.cutting_time;
-    measurement.n_elements = manifold_mesh->n_elements();
     measurement.n_unknowns =
       2 * (covers->n_covers() - aggregation.cover_to_root.size());
   }
@@ -545,43 +542,49 @@ namespace StepNMM3
   run_hertz_study(const Parameters &parameters)
   {
     std::vector<Measurement> measurements;
+    Tutorial::Table          table("Against Hertz; errors in percent");
     for (const double half_width : parameters.half_widths)
-    {
-      print_hertz_header(Hertz::from_half_width(parameters, half_width));
       for (const Enforcement enforcement :
            {Enforcement::penalty, Enforcement::augmented})
         for (const double ratio : parameters.contact_ratios)
         {
           measurements.push_back(
             run_hertz_repeatedly(parameters, half_width, ratio, enforcement));
-          print_hertz(measurements.back());
+          table.add(hertz_row(measurements.back()));
         }
-    }
     return measurements;
   }
 
 
   // The mesh moved and turned at random: the error must not depend on luck.
-  std::vector<Measurement>
+  void
   run_placements(Parameters parameters)
   {
-    std::mt19937 engine(parameters.seed);
-    const auto   uniform = [&](const double high) {
-      return high * (engine() / 4294967296.);
-    };
-    std::vector<Measurement> measurements;
-    for (unsigned int k = 0; k < parameters.n_placements; ++k)
+    const auto placements = Tutorial::random_placements(parameters.n_placements,
+                                                        parameters.seed,
+                                                        parameters.cell_size);
+    for (const double ratio : parameters.contact_ratios)
     {
-      parameters.offset[0] = uniform(parameters.cell_size);
-      parameters.offset[1] = uniform(parameters.cell_size);
-      parameters.rotation  = uniform(60.);
-      for (const double ratio : parameters.contact_ratios)
-        measurements.push_back(run_hertz(parameters,
-                                         parameters.half_widths[0],
-                                         ratio,
-                                         Enforcement::augmented));
+      Tutorial::Table table;
+      for (const Tutorial::Placement &placement : placements)
+      {
+        parameters.offset   = placement.offset;
+        parameters.rotation = placement.rotation;
+        table.add(hertz_row(run_hertz(parameters,
+                                      parameters.half_widths[0],
+                                      ratio,
+                                      Enforcement::augmented)));
+      }
+      table.print_ranges("The mesh moved and turned at random, augmented",
+                         {"size_over_b",
+                          "unknowns",
+                          "force_%",
+                          "peak_%",
+                          "width_%",
+                          "L2_p_%",
+                          "ripple_%",
+                          "iterations"});
     }
-    return measurements;
   }
 
 
@@ -635,17 +638,20 @@ namespace StepNMM3
 
 
   std::vector<Measurement>
-  run_compression_study(const Parameters &parameters)
+  run_compression_study(const Parameters &parameters, const std::string &prefix)
   {
     std::vector<Measurement> measurements;
-    print_compression_header();
+    Tutorial::Table          table(
+      "Quarter disk, neo-Hookean, rigid plate: relative "
+               "errors of the force");
     for (const Enforcement enforcement :
          {Enforcement::penalty, Enforcement::augmented})
       for (const double size : parameters.compression_sizes)
       {
         measurements.push_back(run_compression(parameters, size, enforcement));
-        print_compression(measurements.back());
+        table.add(compression_row(measurements.back()));
       }
+    table.write(prefix + "compression.csv");
     return measurements;
   }
 
@@ -716,17 +722,14 @@ main(int argc, char **argv)
     argc,
     argv,
     [](const std::string &parameter_file, const std::string &output_directory) {
-      // All ranks know all results; the first one tells, and its times are its own.
-      const bool is_first =
-        dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-      const Parameters parameters =
-        read_parameters(parameter_file, output_directory);
+      const Parameters parameters = read_parameters(parameter_file);
       Tutorial::make_output_directory(output_directory);
+      const std::string prefix = output_directory + "/step-nmm-3-";
 
       const std::vector<Measurement> hertz = run_hertz_study(parameters);
-      print_placements(run_placements(parameters));
+      run_placements(parameters);
       const std::vector<Measurement> compression =
-        run_compression_study(parameters);
+        run_compression_study(parameters, prefix);
       std::vector<PressResult> press;
       for (const Enforcement enforcement :
            {Enforcement::penalty, Enforcement::augmented})
@@ -735,10 +738,7 @@ main(int argc, char **argv)
           run_press(parameters, parameters.press_size, enforcement));
         print_press(parameters, press.back());
       }
-      if (is_first)
-      {
-        write_results(parameters, hertz, compression, press);
-        draw_figures(parameters);
-      }
+      write_results(parameters, hertz, compression, press, prefix);
+      draw_figures(prefix);
     });
 }

@@ -11,10 +11,6 @@
 #include "tutorial/tutorial.h"
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iomanip>
-#include <iostream>
-#include <limits>
 #include <sstream>
 
 namespace StepNMM3
@@ -38,12 +34,9 @@ namespace StepNMM3
 
 
   Parameters
-  read_parameters(const std::string &file_name,
-                  const std::string &output_directory)
+  read_parameters(const std::string &file_name)
   {
-    Parameters parameters;
-    parameters.output_directory = output_directory;
-
+    Parameters             parameters;
     ParameterHandler       prm;
     const Patterns::Double positive(1e-300);
     const Patterns::List   sizes(positive, 1);
@@ -225,129 +218,51 @@ namespace StepNMM3
 
   // @sect3{Tables}
 
-  namespace
+  Tutorial::Row
+  hertz_row(const Measurement &m)
   {
-    std::string
-    percent(const double value)
-    {
-      std::ostringstream out;
-      out << std::fixed << std::setprecision(2) << 100. * value;
-      return out.str();
-    }
-  } // namespace
-
-
-  void
-  print_hertz_header(const Hertz &hertz)
-  {
-    std::cout << "\nHertz, half-width " << hertz.half_width
-              << " m: errors in percent, times in seconds\n"
-              << "springs    size/b  unknowns  iterations (augm.)   force   "
-                 "peak  width  last  L2(p)  ripple  cutting  covers  solution  "
-                 "total\n";
+    return {{"springs", name(m.enforcement)},
+            {"half_width_m", m.half_width},
+            {"size_over_b", m.contact_size / m.half_width},
+            {"unknowns", m.n_unknowns},
+            {"iterations", m.n_iterations},
+            {"augmentations", m.n_augmentations},
+            {"force_%", 100. * m.force_error},
+            {"peak_%", 100. * m.peak_error},
+            {"width_%", 100. * m.half_width_error},
+            {"last_%", 100. * m.last_point_error},
+            {"L2_p_%", 100. * m.pressure_error},
+            {"ripple_%", 100. * m.ripple},
+            {"cutting_s", m.cutting_time},
+            {"covers_s", m.setup_time},
+            {"solution_s", m.solution_time},
+            {"total_s", m.total_time}};
   }
 
 
-  void
-  print_hertz(const Measurement &m)
+  Tutorial::Row
+  compression_row(const Measurement &m)
   {
-    std::cout << std::left << std::setw(11) << name(m.enforcement) << std::right
-              << std::setprecision(3) << std::setw(6)
-              << m.contact_size / m.half_width << std::setw(10) << m.n_unknowns
-              << std::setw(12) << m.n_iterations << std::setw(4) << "("
-              << m.n_augmentations << ")  ";
-    for (const double error : {m.force_error,
-                               m.peak_error,
-                               m.half_width_error,
-                               m.last_point_error,
-                               m.pressure_error,
-                               m.ripple})
-      std::cout << std::setw(7) << percent(error);
-    std::cout << std::fixed << std::setprecision(3);
-    for (const double time :
-         {m.cutting_time, m.setup_time, m.solution_time, m.total_time})
-      std::cout << std::setw(8) << time;
-    std::cout << std::defaultfloat << std::endl;
-  }
-
-
-  void
-  print_placements(const std::vector<Measurement> &measurements)
-  {
-    if (measurements.empty())
-      return;
-    std::map<double, std::vector<const Measurement *>> by_size;
-    for (const Measurement &m : measurements)
-      by_size[-m.contact_size].push_back(&m);
-    std::cout << "\nMesh moved and turned at random, augmented, half-width "
-              << measurements[0].half_width << " m: from ... to, in percent\n"
-              << "size/b  unknowns        force            peak             "
-                 "width          L2(p)          ripple  iterations\n";
-    for (const auto &[size, rows] : by_size)
-    {
-      const auto range = [&](const auto member) {
-        double low = 1e300, high = -1e300;
-        for (const Measurement *m : rows)
-        {
-          low  = std::min<double>(low, m->*member);
-          high = std::max<double>(high, m->*member);
-        }
-        return std::make_pair(low, high);
-      };
-      std::cout << std::setw(6) << -size / measurements[0].half_width
-                << std::setw(10) << range(&Measurement::n_unknowns).second;
-      for (const auto member : {&Measurement::force_error,
-                                &Measurement::peak_error,
-                                &Measurement::half_width_error,
-                                &Measurement::pressure_error,
-                                &Measurement::ripple})
-        std::cout << std::setw(8) << percent(range(member).first) << " ..."
-                  << std::setw(6) << percent(range(member).second);
-      std::cout << std::setw(6) << range(&Measurement::n_iterations).second
-                << std::endl;
-    }
-  }
-
-
-  void
-  print_compression_header()
-  {
-    std::cout << "\nQuarter disk, neo-Hookean, rigid plate: error of the force "
-                 "in percent\n"
-              << "springs       size  unknowns  steps  cuts  iterations  "
-                 "approach >= 0.2  < 0.2  penetration  total s\n";
-  }
-
-
-  void
-  print_compression(const Measurement &m)
-  {
-    std::cout << std::left << std::setw(11) << name(m.enforcement) << std::right
-              << std::setw(7) << m.contact_size << std::setw(10) << m.n_unknowns
-              << std::setw(7) << m.n_steps << std::setw(6) << m.n_cuts
-              << std::setw(12) << m.n_iterations << std::setw(17)
-              << percent(m.converged_error) << std::setw(7)
-              << percent(m.early_error) << std::setw(13) << std::scientific
-              << std::setprecision(1) << m.penetration << std::fixed
-              << std::setprecision(2) << std::setw(9) << m.total_time
-              << std::defaultfloat << std::endl;
+    return {{"springs", name(m.enforcement)},
+            {"contact_size_m", m.contact_size},
+            {"unknowns", m.n_unknowns},
+            {"steps", m.n_steps},
+            {"cuts", m.n_cuts},
+            {"iterations", m.n_iterations},
+            {"penetration_m", m.penetration},
+            {"total_s", m.total_time},
+            {"error_from_0.2", m.converged_error},
+            {"error_below_0.2", m.early_error}};
   }
 
 
   void
   print_press(const Parameters &parameters, const PressResult &press)
   {
-    const Measurement &m = press.measurement;
-    std::cout << "\nThe paper's press, " << name(m.enforcement) << ", edges of "
-              << m.contact_size << " m at the contacts: " << m.n_unknowns
-              << " unknowns, " << m.n_steps << " steps, " << m.n_cuts
-              << " cuts, " << m.n_iterations << " iterations, " << std::fixed
-              << std::setprecision(1) << m.total_time << " s\n"
-              << "Force beside that of rigid plates: " << percent(m.early_error)
-              << " % below 0.2 m, " << percent(m.converged_error)
-              << " % from there on\n"
-              << "approach m  time s  force kN/m  difference %  peak kPa  "
-                 "Hertz's  half-width m  Hertz's\n";
+    Tutorial::Table table("The paper's press, " +
+                          name(press.measurement.enforcement));
+    table.add(compression_row(press.measurement));
+    Tutorial::Table stages("Its stages, beside Hertz at the same force");
     for (const Stage &stage : press.stages)
     {
       const Hertz hertz = Hertz::from_force(parameters, stage.force);
@@ -357,15 +272,14 @@ namespace StepNMM3
         peak       = std::max(peak, point.pressure);
         half_width = std::max(half_width, std::abs(point.x));
       }
-      std::cout << std::fixed << std::setprecision(2) << std::setw(10)
-                << stage.approach << std::setw(8)
-                << stage.approach / parameters.speed << std::setw(12)
-                << stage.force / 1000. << std::setw(14)
-                << percent(stage.force_difference / stage.force)
-                << std::setw(10) << peak / 1000. << std::setw(9)
-                << hertz.peak / 1000. << std::setprecision(4) << std::setw(14)
-                << half_width << std::setw(9) << hertz.half_width
-                << std::defaultfloat << std::endl;
+      stages.add({{"approach_m", stage.approach},
+                  {"time_s", stage.approach / parameters.speed},
+                  {"force_N/m", stage.force},
+                  {"difference_%", 100. * stage.force_difference / stage.force},
+                  {"peak_Pa", peak},
+                  {"Hertz_Pa", hertz.peak},
+                  {"half_width_m", half_width},
+                  {"Hertz_m", hertz.half_width}});
     }
   }
 
@@ -374,37 +288,17 @@ namespace StepNMM3
 
   namespace
   {
-    void
-    write_compression(const std::string              &file_name,
-                      const std::vector<Measurement> &measurements)
+    Tutorial::Table
+    lines_table(const std::vector<std::vector<Point<2>>> &lines)
     {
-      std::ofstream file(file_name);
-      file << "springs,contact_size_m,unknowns,elements,steps,cuts,iterations,"
-              "augmentations,penetration_m,solution_s,total_s,"
-              "force_error_from_0.2,force_error_below_0.2\n"
-           << std::setprecision(7);
-      for (const Measurement &m : measurements)
-        file << name(m.enforcement) << ',' << m.contact_size << ','
-             << m.n_unknowns << ',' << m.n_elements << ',' << m.n_steps << ','
-             << m.n_cuts << ',' << m.n_iterations << ',' << m.n_augmentations
-             << ',' << m.penetration << ',' << m.solution_time << ','
-             << m.total_time << ',' << m.converged_error << ',' << m.early_error
-             << '\n';
-    }
-
-
-    void
-    write_lines(const std::string                                &file_name,
-                const std::vector<std::vector<dealii::Point<2>>> &lines)
-    {
-      std::ofstream file(file_name);
-      file << "x_m,y_m\n" << std::setprecision(7);
+      Tutorial::Table table;
       for (const auto &line : lines)
       {
         for (const Point<2> &x : line)
-          file << x[0] << ',' << x[1] << '\n';
-        file << '\n';
+          table.add({{"x_m", x[0]}, {"y_m", x[1]}});
+        table.add_break();
       }
+      return table;
     }
 
 
@@ -422,11 +316,8 @@ namespace StepNMM3
                 const PressResult &press,
                 const std::string &prefix)
     {
-      std::ofstream pressure(prefix + "stages.csv");
-      pressure << "x_m,pressure_Pa,approach_m\n" << std::setprecision(7);
-      std::ofstream curves(prefix + "stages-hertz.csv");
-      curves << "x_m,hertz_Pa,approach_m\n" << std::setprecision(7);
-      unsigned int number = 0;
+      Tutorial::Table pressure, curves;
+      unsigned int    number = 0;
       for (const Stage &stage : press.stages)
       {
         if (!is_drawn(parameters, stage))
@@ -439,25 +330,32 @@ namespace StepNMM3
                     return a.x < b.x;
                   });
         for (const PressurePoint &point : points)
-          pressure << point.x << ',' << point.pressure << ',' << stage.approach
-                   << '\n';
-        pressure << "\n\n";
+          pressure.add({{"x_m", point.x}, {"pressure_Pa", point.pressure}});
+        pressure.add_break(2);
         constexpr unsigned int n = 100;
         for (unsigned int i = 0; i <= 2 * n; ++i)
         {
           // closer at the ends, where the curve is steep
-          const double x = -std::cos(numbers::PI * i / (2. * n));
-          curves << x * hertz.half_width << ','
-                 << hertz.pressure(x * hertz.half_width) << ','
-                 << stage.approach << '\n';
+          const double x =
+            -hertz.half_width * std::cos(numbers::PI * i / (2. * n));
+          curves.add({{"x_m", x}, {"hertz_Pa", hertz.pressure(x)}});
         }
-        curves << "\n\n";
-        ++number;
+        curves.add_break(2);
         const std::string stage_prefix =
-          prefix + "stage-" + std::to_string(number);
-        write_lines(stage_prefix + "-outlines.csv", stage.outlines);
-        write_lines(stage_prefix + "-lines.csv", stage.material_lines);
+          prefix + "stage-" + std::to_string(++number);
+        lines_table(stage.outlines).write(stage_prefix + "-outlines.csv");
+        lines_table(stage.material_lines).write(stage_prefix + "-lines.csv");
       }
+      pressure.write(prefix + "stages.csv");
+      curves.write(prefix + "stages-hertz.csv");
+    }
+
+
+    /// The columns of tables of forces.
+    Tutorial::Row
+    force_row(const double approach_over_R, const double F_over_ER)
+    {
+      return {{"approach_over_R", approach_over_R}, {"F_over_ER", F_over_ER}};
     }
 
 
@@ -467,35 +365,30 @@ namespace StepNMM3
                  const std::vector<PressResult> &press,
                  const std::string              &prefix)
     {
-      const double  unit = parameters.youngs_modulus * parameters.radius;
-      std::ofstream file(prefix + "forces.csv");
-      file << "approach_over_R,F_over_ER,springs,contact_size_m\n"
-           << std::setprecision(7);
+      const double R = parameters.radius, unit = parameters.youngs_modulus * R;
+      Tutorial::Table forces, whole, reference, hertz;
       for (const Measurement &m : compression)
-      {
-        for (const auto &[approach, force] : m.forces)
-          file << approach / parameters.radius << ',' << force / unit << ','
-               << name(m.enforcement) << ',' << m.contact_size << '\n';
-        file << "\n\n";
-      }
-      std::ofstream whole(prefix + "press-forces.csv");
-      whole << "approach_over_R,F_over_ER\n" << std::setprecision(7);
+        if (m.enforcement == Enforcement::augmented)
+        {
+          for (const auto &[approach, force] : m.forces)
+            forces.add(force_row(approach / R, force / unit));
+          forces.add_break();
+        }
       for (const auto &[approach, force] : press.back().measurement.forces)
-        whole << approach / parameters.radius << ',' << force / unit << '\n';
-      std::ofstream reference(prefix + "reference.csv");
-      reference << "approach_over_R,F_over_ER\n" << std::setprecision(7);
+        whole.add(force_row(approach / R, force / unit));
       for (const auto &[approach, force] : read_reference())
-        reference << approach << ',' << force << '\n';
+        reference.add(force_row(approach, force));
       // Hertz's force by approach, beside what large strain makes of it
-      std::ofstream hertz(prefix + "hertz-forces.csv");
-      hertz << "approach_over_R,F_over_ER\n" << std::setprecision(7);
       for (unsigned int i = 1; i <= 40; ++i)
       {
         const Hertz h = Hertz::from_half_width(parameters, 0.01 * i);
         if (h.approach <= parameters.approach)
-          hertz << h.approach / parameters.radius << ',' << h.force / unit
-                << '\n';
+          hertz.add(force_row(h.approach / R, h.force / unit));
       }
+      forces.write(prefix + "forces.csv");
+      whole.write(prefix + "press-forces.csv");
+      reference.write(prefix + "reference.csv");
+      hertz.write(prefix + "hertz-forces.csv");
     }
   } // namespace
 
@@ -504,27 +397,25 @@ namespace StepNMM3
   write_results(const Parameters               &parameters,
                 const std::vector<Measurement> &hertz,
                 const std::vector<Measurement> &compression,
-                const std::vector<PressResult> &press)
+                const std::vector<PressResult> &press,
+                const std::string              &prefix)
   {
-    const std::string prefix = parameters.output_directory + "/step-nmm-3-";
-    write_compression(prefix + "compression.csv", compression);
-
-    std::ofstream pressure(prefix + "pressure.csv");
-    pressure << "x_over_b,p_over_p0,springs,half_width_m,size_over_b,"
-                "error_over_p0\n"
-             << std::setprecision(7);
+    Tutorial::Table pressure;
     for (const Measurement &m : hertz)
     {
       const Hertz exact = Hertz::from_half_width(parameters, m.half_width);
       for (const PressurePoint &point : m.pressure)
         if (point.x < 1.3 * m.half_width)
-          pressure << point.x / m.half_width << ','
-                   << point.pressure / exact.peak << ',' << name(m.enforcement)
-                   << ',' << m.half_width << ','
-                   << m.contact_size / m.half_width << ','
-                   << (point.pressure - exact.pressure(point.x)) / exact.peak
-                   << '\n';
+          pressure.add(
+            {{"x_over_b", point.x / m.half_width},
+             {"p_over_p0", point.pressure / exact.peak},
+             {"springs", name(m.enforcement)},
+             {"half_width_m", m.half_width},
+             {"size_over_b", m.contact_size / m.half_width},
+             {"error_over_p0",
+              (point.pressure - exact.pressure(point.x)) / exact.peak}});
     }
+    pressure.write(prefix + "pressure.csv");
     write_forces(parameters, compression, press, prefix);
     for (const PressResult &result : press)
       write_press(parameters,

@@ -7,6 +7,7 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include "tutorial/table.h"
 #include <map>
 #include <string>
 #include <vector>
@@ -49,7 +50,6 @@ namespace StepNMM3
     std::vector<double> compression_sizes = {0.08, 0.04, 0.02};
     double              press_size        = 0.05;
     unsigned int        n_load_steps      = 20;
-    std::string         output_directory  = ".";
 
     /// E / (1 - nu^2) [Pa].
     double
@@ -59,8 +59,7 @@ namespace StepNMM3
 
   /// @throws NMM::InputError for an unreadable file, unknown keys or bad values.
   Parameters
-  read_parameters(const std::string &file_name,
-                  const std::string &output_directory);
+  read_parameters(const std::string &file_name);
 
 
   /// Hertz's line contact of a cylinder with a rigid plane, per unit thickness.
@@ -97,7 +96,7 @@ namespace StepNMM3
   {
     Enforcement  enforcement = Enforcement::augmented;
     double       half_width = 0., contact_size = 0.;
-    unsigned int n_unknowns = 0, n_elements = 0;
+    unsigned int n_unknowns = 0;
     unsigned int n_steps = 0, n_iterations = 0, n_augmentations = 0, n_cuts = 0;
     /// Relative to Hertz's solution [-].
     double force_error = 0., peak_error = 0., half_width_error = 0.,
@@ -147,34 +146,27 @@ namespace StepNMM3
   };
 
 
-  void
-  print_hertz_header(const Hertz &hertz);
+  /// Rows of the tables.
+  Tutorial::Row
+  hertz_row(const Measurement &measurement);
 
-  void
-  print_hertz(const Measurement &measurement);
-
-  void
-  print_placements(const std::vector<Measurement> &measurements);
-
-  void
-  print_compression_header();
-
-  void
-  print_compression(const Measurement &measurement);
+  Tutorial::Row
+  compression_row(const Measurement &measurement);
 
   void
   print_press(const Parameters &parameters, const PressResult &result);
 
-  /// CSV files.
+  /// Write what the figures show as files whose names begin with @p prefix.
   void
   write_results(const Parameters               &parameters,
                 const std::vector<Measurement> &hertz,
                 const std::vector<Measurement> &compression,
-                const std::vector<PressResult> &press);
+                const std::vector<PressResult> &press,
+                const std::string              &prefix);
 
   /// PNG files by gnuplot; says so if it is not there.
   void
-  draw_figures(const Parameters &parameters);
+  draw_figures(const std::string &prefix);
 } // namespace StepNMM3
 
 #endif

@@ -35,7 +35,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
-#include <iostream>
 #include <memory>
 #include <sstream>
 
@@ -311,7 +310,6 @@ namespace StepNMM4
     outcome.n_blocks       = physical_mesh->n_blocks();
     outcome.n_unknowns =
       2 * (covers->n_covers() - aggregation.cover_to_root.size());
-    print_header(outcome);
 
     Timer        timer;
     const Vector u     = find_equilibrium();
@@ -339,14 +337,15 @@ namespace StepNMM4
     steps.initial_step = step;
     const NMM::StepControl control(steps);
 
-    Film       film(parameters, outcome);
-    auto       next_stage = parameters.stages.begin();
-    double     next_frame = 0., next_row = 0., at_rest_since = -1.;
-    const auto record = [&](const bool is_last) {
+    Tutorial::Table on_screen("Run " + outcome.name + ": energies [J/m]", 10);
+    Film            film(parameters, outcome);
+    auto            next_stage = parameters.stages.begin();
+    double          next_frame = 0., next_row = 0., at_rest_since = -1.;
+    const auto      record = [&](const bool is_last) {
       const Row row = make_row(integrator);
       outcome.rows.push_back(row);
       if (row.time >= next_row || is_last)
-        print(row);
+        on_screen.add(cells(row));
       while (next_row <= row.time)
         next_row += parameters.row_interval;
 
@@ -471,8 +470,6 @@ main(int argc, char **argv)
     argc,
     argv,
     [](const std::string &parameter_file, const std::string &output_directory) {
-      const bool is_first =
-        dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
       const Parameters parameters =
         read_parameters(parameter_file, output_directory);
       Tutorial::make_output_directory(output_directory);
@@ -507,9 +504,7 @@ main(int argc, char **argv)
                 .run(0.5 * parameters.step, run_name + "-half-step"));
         }
       }
-      print_summary(outcomes);
+      report_runs(output_directory + "/step-nmm-4-", outcomes);
       print_means(outcomes);
-      if (is_first)
-        write_results(parameters, outcomes);
     });
 }

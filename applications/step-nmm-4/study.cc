@@ -12,8 +12,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iomanip>
-#include <iostream>
 #include <map>
 #include <numeric>
 #include <sstream>
@@ -135,35 +133,24 @@ namespace StepNMM4
 
   // @sect3{Tables}
 
-  void
-  print_header(const Outcome &outcome)
+  Tutorial::Row
+  cells(const Row &r)
   {
-    std::cout
-      << std::setprecision(9) << "\nFriction angle " << outcome.friction_angle
-      << " degrees, steps of " << outcome.step << " s: " << outcome.n_blocks
-      << " blocks, " << outcome.n_unknowns << " unknowns\n"
-      << " time   centre of mass       kinetic   released  dissipated   "
-         "balance  stick  slip  penetration\n"
-      << "    s                m          kJ/m       kJ/m        kJ/m "
-         "     kJ/m                    block"
-      << std::endl;
-  }
-
-
-  void
-  print(const Row &row)
-  {
-    std::cout << std::fixed << std::setprecision(2) << std::setw(5) << row.time
-              << std::setprecision(4) << std::setw(9) << row.center_of_mass[0]
-              << std::setw(9) << row.center_of_mass[1] << std::setprecision(2)
-              << std::setw(14) << 1e-3 * row.kinetic << std::setw(11)
-              << 1e-3 * row.external_work << std::setw(12)
-              << 1e-3 * row.dissipated << std::scientific
-              << std::setprecision(1) << std::setw(10) << 1e-3 * row.balance
-              << std::defaultfloat << std::setw(7) << row.n_stick
-              << std::setw(6) << row.n_slip << std::scientific
-              << std::setprecision(1) << std::setw(13)
-              << row.penetration_over_block << std::defaultfloat << std::endl;
+    return {{"time", r.time},
+            {"x", r.center_of_mass[0]},
+            {"y", r.center_of_mass[1]},
+            {"kinetic", r.kinetic},
+            {"external_work", r.external_work},
+            {"dissipated", r.dissipated},
+            {"balance", r.balance},
+            {"stick", r.n_stick},
+            {"slip", r.n_slip},
+            {"penetration_over_block", r.penetration_over_block},
+            {"strain", r.strain},
+            {"contact", r.contact},
+            {"penetration", r.penetration},
+            {"overlap", r.overlap},
+            {"overlap_over_block", r.overlap_over_block}};
   }
 
 
@@ -193,60 +180,69 @@ namespace StepNMM4
     void
     print_difference(const Outcome &first, const Outcome &other)
     {
-      std::cout << "\ncentre of mass of the run '" << other.name
-                << "' against '" << first.name
-                << "'\n time   difference    of its way\n";
-      const Point<2> start = first.rows.front().center_of_mass;
-      double         next  = 0.5;
+      Tutorial::Table table("Centre of mass of the run '" + other.name +
+                            "' against '" + first.name + "'");
+      const Point<2>  start = first.rows.front().center_of_mass;
+      const auto      add   = [&](const double time, const double difference) {
+        table.add({{"time", time},
+                   {"difference_m", difference},
+                   {"of_its_way_%",
+                    100. * difference /
+                      center_of_mass_at(first, time).distance(start)}});
+      };
+      double next = 0.5;
       for (const Row &at : first.rows)
       {
         if (at.time < next && &at != &first.rows.back())
           continue;
-        next                      = std::floor(2. * at.time) / 2. + 0.5;
-        const Point<2> position   = center_of_mass_at(other, at.time);
-        const double   difference = position.distance(at.center_of_mass);
-        std::cout << std::fixed << std::setprecision(2) << std::setw(5)
-                  << at.time << std::setprecision(4) << std::setw(11)
-                  << difference << " m" << std::setprecision(3) << std::setw(10)
-                  << 100. * difference / at.center_of_mass.distance(start)
-                  << " %\n"
-                  << std::defaultfloat;
+        next = std::floor(2. * at.time) / 2. + 0.5;
+        add(at.time,
+            center_of_mass_at(other, at.time).distance(at.center_of_mass));
       }
-      const double at_end = other.rows.back().center_of_mass.distance(
-        first.rows.back().center_of_mass);
-      std::cout << " ends" << std::fixed << std::setprecision(4)
-                << std::setw(11) << at_end << " m" << std::setprecision(3)
-                << std::setw(10)
-                << 100. * at_end /
-                     first.rows.back().center_of_mass.distance(start)
-                << " %" << std::defaultfloat << std::endl;
+      // where both end
+      add(first.rows.back().time,
+          other.rows.back().center_of_mass.distance(
+            first.rows.back().center_of_mass));
     }
   } // namespace
 
 
   void
-  print_summary(const std::vector<Outcome> &outcomes)
+  report_runs(const std::string &prefix, const std::vector<Outcome> &outcomes)
   {
-    std::cout
-      << "\nrun                        outcome        time [s]  steps  cuts  "
-         "iterations  account   penetration: largest, last   overlap: largest, "
-         "last  s\n";
-    for (const Outcome &outcome : outcomes)
-      std::cout << std::left << std::setw(27) << outcome.name << std::setw(15)
-                << (outcome.stands()     ? "stands"
-                    : outcome.is_at_rest ? "slid to rest"
-                                         : "moves at end")
-                << std::right << std::fixed << std::setprecision(2)
-                << std::setw(8) << outcome.rows.back().time << std::setw(7)
-                << outcome.n_steps << std::setw(6) << outcome.n_cuts
-                << std::setw(12) << outcome.n_iterations << std::scientific
-                << std::setprecision(1) << std::setw(9) << outcome.account_error
-                << std::setw(14) << outcome.largest_penetration << std::setw(13)
-                << outcome.penetration_at_rest << std::setw(18)
-                << outcome.largest_overlap << std::setw(9)
-                << outcome.overlap_at_rest << std::fixed << std::setw(8)
-                << outcome.start_time + outcome.motion_time << std::defaultfloat
-                << '\n';
+    Tutorial::Table runs("Runs", 12);
+    for (const Outcome &o : outcomes)
+    {
+      runs.add({{"run", o.name},
+                {"stands", o.stands()},
+                {"is_at_rest", o.is_at_rest},
+                {"end_time", o.rows.back().time},
+                {"steps", o.n_steps},
+                {"cuts", o.n_cuts},
+                {"iterations", o.n_iterations},
+                {"account_error", o.account_error},
+                {"largest_penetration", o.largest_penetration},
+                {"penetration_at_rest", o.penetration_at_rest},
+                {"largest_overlap", o.largest_overlap},
+                {"overlap_at_rest", o.overlap_at_rest},
+                {"median_penetration", o.median_penetration},
+                {"median_overlap", o.median_overlap},
+                {"friction_angle", o.friction_angle},
+                {"step", o.step},
+                {"blocks", o.n_blocks},
+                {"unknowns", o.n_unknowns},
+                {"released", o.released},
+                {"start_seconds", o.start_time},
+                {"motion_seconds", o.motion_time},
+                {"way",
+                 o.rows.back().center_of_mass.distance(
+                   o.rows.front().center_of_mass)}});
+      Tutorial::Table table;
+      for (const Row &row : o.rows)
+        table.add(cells(row));
+      table.write(prefix + o.name + ".csv");
+    }
+    runs.write(prefix + "runs.csv");
     for (const Outcome &other : outcomes)
       for (const Outcome &first : outcomes)
         if (&other != &first && other.name.rfind(first.name + '-', 0) == 0)
@@ -270,11 +266,11 @@ namespace StepNMM4
       double end = 0.;
       for (const Outcome *outcome : members)
         end = std::max(end, outcome->rows.back().time);
-      std::cout << "\nway of the centre of mass, friction angle " << run.first
-                << " degrees, steps of " << run.second << " s, "
-                << members.size()
-                << " runs\n time   mean [m]  its error  deviation   least  "
-                   "largest\n";
+      std::ostringstream title;
+      title << "Way of the centre of mass [m], friction angle " << run.first
+            << " degrees, steps of " << run.second << " s, " << members.size()
+            << " runs";
+      Tutorial::Table table(title.str());
       for (double time = std::min(1., end);; time = std::min(time + 1., end))
       {
         std::vector<double> ways;
@@ -288,64 +284,16 @@ namespace StepNMM4
         const double deviation = std::sqrt(squares / (n - 1.));
         const auto [least, largest] =
           std::minmax_element(ways.begin(), ways.end());
-        std::cout << std::fixed << std::setprecision(2) << std::setw(5) << time
-                  << std::setprecision(4) << std::setw(11) << mean
-                  << std::setw(11) << deviation / std::sqrt(n) << std::setw(11)
-                  << deviation << std::setw(9) << *least << std::setw(9)
-                  << *largest << std::defaultfloat << std::endl;
+        table.add({{"time", time},
+                   {"mean", mean},
+                   {"its_error", deviation / std::sqrt(n)},
+                   {"deviation", deviation},
+                   {"least", *least},
+                   {"largest", *largest}});
         if (time == end)
           break;
       }
     }
-  }
-
-
-  void
-  write_results(const Parameters           &parameters,
-                const std::vector<Outcome> &outcomes)
-  {
-    const std::string prefix = parameters.output_directory + "/step-nmm-4-";
-    std::ofstream     runs(prefix + "runs.csv");
-    runs << "run,friction_angle,step,blocks,unknowns,steps,cuts,iterations,"
-            "is_at_rest,stands,end_time,released,account_error,"
-            "largest_penetration,median_penetration,penetration_at_rest,"
-            "largest_overlap,median_overlap,overlap_at_rest,start_seconds,"
-            "motion_seconds,way\n"
-         << std::setprecision(10);
-    for (const Outcome &o : outcomes)
-    {
-      runs << o.name << ',' << o.friction_angle << ',' << o.step << ','
-           << o.n_blocks << ',' << o.n_unknowns << ',' << o.n_steps << ','
-           << o.n_cuts << ',' << o.n_iterations << ',' << o.is_at_rest << ','
-           << o.stands() << ',' << o.rows.back().time << ',' << o.released
-           << ',' << o.account_error << ',' << o.largest_penetration << ','
-           << o.median_penetration << ',' << o.penetration_at_rest << ','
-           << o.largest_overlap << ',' << o.median_overlap << ','
-           << o.overlap_at_rest << ',' << o.start_time << ',' << o.motion_time
-           << ','
-           << o.rows.back().center_of_mass.distance(
-                o.rows.front().center_of_mass)
-           << '\n';
-      std::ofstream table(prefix + o.name + ".csv");
-      table << "time,x,y,kinetic,strain,contact,dissipated,external_work,"
-               "balance,stick,slip,penetration,penetration_over_block,overlap,"
-               "overlap_over_block\n"
-            << std::setprecision(10);
-      for (const Row &r : o.rows)
-        table << r.time << ',' << r.center_of_mass[0] << ','
-              << r.center_of_mass[1] << ',' << r.kinetic << ',' << r.strain
-              << ',' << r.contact << ',' << r.dissipated << ','
-              << r.external_work << ',' << r.balance << ',' << r.n_stick << ','
-              << r.n_slip << ',' << r.penetration << ','
-              << r.penetration_over_block << ',' << r.overlap << ','
-              << r.overlap_over_block << '\n';
-    }
-    AssertThrow(runs.flush().good(),
-                NMM::InputError("results cannot be written",
-                                prefix + "runs.csv",
-                                "name a folder that can be written to"));
-    std::cout << "Results: " << prefix << "*.csv, *.png, *-animation.html"
-              << std::endl;
   }
 
 

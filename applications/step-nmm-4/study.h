@@ -10,6 +10,7 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include "tutorial/table.h"
 #include <memory>
 #include <string>
 #include <vector>
@@ -107,24 +108,19 @@ namespace StepNMM4
   };
 
 
-  void
-  print_header(const Outcome &outcome);
+  /// The row in a table, whose first ten columns are for the screen.
+  Tutorial::Row
+  cells(const Row &row);
 
+  /// Print a row per run, and what differs between runs that begin (nearly) the same; write a table of
+  /// all steps of each run, and one of runs, as files whose names begin with @p prefix.
   void
-  print(const Row &row);
-
-  void
-  print_summary(const std::vector<Outcome> &outcomes);
+  report_runs(const std::string &prefix, const std::vector<Outcome> &outcomes);
 
   /// For each friction angle and step: how far the centre of mass moves in the mean
   /// of all runs that begin (nearly) the same, and how much they scatter.
   void
   print_means(const std::vector<Outcome> &outcomes);
-
-  /// CSV files: a row per step of each run, and a row per run.
-  void
-  write_results(const Parameters           &parameters,
-                const std::vector<Outcome> &outcomes);
 
 
   /// Pictures of stages and the page that plays all frames, on the first rank.

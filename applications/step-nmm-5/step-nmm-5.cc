@@ -18,9 +18,10 @@
 #include <deal.II/base/function.h>
 #include <deal.II/base/timer.h>
 
-// `study.cc` has the parameters, Westergaard's exact solution, tables and figures. It is apart from
+// `study.cc` has the parameters, Westergaard's exact solution and figures. It is apart from
 // this page since nothing of the method is in it.
 #include "study.h"
+#include "tutorial/table.h"
 #include "tutorial/tutorial.h"
 #include <cmath>
 #include <iostream>
@@ -194,17 +195,12 @@ namespace StepNMM5
   // A square of 2 m around one tip of a crack in an infinite plane. The crack runs obliquely
   // through the triangles. On the outline the exact displacement is prescribed, and the faces of the
   // crack are free, as they are in the exact solution.
-  Measurement
+  Tutorial::Row
   solve_westergaard(const double       cell_size,
                     const Tips         tips,
                     const double       grading,
                     const unsigned int degree)
   {
-    Measurement result;
-    result.mesh   = tips == Tips::covered  ? "covered"
-                    : tips == Tips::graded ? "graded"
-                                           : "uniform";
-    result.degree = degree;
     Timer timer;
 
     const NMM::Geometry    geometry = NMM::parse_geometry(R"(
@@ -230,39 +226,42 @@ namespace StepNMM5
 
     const CrackedSolid solid(
       geometry, problem, cell_size, tips, grading, degree);
-    const NMM::IntensityFactors k = solid.factors(solid.tips().front());
-    result.seconds                = timer.wall_time();
-    result.n_unknowns             = solid.n_unknowns();
-    result.error_K =
-      std::max(std::abs(k.K_I - Westergaard::K_I()), std::abs(k.K_II)) /
-      Westergaard::K_I();
-    const NMM::ErrorNorms errors = NMM::compute_errors(
+    const NMM::IntensityFactors k       = solid.factors(solid.tips().front());
+    const double                seconds = timer.wall_time();
+    const NMM::ErrorNorms       errors  = NMM::compute_errors(
       solid.field(),
       [&](const Point<2> &x) { return exact.displacement(x); },
       [&](const Point<2> &x) { return exact.stress(x); });
-    result.error_u      = errors.displacement;
-    result.error_stress = errors.stress;
-    return result;
+    return {{"mesh",
+             tips == Tips::covered  ? "covered"
+             : tips == Tips::graded ? "graded"
+                                    : "uniform"},
+            {"order", degree},
+            {"unknowns", solid.n_unknowns()},
+            {"error_K",
+             std::max(std::abs(k.K_I - Westergaard::K_I()), std::abs(k.K_II)) /
+               Westergaard::K_I()},
+            {"error_u", errors.displacement},
+            {"error_stress", errors.stress},
+            {"seconds", seconds}};
   }
 
 
   // Second order with a cover of the tip, on graded meshes, and on meshes that know nothing of
   // the tip; first order on graded ones.
-  std::vector<Measurement>
-  run_study(const Parameters &parameters)
+  void
+  run_study(const Parameters &parameters, const std::string &prefix)
   {
-    std::vector<Measurement> measurements;
-    const auto               add = [&](const double       cell_size,
+    Tutorial::Table table(
+      "A crack in an infinite plane (Westergaard); relative errors");
+    const auto add = [&](const double       cell_size,
                          const Tips         tips,
                          const double       grading,
                          const unsigned int degree) {
-      measurements.push_back(
-        solve_westergaard(cell_size, tips, grading, degree));
-      print(measurements.back());
+      table.add(solve_westergaard(cell_size, tips, grading, degree));
     };
     // the first solution loads libraries, which is not to be measured
     solve_westergaard(0.4, Tips::covered, 0.5, 2);
-    print_header();
     for (const double grading : parameters.gradings)
       add(0.8 * grading, Tips::covered, grading, 2);
     for (const double grading : parameters.gradings)
@@ -271,7 +270,7 @@ namespace StepNMM5
       add(cell_size, Tips::as_meshed, 0., 2);
     for (const double grading : parameters.gradings)
       add(0.4 * grading, Tips::graded, 0.5 * grading, 1);
-    return measurements;
+    table.write(prefix + "study.csv");
   }
 
 
@@ -395,7 +394,6 @@ namespace StepNMM5
                  std::to_string(increment).substr(0, 4) + " in",
                1.5,
                parameters.output_directory + "/step-nmm-5-beam.png");
-    print(path);
     return path;
   }
 
@@ -404,14 +402,24 @@ namespace StepNMM5
   run_beam(const Parameters &parameters)
   {
     std::vector<CrackPath> paths;
-    for (const double increment : parameters.increments)
-      paths.push_back(grow_crack(
-        parameters, "hoop stress", NMM::HoopStressCriterion(), increment));
-    for (const double increment : parameters.increments)
-      paths.push_back(grow_crack(parameters,
-                                 "local symmetry",
-                                 NMM::LocalSymmetryCriterion(),
-                                 increment));
+    Tutorial::Table        table("The beam: paths of the crack [in]");
+    const auto             add = [&](const std::string          &name,
+                         const NMM::GrowthCriterion &criterion) {
+      for (const double increment : parameters.increments)
+      {
+        paths.push_back(grow_crack(parameters, name, criterion, increment));
+        const CrackPath &path = paths.back();
+        table.add({{"criterion", name},
+                   {"increment", increment},
+                   {"increments", path.points.size() - 1},
+                   {"x at y = 3", path.x_at(3.)},
+                   {"ends at", path.end.empty() ? "nothing" : path.end},
+                   {"end x", path.points.back()[0]},
+                   {"end y", path.points.back()[1]}});
+      }
+    };
+    add("hoop stress", NMM::HoopStressCriterion());
+    add("local symmetry", NMM::LocalSymmetryCriterion());
     return paths;
   }
 
@@ -474,20 +482,22 @@ int
 main(int argc, char **argv)
 {
   using namespace StepNMM5;
-  return Tutorial::run(
-    argc,
-    argv,
-    [](const std::string &parameter_file, const std::string &output_directory) {
-      Tutorial::check_that_there_is_one_rank("step-nmm-5");
-      const Parameters parameters =
-        read_parameters(parameter_file, output_directory);
-      Tutorial::make_output_directory(output_directory);
-      const std::vector<Measurement> measurements = run_study(parameters);
-      const std::vector<CrackPath>   paths        = run_beam(parameters);
-      write_results(parameters, measurements, paths);
-      if (parameters.n_wing_increments > 0)
-        run_flaw(parameters);
-      if (parameters.slope_end_time > 0.)
-        run_slope(parameters);
-    });
+  return Tutorial::run(argc,
+                       argv,
+                       [](const std::string &parameter_file,
+                          const std::string &output_directory) {
+                         Tutorial::check_that_there_is_one_rank("step-nmm-5");
+                         const Parameters parameters =
+                           read_parameters(parameter_file, output_directory);
+                         Tutorial::make_output_directory(output_directory);
+                         const std::string prefix =
+                           output_directory + "/step-nmm-5-";
+                         run_study(parameters, prefix);
+                         write_paths(prefix, run_beam(parameters));
+                         draw_figures(prefix);
+                         if (parameters.n_wing_increments > 0)
+                           run_flaw(parameters);
+                         if (parameters.slope_end_time > 0.)
+                           run_slope(parameters);
+                       });
 }

@@ -3,14 +3,13 @@
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/utilities.h>
 
+#include "tutorial/table.h"
 #include "tutorial/tutorial.h"
 #include <cmath>
 #include <fstream>
 #include <iomanip>
-#include <iostream>
 #include <limits>
 #include <map>
-#include <sstream>
 
 namespace StepNMM5
 {
@@ -144,29 +143,6 @@ namespace StepNMM5
 
   // @sect3{Tables and figures}
 
-  void
-  print_header()
-  {
-    std::cout << "A crack in an infinite plane (Westergaard); relative errors\n"
-              << "   mesh  order unknowns   error of K  error of u  error of "
-                 "stress       s"
-              << std::endl;
-  }
-
-
-  void
-  print(const Measurement &m)
-  {
-    std::ostringstream line;
-    line << std::setw(7) << m.mesh << std::setw(7) << m.degree << std::setw(9)
-         << m.n_unknowns << std::scientific << std::setprecision(2)
-         << std::setw(13) << m.error_K << std::setw(12) << m.error_u
-         << std::setw(17) << m.error_stress << std::fixed
-         << std::setprecision(3) << std::setw(8) << m.seconds;
-    std::cout << line.str() << std::endl;
-  }
-
-
   double
   CrackPath::x_at(const double y) const
   {
@@ -176,20 +152,6 @@ namespace StepNMM5
                                     (points[i][1] - points[i - 1][1]) *
                                     (points[i][0] - points[i - 1][0]);
     return std::numeric_limits<double>::quiet_NaN();
-  }
-
-
-  void
-  print(const CrackPath &path)
-  {
-    std::ostringstream line;
-    line << "beam, " << path.criterion << ", increments of " << path.increment
-         << " in: " << path.points.size() - 1 << " increments, " << std::fixed
-         << std::setprecision(4) << "x = " << path.x_at(3.) << " at y = 3; "
-         << (path.end.empty() ? "arrives nowhere" : "ends at " + path.end)
-         << " at (" << path.points.back()[0] << ", " << path.points.back()[1]
-         << ")";
-    std::cout << line.str() << std::endl;
   }
 
 
@@ -238,11 +200,8 @@ plot for [i=0:*] 'PREFIXpaths.txt' index i using 1:2 lw 2 title columnheader(1),
 -6 1
 e
 )";
-  } // namespace
 
 
-  namespace
-  {
     using Row = std::map<std::string, std::string>;
 
     /// The rows of a table with a header, by column. Lines that start with # have the units.
@@ -276,58 +235,44 @@ e
   void
   print_slope(const std::string &directory)
   {
-    std::cout << "The slope\n" << std::fixed;
+    Tutorial::Table growth("The slope: cracks that grow");
     for (const Row &row : read_rows(directory + "/growth.csv"))
-      std::cout << std::setprecision(4) << std::setw(10)
-                << std::stod(row.at("time")) << " s: crack from ("
-                << row.at("x") << ", " << row.at("y") << ") to ("
-                << row.at("end_x") << ", " << row.at("end_y") << ") m "
-                << row.at("met") << '\n';
+    {
+      Tutorial::Row increment;
+      for (const char *column : {"time", "x", "y", "end_x", "end_y"})
+        increment.emplace_back(column, std::stod(row.at(column)));
+      increment.emplace_back("met", row.at("met"));
+      growth.add(increment);
+    }
     const std::vector<Row> states = read_rows(directory + "/history.csv"),
                            probes =
                              read_rows(directory + "/probes-history.csv");
-    std::cout << "  time [s]  energies [J/m]: kinetic  dissipated  fracture  "
-                 "account  way of the mass [m]\n";
+    Tutorial::Table motion("The slope: energies [J/m], way of the mass [m]");
     // a row each quarter of a second
     double next = 0.;
     for (unsigned int i = 0; i < states.size() && i < probes.size(); ++i)
     {
-      const auto state = [&](const char *name) {
-        return std::stod(states[i].at(name));
-      };
-      if (state("time") < next - 1e-9 && i + 1 < states.size())
+      if (std::stod(states[i].at("time")) < next - 1e-9 &&
+          i + 1 < states.size())
         continue;
       next += 0.25;
-      std::cout << std::setprecision(3) << std::setw(10) << state("time")
-                << std::setprecision(0) << std::setw(24) << state("kinetic")
-                << std::setw(12) << state("dissipated") << std::setprecision(1)
-                << std::setw(10) << state("fracture") << std::setprecision(4)
-                << std::setw(10) << state("balance") << std::setw(21)
-                << std::hypot(std::stod(probes[i].at("mass_x")),
-                              std::stod(probes[i].at("mass_y")))
-                << std::endl;
+      Tutorial::Row state;
+      for (const char *column :
+           {"time", "kinetic", "dissipated", "fracture", "balance"})
+        state.emplace_back(column, std::stod(states[i].at(column)));
+      state.emplace_back("way",
+                         std::hypot(std::stod(probes[i].at("mass_x")),
+                                    std::stod(probes[i].at("mass_y"))));
+      motion.add(state);
     }
-    std::cout << std::defaultfloat;
   }
 
 
   void
-  write_results(const Parameters               &parameters,
-                const std::vector<Measurement> &measurements,
-                const std::vector<CrackPath>   &paths)
+  write_paths(const std::string &prefix, const std::vector<CrackPath> &paths)
   {
-    const std::string prefix = parameters.output_directory + "/step-nmm-5-";
-    std::ofstream     study(prefix + "study.csv");
-    study << "mesh,order,unknowns,error_K,error_u,error_stress,seconds\n"
-          << std::setprecision(6);
-    for (const Measurement &m : measurements)
-      study << m.mesh << ',' << m.degree << ',' << m.n_unknowns << ','
-            << m.error_K << ',' << m.error_u << ',' << m.error_stress << ','
-            << m.seconds << '\n';
-
-    std::ofstream table(prefix + "paths.csv"), curves(prefix + "paths.txt");
-    table << "criterion,increment_in,step,x_in,y_in,load\n"
-          << std::setprecision(9);
+    Tutorial::Table table;
+    std::ofstream   curves(prefix + "paths.txt");
     curves << std::setprecision(9);
     for (const CrackPath &path : paths)
     {
@@ -335,18 +280,26 @@ e
       curves << '"' << path.criterion << ", " << path.increment << " in\"\n";
       for (unsigned int i = 0; i < path.points.size(); ++i)
       {
-        table << path.criterion << ',' << path.increment << ',' << i << ','
-              << path.points[i][0] << ',' << path.points[i][1] << ',';
-        if (i < path.loads.size())
-          table << path.loads[i];
-        table << '\n';
-        curves << path.points[i][0] << ' ' << path.points[i][1] << '\n';
+        const Point<2> &x = path.points[i];
+        table.add({{"criterion", path.criterion},
+                   {"increment_in", path.increment},
+                   {"step", i},
+                   {"x_in", x[0]},
+                   {"y_in", x[1]},
+                   {"load",
+                    i < path.loads.size() ? Tutorial::Value(path.loads[i])
+                                          : Tutorial::Value("")}});
+        curves << x[0] << ' ' << x[1] << '\n';
       }
       curves << "\n\n";
     }
-    study.close();
-    table.close();
-    curves.close();
+    table.write(prefix + "paths.csv");
+  }
+
+
+  void
+  draw_figures(const std::string &prefix)
+  {
     Tutorial::draw_figures(prefix, figures_script, {"errors.png", "paths.png"});
   }
 } // namespace StepNMM5

@@ -1,7 +1,7 @@
 #ifndef step_nmm_5_study_h
 #define step_nmm_5_study_h
 
-// What surrounds the method in step-nmm-5: parameters, the exact solution, tables and figures.
+// What surrounds the method in step-nmm-5: parameters, the exact solution and figures.
 
 #include <nmm/covers/crack_tip.h>
 #include <nmm/materials/material.h>
@@ -83,18 +83,6 @@ namespace StepNMM5
   };
 
 
-  /// A row of the table of errors.
-  struct Measurement
-  {
-    std::string  mesh;
-    unsigned int degree = 2, n_unknowns = 0;
-    /// Relative: the larger one of |K_I - exact| and |K_II| over K_I; L2 of the displacement
-    /// and of the stress, which is the error in the energy norm to a factor [-].
-    double error_K = 0., error_u = 0., error_stress = 0.;
-    /// Wall time from the curves to the intensity factors [s].
-    double seconds = 0.;
-  };
-
   /// The way of the crack through the beam.
   struct CrackPath
   {
@@ -112,25 +100,18 @@ namespace StepNMM5
     x_at(double y) const;
   };
 
-  void
-  print_header();
-
-  void
-  print(const Measurement &measurement);
-
-  void
-  print(const CrackPath &path);
-
   /// The increments in the slope and the states at which a crack arrives somewhere, from the tables in
   /// the folder @p directory.
   void
   print_slope(const std::string &directory);
 
-  /// CSV files and figures.
+  /// Write the paths as files whose names begin with @p prefix.
   void
-  write_results(const Parameters               &parameters,
-                const std::vector<Measurement> &measurements,
-                const std::vector<CrackPath>   &paths);
+  write_paths(const std::string &prefix, const std::vector<CrackPath> &paths);
+
+  /// Draw figures of these files and of the table of errors, "PREFIXstudy.csv".
+  void
+  draw_figures(const std::string &prefix);
 } // namespace StepNMM5
 
 #endif

@@ -121,6 +121,8 @@ namespace Tutorial
                const std::string              &script,
                const std::vector<std::string> &figures)
   {
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
+      return;
     const std::string file_name = prefix + "figures.gp";
     std::ofstream(file_name)
       << Utilities::replace_in_string(script, "PREFIX", prefix);

@@ -53,7 +53,7 @@ namespace Tutorial
   make_output_directory(const std::string &name);
 
   /**
-   * Draw figures with gnuplot. @p script has the word PREFIX wherever @p prefix, the path and the
+   * Draw figures with gnuplot, on the first rank. @p script has the word PREFIX wherever @p prefix, the path and the
    * beginning of all files' names, belongs; it is written to "PREFIXfigures.gp". A sentence says
    * which of @p figures (names without the prefix) were drawn, or that gnuplot is missing.
    */

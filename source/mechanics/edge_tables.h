@@ -115,17 +115,6 @@ namespace NMM
         action(body_force);
       }
 
-      /// Call action(cover, force) for the forces of all loads.
-      template <typename Action>
-      void
-      for_each_force(const Action &action) const
-      {
-        for_each_load([&](const Load &load) {
-          for (unsigned int i = 0; i < load.covers.size(); ++i)
-            action(load.covers[i], load.forces[i]);
-        });
-      }
-
     private:
       class Collector;
 

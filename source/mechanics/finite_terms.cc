@@ -35,7 +35,19 @@ namespace NMM
       }
 
 
-      /// The implementation for a number @p n of covers that the compiler knows.
+      /// Set the 2 x 2 entries (i, j) with j < i of a symmetric matrix from those with j > i.
+      void
+      symmetrize(LocalSystem &local)
+      {
+        const unsigned int n = 2 * local.n_covers;
+        for (unsigned int r = 2; r < n; ++r)
+          for (unsigned int c = 0; c < r / 2 * 2; ++c)
+            local.matrix[n * r + c] = local.matrix[n * c + r];
+      }
+
+
+      /// Add the sum over (J, L) of weight g_iJ A_cJdL g_jL to the 2 x 2 entries (i, j) with j >= i
+      /// of a matrix of n covers, a number that the compiler knows.
       template <unsigned int n>
       void
       add_stiffness(const double weight,
@@ -106,30 +118,6 @@ namespace NMM
         return Deformation::admissible;
       }
     } // namespace
-
-
-    void
-    add_stiffness(const unsigned int n_per_cell,
-                  const double       weight,
-                  const double (*gradients)[2],
-                  const double (&A)[4][4],
-                  LocalSystem &local)
-    {
-      if (n_per_cell == 3)
-        add_stiffness<3>(weight, gradients, A, local.matrix);
-      else
-        add_stiffness<6>(weight, gradients, A, local.matrix);
-    }
-
-
-    void
-    symmetrize(LocalSystem &local)
-    {
-      const unsigned int n = 2 * local.n_covers;
-      for (unsigned int r = 2; r < n; ++r)
-        for (unsigned int c = 0; c < r / 2 * 2; ++c)
-          local.matrix[n * r + c] = local.matrix[n * c + r];
-    }
 
 
     Deformation

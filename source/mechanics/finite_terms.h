@@ -41,20 +41,6 @@ namespace NMM
     constexpr double close_jump = 0.1;
 
 
-    /// Add the sum over (J, L) of weight g_iJ A_cJdL g_jL to the 2 x 2 entries (i, j) with j >= i
-    /// of a matrix of @p n_per_cell covers.
-    void
-    add_stiffness(unsigned int n_per_cell,
-                  double       weight,
-                  const double (*gradients)[2],
-                  const double (&A)[4][4],
-                  LocalSystem &local);
-
-    /// Set the 2 x 2 entries (i, j) with j < i of a symmetric matrix from those with j > i.
-    void
-    symmetrize(LocalSystem &local);
-
-
     /**
      * Add the internal forces of an element to local.rhs and their derivative to local.matrix:
      * @f[ r_{ic} = \int P_{cJ}\,\partial_J w_i, \qquad

@@ -14,8 +14,7 @@ namespace NMM
   namespace internal
   {
     /**
-     * What both nonlinear analyses, FiniteElasticity and IncrementalElasticity, compute once in the
-     * reference configuration: tables at quadrature points of elements and edges, loads, and the
+     * What FiniteElasticity computes once in the reference configuration: tables at quadrature points of elements and edges, loads, and the
      * assembler of a matrix whose pattern couples elements that are tied.
      */
     struct ReferenceTables

@@ -173,26 +173,13 @@ namespace NMM
     WeakTraction::WeakTraction(const WeakPoint                    &point,
                                const unsigned int                  n_per_cell,
                                const std::vector<PlaneElasticity> &elasticities)
-      : WeakTraction(point,
-                     n_per_cell,
-                     elasticities,
-                     point.normal,
-                     {{point.sides[0].gradients, point.sides[1].gradients}})
     {
-    }
-
-
-    WeakTraction::WeakTraction(const WeakPoint                    &point,
-                               const unsigned int                  n_per_cell,
-                               const std::vector<PlaneElasticity> &elasticities,
-                               const dealii::Tensor<1, 2>         &normal,
-                               const Gradients                    &gradients)
-    {
+      const dealii::Tensor<1, 2> &normal = point.normal;
       for (unsigned int k = 0; k < point.n_sides * n_per_cell; ++k)
       {
-        const WeakPoint::Side &side = point.sides[k / n_per_cell];
-        const PlaneElasticity &e    = elasticities[side.region];
-        const double          *g    = gradients[k / n_per_cell][k % n_per_cell];
+        const WeakPoint::Side &side  = point.sides[k / n_per_cell];
+        const PlaneElasticity &e     = elasticities[side.region];
+        const double          *g     = side.gradients[k % n_per_cell];
         const double           along = g[0] * normal[0] + g[1] * normal[1];
         for (unsigned int a = 0; a < 2; ++a)
           for (unsigned int c = 0; c < 2; ++c)

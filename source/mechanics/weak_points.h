@@ -126,21 +126,11 @@ namespace NMM
     {
       double derivative[LocalSystem::max_covers][2][2];
 
-      /// Gradients of the weight functions of each side [1/m].
-      using Gradients = std::array<const double (*)[2], 2>;
-
       /// Compute the derivative in the reference configuration, for @p n_per_cell covers of each
       /// side.
       WeakTraction(const WeakPoint                    &point,
                    unsigned int                        n_per_cell,
                    const std::vector<PlaneElasticity> &elasticities);
-
-      /// Compute the derivative with the given normal and gradients.
-      WeakTraction(const WeakPoint                    &point,
-                   unsigned int                        n_per_cell,
-                   const std::vector<PlaneElasticity> &elasticities,
-                   const dealii::Tensor<1, 2>         &normal,
-                   const Gradients                    &gradients);
     };
 
 

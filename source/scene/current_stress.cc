@@ -138,52 +138,6 @@ namespace NMM
 
 
       FieldEvaluator::StressLaw
-      incremental(const CoverSystem          &covers,
-                  const QuadratureCollection &quadrature,
-                  const ElasticityProblem    &problem,
-                  const std::vector<Stress>  &stresses)
-      {
-        const auto [first, last] = covers.locally_owned_elements();
-        std::vector<LinearFit<Stress>> fits;
-        const Stress                  *stress = stresses.data();
-        for (unsigned int element = first; element < last; ++element)
-        {
-          fits.push_back(
-            fit<Stress>(quadrature.rule(element),
-                        [&](const unsigned int q) { return stress[q]; }));
-          stress += quadrature.rule(element).size();
-        }
-        Assert(stress == stresses.data() + stresses.size(),
-               dealii::ExcInternalError());
-
-        const ManifoldMesh &mesh = covers.manifold_mesh();
-        return [&mesh,
-                &problem,
-                first              = first,
-                fits               = std::move(fits),
-                region_to_material = problem.region_to_material(
-                  mesh.physical_mesh())](const unsigned int element,
-                                         const Point<2>    &xi,
-                                         const Tensor<2, 2> &) {
-          FieldSample::Stress result;
-          result.in_plane = fits[element - first](xi);
-          if (problem.plane_state == PlaneState::plane_strain)
-          {
-            // The part of the stress that strain has caused has
-            // sigma_zz = nu (sigma_xx + sigma_yy).
-            const Material &material =
-              problem.materials[region_to_material[mesh.region(element)]];
-            result.zz = material.initial_stress_zz(problem.plane_state) +
-                        material.poissons_ratio *
-                          (dealii::trace(result.in_plane) -
-                           dealii::trace(material.initial_stress));
-          }
-          return result;
-        };
-      }
-
-
-      FieldEvaluator::StressLaw
       inelastic(const InelasticTerms       &terms,
                 const CoverSystem          &covers,
                 const QuadratureCollection &quadrature,
@@ -247,43 +201,6 @@ namespace NMM
                                                   const Point<2>    &xi) {
             return std::max(0., fits[element - first](xi));
           };
-      }
-
-
-      double
-      incremental_strain_energy(const DisplacementField    &field,
-                                const QuadratureCollection &quadrature,
-                                const ElasticityProblem    &problem,
-                                const std::vector<Stress>  &stresses)
-      {
-        const CoverSystem  &covers = field.cover_system();
-        const ManifoldMesh &mesh   = covers.manifold_mesh();
-        const auto          region_to_material =
-          problem.region_to_material(mesh.physical_mesh());
-        const auto [first, last] = covers.locally_owned_elements();
-        auto   stress            = stresses.begin();
-        double energy            = 0.;
-        for (unsigned int element = first; element < last; ++element)
-        {
-          const dealii::Quadrature<2> &rule = quadrature.rule(element);
-          const double                 area = area_of_weight(mesh, element);
-          const PlaneElasticity        moduli =
-            problem.materials[region_to_material[mesh.region(element)]]
-              .plane_elasticity(problem.plane_state);
-          for (unsigned int q = 0; q < rule.size(); ++q, ++stress)
-          {
-            const double J = dealii::determinant(
-              deformation_gradient(field.gradient(element, rule.point(q))));
-            const double trace = dealii::trace(*stress);
-            const double density =
-              (*stress * *stress - moduli.lambda /
-                                     (2. * (moduli.lambda + moduli.mu)) *
-                                     trace * trace) /
-              (4. * moduli.mu);
-            energy += area * rule.weight(q) * J * density;
-          }
-        }
-        return dealii::Utilities::MPI::sum(energy, covers.communicator());
       }
 
 

@@ -20,14 +20,6 @@ namespace NMM
       FieldEvaluator::StressLaw
       finite(const FiniteElasticity &elasticity);
 
-      /// The stress that IncrementalElasticity stores at the quadrature points of owned elements,
-      /// fitted by a linear function in each element. Covers and problem must outlive the law.
-      FieldEvaluator::StressLaw
-      incremental(const CoverSystem                                &covers,
-                  const QuadratureCollection                       &quadrature,
-                  const ElasticityProblem                          &problem,
-                  const std::vector<dealii::SymmetricTensor<2, 2>> &stresses);
-
       /// The stress at quadrature points in the last assembly of @p terms, fitted by a linear
       /// function in each element; where the material is elastic, Hooke's law. Covers and problem
       /// must outlive the law.
@@ -43,15 +35,6 @@ namespace NMM
       plastic_strain(const InelasticTerms       &terms,
                      const CoverSystem          &covers,
                      const QuadratureCollection &quadrature);
-
-      /// Strain energy of the stored stress, initial stress included, per unit thickness
-      /// [J/m]. Collective.
-      double
-      incremental_strain_energy(
-        const DisplacementField                          &field,
-        const QuadratureCollection                       &quadrature,
-        const ElasticityProblem                          &problem,
-        const std::vector<dealii::SymmetricTensor<2, 2>> &stresses);
 
       /// Area of the deformed solid, the integral of det F [m^2]. Collective.
       double

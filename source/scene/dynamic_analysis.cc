@@ -80,8 +80,6 @@ namespace NMM
       contact_model.reset();
       model.reset();
       elasticity.reset();
-      incremental_dynamics.reset();
-      incremental.reset();
       mass_quadrature.reset();
     }
 
@@ -93,10 +91,7 @@ namespace NMM
       const unsigned int degree = 2 * mathematical_mesh->degree();
       mass_quadrature           = std::make_unique<QuadratureCollection>(
         *manifold_mesh, degree, degree, covers->locally_owned_elements());
-      if (scene.parameters().model.kinematics == Kinematics::incremental)
-        make_incremental();
-      else
-        make_integrator();
+      make_integrator();
       if (probe_history)
       {
         // A solid that is cut again goes on from the state that it was in.
@@ -106,8 +101,7 @@ namespace NMM
       probe_history = std::make_unique<ProbeHistory>(*covers,
                                                      *probes,
                                                      scene.parameters().probes);
-      if (!incremental)
-        set_first_state();
+      set_first_state();
     }
 
 
@@ -193,18 +187,6 @@ namespace NMM
     DynamicAnalysis::has_friction() const
     {
       return contact->contact().parameters().has_friction();
-    }
-
-
-    void
-    DynamicAnalysis::make_incremental()
-    {
-      incremental = std::make_unique<IncrementalElasticity>(
-        *covers, *quadrature, constraints, problem, /* may_float = */ true);
-      incremental_dynamics = std::make_unique<IncrementalDynamics>(
-        *incremental, *covers, *mass_quadrature, constraints, problem);
-      if (!scene.parameters().initial_velocities.empty())
-        incremental_dynamics->set_velocity(initial_velocity());
     }
 
 
@@ -380,9 +362,7 @@ namespace NMM
         Stage running(progress,
                       kind == Analysis::relaxation ? "relaxation" : "motion");
         stage = &running;
-        if (incremental)
-          run_incremental();
-        else if (kind == Analysis::relaxation)
+        if (kind == Analysis::relaxation)
           run_relaxation();
         else
           run_dynamics();
@@ -417,8 +397,8 @@ namespace NMM
     void
     DynamicAnalysis::warn_of_flutter() const
     {
-      if (kind != Analysis::dynamics || !integrator || !contact ||
-          !has_friction() || damping.stiffness > 0. ||
+      if (kind != Analysis::dynamics || !contact || !has_friction() ||
+          damping.stiffness > 0. ||
           scene.parameters().time.damping.stiffness >= 0. ||
           scene.parameters().time.scheme != TimeParameters::Scheme::newmark)
         return;
@@ -433,8 +413,6 @@ namespace NMM
     void
     DynamicAnalysis::recover()
     {
-      if (!integrator)
-        return;
       integrator->restore(last_good);
       // If the end of a step was being checked, the contact history is that of a refused state,
       // from which a run must not continue.
@@ -502,59 +480,30 @@ namespace NMM
     }
 
 
-    void
-    DynamicAnalysis::run_incremental()
-    {
-      const TimeParameters              &parameters = scene.parameters().time;
-      const double                       h          = parameters.initial_step;
-      const double                       bound   = parameters.max_displacement;
-      const IncrementalDynamics::Control control = {
-        h,
-        parameters.min_step > 0. ? parameters.min_step : 1e-6 * h,
-        bound > 0. ? bound : std::numeric_limits<double>::infinity()};
-      while (incremental_dynamics->time() < parameters.end_time)
-      {
-        const IncrementalDynamics::Advance taken =
-          incremental_dynamics->advance(parameters.end_time, control);
-        StepRecord record;
-        static_cast<LostSteps &>(record) = taken;
-        record.report.n_iterations       = 1;
-        record.report.step               = taken.step;
-        record.report.max_displacement   = taken.largest_displacement;
-        ++incremental_step;
-        after_step(record);
-      }
-    }
-
-
     double
     DynamicAnalysis::time() const
     {
-      return incremental ? incremental_dynamics->time()
-                         : integrator->state().time;
+      return integrator->state().time;
     }
 
 
     unsigned int
     DynamicAnalysis::step_number() const
     {
-      return incremental ? incremental_step : integrator->state().step;
+      return integrator->state().step;
     }
 
 
     const DynamicAnalysis::Vector &
     DynamicAnalysis::velocity() const
     {
-      return incremental ? incremental_dynamics->velocity()
-                         : integrator->state().v;
+      return integrator->state().v;
     }
 
 
     DynamicAnalysis::Vector
     DynamicAnalysis::displacement() const
     {
-      if (incremental)
-        return incremental->solution();
       Vector relevant(model->locally_owned(),
                       model->locally_relevant(),
                       communicator);

@@ -3,7 +3,6 @@
 
 #include <nmm/contact/contact_history.h>
 #include <nmm/dynamics/elastic_models.h>
-#include <nmm/dynamics/incremental_dynamics.h>
 #include <nmm/dynamics/leaving_blocks.h>
 #include <nmm/dynamics/relaxation.h>
 #include <nmm/output/csv_series.h>
@@ -22,7 +21,7 @@ namespace NMM
   namespace internal
   {
     /**
-     * Motion in time, or relaxation to rest, with small, finite or incremental
+     * Motion in time, or relaxation to rest, with small or finite
      * kinematics. Histories, series and checkpoints are written during the run. If
      * it fails, the last accepted state is written at the end.
      */
@@ -71,8 +70,7 @@ namespace NMM
       // Each object refers to those above it.
       std::unique_ptr<QuadratureCollection> mass_quadrature;
       /// Loads and supports as functions of time.
-      Loading loading;
-      /// The objects for small and finite kinematics; null for incremental kinematics.
+      Loading                                loading;
       std::unique_ptr<FiniteElasticity>      elasticity;
       std::unique_ptr<ElasticModel>          model;
       std::unique_ptr<AccountedContactModel> contact_model;
@@ -81,10 +79,6 @@ namespace NMM
       RayleighDamping damping;
       /// Null if no block may leave the scene.
       std::unique_ptr<LeavingBlocks> leaving;
-      /// The objects for incremental kinematics; null otherwise.
-      std::unique_ptr<IncrementalElasticity> incremental;
-      std::unique_ptr<IncrementalDynamics>   incremental_dynamics;
-      unsigned int                           incremental_step = 0;
 
       /// Null if cracks do not grow.
       std::unique_ptr<GrowthInMotion> growth;
@@ -206,9 +200,6 @@ namespace NMM
       void
       warn_of_flutter() const;
 
-      void
-      make_incremental();
-
       /// Makes `leaving` if the scene has limits. @throws InputError for a block that is outside of
       /// them at the start.
       void
@@ -285,9 +276,6 @@ namespace NMM
 
       void
       run_relaxation();
-
-      void
-      run_incremental();
 
       /// Writes everything that belongs to the state at the end of the step @p record.
       void

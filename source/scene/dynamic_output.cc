@@ -73,31 +73,27 @@ namespace NMM
       n_iterations += record.report.n_iterations;
       if (leaving)
         drop_blocks();
-      if (integrator)
-      {
-        can_be_saved = false;
-        note_energies();
-        const std::string fault =
-          contact ? contact->find_deep_penetration() : "";
-        AssertThrow(fault.empty(),
-                    NumericalFailure("There is " + fault,
-                                     "time " + std::to_string(time()) +
-                                       " s, step " +
-                                       std::to_string(step_number()),
-                                     "take shorter steps, or choose a higher "
-                                     "'Contact/Normal stiffness'"));
-        // A crack that leaves a very thin strip can make equations that bring energy.
-        AssertThrow(
-          !growth || growth->table().n_increments() == 0 || !balance_is_off(),
-          NumericalFailure(
-            "A crack that has grown has left equations that bring energy",
-            "time " + std::to_string(time()) + " s, step " +
-              std::to_string(step_number()),
-            "choose another 'Fracture/Increment' or "
-            "'Fracture/Grading'"));
-        can_be_saved = true;
-        last_good    = integrator->state();
-      }
+      can_be_saved = false;
+      note_energies();
+      const std::string fault = contact ? contact->find_deep_penetration() : "";
+      AssertThrow(fault.empty(),
+                  NumericalFailure("There is " + fault,
+                                   "time " + std::to_string(time()) +
+                                     " s, step " +
+                                     std::to_string(step_number()),
+                                   "take shorter steps, or choose a higher "
+                                   "'Contact/Normal stiffness'"));
+      // A crack that leaves a very thin strip can make equations that bring energy.
+      AssertThrow(
+        !growth || growth->table().n_increments() == 0 || !balance_is_off(),
+        NumericalFailure(
+          "A crack that has grown has left equations that bring energy",
+          "time " + std::to_string(time()) + " s, step " +
+            std::to_string(step_number()),
+          "choose another 'Fracture/Increment' or "
+          "'Fracture/Grading'"));
+      can_be_saved = true;
+      last_good    = integrator->state();
       write_rows(record);
       const OutputParameters &output = scene.parameters().output;
       if (output.fields_every > 0 && step_number() % output.fields_every == 0)
@@ -136,13 +132,6 @@ namespace NMM
     std::vector<std::string>
     DynamicAnalysis::history_columns() const
     {
-      if (incremental)
-        return {"size",
-                "max_displacement",
-                "kinetic",
-                "strain",
-                "angular_momentum",
-                "area"};
       std::vector<std::string> columns = {"size",
                                           "iterations",
                                           "lost_iterations",
@@ -178,18 +167,7 @@ namespace NMM
     std::vector<double>
     DynamicAnalysis::history_values(const StepRecord &record) const
     {
-      const StepReport &report = record.report;
-      if (incremental)
-      {
-        const DisplacementField current(*covers, problem, displacement());
-        return {report.step,
-                report.max_displacement,
-                incremental_dynamics->kinetic_energy(),
-                CurrentStress::incremental_strain_energy(
-                  current, *quadrature, problem, incremental->stresses()),
-                incremental_dynamics->angular_momentum(),
-                CurrentStress::area(current, *quadrature)};
-      }
+      const StepReport   &report  = record.report;
       const Account      &account = integrator->account();
       std::vector<double> values  = {report.step,
                                      double(report.n_iterations),
@@ -237,7 +215,7 @@ namespace NMM
       {
         // The checkpoint needs vectors without unknowns of other ranks.
         Vector owned(velocity());
-        owned = incremental ? incremental->solution() : integrator->state().u;
+        owned        = integrator->state().u;
         probe_values = probe_history->evaluate(owned, velocity());
       }
       on_first_rank([&]() {
@@ -291,7 +269,7 @@ namespace NMM
         if (leaving && !integrator->state().left_blocks.empty())
           line << "; " << integrator->state().left_blocks.size()
                << " block(s) have left";
-        if (integrator && integrator->n_asleep() > 0)
+        if (integrator->n_asleep() > 0)
           line << "; " << integrator->n_asleep() << " block(s) sleep";
         return line.str();
       });
@@ -307,12 +285,7 @@ namespace NMM
         std::make_unique<DisplacementField>(*covers, problem, displacement());
       recovery = std::make_unique<StressRecovery>(*field, aggregation);
       FieldEvaluator::StressLaw law;
-      if (incremental)
-        law = CurrentStress::incremental(*covers,
-                                         *quadrature,
-                                         problem,
-                                         incremental->stresses());
-      else if (scene.parameters().model.kinematics == Kinematics::finite)
+      if (scene.parameters().model.kinematics == Kinematics::finite)
         law = CurrentStress::finite(*elasticity);
       else if (inelastic_terms() != nullptr)
       {
@@ -351,8 +324,7 @@ namespace NMM
       }
       summary.add("time_reached", time(), "s");
       summary.add("time_steps", step_number());
-      summary.add("newton_iterations",
-                  incremental ? 0 : n_iterations + n_lost_iterations);
+      summary.add("newton_iterations", n_iterations + n_lost_iterations);
       summary.add("cuts", n_cuts);
       if (damping.stiffness > 0.)
         summary.add("stiffness_damping", damping.stiffness, "s");
@@ -376,10 +348,9 @@ namespace NMM
         summary.add("blocks_left", integrator->state().left_blocks.size());
       if (scene.parameters().time.sleep.speed > 0.)
         summary.add("blocks_asleep", integrator->n_asleep());
-      if (!incremental)
-        summary.add("direct_stress_covers",
-                    dealii::Utilities::MPI::sum(recovery->n_direct(),
-                                                communicator));
+      summary.add("direct_stress_covers",
+                  dealii::Utilities::MPI::sum(recovery->n_direct(),
+                                              communicator));
     }
 
 
@@ -394,21 +365,6 @@ namespace NMM
         output.stress_unit + "*" + output.length_unit + "^2*s";
       const std::string angular_momentum =
         output.stress_unit + "*" + output.length_unit + "^3*s";
-      if (incremental)
-      {
-        summary.add("kinetic_energy",
-                    t * incremental_dynamics->kinetic_energy(),
-                    energy);
-        summary.add("strain_energy",
-                    t *
-                      CurrentStress::incremental_strain_energy(
-                        *field, *quadrature, problem, incremental->stresses()),
-                    energy);
-        summary.add("angular_momentum",
-                    t * incremental_dynamics->angular_momentum(),
-                    angular_momentum);
-        return;
-      }
       const Account &account = integrator->account();
       summary.add("kinetic_energy", t * account.kinetic, energy);
       summary.add("strain_energy", t * account.strain, energy);

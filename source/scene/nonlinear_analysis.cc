@@ -24,15 +24,9 @@ namespace NMM
     {
       try
       {
-        if (scene.parameters().model.kinematics != Kinematics::incremental)
-          // Blocks without supports are allowed if there is contact, which may hold them.
-          finite = std::make_unique<FiniteElasticity>(
-            *covers, *quadrature, constraints, problem, contact != nullptr);
-        else
-          incremental = std::make_unique<IncrementalElasticity>(*covers,
-                                                                *quadrature,
-                                                                constraints,
-                                                                problem);
+        // Blocks without supports are allowed if there is contact, which may hold them.
+        finite = std::make_unique<FiniteElasticity>(
+          *covers, *quadrature, constraints, problem, contact != nullptr);
       }
       catch (const NumericalFailure &)
       {
@@ -79,10 +73,8 @@ namespace NMM
         Stage stage(progress, "load steps");
         if (contact)
           run_contact();
-        else if (system)
-          run_newton();
         else
-          run_incremental();
+          run_newton();
       }
       catch (const NumericalFailure &)
       {
@@ -257,38 +249,9 @@ namespace NMM
 
 
     void
-    NonlinearAnalysis::run_incremental()
-    {
-      const LoadStepParameters &parameters = scene.parameters().load_steps;
-      IncrementalSteps          steps;
-      steps.load_factors = parameters.load_steps().load_factors;
-      steps.min_step     = parameters.min_step;
-      if (parameters.max_displacement > 0.)
-        steps.max_displacement = parameters.max_displacement;
-      IncrementalStatics statics(*incremental);
-      statics.run(steps,
-                  [&](const IncrementalStep &step, const Vector &solution) {
-                    HistoryRow row;
-                    row.load_factor       = step.load_factor;
-                    row.n_iterations      = 1;
-                    row.n_cuts            = step.n_cuts;
-                    row.n_lost_iterations = step.n_cuts;
-                    add_step(row, solution);
-                  });
-    }
-
-
-    void
     NonlinearAnalysis::add_step(HistoryRow row, const Vector &solution)
     {
       field = std::make_unique<DisplacementField>(*covers, problem, solution);
-      if (incremental)
-        row.strain_energy =
-          problem.thickness *
-          CurrentStress::incremental_strain_energy(*field,
-                                                   *quadrature,
-                                                   problem,
-                                                   incremental->stresses());
       if (!has_large_displacements())
         row.strain_energy = small_strain_energy();
       if (const InelasticTerms *terms = inelastic_terms())
@@ -327,10 +290,8 @@ namespace NMM
       std::ostringstream line;
       line << "    load factor " << std::left << std::setw(10)
            << row.load_factor << std::right << std::setw(3) << row.n_iterations
-           << " iteration(s)";
-      if (finite)
-        line << ", " << row.n_cuts << " cut(s), residual " << std::scientific
-             << std::setprecision(1) << *row.relative_residual;
+           << " iteration(s), " << row.n_cuts << " cut(s), residual "
+           << std::scientific << std::setprecision(1) << row.relative_residual;
       if (row.plastic)
         line << "; " << std::setprecision(4) << std::defaultfloat
              << row.plastic->yielded_area << " "
@@ -373,9 +334,7 @@ namespace NMM
         *field,
         *recovery,
         problem,
-        incremental ? CurrentStress::incremental(
-                        *covers, *quadrature, problem, incremental->stresses())
-        : has_large_displacements() ? CurrentStress::finite(*finite)
+        has_large_displacements() ? CurrentStress::finite(*finite)
         : inelastic_terms() != nullptr
           ? CurrentStress::inelastic(
               *inelastic_terms(), *covers, *quadrature, problem)
@@ -396,17 +355,14 @@ namespace NMM
         n_cuts += row.n_cuts;
       }
       summary.add("load_steps", history.size());
-      summary.add("newton_iterations", finite ? n_iterations : 0);
+      summary.add("newton_iterations", n_iterations);
       summary.add("cuts", n_cuts);
       summary.add("load_factor", reached_load_factor());
       if (history.empty())
         return;
-      if (finite)
-      {
-        summary.add("final_residual", *history.back().relative_residual);
-        summary.add("direct_stress_covers",
-                    Parallel::sum(recovery->n_direct(), communicator));
-      }
+      summary.add("final_residual", history.back().relative_residual);
+      summary.add("direct_stress_covers",
+                  Parallel::sum(recovery->n_direct(), communicator));
       summary.add("strain_energy",
                   history.back().strain_energy,
                   scene.parameters().output.stress_unit + "*" +
@@ -495,10 +451,8 @@ namespace NMM
       {
         const HistoryRow &row = history[i];
         out << i + 1 << ',' << row.load_factor << ',' << row.n_iterations << ','
-            << row.n_cuts << ',';
-        if (row.relative_residual)
-          out << *row.relative_residual;
-        out << ',' << row.strain_energy << ',' << row.max_displacement;
+            << row.n_cuts << ',' << row.relative_residual << ','
+            << row.strain_energy << ',' << row.max_displacement;
         for (const Tensor<1, 2> &u : row.probe_displacements)
           out << ',' << u[0] << ',' << u[1];
         if (row.plastic)

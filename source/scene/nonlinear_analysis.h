@@ -3,8 +3,6 @@
 
 #include <nmm/mechanics/elastic_system.h>
 #include <nmm/mechanics/finite_elasticity.h>
-#include <nmm/mechanics/incremental_elasticity.h>
-#include <nmm/mechanics/incremental_statics.h>
 #include <nmm/mechanics/nonlinear_statics.h>
 
 #include <exception>
@@ -20,9 +18,9 @@ namespace NMM
   namespace internal
   {
     /**
-     * Nonlinear statics under growing load: large displacements, by Newton's method
-     * or incrementally (IncrementalElasticity), contact, and inelastic materials. If a load step
-     * fails, the results of the last step that converged are written.
+     * Nonlinear statics under growing load, by Newton's method: large displacements, contact, and
+     * inelastic materials. If a load step fails, the results of the last step that converged are
+     * written.
      */
     class NonlinearAnalysis : public SceneAnalysis
     {
@@ -45,8 +43,8 @@ namespace NMM
         unsigned int n_iterations      = 0;
         unsigned int n_cuts            = 0;
         unsigned int n_lost_iterations = 0;
-        /// Relative residual of Newton's method [-]; incremental steps have none.
-        std::optional<double> relative_residual;
+        /// Relative residual of Newton's method [-].
+        double relative_residual = 0.;
         /// Strain energy [J].
         double strain_energy = 0.;
         /// Largest displacement [m].
@@ -66,11 +64,9 @@ namespace NMM
         std::optional<Plastic> plastic;
       };
 
-      /// The elasticity of large and, as linearized by `system`, of small displacements; null for
-      /// incremental steps.
-      std::unique_ptr<FiniteElasticity>      finite;
-      std::unique_ptr<ElasticSystem>         system;
-      std::unique_ptr<IncrementalElasticity> incremental;
+      /// The elasticity of large and, as linearized by `system`, of small displacements.
+      std::unique_ptr<FiniteElasticity> finite;
+      std::unique_ptr<ElasticSystem>    system;
       /// The failure to set up equations, since a block floats. It is not an input error, so
       /// solve() throws it.
       std::exception_ptr failure;
@@ -112,9 +108,6 @@ namespace NMM
       /// NumericalFailure with @p reason and the block.
       void
       check_that_all_touch(const std::string &reason);
-
-      void
-      run_incremental();
 
       /// Stores and reports a load step that converged.
       void

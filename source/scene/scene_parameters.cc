@@ -321,9 +321,8 @@ namespace NMM
   bool
   SceneParameters::may_be_continued() const
   {
-    return model.analysis == Analysis::dynamics
-             ? model.kinematics != Kinematics::incremental
-             : model.analysis == Analysis::statics && fracture.n_increments > 0;
+    return model.analysis == Analysis::dynamics ||
+           (model.analysis == Analysis::statics && fracture.n_increments > 0);
   }
 
 
@@ -531,18 +530,13 @@ namespace NMM
   {
     for (const RegionParameters &region : regions)
     {
-      AssertThrow(
-        region.use != RegionParameters::Use::limit ||
-          (model.analysis == Analysis::dynamics &&
-           model.kinematics != Kinematics::incremental),
-        UnusedValue("Regions/" + region.name,
-                    "Use",
-                    "limit",
-                    model.analysis == Analysis::dynamics
-                      ? to_string(model.kinematics) + " kinematics"
-                      : "a " + to_string(model.analysis) + " analysis",
-                    "remove it, or set 'Model/Analysis = dynamic' with small "
-                    "or finite kinematics"));
+      AssertThrow(region.use != RegionParameters::Use::limit ||
+                    model.analysis == Analysis::dynamics,
+                  UnusedValue("Regions/" + region.name,
+                              "Use",
+                              "limit",
+                              "a " + to_string(model.analysis) + " analysis",
+                              "remove it, or set 'Model/Analysis = dynamic'"));
       if (region.use != RegionParameters::Use::restraint)
         continue;
       AssertThrow(

@@ -203,9 +203,8 @@ namespace NMM
 
 
   void
-  ContactSectionParameters::check(const Analysis   analysis,
-                                  const Kinematics kinematics,
-                                  const bool       may_be_damped) const
+  ContactSectionParameters::check(const Analysis analysis,
+                                  const bool     may_be_damped) const
   {
     if (!is_present())
     {
@@ -224,11 +223,6 @@ namespace NMM
       return;
     }
     const bool is_augmented = enforcement == Enforcement::augmented_lagrangian;
-    AssertThrow(
-      kinematics != Kinematics::incremental,
-      InputError("contact is not available with incremental kinematics",
-                 "parameter 'Contact/Enforcement'",
-                 "set 'Model/Kinematics' to small or finite"));
     AssertThrow(!is_augmented || analysis == Analysis::statics,
                 InputError("'augmented Lagrangian' is not available with a " +
                              to_string(analysis) + " analysis",

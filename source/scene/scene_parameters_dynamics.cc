@@ -141,7 +141,7 @@ namespace NMM
       "scheme of DDA, damps much, first order; energy momentum: conserves "
       "energy and momenta under large rotations; automatic: newmark for small, "
       "energy momentum for finite kinematics and contact, constant "
-      "acceleration for incremental kinematics and relaxation.");
+      "acceleration for relaxation.");
     entries.add("Newmark beta",
                 beta,
                 Patterns::Double(0, 1),
@@ -219,21 +219,14 @@ namespace NMM
         return;
     }
     AssertThrow(
-      sleep.speed == 0. || (has_contact && sleep.acceleration > 0. &&
-                            kinematics != Kinematics::incremental),
-      InputError("blocks sleep only in motion with contact and small or finite "
-                 "kinematics, and wake at accelerations above 0",
+      sleep.speed == 0. || (has_contact && sleep.acceleration > 0.),
+      InputError("blocks sleep only in motion with contact, and wake at "
+                 "accelerations above 0",
                  "parameter 'Time/Sleep speed'",
                  "set it to 0, or 'Contact' and 'Wake acceleration'"));
-    AssertThrow(
-      start == Start::undeformed || kinematics != Kinematics::incremental,
-      InputError(
-        "a start from equilibrium is not available with incremental kinematics",
-        "parameter 'Time/Start'",
-        "set 'Model/Kinematics' to small or finite"));
     check_scheme(analysis, kinematics, has_contact);
     if (analysis == Analysis::dynamics)
-      check_steps(kinematics);
+      check_steps();
   }
 
 
@@ -272,30 +265,11 @@ namespace NMM
       InputError("beta is 0",
                  "parameter 'Time/Newmark beta'",
                  "choose it in (0, 1]; explicit schemes are not available"));
-    if (kinematics != Kinematics::incremental)
-      return;
-    AssertThrow(scheme == Scheme::automatic ||
-                  scheme == Scheme::constant_acceleration,
-                InputError("the scheme '" + name +
-                             "' is not available with incremental kinematics",
-                           "parameter 'Time/Scheme'",
-                           "set it to constant acceleration, or "
-                           "'Model/Kinematics' to small or finite"));
-    const std::string by = "incremental kinematics";
-    const std::string remedy =
-      "remove it, or set 'Model/Kinematics' to small or finite";
-    expect_default("Time", "Mass damping", damping.mass, 0., by, remedy);
-    expect_default("Time",
-                   "Stiffness damping",
-                   std::max(0., damping.stiffness),
-                   0.,
-                   by,
-                   remedy);
   }
 
 
   void
-  TimeParameters::check_steps(const Kinematics kinematics) const
+  TimeParameters::check_steps() const
   {
     const auto check = [](const bool         is_good,
                           const std::string &key,
@@ -326,18 +300,6 @@ namespace NMM
           "Largest step",
           max_step,
           "choose it no shorter than 'Initial step', or 0");
-    if (kinematics != Kinematics::incremental)
-      return;
-    // Incremental kinematics has equal steps, which only a bound on displacements can divide.
-    TimeParameters given;
-    given.max_step  = max_step;
-    given.max_error = max_error;
-    if (max_displacement == 0.)
-      given.min_step = min_step;
-    expect_defaults("Time",
-                    given,
-                    "incremental kinematics",
-                    "remove it, or set 'Model/Kinematics' to small or finite");
   }
 
 
@@ -372,9 +334,7 @@ namespace NMM
       case Scheme::automatic:
         break;
     }
-    if (analysis == Analysis::relaxation ||
-        analysis == Analysis::safety_factor ||
-        kinematics == Kinematics::incremental)
+    if (analysis == Analysis::relaxation || analysis == Analysis::safety_factor)
       return TimeScheme::constant_acceleration();
     return kinematics == Kinematics::finite || has_contact
              ? TimeScheme::energy_momentum()

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <optional>
 #include <scene/law_entries.h>
 #include <scene/parsing.h>
 
@@ -15,10 +16,11 @@ namespace NMM
 
   namespace
   {
-    const Words<Kinematics> kinematics_choices = {
+    /// The last word stands for no kinematics of scenes.
+    const Words<std::optional<Kinematics>> kinematics_choices = {
       {"small", Kinematics::small},
       {"finite", Kinematics::finite},
-      {"incremental", Kinematics::incremental}};
+      {"incremental", std::nullopt}};
 
     const Words<PlaneState> plane_states = {
       {"plane stress", PlaneState::plane_stress},
@@ -59,7 +61,7 @@ namespace NMM
   const std::string &
   to_string(const Kinematics kinematics)
   {
-    return word_of(kinematics, kinematics_choices);
+    return word_of(std::optional<Kinematics>(kinematics), kinematics_choices);
   }
 
 
@@ -121,14 +123,21 @@ namespace NMM
   ModelParameters::list_entries(Entries &entries)
   {
     list_entry(entries, analysis);
+    std::optional<Kinematics> choice = kinematics;
     entries.add(
       "Kinematics",
-      kinematics,
+      choice,
       kinematics_choices,
       "small: displacements so small that one linear problem tells all; "
       "finite: displacements and rotations of any size, by Newton's method; "
-      "incremental: one linear problem per step, stress and geometry carried "
-      "along, accurate to first order in the step.");
+      "incremental: not for scenes, see step-nmm-2.");
+    AssertThrow(choice,
+                InputError("'incremental', the paper's step-by-step scheme, is "
+                           "compared in the tutorial program step-nmm-2 and "
+                           "not available in scenes",
+                           "parameter 'Model/Kinematics'",
+                           "set it to small or finite"));
+    kinematics = *choice;
     entries.add(
       "Plane state",
       plane_state,

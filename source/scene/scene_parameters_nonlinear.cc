@@ -27,16 +27,10 @@ namespace NMM
     }
 
 
-    /// What makes an analysis nonlinear beside the kinematics. With incremental kinematics there is
-    /// neither.
-    std::string
-    alternatives(const Kinematics kinematics)
-    {
-      return kinematics == Kinematics::small
-               ? ", 'Contact/Enforcement = penalty' or a material's 'Law = "
-                 "Mohr-Coulomb'"
-               : "";
-    }
+    /// How a message advises to make a static analysis with small kinematics nonlinear.
+    const char *const become_nonlinear =
+      "remove it, or set 'Model/Kinematics = finite', 'Contact/Enforcement = "
+      "penalty' or a material's 'Law = Mohr-Coulomb'";
   } // namespace
 
 
@@ -46,19 +40,14 @@ namespace NMM
     entries.add("Number of steps",
                 n_steps,
                 Patterns::Integer(1, 1000000),
-                "Finite and incremental kinematics: equal steps in which loads "
+                "Finite kinematics and contact: equal steps in which loads "
                 "and prescribed displacements grow to their values.");
     entries.add("Smallest step",
                 min_step,
                 Patterns::Double(0, 1),
-                "Finite and incremental kinematics: a step that does not "
-                "converge, or moves too far, is divided, but not below this "
-                "part of the last load factor, > 0 [-].");
-    entries.add("Maximum displacement",
-                max_displacement,
-                Patterns::Double(0),
-                "Incremental kinematics: no cover moves further in a step, "
-                "steps are divided for it [m]; 0: no bound.");
+                "Finite kinematics and contact: a step that does not converge "
+                "is divided, but not below this part of the last load factor, "
+                "> 0 [-].");
     entries.add(
       "Load factors",
       load_factors,
@@ -83,10 +72,8 @@ namespace NMM
     if (is_linear || !is_static)
     {
       const std::string remedy =
-        is_static
-          ? "remove it, or set 'Model/Kinematics' to finite or incremental" +
-              alternatives(kinematics)
-          : "remove it, or set 'Model/Analysis = static'";
+        is_static ? become_nonlinear
+                  : "remove it, or set 'Model/Analysis = static'";
       expect_default(
         section, "Number of steps", n_steps, defaults.n_steps, by, remedy);
       AssertThrow(load_factors.empty(),
@@ -95,29 +82,9 @@ namespace NMM
                               to_text(load_factors.front()) + ", ...",
                               by,
                               remedy));
+      expect_default(
+        section, "Smallest step", min_step, defaults.min_step, by, remedy);
     }
-    if (kinematics != Kinematics::incremental || !is_static)
-      expect_default(section,
-                     "Maximum displacement",
-                     max_displacement,
-                     defaults.max_displacement,
-                     by,
-                     is_static
-                       ? "remove it, or set 'Model/Kinematics = incremental'"
-                       : "give 'Time/Largest displacement' instead");
-    const bool is_divided =
-      kinematics == Kinematics::finite || is_nonlinear ||
-      (kinematics == Kinematics::incremental && max_displacement > 0.);
-    if (!is_divided || !is_static)
-      expect_default(section,
-                     "Smallest step",
-                     min_step,
-                     defaults.min_step,
-                     by,
-                     is_static
-                       ? "remove it, or set 'Model/Kinematics = finite'" +
-                           alternatives(kinematics)
-                       : "remove it, or set 'Model/Analysis = static'");
     AssertThrow(min_step > 0.,
                 InputError("the smallest step is 0",
                            "parameter 'Load steps/Smallest step'",
@@ -184,8 +151,7 @@ namespace NMM
       expect_defaults("Newton",
                       *this,
                       name_of(kinematics, is_nonlinear),
-                      "remove it, or set 'Model/Kinematics = finite'" +
-                        alternatives(kinematics));
+                      become_nonlinear);
     // A time step starts so close to its solution that the energy of the first
     // correction is no scale for the tolerance.
     if (analysis != Analysis::statics)
@@ -213,13 +179,10 @@ namespace NMM
     const std::string kinematics = to_string(model.kinematics) + " kinematics";
     for (const Material &material : materials)
     {
-      const MaterialLaw &law          = *material.law;
-      const bool         is_inelastic = law.is_inelastic();
-      const bool         is_used      = model.kinematics == Kinematics::finite
-                                          ? !is_inelastic
-                                        : model.kinematics == Kinematics::small
-                                          ? law.has_small_strains()
-                                          : law.has_small_strains() && !is_inelastic;
+      const bool is_inelastic = material.law->is_inelastic();
+      const bool is_used      = model.kinematics == Kinematics::finite
+                                  ? !is_inelastic
+                                  : material.law->has_small_strains();
       AssertThrow(
         is_used,
         InputError("this law would not be used by " + kinematics,
@@ -232,14 +195,12 @@ namespace NMM
     if (model.kinematics == Kinematics::small && is_static && !is_nonlinear())
     {
       if (fracture.n_increments == 0)
-        expect_default(
-          "Output",
-          "Fields every",
-          output.fields_every,
-          0,
-          name_of(model.kinematics, is_nonlinear()),
-          "remove it, or set 'Model/Kinematics' to finite or incremental" +
-            alternatives(model.kinematics));
+        expect_default("Output",
+                       "Fields every",
+                       output.fields_every,
+                       0,
+                       name_of(model.kinematics, is_nonlinear()),
+                       become_nonlinear);
       return;
     }
 
@@ -276,7 +237,7 @@ namespace NMM
     const bool may_be_damped = model.analysis == Analysis::dynamics &&
                                (time.scheme == Scheme::automatic ||
                                 time.scheme == Scheme::energy_momentum);
-    contact.check(model.analysis, model.kinematics, may_be_damped);
+    contact.check(model.analysis, may_be_damped);
     for (const ObstacleParameters &obstacle : obstacles)
     {
       AssertThrow(
@@ -320,21 +281,12 @@ namespace NMM
                      "Checkpoint every",
                      output.checkpoint_every,
                      0.,
-                     model.analysis == Analysis::dynamics
-                       ? to_string(model.kinematics) + " kinematics"
-                       : "a " + analysis,
-                     "remove it, or set 'Model/Analysis = dynamic' with "
-                     "small or finite kinematics, or let cracks grow in "
-                     "a static analysis");
+                     "a " + analysis,
+                     "remove it, or set 'Model/Analysis = dynamic', or let "
+                     "cracks grow in a static analysis");
     check_output_quantities();
     if (model.analysis == Analysis::statics)
       return;
-    AssertThrow(
-      model.analysis == Analysis::dynamics ||
-        model.kinematics != Kinematics::incremental,
-      InputError("relaxation is not available with incremental kinematics",
-                 "parameter 'Model/Analysis'",
-                 "set 'Model/Kinematics' to small or finite"));
     for (const Material &material : materials)
       AssertThrow(material.density > 0.,
                   InputError("the density is " + to_text(material.density),
@@ -423,13 +375,10 @@ namespace NMM
                                "parameter 'Boundary conditions/" +
                                  condition.name + "/Release time'",
                                "remove it, and let 'Amplitude' become 0"));
-    if (model.analysis == Analysis::dynamics &&
-        model.kinematics != Kinematics::incremental)
+    if (model.analysis == Analysis::dynamics)
       return;
 
-    const std::string by = model.analysis == Analysis::dynamics
-                             ? "incremental kinematics"
-                             : "a " + to_string(model.analysis) + " analysis";
+    const std::string by = "a " + to_string(model.analysis) + " analysis";
     for (const BoundaryConditionParameters &condition : boundary_conditions)
       condition.time.expect_default("Boundary conditions", by);
     for (const PointForceParameters &force : point_forces)
@@ -445,7 +394,6 @@ namespace NMM
                               key,
                               text,
                               by,
-                              "remove it, or set 'Model/Analysis = dynamic' "
-                              "with small or finite kinematics"));
+                              "remove it, or set 'Model/Analysis = dynamic'"));
   }
 } // namespace NMM

@@ -110,7 +110,7 @@ namespace NMM
       Patterns::Double(),
       "Displacements are multiplied by this in the picture [-]; 0 draws the "
       "undeformed solid; negative: chosen so that the largest displacement is "
-      "5 % of the solid's size, or 1 with finite and incremental kinematics.");
+      "5 % of the solid's size, or 1 with finite kinematics.");
     entries.add("Length unit",
                 length_unit,
                 "Unit of length in what is written; only a word.");

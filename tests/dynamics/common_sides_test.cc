@@ -1,8 +1,6 @@
 // Loads and supports on a side that two domains share act on the domain whose boundary
 // bears their name.
 
-#include <nmm/dynamics/incremental_dynamics.h>
-
 #include <dynamics/dynamic_model.h>
 #include <gtest/gtest.h>
 #include <mechanics/finite_model.h>
@@ -80,8 +78,7 @@ namespace
   enum class Method
   {
     small,
-    finite,
-    incremental
+    finite
   };
 
 
@@ -93,19 +90,10 @@ namespace
       model.solve();
       return *model.field;
     }
-    if (method == Method::finite)
-    {
-      const auto       elasticity = finite_elasticity(model);
-      NonlinearStatics statics(*elasticity);
-      statics.run(LoadSteps::equal(1));
-      return {model.covers, model.problem, statics.solution()};
-    }
-    IncrementalElasticity elasticity(model.covers,
-                                     *model.quadrature,
-                                     model.constraints,
-                                     model.problem);
-    elasticity.step(1.);
-    return {model.covers, model.problem, elasticity.solution()};
+    const auto       elasticity = finite_elasticity(model);
+    NonlinearStatics statics(*elasticity);
+    statics.run(LoadSteps::equal(1));
+    return {model.covers, model.problem, statics.solution()};
   }
 
 
@@ -150,8 +138,7 @@ TEST(CommonSides, LoadsActOnTheDomainThatIsNamed)
     const auto model = two_squares(overlap, lower_is_first);
     for (const Type type :
          {Type::pressure, Type::follower_pressure, Type::traction})
-      for (const Method method :
-           {Method::small, Method::finite, Method::incremental})
+      for (const Method method : {Method::small, Method::finite})
         for (const auto &[lower, upper] : {std::make_pair(true, false),
                                            std::make_pair(false, true),
                                            std::make_pair(true, true)})
@@ -184,8 +171,7 @@ TEST(CommonSides, SupportsHoldTheDomainThatIsNamed)
 {
   for_each_arrangement([](const Overlap overlap, const bool lower_is_first) {
     const auto model = two_squares(overlap, lower_is_first);
-    for (const Method method :
-         {Method::small, Method::finite, Method::incremental})
+    for (const Method method : {Method::small, Method::finite})
     {
       model->problem.boundary_conditions = {
         condition(Type::displacement, "lower.bottom"),
@@ -244,8 +230,7 @@ TEST(CommonSides, LoadsInMotion)
   constexpr double h = 1e-3;
   for_each_arrangement([](const Overlap overlap, const bool lower_is_first) {
     for (const bool presses_lower : {true, false})
-      for (const Method method :
-           {Method::small, Method::finite, Method::incremental})
+      for (const Method method : {Method::small, Method::finite})
       {
         Body body;
         body.model   = two_squares(overlap, lower_is_first);
@@ -264,22 +249,6 @@ TEST(CommonSides, LoadsInMotion)
           EXPECT_LT(other.norm(), 1e-12 * std::abs(pressed));
         };
         const double momentum = (presses_lower ? -1. : 1.) * pressure * h;
-        if (method == Method::incremental)
-        {
-          IncrementalElasticity elasticity(model.covers,
-                                           *model.quadrature,
-                                           model.constraints,
-                                           model.problem,
-                                           /* may_float = */ true);
-          IncrementalDynamics   dynamics(elasticity,
-                                       model.covers,
-                                       *model.quadrature,
-                                       model.constraints,
-                                       model.problem);
-          dynamics.step(h);
-          expect_motion({model.covers, model.problem, elasticity.solution()});
-          continue;
-        }
         if (method == Method::small)
           body.make_small();
         else

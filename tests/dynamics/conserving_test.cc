@@ -1,6 +1,5 @@
 // The energy-momentum conserving scheme on free bodies.
 
-#include <nmm/dynamics/incremental_dynamics.h>
 #include <nmm/materials/material_law.h>
 
 #include <dynamics/dynamic_model.h>
@@ -292,46 +291,5 @@ namespace
     std::cout << "kinetic energy left after 36 steps: "
               << integrator.account().kinetic / kinetic << '\n';
     EXPECT_LT(integrator.account().kinetic, 0.9 * kinetic);
-  }
-
-
-  TEST(Incremental, TurningBodiesGrow)
-  {
-    Body body =
-      free_square(material_law("linear"), PlaneState::plane_strain, 1e10);
-    Model                &model = *body.model;
-    IncrementalElasticity elasticity(model.covers,
-                                     *model.quadrature,
-                                     model.constraints,
-                                     model.problem,
-                                     /* may_float = */ true);
-    IncrementalDynamics   dynamics(elasticity,
-                                 model.covers,
-                                 *model.quadrature,
-                                 model.constraints,
-                                 model.problem);
-    RigidVelocity         spin;
-    spin.angular_velocity = 1.;
-    dynamics.set_velocity(body.velocity(spin));
-    const double kinetic  = dynamics.kinetic_energy();
-    const double momentum = dynamics.angular_momentum();
-    // omega L^4 / 6 and half of omega times it
-    EXPECT_NEAR(momentum, 1. / 6., 1e-12);
-    EXPECT_NEAR(kinetic, 1. / 12., 1e-12);
-
-    const double theta = 2. * dealii::numbers::PI / 36.;
-    const auto   area  = [&] {
-      Vector owned = body.zero();
-      owned        = elasticity.solution();
-      return body.area(owned);
-    };
-    dynamics.step(theta);
-    // a straight line of length theta r: I + theta J, with rounding of the
-    // stiffness, 1e10 times that of the mass
-    EXPECT_NEAR(area(), 1. + theta * theta, 1e-6);
-    for (unsigned int i = 1; i < 36; ++i)
-      dynamics.step(theta);
-    std::cout << "area after a revolution: " << area() << '\n';
-    EXPECT_GT(area(), 1.5);
   }
 } // namespace

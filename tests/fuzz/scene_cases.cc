@@ -88,7 +88,6 @@ namespace NMM
                             {"Analysis", "relaxation"},
                             {"Analysis", "safety factor"},
                             {"Kinematics", "small"},
-                            {"Kinematics", "incremental"},
                             {"Kinematics", "finite"},
                             {"Plane state", "plane strain"},
                             {"Plane state", "plane stress"},

@@ -2,7 +2,6 @@
 #define nmm_tests_mechanics_finite_model_h
 
 #include <nmm/mechanics/finite_elasticity.h>
-#include <nmm/mechanics/incremental_elasticity.h>
 #include <nmm/mechanics/nonlinear_statics.h>
 
 #include <mechanics/model.h>

@@ -1,4 +1,4 @@
-// Solutions in finite and incremental kinematics: exact states, limits, the
+// Solutions in finite kinematics: exact states, limits, the
 // cantilever of step-nmm-2, failures.
 
 #include <nmm/materials/material_law.h>
@@ -229,15 +229,6 @@ TEST(FiniteStatics, SmallLoadsMPI)
     EXPECT_LT(relative_difference(statics.solution(),
                                   model->system->solution()),
               1e-6);
-    IncrementalElasticity incremental(model->covers,
-                                      *model->quadrature,
-                                      model->constraints,
-                                      model->problem);
-    incremental.step(1.);
-    // the same linear problem
-    EXPECT_LT(relative_difference(incremental.solution(),
-                                  model->system->solution()),
-              1e-10);
   }
 }
 
@@ -397,21 +388,14 @@ TEST(FiniteStatics, RanksAgreeMPI)
                                           condition(Type::follower_pressure,
                                                     "right",
                                                     constant(-20.))};
-    const auto            elasticity   = finite_elasticity(*model);
-    NonlinearStatics      statics(*elasticity);
-    const auto            report = statics.run(LoadSteps::equal(2));
-    IncrementalElasticity incremental(model->covers,
-                                      *model->quadrature,
-                                      model->constraints,
-                                      model->problem);
-    for (unsigned int k = 1; k <= 5; ++k)
-      incremental.step(0.2 * k);
-    const DisplacementField finite(model->covers,
-                                   model->problem,
-                                   statics.solution()),
-      small_steps(model->covers, model->problem, incremental.solution());
+    const auto              elasticity = finite_elasticity(*model);
+    NonlinearStatics        statics(*elasticity);
+    const auto              report = statics.run(LoadSteps::equal(2));
+    const DisplacementField field(model->covers,
+                                  model->problem,
+                                  statics.solution());
     // by position: cover numbers depend on the ranks
-    std::map<std::pair<long, long>, std::array<Tensor<1, 2>, 2>> values;
+    std::map<std::pair<long, long>, Tensor<1, 2>> values;
     const auto [first, last] = model->covers.locally_owned_elements();
     for (unsigned int e = first; e < last; ++e)
     {
@@ -420,96 +404,21 @@ TEST(FiniteStatics, RanksAgreeMPI)
                                                    {1. / 3., 1. / 3.});
       values[{std::lround(1e6 * x[0]),
               2 * std::lround(1e6 * x[1]) +
-                1000000000L * model->manifold_mesh.region(e)}] = {
-        {finite.displacement(e, {1. / 3., 1. / 3.}),
-         small_steps.displacement(e, {1. / 3., 1. / 3.})}};
+                1000000000L * model->manifold_mesh.region(e)}] =
+        field.displacement(e, {1. / 3., 1. / 3.});
     }
     return std::make_pair(values, report.back().newton.iterations.size());
   };
   const auto   serial = run(MPI_COMM_SELF), parallel = run(MPI_COMM_WORLD);
   unsigned int n = 0;
-  for (const auto &[where, values] : parallel.first)
+  for (const auto &[where, value] : parallel.first)
   {
     const auto it = serial.first.find(where);
     ASSERT_NE(it, serial.first.end());
-    for (unsigned int k = 0; k < 2; ++k)
-      // rounding times the condition number; Newton's tolerance is met by far
-      EXPECT_LT((values[k] - it->second[k]).norm(), 1e-9);
+    // rounding times the condition number; Newton's tolerance is met by far
+    EXPECT_LT((value - it->second).norm(), 1e-9);
     ++n;
   }
   EXPECT_GT(n, 10u);
   EXPECT_EQ(serial.second, parallel.second);
-}
-
-
-// The paper's scheme is of first order in the step.
-TEST(Incremental, FirstOrderInTheStep)
-{
-  for (const bool follower : {false, true})
-  {
-    SCOPED_TRACE(follower ? "follower" : "dead");
-    const auto model = cantilever(follower, 0.5);
-    // a tenth of the load: small strains, so that the laws agree
-    const auto run = [&](const unsigned int n) {
-      IncrementalElasticity incremental(model->covers,
-                                        *model->quadrature,
-                                        model->constraints,
-                                        model->problem);
-      for (unsigned int k = 1; k <= n; ++k)
-        incremental.step(0.1 * k / n);
-      return tip_deflection(*model, incremental.solution());
-    };
-    const auto       elasticity = finite_elasticity(*model);
-    NonlinearStatics statics(*elasticity);
-    statics.run(LoadSteps::equal(1, 0.1));
-    const double expected = tip_deflection(*model, statics.solution());
-    const double w10 = run(10), w20 = run(20), w40 = run(40);
-    EXPECT_NEAR((w10 - w20) / (w20 - w40), 2., 0.2);
-    // extrapolated; what is left is the difference of the laws at strains of
-    // 0.03
-    EXPECT_NEAR(2. * w40 - w20, expected, 3e-3 * expected);
-    EXPECT_GT(std::abs(w10 - expected), 2e-3 * expected);
-  }
-}
-
-
-// A step is a straight line: a block turned by prescribed displacements
-// follows them exactly, although their map is a rotation times sqrt(1 + t^2).
-// Its initial stress turns with it, by 45 degrees in the end, and the growth
-// adds equal stress in all directions.
-TEST(Incremental, StressTurnsWithTheBlock)
-{
-  Geometry geometry;
-  add_box(geometry, {0., 0.}, {1., 1.});
-  Model model(std::move(geometry), mesh_parameters(0.3, {}, 9.), 2);
-  model.problem.materials                         = {material()};
-  model.problem.materials[0].initial_stress[0][0] = 100.;
-  const auto turn                   = vector_function([](const Point<2> &x) {
-    return Tensor<1, 2>({-x[1], x[0]});
-  });
-  model.problem.boundary_conditions = {
-    condition(Type::displacement, "left", turn),
-    condition(Type::displacement, "right", turn),
-    condition(Type::displacement, "top", turn),
-    condition(Type::displacement, "bottom", turn)};
-  IncrementalElasticity incremental(model.covers,
-                                    *model.quadrature,
-                                    model.constraints,
-                                    model.problem);
-  for (unsigned int k = 1; k <= 10; ++k)
-    incremental.step(0.1 * k);
-  EXPECT_LT(displacement_error(model,
-                               incremental.solution(),
-                               [](const Point<2> &x) {
-                                 return Tensor<1, 2>({-x[1], x[0]});
-                               }),
-            1e-9);
-  ASSERT_FALSE(incremental.stresses().empty());
-  double largest = 0.;
-  for (const SymmetricTensor<2, 2> &stress : incremental.stresses())
-    largest = std::max(largest,
-                       std::max(std::abs(stress[0][1] - 50.),
-                                std::abs(stress[0][0] - stress[1][1])));
-  // rounding of gradients times E
-  EXPECT_LT(largest, 1e-8);
 }

@@ -4,7 +4,6 @@
 // file. The mesh is offset and turned against the square.
 
 #include <nmm/base/program.h>
-#include <nmm/dynamics/incremental_dynamics.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
@@ -83,51 +82,6 @@ namespace
     row.angular_momentum = end.angular_momentum / start.angular_momentum - 1.;
     return row;
   }
-
-
-  Row
-  run_incremental(const double h, const unsigned int n)
-  {
-    Body body = square();
-    body.make_finite();
-    Model                &model = *body.model;
-    IncrementalElasticity elasticity(model.covers,
-                                     *model.quadrature,
-                                     model.constraints,
-                                     model.problem,
-                                     /* may_float = */ true);
-    IncrementalDynamics   dynamics(elasticity,
-                                 model.covers,
-                                 *model.quadrature,
-                                 model.constraints,
-                                 model.problem);
-    dynamics.set_velocity(body.velocity(spin()));
-    const double kinetic  = dynamics.kinetic_energy();
-    const double momentum = dynamics.angular_momentum();
-    const double area     = body.area(body.zero());
-    Row          row;
-    row.scheme = "incremental";
-    dealii::Timer timer;
-    Vector        owned = body.zero();
-    try
-    {
-      for (; row.n_steps < n; ++row.n_steps)
-      {
-        dynamics.step(h);
-        owned    = elasticity.solution();
-        row.area = std::max(row.area, std::abs(body.area(owned) / area - 1.));
-        ++row.n_iterations;
-      }
-    }
-    catch (const NumericalFailure &failure)
-    {
-      row.remark = failure.message();
-    }
-    row.seconds          = timer.wall_time();
-    row.energy           = dynamics.kinetic_energy() / kinetic - 1.;
-    row.angular_momentum = dynamics.angular_momentum() / momentum - 1.;
-    return row;
-  }
 } // namespace
 
 
@@ -157,7 +111,6 @@ main(int argc, char **argv)
   add(run(TimeScheme::newmark(), h, n));
   add(run(TimeScheme::generalized_alpha(0.8), h, n));
   add(run(TimeScheme::constant_acceleration(), h, n));
-  add(run_incremental(h, n));
   std::cout << table.str();
   if (argc > 2)
     std::ofstream(argv[2]) << table.str();

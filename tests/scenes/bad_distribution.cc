@@ -17,7 +17,6 @@ namespace
       expect_rejected_with(distributed, entry, all);
     };
     rejects("Model/Kinematics=finite", {"finite kinematics"});
-    rejects("Model/Kinematics=incremental", {"incremental kinematics"});
     rejects("Mathematical mesh/Type=graded", {"not of type regular"});
     rejects("Covers/Own meshes=every region", {"meshes of blocks or regions"});
     std::vector<std::string> with_contact = touching;

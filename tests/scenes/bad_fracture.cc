@@ -79,9 +79,6 @@ namespace
       moving + std::vector<std::string>{"Contact/Enforcement=penalty"},
       "Time/Sleep speed=0.01",
       {"sleeping blocks", "Sleep speed", "Increments"});
-    expect_rejected_with(moving,
-                         "Model/Kinematics=incremental",
-                         {"incremental", "Intensity factors"});
     rejects("Fracture/Speed=100", {"Speed", "Model/Analysis = dynamic"});
     expect_rejected_with(cracked,
                          "Fracture/Speed=100",

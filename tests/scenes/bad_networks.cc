@@ -169,11 +169,6 @@ namespace
     rejects("Use=limit", {"Regions/pit/Use", "static analysis"});
     const std::vector<std::string> limit = {"Regions/Names=edge",
                                             "Regions/edge/Use=limit"};
-    expect_rejected_with(dynamic + limit +
-                           std::vector<std::string>{
-                             "Model/Kinematics=incremental"},
-                         "Regions/edge/Shape=CIRCLE (0.5 0.5, 1)",
-                         {"Regions/edge/Use", "incremental"});
     expect_rejected_with(dynamic + limit,
                          "Regions/edge/Shape=CIRCLE (5 0.5, 1)",
                          {"Regions/edge/Shape", "outside", "(0, 0)"});
@@ -242,10 +237,6 @@ namespace
     expect_rejected_with(dynamic,
                          "Time/Start=rest",
                          {"rest", "Time/Start", "equilibrium"});
-    expect_rejected_with(dynamic + std::vector<std::string>{"Model/Kinematics="
-                                                            "incremental"},
-                         "Time/Start=equilibrium",
-                         {"Time/Start", "incremental"});
     expect_rejected_with(dynamic,
                          "Time/Start=relaxation",
                          {"Relaxation/Step", "period"});

@@ -39,7 +39,6 @@ namespace
             {"floor", "Displacement", "safety factor"});
     rejects("Output/Fields every=2", {"Fields every", "safety factor"});
     rejects("Time/End time=1", {"End time", "safety factor"});
-    rejects("Model/Kinematics=incremental", {"Kinematics", "incremental"});
   }
 
 

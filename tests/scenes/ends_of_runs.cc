@@ -188,17 +188,6 @@ namespace
   }
 
 
-  // Incremental steps have no residual: an empty cell, since a number that is not finite would be
-  // taken for a failure.
-  TEST(EndsOfRuns, WhatIncrementalStepsDoNotHaveIsEmpty)
-  {
-    const DriverResult result = run_with({"Model/Kinematics=incremental"});
-    ASSERT_EQ(result.exit_code, 0) << result.output;
-    EXPECT_EQ(content("history.csv").find("nan"), std::string::npos);
-    EXPECT_NE(content("history.csv").find(",,"), std::string::npos);
-  }
-
-
   // A kill between the last checkpoint and the last files loses nothing.
   TEST(EndsOfRuns, RestartAtTheEndWritesWhatIsMissing)
   {

@@ -393,10 +393,6 @@ namespace
                    {"kinematics"});
     expect_refused(checkpoint,
                    scene,
-                   {"--set", "Model/Kinematics=incremental"},
-                   {"--restart", "small or finite"});
-    expect_refused(checkpoint,
-                   scene,
                    {"--set", "Time/End time=0.1"},
                    {"Time/End time", "0.1"});
     expect_refused(checkpoint,

@@ -34,7 +34,6 @@
  * | strength_reduction.h | search for the factor of safety |
  * | leaving_blocks.h | finds blocks that have left the scene |
  * | checkpoint.h | saves and restores the state |
- * | incremental_dynamics.h | the paper's step-by-step kinematics, for comparison |
  *
  * Order of calls:
  * @code

@@ -23,7 +23,6 @@ namespace NMM
    * |---|---|---|
    * | `small` | InelasticLaw | is linear elastic there, if has_small_strains() |
    * | `finite` | HyperelasticLaw | cannot be used there |
-   * | `incremental` | none: always linear elastic | can be used if elastic, and if has_small_strains() |
    *
    * The room `materials` consists of these laws. A scene or a program fills in a Material, whose
    * member Material::law is one of material_laws(), a copy with other parameters, or a law of the

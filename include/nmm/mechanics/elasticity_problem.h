@@ -14,7 +14,7 @@
 /**
  * @defgroup mechanics Mechanics
  *
- * Element terms, loads and supports of elastic and inelastic solids in three kinematics. This
+ * Element terms, loads and supports of elastic and inelastic solids with small and finite displacements. This
  * module does not know contact.
  *
  * **In**: a CoverSystem, a QuadratureCollection, dealii::AffineConstraints (of aggregated covers)
@@ -28,7 +28,6 @@
  * | finite_elasticity.h | total Lagrangian forces and tangent |
  * | inelastic_terms.h | adds inelastic materials to small displacements |
  * | elastic_system.h, nonlinear_statics.h | static equilibrium at growing load factors |
- * | incremental_elasticity.h, incremental_statics.h | the paper's step-by-step kinematics |
  * | mass_matrix.h | consistent mass matrix |
  * | displacement_field.h, stress_recovery.h, block_motion.h | evaluation of a solution |
  * | error_norms.h, thick_ring.h | errors, and an exact solution to compare with |

@@ -93,10 +93,7 @@ namespace NMM
     /// Displacements are small: one linear problem, StaticElasticity or SmallModel.
     small,
     /// Displacements and rotations are of any size, in total Lagrangian form: FiniteElasticity.
-    finite,
-    /// Each load step is a linear problem, and geometry and stress are carried along:
-    /// IncrementalElasticity.
-    incremental
+    finite
   };
 
   /// The name of the kinematics in scene files.
@@ -208,8 +205,6 @@ namespace NMM
     unsigned int n_steps = default_n_steps;
     /// Smallest step over the last load factor [-], > 0; a step that fails is divided down to it.
     double min_step = LoadSteps().min_step;
-    /// Bound on the displacement of a step in incremental kinematics [m]; 0 stands for none.
-    double max_displacement = 0.;
     /// Ascending load factors [-]; if empty, there are n_steps equal steps up to 1.
     std::vector<double> load_factors;
 

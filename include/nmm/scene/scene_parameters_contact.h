@@ -18,7 +18,6 @@ namespace NMM
   }
 
   enum class Analysis;
-  enum class Kinematics;
 
   /// The method that keeps faces from penetrating each other.
   enum class Enforcement
@@ -115,7 +114,7 @@ namespace NMM
     /// Checks all values; @p may_be_damped is as in ContactLawParameters::check(). @throws
     /// InputError naming the parameter that is wrong, or that would not be used.
     void
-    check(Analysis analysis, Kinematics kinematics, bool may_be_damped) const;
+    check(Analysis analysis, bool may_be_damped) const;
   };
 
 

@@ -64,8 +64,7 @@ namespace NMM
     /// The time scheme, see TimeScheme.
     enum class Scheme
     {
-      /// The scheme is constant_acceleration for incremental kinematics, relaxation and safety
-      /// factors; else energy_momentum for finite kinematics and with contact; else newmark.
+      /// The scheme is constant_acceleration for relaxation and safety factors; else energy_momentum for finite kinematics and with contact; else newmark.
       automatic,
       newmark,
       generalized_alpha,
@@ -138,7 +137,7 @@ namespace NMM
                  Kinematics kinematics,
                  bool       has_contact) const;
     void
-    check_steps(Kinematics kinematics) const;
+    check_steps() const;
   };
 
 

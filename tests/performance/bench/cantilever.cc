@@ -1,9 +1,9 @@
 // The cantilever of the paper's Fig. 10, as in step-nmm-2.
 
 #include <nmm/materials/material_law.h>
-#include <nmm/mechanics/incremental_elasticity.h>
 
 #include "staged_model.h"
+#include "step-nmm-2/incremental_elasticity.h"
 #include "step-nmm-2/study.h"
 
 namespace NMM
@@ -81,9 +81,8 @@ namespace NMM
                                    const StepNMM2::Parameters &,
                                    Row &)> &solve)
       {
-        const StepNMM2::Parameters parameters =
-          StepNMM2::read_parameters("", ".");
-        Row row;
+        const StepNMM2::Parameters parameters = StepNMM2::read_parameters("");
+        Row                        row;
         row.name       = "cantilever " + StepNMM2::name(cantilever.load);
         row.method     = "manifold refined";
         row.kinematics = kinematics;
@@ -110,10 +109,9 @@ namespace NMM
       double
       deflection(const StagedModel          &model,
                  const StepNMM2::Parameters &parameters,
-                 const Vector               &u)
+                 const DisplacementField    &field)
       {
-        const DisplacementField field(*model.covers, model.problem, u);
-        const double            L = parameters.length, H = parameters.height;
+        const double L = parameters.length, H = parameters.height;
         return -model.displacement(field, {L, 0.5 * H}, {0.5 * L, 0.5 * H})[1] /
                L;
       }
@@ -135,21 +133,21 @@ namespace NMM
                      NonlinearStatics statics(elasticity);
                      row.steps = row.iterations = row.assembly =
                        row.factorization = row.solution = 0.;
-                     statics.run(LoadSteps::equal(parameters.n_load_steps),
-                                 [&](const LoadStep &step, const Vector &u) {
-                                   measurement.deflection[parameters.last_load *
-                                                          step.load_factor] =
-                                     deflection(model, parameters, u);
-                                   row.steps += 1.;
-                                   row.iterations +=
-                                     step.newton.iterations.size() +
-                                     step.n_lost_iterations;
-                                   row.assembly += step.newton.assembly_time;
-                                   row.factorization +=
-                                     step.newton.factorization_time;
-                                   row.solution +=
-                                     step.newton.substitution_time;
-                                 });
+                     statics.run(
+                       LoadSteps::equal(parameters.n_load_steps),
+                       [&](const LoadStep &step, const Vector &u) {
+                         measurement.deflection[parameters.last_load *
+                                                step.load_factor] =
+                           deflection(model,
+                                      parameters,
+                                      {*model.covers, model.problem, u});
+                         row.steps += 1.;
+                         row.iterations += step.newton.iterations.size() +
+                                           step.n_lost_iterations;
+                         row.assembly += step.newton.assembly_time;
+                         row.factorization += step.newton.factorization_time;
+                         row.solution += step.newton.substitution_time;
+                       });
                      model.lap();
                      row.total    = model.total();
                      row.nonzeros = elasticity.tangent().n_nonzero_elements();
@@ -166,17 +164,23 @@ namespace NMM
                        StepNMM2::Measurement      &measurement,
                        const StepNMM2::Parameters &parameters,
                        Row                        &row) {
-                     IncrementalElasticity elasticity(*model.covers,
-                                                      *model.quadrature,
-                                                      model.constraints,
-                                                      model.problem);
-                     const unsigned int    n = cantilever.n_steps;
+                     StepNMM2::IncrementalElasticity elasticity(
+                       *model.covers,
+                       *model.quadrature,
+                       model.constraints,
+                       model.problem);
+                     const unsigned int n = cantilever.n_steps;
+                     row.solver           = "UMFPACK";
                      for (unsigned int k = 1; k <= n; ++k)
                      {
                        elasticity.step(static_cast<double>(k) / n);
                        if (parameters.n_load_steps * k % n == 0)
                          measurement.deflection[parameters.last_load * k / n] =
-                           deflection(model, parameters, elasticity.solution());
+                           deflection(model,
+                                      parameters,
+                                      {*model.covers,
+                                       model.problem,
+                                       elasticity.displacements()});
                      }
                      model.lap();
                      row.steps = row.iterations = n;
@@ -198,9 +202,12 @@ namespace NMM
                      LinearSolverParameters direct;
                      direct.type = LinearSolverParameters::Type::direct;
                      model.solve(direct, row);
-                     const double       w = deflection(model,
-                                                 parameters,
-                                                 model.elasticity->solution());
+                     const double w =
+                       deflection(model,
+                                  parameters,
+                                  {*model.covers,
+                                   model.problem,
+                                   model.elasticity->solution()});
                      const unsigned int n = parameters.n_load_steps;
                      for (unsigned int k = 1; k <= n; ++k)
                        measurement.deflection[parameters.last_load * k / n] =

@@ -139,10 +139,9 @@ namespace NMM
       Row
       run(const Enforcement enforcement, const double ratio)
       {
-        const StepNMM3::Parameters parameters =
-          StepNMM3::read_parameters("", ".");
-        const double          R = parameters.radius, half_width = 0.1 * R;
-        const StepNMM3::Hertz hertz =
+        const StepNMM3::Parameters parameters = StepNMM3::read_parameters("");
+        const double               R = parameters.radius, half_width = 0.1 * R;
+        const StepNMM3::Hertz      hertz =
           StepNMM3::Hertz::from_half_width(parameters, half_width);
         const double size = ratio * half_width;
 

@@ -41,8 +41,7 @@ namespace NMM
     Row
     run(const Ring &ring, const bool with_stress_error)
     {
-      const StepNMM1::Parameters parameters =
-        StepNMM1::read_parameters("", ".");
+      const StepNMM1::Parameters parameters = StepNMM1::read_parameters("");
       const double a = parameters.inner_radius, b = parameters.outer_radius;
       Row          row;
       row.name       = ring.name;
@@ -102,7 +101,7 @@ namespace NMM
       run_fitted(const std::string &name, const double cell_size)
       {
         const StepNMM1::Measurement measurement =
-          StepNMM1::run_fitted_elements(StepNMM1::read_parameters("", "."),
+          StepNMM1::run_fitted_elements(StepNMM1::read_parameters(""),
                                         cell_size);
         Row row;
         row.name              = name;

@@ -172,6 +172,12 @@ namespace NMM
     d.move_to(u);
     d.step.nodal_begin   = d.nodal;
     d.step.time_detected = d.time;
+    // A run that continues from a checkpoint takes the same steps.
+    if (d.is_moving())
+    {
+      std::fill(d.stiffening.begin(), d.stiffening.end(), 1.);
+      d.last_penetrations.clear();
+    }
     // What touches is found again, however deep it is and however little moves in the step.
     d.reach =
       std::max({least_reach, d.parameters.reach, d.memory.touching_reach});

@@ -219,10 +219,13 @@ namespace NMM
       , direction(unit_vector(set.dip))
       , normal(Point<2>(-direction[1], direction[0]))
     {
-      const double size =
-        std::max(box.lower.distance(box.upper),
-                 std::max(box.lower.norm(), box.upper.norm()));
-      unit = std::ldexp(1., std::ilogb(size) - 40);
+      // The unit is relative to the size of the network, wherever it lies. Far from the origin it is
+      // the rounding of the coordinates.
+      const double size     = box.lower.distance(box.upper);
+      const double furthest = std::max(box.lower.norm(), box.upper.norm());
+      unit =
+        std::ldexp(1.,
+                   std::max(std::ilogb(size) - 40, std::ilogb(furthest) - 52));
     }
 
 

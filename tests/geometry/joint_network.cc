@@ -321,6 +321,38 @@ namespace
   }
 
 
+  // Drawn joints that reach a micrometre beyond the layers of a set divide the rock in the coordinates of a
+  // map, too: those of the set are rounded by what coordinates are rounded by there, 1e-9 m.
+  TEST(JointNetwork, DividesTheRockAnywhere)
+  {
+    constexpr double beyond   = 1e-6;
+    const double     angle    = 30. * dealii::numbers::PI / 180.;
+    const Point      along    = {std::cos(angle), std::sin(angle)};
+    const Point      across   = {-std::sin(angle), std::cos(angle)};
+    const auto       n_blocks = [&](const Point &origin) {
+      Geometry geometry;
+      geometry.add_polygon({origin,
+                            origin + Point(20., 0.),
+                            origin + Point(20., 12.),
+                            origin + Point(0., 12.)},
+                           "rock");
+      for (const double s : {6., 10., 14.})
+      {
+        const Point from = origin + s * along - beyond * across;
+        geometry.add_polyline({from, from + (2. + 2. * beyond) * across},
+                              "cross",
+                              CurveRole::joint);
+      }
+      JointSet layers = make_set("layers", 30., 2.);
+      layers.offset   = origin * across;
+      return cut(std::move(geometry), {layers}).n_blocks();
+    };
+    const unsigned int expected = n_blocks({0., 0.});
+    EXPECT_EQ(n_blocks({0., 1e4}), expected);
+    EXPECT_EQ(n_blocks({5e5, 6.7e6}), expected);
+  }
+
+
   // A region is no part of the physical mesh: joints end on its border exactly, and
   // where it runs along a fault there is no gap.
   TEST(JointNetwork, WithinARegion)

@@ -321,11 +321,12 @@ namespace
   }
 
 
-  // Drawn joints that reach a micrometre beyond the layers of a set divide the rock in the coordinates of a
-  // map, too: those of the set are rounded by what coordinates are rounded by there, 1e-9 m.
+  // Drawn joints that reach a micrometre beyond the layers of a set divide the rock in the
+  // coordinates of a map, too: the set is rounded as coordinates are there, by 1e-9 m.
   TEST(JointNetwork, DividesTheRockAnywhere)
   {
-    constexpr double beyond   = 1e-6;
+    // The offset keeps the layers away from the corners of the rock.
+    constexpr double beyond = 1e-6, offset = 0.3;
     const double     angle    = 30. * dealii::numbers::PI / 180.;
     const Point      along    = {std::cos(angle), std::sin(angle)};
     const Point      across   = {-std::sin(angle), std::cos(angle)};
@@ -338,13 +339,13 @@ namespace
                            "rock");
       for (const double s : {6., 10., 14.})
       {
-        const Point from = origin + s * along - beyond * across;
-        geometry.add_polyline({from, from + (2. + 2. * beyond) * across},
+        const Point from(origin + s * along + (offset - beyond) * across);
+        geometry.add_polyline({from, from + Point((2. + 2. * beyond) * across)},
                               "cross",
                               CurveRole::joint);
       }
       JointSet layers = make_set("layers", 30., 2.);
-      layers.offset   = origin * across;
+      layers.offset   = origin * across + offset;
       return cut(std::move(geometry), {layers}).n_blocks();
     };
     const unsigned int expected = n_blocks({0., 0.});

@@ -190,8 +190,8 @@ namespace NMM
     }
 
 
-    /// The size of cells at faces [m] below which a tenth of the faces lies, by their length or by
-    /// their number of edges; an edge is in one cell. Slivers are left out, since their cells can be
+    /// The size of cells at faces [m] below which a twentieth of the faces lies by their length, or a
+    /// tenth by their number of edges; an edge is in one cell. Slivers are left out, since their cells can be
     /// as thin as they are, unless all regions are slivers.
     double
     smaller_cell_size(const ContactSurface &surface, const bool is_by_length)
@@ -219,7 +219,7 @@ namespace NMM
       }
       Assert(!sizes.empty(), dealii::ExcMessage("A solid has a boundary."));
       std::sort(sizes.begin(), sizes.end());
-      double left = 0.1 * sum;
+      double left = (is_by_length ? 0.05 : 0.1) * sum;
       auto   size = sizes.begin();
       while (left >= size->second && size + 1 != sizes.end())
         left -= (size++)->second;

@@ -213,7 +213,7 @@ namespace
   // Cells towards a tip are small, but at a small part of the faces: springs of other faces do not
   // follow them, those between the faces of the crack do. Cells grow with 0.6 r at the distance r of
   // the tip, so that cells below the half of a regular one lie within 0.4 regular ones of the tip,
-  // less than a tenth of the 4 m of the boundary and 2 * 0.5 m of the crack.
+  // less than a twentieth of the 4 m of the boundary and 2 * 0.5 m of the crack.
   TEST(Scene, CellsAtTipsHaveNoPartInContactStiffnessOfOtherFaces)
   {
     const Scene          scene(base_scene,

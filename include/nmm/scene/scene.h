@@ -235,8 +235,8 @@ namespace NMM
 
 
   /**
-   * Edge length of the smaller cells at faces [m]: a tenth of the length of all faces lies in cells
-   * that are smaller. Cells that are small about a tip or in a corner are many, but at a small part
+   * Edge length of the smaller cells at faces [m]: a twentieth of the length of all faces lies in
+   * cells that are smaller. Cells that are small about a tip or in a corner are many, but at a small part
    * of the faces: with cells of the size g r at the distance r of a tip, n of them per face reach
    * from r to (1 + g)^n r, so that half of the edges may lie within a thousandth of the length.
    * Slivers (PhysicalMesh::Region::is_sliver) are left out.

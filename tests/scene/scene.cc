@@ -231,7 +231,7 @@ namespace
     CoverSystem          covers(manifold_mesh, MPI_COMM_SELF);
     const ContactSurface surface(covers);
     const double         size = contact_cell_size(surface);
-    EXPECT_GT(size, 0.5 * 0.1);
+    EXPECT_GE(size, (0.5 - 1e-9) * 0.1);
     EXPECT_LT(size, 1.5 * 0.1);
     const ContactParameters parameters =
       scene.make_contact_parameters(surface, scene.make_problem());

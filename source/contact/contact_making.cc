@@ -187,7 +187,9 @@ namespace NMM
       // Where a joint crosses others, corners of several bodies coincide, and that of the division
       // may belong to a body behind the one that the piece touches.
       const unsigned int between =
-        search.face_at(slave, begin.s + 0.5 * length);
+        first == invalid_index && last == invalid_index
+          ? invalid_index
+          : search.face_at(slave, begin.s + 0.5 * length);
       const bool is_known = between != invalid_index;
       if (is_known && first != invalid_index &&
           ends_near(between, edge, begin.s, end.s))

@@ -77,8 +77,8 @@ namespace NMM
       constexpr double beyond_division = 0.1;
 
       /// A face that ends within this fraction of a piece of a slave from the division at its end has
-      /// its corner there, whichever of several corners made the division.
-      /// Test: reports/tips-where-joints-cross of the scenes (0).
+      /// its corner there, whichever of several corners made the division. Test: none; without it the
+      /// shear at the crossing of reports/tips-where-joints-cross is 0.023 MPa instead of 0.015.
       constexpr double near_division = 0.1;
 
       /// The same fraction where only rounding has to be compensated.

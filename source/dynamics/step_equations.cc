@@ -306,8 +306,7 @@ namespace NMM
     model->constraints().distribute(u_1);
     u_end = u_1;
     steps->begin_step(u_begin, u_end, state.time, h);
-    if (scheme.is_conserving)
-      predict_blocks();
+    predict_blocks();
   }
 
 

@@ -156,11 +156,12 @@ namespace NMM
     void
     predict();
 
-    /// Set the initial guess of Newton's method for a conserving step: blocks with closed contact
+    /// Set the initial guess of Newton's method if blocks are in contact: blocks with closed contact
     /// points start from their positions at the beginning of the step, all others are moved as
-    /// rigid bodies, see BlockInertia::fly(). The velocities of a stiff block are mostly
-    /// vibrations, which the step does not resolve. So u + h v would deform the block and its
-    /// contacts many times as much as the solution does.
+    /// rigid bodies, see BlockInertia::fly(). The velocities and accelerations of a stiff block are
+    /// mostly vibrations, which the step does not resolve. So u + h v, or u + h v + h^2 a / 2, would
+    /// deform the block and its contacts many times as much as the solution does: in the relaxation
+    /// of a slope of 476 blocks, forces of 1e9 N at the first guess became 1e17 N in the iterations.
     void
     predict_blocks();
 

@@ -57,7 +57,7 @@ namespace NMM
    * same speed in each step, so that their energy has no peak. A slope of 329 blocks had no rest after
    * 100 steps, and rests after 48. A step from rest of the length h solves
    * @f[ \frac{2}{h^2} M\,(u_1 - u_0) + r(u_1) = 0, @f]
-   * to a thousandth of the forces out of balance at its beginning.
+   * to a thirtieth of the forces out of balance at its beginning.
    * Loads must not depend on time, because time goes on; where prescribed displacements
    * grow at first, the caller lets the relaxation go on until they have grown. @p after_step, if given, is called after each
    * step, before the motion is stopped. @p before_step, if given, is called before

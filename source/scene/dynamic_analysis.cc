@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <scene/dynamic_analysis.h>
+#include <scene/mechanism.h>
 #include <scene/static_start.h>
 #include <scene/time_function.h>
 #include <sstream>
@@ -464,15 +465,20 @@ namespace NMM
         loading.amplitudes
           ? ramp_time(scene.parameters().relaxation.relaxation.step)
           : 0.;
+      const RelaxationParameters parameters =
+        scene.parameters().relaxation.bounded(extent_of(*covers));
       do
       {
-        relaxation = relax(*integrator,
-                           scene.parameters().relaxation.relaxation,
-                           [&](const StepRecord &record) {
-                             n_cuts += record.n_cuts;
-                             n_lost_iterations += record.n_lost_iterations;
-                             after_step(record);
-                           });
+        const Vector begin = integrator->state().u;
+        relaxation =
+          relax(*integrator, parameters, [&](const StepRecord &record) {
+            n_cuts += record.n_cuts;
+            n_lost_iterations += record.n_lost_iterations;
+            after_step(record);
+          });
+        if (relaxation.moves_away)
+          refuse_motion(
+            *covers, problem, *quadrature, begin, integrator->state().u);
         // Those of the last step are of the solid before it was stopped.
         compute_tips_in_motion();
       } while (grow() || integrator->state().closing.act_at(time()) ||

@@ -1,3 +1,5 @@
+#include <nmm/base/exceptions.h>
+
 #include <algorithm>
 #include <cmath>
 #include <contact/collapse.h>
@@ -70,6 +72,52 @@ namespace NMM
       if (n_more > 0)
         text << ", and " << n_more << " more block(s) move with it";
       return text.str();
+    }
+
+
+    std::string
+    describe_motion(const CoverSystem              &covers,
+                    const ElasticityProblem        &problem,
+                    const QuadratureCollection     &quadrature,
+                    const FiniteElasticity::Vector &begin,
+                    const FiniteElasticity::Vector &end)
+    {
+      const auto field_of = [&](const FiniteElasticity::Vector &u) {
+        FiniteElasticity::Vector relevant(covers.locally_owned_dofs(2),
+                                          covers.locally_relevant_dofs(2),
+                                          covers.communicator());
+        relevant = u;
+        return DisplacementField(covers, problem, relevant);
+      };
+      return describe(block_motions(field_of(begin), field_of(end), quadrature),
+                      1.);
+    }
+
+
+    double
+    extent_of(const CoverSystem &covers)
+    {
+      const auto corners = covers.manifold_mesh()
+                             .physical_mesh()
+                             .bounding_box()
+                             .get_boundary_points();
+      return corners.first.distance(corners.second);
+    }
+
+
+    void
+    refuse_motion(const CoverSystem              &covers,
+                  const ElasticityProblem        &problem,
+                  const QuadratureCollection     &quadrature,
+                  const FiniteElasticity::Vector &begin,
+                  const FiniteElasticity::Vector &end)
+    {
+      throw NumericalFailure(
+        "The relaxation finds no rest: " +
+          describe_motion(covers, problem, quadrature, begin, end),
+        "parameter 'Relaxation/Largest displacement'",
+        "hold the block; or raise this parameter, if it comes to rest further "
+        "away");
     }
 
 

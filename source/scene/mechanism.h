@@ -3,6 +3,7 @@
 
 #include <nmm/contact/contact_statics.h>
 #include <nmm/mechanics/block_motion.h>
+#include <nmm/mechanics/finite_elasticity.h>
 #include <nmm/quadrature/element_quadrature.h>
 
 #include <string>
@@ -43,6 +44,31 @@ namespace NMM
     /// many move with it: a sentence without its full stop.
     std::string
     describe(std::vector<BlockMotion> motions, double sign);
+
+
+    /// Says which block has moved most from the displacements @p begin to @p end [m], of the unknowns
+    /// that this process owns, and how: a sentence without its full stop, see describe().
+    std::string
+    describe_motion(const CoverSystem              &covers,
+                    const ElasticityProblem        &problem,
+                    const QuadratureCollection     &quadrature,
+                    const FiniteElasticity::Vector &begin,
+                    const FiniteElasticity::Vector &end);
+
+
+    /// Length of the diagonal of the bounding box of a solid [m].
+    double
+    extent_of(const CoverSystem &covers);
+
+
+    /// @throws NumericalFailure which says that a relaxation from @p begin has moved too far, to @p end,
+    /// and what has moved; the arguments are those of describe_motion().
+    [[noreturn]] void
+    refuse_motion(const CoverSystem              &covers,
+                  const ElasticityProblem        &problem,
+                  const QuadratureCollection     &quadrature,
+                  const FiniteElasticity::Vector &begin,
+                  const FiniteElasticity::Vector &end);
 
 
     /**

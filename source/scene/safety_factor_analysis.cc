@@ -114,13 +114,15 @@ namespace NMM
       }
       RelaxationParameters relaxation = parameters.relaxation.relaxation;
       relaxation.max_displacement = parameters.safety_factor.max_displacement;
-      const StrengthTrial trial   = try_to_stand(integrator,
-                                               relaxation,
-                                               factor,
-                                               [this](const StepRecord &) {
-                                                 stop_if_asked(communicator);
-                                               });
+      StrengthTrial trial         = try_to_stand(integrator,
+                                         relaxation,
+                                         factor,
+                                         [this](const StepRecord &) {
+                                           stop_if_asked(communicator);
+                                         });
 
+      if (trial.outcome == StrengthTrial::Outcome::moves)
+        trial.reason += ": " + describe_motion(integrator.state().u);
       if (tells_more(trial))
       {
         shown              = trial;
@@ -248,7 +250,7 @@ namespace NMM
       if (!stands)
         what << ": there is no factor of safety, since strength does not hold "
                 "them. At the factor "
-             << shown.factor << ' ' << describe_motion();
+             << shown.factor << ' ' << describe_motion(shown_displacement);
       AssertThrow(
         false,
         NumericalFailure(
@@ -263,14 +265,14 @@ namespace NMM
 
 
     std::string
-    SafetyFactorAnalysis::describe_motion() const
+    SafetyFactorAnalysis::describe_motion(const Vector &end) const
     {
-      Vector                  at_rest(model->locally_owned(),
-                     model->locally_relevant(),
-                     communicator);
-      const DisplacementField before(*covers, problem, at_rest);
-      std::string             text =
-        describe(block_motions(before, *field, *quadrature), 1.);
+      Vector begin(end);
+      begin = 0.;
+      if (scene.parameters().safety_factor.start == Start::settled)
+        begin = settled;
+      std::string text =
+        internal::describe_motion(*covers, problem, *quadrature, begin, end);
       text[0] = 'b';
       return text;
     }

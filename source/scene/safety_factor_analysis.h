@@ -82,9 +82,9 @@ namespace NMM
       void
       write_trials() const;
 
-      /// Which blocks have moved in the trial that is shown, as a part of a sentence.
+      /// Which blocks have moved from the start of a trial to @p end, as a part of a sentence.
       std::string
-      describe_motion() const;
+      describe_motion(const Vector &end) const;
 
       /// Makes field, recovery and evaluator of the trial that is shown.
       void

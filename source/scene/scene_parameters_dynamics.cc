@@ -358,10 +358,30 @@ namespace NMM
                 Patterns::Double(0, 1),
                 "Forces out of balance over forces in balance that count as "
                 "rest, > 0 [-].");
+    entries.add("Largest displacement",
+                relaxation.max_displacement,
+                Patterns::Double(0),
+                "What moves further finds no rest (exit code 3, and the block "
+                "is named) [m]; 0: ten times as far as the solid is long.");
     entries.add("Maximum steps",
                 relaxation.max_steps,
                 Patterns::Integer(1, 100000000),
                 "Steps after which it gives up (exit code 3).");
+  }
+
+
+  RelaxationParameters
+  RelaxationSectionParameters::bounded(const double extent) const
+  {
+    RelaxationParameters result = relaxation;
+    if (result.max_displacement == 0.)
+    {
+      // A column that topples comes to rest further away than it is long.
+      result.max_displacement = 10. * extent;
+      // No bound on the displacements of a step follows from this one.
+      result.max_step_displacement = result.max_displacement;
+    }
+    return result;
   }
 
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <iomanip>
 #include <memory>
+#include <scene/mechanism.h>
 #include <scene/static_start.h>
 #include <sstream>
 #include <utility>
@@ -141,9 +142,10 @@ namespace NMM
       {
         const TimeIntegrator &integrator = relaxing.integrator();
         RelaxationParameters  parameters =
-          input.scene.parameters().relaxation.relaxation;
-        parameters.continued_step = relaxing.continued_step;
-        relax(
+          input.scene.parameters().relaxation.bounded(extent_of(input.covers));
+        parameters.continued_step     = relaxing.continued_step;
+        const Vector           begin  = integrator.state().u;
+        const RelaxationReport result = relax(
           relaxing.integrator(),
           parameters,
           [&](const StepRecord &record) {
@@ -162,6 +164,12 @@ namespace NMM
               relaxing.before_step(length);
             stop_if_asked(input.covers.communicator());
           });
+        if (result.moves_away)
+          refuse_motion(input.covers,
+                        input.problem,
+                        input.quadrature,
+                        begin,
+                        integrator.state().u);
         if (const InelasticTerms *terms = relaxing.inelastic_terms())
           report.material_state = terms->internal_state();
         return integrator.state().u;

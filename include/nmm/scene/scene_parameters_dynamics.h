@@ -144,8 +144,13 @@ namespace NMM
   /// The section `Relaxation`.
   struct RelaxationSectionParameters
   {
-    /// The parameters of relax().
+    /// The parameters of relax(), with a largest displacement of 0 if the scene gives none.
     RelaxationParameters relaxation;
+
+    /// The same; a solid of the length @p extent [m] may move ten times that far if the scene
+    /// says nothing.
+    RelaxationParameters
+    bounded(double extent) const;
 
     /// Declares or reads the entries of the section.
     void

@@ -20,7 +20,8 @@ namespace NMM
         // where contact cycles, a solution takes ten seconds until it is given up
         {"contact-growth", &make_contact_growth_case, &run_scene_case, 60},
         {"growth-in-motion", &make_growth_in_motion_case, &run_scene_case, 60},
-        {"blocks", &make_block_case, &run_block_case, 60}};
+        {"blocks", &make_block_case, &run_block_case, 60},
+        {"networks", &make_network_case, &run_network_case, 600}};
       return all;
     }
 

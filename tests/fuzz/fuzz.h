@@ -82,6 +82,15 @@ namespace NMM
     std::string
     run_block_case(const Case &c);
 
+    /// A slope of some hundred blocks between two random joint sets, relaxed under its weight.
+    Case
+    make_network_case(std::uint64_t seed);
+
+    /// Wrong are, besides what run_scene_case() finds, ends without a cause in mechanics: steps that became
+    /// too short, or too many of them.
+    std::string
+    run_network_case(const Case &c);
+
     /// Runs the scene as the program nmm does. Wrong are exit codes other than 0, 2 and 3, files written with
     /// 2, and tables with values that are not finite with 0.
     std::string

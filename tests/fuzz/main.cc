@@ -18,10 +18,11 @@ namespace
   const char *const usage =
     "Usage: nmm-fuzz GENERATOR N [SEED [FOLDER]]\n\n"
     "Runs N cases of a generator (geometry, scene, growth, contact-growth,\n"
-    "growth-in-motion)\n"
+    "growth-in-motion, blocks, networks)\n"
     "with the seeds SEED (1), SEED + 1, ... A case that fails, crashes or "
     "takes\n"
-    "more than 10 s (contact-growth, growth-in-motion: 60 s) is written to "
+    "more than 10 s (contact-growth, growth-in-motion, blocks: 60 s, networks: "
+    "600 s) is written to "
     "FOLDER/GENERATOR-SEED\n"
     "(output/fuzz) as a scene.\n\n"
     "Exit codes: 0 nothing failed, 1 something did, 2 wrong arguments.\n";

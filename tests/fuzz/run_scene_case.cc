@@ -30,7 +30,7 @@ namespace NMM
 
 
       /**
-       * A terminal that shows nothing. After two seconds the next report of how far a
+       * A terminal that shows nothing. After some seconds the next report of how far a
        * stage has come ends the run with TimeIsUp; what reports nothing for long is a
        * hang, which is for nmm-fuzz to see. Reports begin by emptying the line and what
        * destructors say does not. The exception leaves by way of a stream that is tied
@@ -39,9 +39,9 @@ namespace NMM
       class Terminal : public std::streambuf
       {
       public:
-        Terminal()
+        explicit Terminal(const double seconds)
           : stream(this)
-          , clock(*this)
+          , clock(*this, seconds)
           , clock_stream(&clock)
         {
           clock_stream.exceptions(std::ios::badbit);
@@ -73,8 +73,9 @@ namespace NMM
         class Clock : public std::streambuf
         {
         public:
-          explicit Clock(Terminal &terminal)
+          Clock(Terminal &terminal, const double seconds)
             : terminal(terminal)
+            , seconds(seconds)
           {
           }
 
@@ -84,7 +85,8 @@ namespace NMM
           {
             using Seconds = std::chrono::duration<double>;
             if (terminal.line_is_empty &&
-                Seconds(std::chrono::steady_clock::now() - start).count() > 2.)
+                Seconds(std::chrono::steady_clock::now() - start).count() >
+                  seconds)
             {
               terminal.stream.tie(nullptr);
               throw TimeIsUp();
@@ -94,6 +96,7 @@ namespace NMM
 
         private:
           Terminal                                   &terminal;
+          const double                                seconds;
           const std::chrono::steady_clock::time_point start =
             std::chrono::steady_clock::now();
         };
@@ -147,11 +150,11 @@ namespace NMM
       }
 
 
-      /// How a scene ended: what is wrong, its exit code (-1: there was no time), and the number of
-      /// iterations with those that were in vain.
+      /// How a scene ended: what is wrong, what the program says, its exit code (-1: there was no time),
+      /// and the number of iterations with those that were in vain.
       struct End
       {
-        std::string failure;
+        std::string failure, message;
         int         code         = 0;
         double      n_iterations = 0.;
       };
@@ -179,7 +182,9 @@ namespace NMM
 
 
       End
-      run_scene_file(const Case &c, const std::string &file)
+      run_scene_file(const Case        &c,
+                     const std::string &file,
+                     const double       seconds = 2.)
       {
         const fs::path folder =
           fs::temp_directory_path() / ("nmm-fuzz-" + std::to_string(getpid()));
@@ -192,7 +197,7 @@ namespace NMM
         std::string &failure = end.failure;
         try
         {
-          Terminal    terminal;
+          Terminal    terminal(seconds);
           Progress    progress(terminal.out(), true, MPI_COMM_WORLD);
           const Scene scene((folder / file).string(), {});
           run_scene(scene, options, progress, MPI_COMM_WORLD, has_output);
@@ -208,6 +213,7 @@ namespace NMM
         {
           const ProgramEnd what = explain_exception(has_output);
           end.code              = static_cast<int>(what.code);
+          end.message           = what.message;
           if (what.code == ExitCode::input_error && fs::exists(options.output))
             failure = "exit code 2, but results are written: " + what.message;
           else if (what.code != ExitCode::input_error &&
@@ -226,6 +232,19 @@ namespace NMM
     run_scene_case(const Case &c)
     {
       return run_scene_file(c, "case.prm").failure;
+    }
+
+
+    std::string
+    run_network_case(const Case &c)
+    {
+      const End end = run_scene_file(c, "case.prm", 500.);
+      if (!end.failure.empty())
+        return end.failure;
+      for (const char *words : {"No step of at least", "No rest after"})
+        if (end.message.find(words) != std::string::npos)
+          return end.message;
+      return end.code < 0 ? "no end in time" : "";
     }
 
 

@@ -10,8 +10,7 @@
 
 #include <array>
 #include <mechanics/curve_conditions.h>
-#include <mechanics/local_system.h>
-#include <mechanics/weak_points.h>
+#include <mechanics/finite_terms.h>
 #include <vector>
 
 namespace NMM
@@ -19,8 +18,8 @@ namespace NMM
   namespace internal
   {
     /**
-     * Terms on edges of elements in small displacements: loads and displacement conditions on
-     * boundaries, ties across interfaces and closed joints.
+     * Terms on edges of elements in small displacements, at rest: displacement conditions on
+     * boundaries, ties across interfaces and closed joints, and the circles of disk covers.
      * See WeakPointMaker for penalties and averages.
      */
     class EdgeTerms
@@ -31,7 +30,7 @@ namespace NMM
                 const CurveConditions   &conditions,
                 TraceConstants          &trace_constants);
 
-      /// Add loads and displacement conditions on the boundary edges of an element.
+      /// Add displacement conditions on the boundary edges of an element.
       void
       add_conditions(unsigned int element, LocalSystem &system);
 
@@ -78,6 +77,10 @@ namespace NMM
       void
       add_weak_points(LocalSystem &system) const;
 
+      /// The terms of a point with the fluxes of Hooke's law at zero displacements.
+      NitscheTerms
+      terms_at_rest(const WeakPoint &point) const;
+
       /// The functions F_j of a disk and their tractions sigma(F_j) n at a point of its circle.
       struct DiskPoint
       {
@@ -92,12 +95,6 @@ namespace NMM
                      unsigned int     inside,
                      DiskEdge        &result) const;
 
-      void
-      add_load(const BoundaryCondition &condition,
-               unsigned int             cell,
-               const EdgeRule          &rule,
-               LocalSystem             &system) const;
-
       const CoverSystem       *covers;
       const ElasticityProblem *problem;
       const CurveConditions   *conditions;
@@ -106,7 +103,8 @@ namespace NMM
       std::vector<WeakPoint> points;
       unsigned int           degree, n_per_cell;
 
-      std::vector<dealii::SymmetricTensor<2, 2>> region_to_initial_stress;
+      /// Stress and moduli of each region at rest.
+      std::vector<HyperelasticLaw::Response> region_to_response;
     };
   } // namespace internal
 } // namespace NMM

@@ -10,6 +10,7 @@
 #include <mechanics/boundary_terms.h>
 #include <mechanics/curve_conditions.h>
 #include <mechanics/disk_system.h>
+#include <mechanics/edge_tables.h>
 #include <mechanics/floating_blocks.h>
 #include <mechanics/ghost_terms.h>
 #include <mechanics/local_system.h>
@@ -111,12 +112,17 @@ namespace NMM
     const VolumeTerms volume_terms(*covers, *quadrature, *problem);
     TraceConstants    trace_constants(
       *covers, *quadrature, *constraints, conditions, ghost_penalty);
-    EdgeTerms   edge_terms(*covers, *problem, conditions, trace_constants);
-    LocalSystem local;
+    EdgeTerms edge_terms(*covers, *problem, conditions, trace_constants);
+    // the right-hand side is the negative force of all terms at rest
+    const auto add = [&](const dealii::ArrayView<const unsigned int> &to,
+                         LocalSystem                                 &local) {
+      for (unsigned int i = 0; i < 2 * local.n_covers; ++i)
+        local.rhs[i] = -local.rhs[i];
+      assembler.add(to, local.matrix, local.rhs);
+    };
+    LocalDisplacement rest;
+    std::fill_n(&rest.values[0][0], 2 * LocalSystem::max_covers, 0.);
     const auto [first, last] = covers->locally_owned_elements();
-    auto point_element       = std::lower_bound(points.elements().begin(),
-                                          points.elements().end(),
-                                          first);
     for_each_in_order<LocalSystem>(
       first,
       last,
@@ -126,29 +132,45 @@ namespace NMM
       },
       [&](const unsigned int e, LocalSystem &system) {
         edge_terms.add_conditions(e, system);
-        if (point_element != points.elements().end() && *point_element == e)
-        {
-          points.add(e, system);
-          ++point_element;
-        }
-        assembler.add(covers->covers(e), system.matrix, system.rhs);
+        for (unsigned int f = 0; f < problem->fixed_points.size(); ++f)
+          if (points.fixed_point_elements()[f] == e)
+            points.add_spring(f, 1., rest, system);
+        add(covers->covers(e), system);
       });
-    for_each_tie(
-      *covers, conditions, [&](const unsigned int e, const ElementEdge &edge) {
-        const auto pair = covers_of_pair(*covers, e, edge.neighbor);
-        local.reset(2 * n_per_cell);
-        edge_terms.add_tie(e, edge, local);
-        assembler.add({pair.data(), 2 * n_per_cell}, local.matrix, local.rhs);
-      });
+    LocalSystem local;
+    const auto  add_pair = [&](const unsigned int e,
+                              const unsigned int neighbor,
+                              const auto        &add_terms) {
+      const auto pair = covers_of_pair(*covers, e, neighbor);
+      local.reset(2 * n_per_cell);
+      add_terms();
+      add({pair.data(), 2 * n_per_cell}, local);
+    };
+    for_each_tie(*covers,
+                 conditions,
+                 [&](const unsigned int e, const ElementEdge &edge) {
+                   add_pair(e, edge.neighbor, [&]() {
+                     edge_terms.add_tie(e, edge, local);
+                   });
+                 });
     const GhostTerms ghost_terms(*covers, *problem);
-    for_each_ghost_pair(
-      *covers,
-      ghost_penalty,
-      [&](const std::pair<unsigned int, unsigned int> &pair) {
-        const auto both = covers_of_pair(*covers, pair.first, pair.second);
-        local.reset(2 * n_per_cell);
-        ghost_terms.add_stiffness(pair, local);
-        assembler.add({both.data(), 2 * n_per_cell}, local.matrix, local.rhs);
+    for_each_ghost_pair(*covers,
+                        ghost_penalty,
+                        [&](const std::pair<unsigned int, unsigned int> &pair) {
+                          add_pair(pair.first, pair.second, [&]() {
+                            ghost_terms.add_stiffness(pair, local);
+                          });
+                        });
+    DeadLoads(*covers,
+              *quadrature,
+              *problem,
+              conditions,
+              points,
+              /* are_displacements_small = */ true)
+      .for_each_load([&](const DeadLoads::Load &load) {
+        constexpr double no_matrix[4] = {};
+        for (unsigned int i = 0; i < load.covers.size(); ++i)
+          assembler.add({&load.covers[i], 1}, no_matrix, &load.forces[i][0]);
       });
     section.reset();
     section = time_section(timer, "to Trilinos");

@@ -7,11 +7,8 @@ namespace NMM
   {
     EdgeTerms::EdgeTerms(const CoverSystem       &covers,
                          const ElasticityProblem &problem,
-                         const CurveConditions   &conditions,
                          TraceConstants          &trace_constants)
       : covers(&covers)
-      , problem(&problem)
-      , conditions(&conditions)
       , maker(covers, problem, trace_constants)
       , degree(covers.manifold_mesh().mathematical_mesh().degree())
       , n_per_cell(WeightFunctions::n_per_cell(degree))
@@ -45,47 +42,12 @@ namespace NMM
 
 
     void
-    EdgeTerms::add_weak_points(LocalSystem &system) const
+    EdgeTerms::add_weak_points(const EdgeTables       &edges,
+                               const EdgeTables::Site &site,
+                               LocalSystem            &system) const
     {
-      for (const WeakPoint &point : points)
-        terms_at_rest(point).add(system);
-    }
-
-
-    void
-    EdgeTerms::add_conditions(const unsigned int element, LocalSystem &system)
-    {
-      const ManifoldMesh &mesh = covers->manifold_mesh();
-      for (const ElementEdge &edge : mesh.edges(element))
-      {
-        points.clear();
-        for (const unsigned int c : conditions->conditions(element, edge))
-          if (is_weak(problem->boundary_conditions[c]))
-            maker.append_condition(c,
-                                   element,
-                                   make_edge_rule(edge,
-                                                  cell_frame(mesh, element),
-                                                  2 * degree),
-                                   points);
-        add_weak_points(system);
-      }
-    }
-
-
-    void
-    EdgeTerms::add_tie(const unsigned int element,
-                       const ElementEdge &edge,
-                       LocalSystem       &system)
-    {
-      const ManifoldMesh &mesh = covers->manifold_mesh();
-      points.clear();
-      maker.append_tie(element,
-                       edge,
-                       make_edge_rule(edge,
-                                      cell_frame(mesh, element),
-                                      2 * degree),
-                       points);
-      add_weak_points(system);
+      for (unsigned int q = site.first_point; q < site.last_point; ++q)
+        terms_at_rest(edges.weak_points[q]).add(system);
     }
 
 
@@ -93,7 +55,7 @@ namespace NMM
     EdgeTerms::compute_disk_edge(const unsigned int element,
                                  const ElementEdge &edge,
                                  const DiskCover   &disk,
-                                 DiskEdge          &result)
+                                 DiskEdge          &result) const
     {
       const ManifoldMesh     &mesh              = covers->manifold_mesh();
       const MathematicalMesh &mathematical_mesh = mesh.mathematical_mesh();
@@ -118,11 +80,11 @@ namespace NMM
       result.work_matrix.reinit(n, n);
 
       // The functions are no polynomials.
-      const unsigned int further_degree = 4;
-      const EdgeRule     rule           = make_edge_rule(edge,
+      const unsigned int     further_degree = 4;
+      const EdgeRule         rule           = make_edge_rule(edge,
                                            cell_frame(mesh, element),
                                            2 * degree + further_degree);
-      points.clear();
+      std::vector<WeakPoint> points;
       maker.append_tie(element, edge, rule, points);
       DiskPoint functions;
       functions.displacements.resize(n);

@@ -6,10 +6,7 @@ namespace NMM
 {
   namespace internal
   {
-    namespace
-    {
-      using Type = BoundaryCondition::Type;
-    } // namespace
+    using Type = BoundaryCondition::Type;
 
 
     EdgeTables::EdgeTables(const CoverSystem       &covers,
@@ -22,14 +19,14 @@ namespace NMM
       , degree(covers.manifold_mesh().mathematical_mesh().degree())
       , n_per_cell(WeightFunctions::n_per_cell(degree))
     {
-      const ManifoldMesh &mesh = covers.manifold_mesh();
       const auto [first, last] = covers.locally_owned_elements();
       for (unsigned int e = first; e < last; ++e)
         add_conditions(e, curve_conditions);
-      for (unsigned int e = first; e < last; ++e)
-        for (const ElementEdge &edge : mesh.edges(e))
-          if (curve_conditions.is_tied(e, edge) && e < edge.neighbor)
-            add_tie(e, edge);
+      for_each_tie(covers,
+                   curve_conditions,
+                   [&](const unsigned int e, const ElementEdge &edge) {
+                     add_tie(e, edge);
+                   });
     }
 
 

@@ -20,23 +20,19 @@ namespace NMM
       using Halfedge = Arrangement::Halfedge_handle;
       using Face     = Arrangement::Face_handle;
 
-      Implementation(const MathematicalMesh           &mathematical_mesh,
-                     const PhysicalMesh               &physical_mesh,
-                     const PhysicalEdges              &physical_edges,
-                     const std::vector<unsigned int>  &region_to_part,
-                     const PartToCut                  &part,
+      Implementation(const PartToCut                  &part,
                      const std::vector<unsigned char> &state,
                      const DividedCells               &divided,
                      Cutting                          &result)
-        : mesh(mathematical_mesh)
-        , physical_pieces(physical_mesh.pieces())
-        , physical_edges(physical_edges)
-        , region_to_part(region_to_part)
+        : mesh(*part.mesh)
+        , physical_pieces(part.physical_mesh->pieces())
+        , physical_edges(*part.physical_edges)
+        , region_to_part(*part.region_to_part)
         , part(part)
         , state(state)
         , divided(divided)
         , result(result)
-        , is_part_of_mesh(mathematical_mesh.rank_cells() != nullptr)
+        , is_part_of_mesh(mesh.rank_cells() != nullptr)
       {
         arrange();
         label_regions();
@@ -534,23 +530,12 @@ namespace NMM
     }
 
 
-    ArrangedCells::ArrangedCells(
-      const MathematicalMesh           &mathematical_mesh,
-      const PhysicalMesh               &physical_mesh,
-      const PhysicalEdges              &physical_edges,
-      const std::vector<unsigned int>  &region_to_part,
-      const PartToCut                  &part,
-      const std::vector<unsigned char> &state,
-      const DividedCells               &divided,
-      Cutting                          &cutting)
-      : implementation(std::make_unique<Implementation>(mathematical_mesh,
-                                                        physical_mesh,
-                                                        physical_edges,
-                                                        region_to_part,
-                                                        part,
-                                                        state,
-                                                        divided,
-                                                        cutting))
+    ArrangedCells::ArrangedCells(const PartToCut                  &part,
+                                 const std::vector<unsigned char> &state,
+                                 const DividedCells               &divided,
+                                 Cutting                          &cutting)
+      : implementation(
+          std::make_unique<Implementation>(part, state, divided, cutting))
     {
     }
 

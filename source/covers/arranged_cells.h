@@ -28,11 +28,7 @@ namespace NMM
       /// Arrange and append the elements. The elements of @p divided must have numbers; all
       /// arguments must outlive this object. @throws InputError where regions of the part extend
       /// beyond it.
-      ArrangedCells(const MathematicalMesh           &mathematical_mesh,
-                    const PhysicalMesh               &physical_mesh,
-                    const PhysicalEdges              &physical_edges,
-                    const std::vector<unsigned int>  &region_to_part,
-                    const PartToCut                  &part,
+      ArrangedCells(const PartToCut                  &part,
                     const std::vector<unsigned char> &state,
                     const DividedCells               &divided,
                     Cutting                          &cutting);

@@ -59,41 +59,26 @@ namespace NMM
 
 
     void
-    cut(const MathematicalMesh          &mathematical_mesh,
-        const CellNeighbors             &neighbors,
-        const PhysicalMesh              &physical_mesh,
-        const PhysicalEdges             &physical_edges,
-        const std::vector<unsigned int> &region_to_part,
-        const PartToCut                 &part,
-        const NearEdges                 &near,
-        std::vector<unsigned char>      &state,
-        Cutting                         &cutting)
+    cut(const PartToCut            &part,
+        const CellNeighbors        &neighbors,
+        const NearEdges            &near,
+        std::vector<unsigned char> &state,
+        Cutting                    &cutting)
     {
-      const bool is_alone     = mathematical_mesh.n_parts() == 1;
+      const bool is_alone     = part.mesh->n_parts() == 1;
       const auto [first, end] = part.cells;
       for (unsigned int c = first; c < end; ++c)
         if (near[c - first].size() > 0)
           state[c] = CellState::arranged;
       const NearEdges none;
-      DividedCells    divided(mathematical_mesh,
-                           physical_edges,
-                           region_to_part,
-                           part,
-                           is_alone ? near : none,
-                           state);
+      DividedCells    divided(part, is_alone ? near : none, state);
       divided.number_elements(cutting);
       std::unique_ptr<ArrangedCells> arranged;
       if (!is_alone || std::find(state.begin() + first,
                                  state.begin() + end,
                                  CellState::arranged) != state.begin() + end)
-        arranged = std::make_unique<ArrangedCells>(mathematical_mesh,
-                                                   physical_mesh,
-                                                   physical_edges,
-                                                   region_to_part,
-                                                   part,
-                                                   state,
-                                                   divided,
-                                                   cutting);
+        arranged =
+          std::make_unique<ArrangedCells>(part, state, divided, cutting);
       divided.label_beside(state, cutting.cell_region);
       flood_untouched_cells(neighbors, part.cells, state, cutting.cell_region);
       divided.append_edges(state, arranged.get(), cutting);
@@ -101,13 +86,13 @@ namespace NMM
         arranged->append_edges();
 
       // A curve that leaves the mesh has left it through an edge of an element.
-      if (mathematical_mesh.rank_cells() == nullptr)
+      if (part.mesh->rank_cells() == nullptr)
         for (const unsigned int e : part.edges)
           AssertThrow(cutting.is_met[e],
                       InputError("a part of the solid lies outside the "
                                  "mathematical mesh",
                                  to_string(
-                                   physical_edges.edges()[e].shape.start),
+                                   part.physical_edges->edges()[e].shape.start),
                                  "give a mesh that covers it"));
     }
 

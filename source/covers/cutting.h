@@ -134,9 +134,16 @@ namespace NMM
     CellNeighbors
     find_neighbors(const MathematicalMesh &mesh);
 
-    /// A part of the mathematical mesh, and the physical edges that cut it.
+    /// A part of the mathematical mesh, and the physical edges that cut it. All that it points to
+    /// must outlive it.
     struct PartToCut
     {
+      const MathematicalMesh *mesh;
+      const PhysicalMesh     *physical_mesh;
+      const PhysicalEdges    *physical_edges;
+      /// Part of the mesh on which each region is; empty if there is only one.
+      const std::vector<unsigned int> *region_to_part;
+
       unsigned int part;
       /// Cells of the part, first and past-the-end.
       std::pair<unsigned int, unsigned int> cells;
@@ -153,15 +160,11 @@ namespace NMM
      * regions extend beyond it.
      */
     void
-    cut(const MathematicalMesh          &mathematical_mesh,
-        const CellNeighbors             &neighbors,
-        const PhysicalMesh              &physical_mesh,
-        const PhysicalEdges             &physical_edges,
-        const std::vector<unsigned int> &region_to_part,
-        const PartToCut                 &part,
-        const NearEdges                 &near,
-        std::vector<unsigned char>      &state,
-        Cutting                         &cutting);
+    cut(const PartToCut            &part,
+        const CellNeighbors        &neighbors,
+        const NearEdges            &near,
+        std::vector<unsigned char> &state,
+        Cutting                    &cutting);
 
     /**
      * Along physical edges between regions on different parts, divides the edges of elements where

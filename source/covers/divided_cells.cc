@@ -10,14 +10,11 @@ namespace NMM
   {
     using namespace dealii;
 
-    DividedCells::DividedCells(const MathematicalMesh          &mesh,
-                               const PhysicalEdges             &physical_edges,
-                               const std::vector<unsigned int> &region_to_part,
-                               const PartToCut                 &part,
-                               const NearEdges                 &near,
-                               std::vector<unsigned char>      &state)
-      : mesh(mesh)
-      , physical_edges(physical_edges)
+    DividedCells::DividedCells(const PartToCut            &part,
+                               const NearEdges            &near,
+                               std::vector<unsigned char> &state)
+      : mesh(*part.mesh)
+      , physical_edges(*part.physical_edges)
       , part_cells(part.cells)
       , cell_to_divided(part.cells.second - part.cells.first, invalid_index)
     {
@@ -27,7 +24,7 @@ namespace NMM
       half_edges.reserve(7 * n_expected);
       loops.reserve(7 * n_expected);
       faces.reserve(2 * n_expected + 1);
-      CellCutter cutter(mesh, physical_edges, region_to_part, part.part);
+      CellCutter cutter(mesh, physical_edges, *part.region_to_part, part.part);
       for (unsigned int i = 0; i + 1 < near.first.size(); ++i)
       {
         const ArrayView<const unsigned int> edges = near[i];

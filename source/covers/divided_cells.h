@@ -27,12 +27,9 @@ namespace NMM
        * CellState::untouched if edges have only points in common with the cell, else to `divided`
        * or `arranged`. Nothing is done if @p near is empty.
        */
-      DividedCells(const MathematicalMesh          &mesh,
-                   const PhysicalEdges             &physical_edges,
-                   const std::vector<unsigned int> &region_to_part,
-                   const PartToCut                 &part,
-                   const NearEdges                 &near,
-                   std::vector<unsigned char>      &state);
+      DividedCells(const PartToCut            &part,
+                   const NearEdges            &near,
+                   std::vector<unsigned char> &state);
 
       bool
       empty() const;

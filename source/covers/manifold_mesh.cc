@@ -59,24 +59,15 @@ namespace NMM
     cutting.is_met.assign(physical_edges.edges().size(), 0);
     cutting.cell_region.assign(mathematical_mesh.n_cells(), invalid_index);
     for (const internal::PartToCut &part : internal::find_parts(
-           mathematical_mesh, physical_edges, region_to_part, n_regions))
+           mathematical_mesh, physical_mesh, physical_edges, region_to_part))
     {
-      const internal::NearEdges near = internal::find_near_edges(
-        mathematical_mesh, physical_edges, part, scale);
+      const internal::NearEdges near = internal::find_near_edges(part, scale);
       for (unsigned int c = part.cells.first; c < part.cells.second; ++c)
         data->n_cells_cut_exactly +=
           near[c - part.cells.first].size() > 0 &&
           (rank_cells == nullptr ||
            rank_cells->cell_to_owner[c] == rank_cells->rank);
-      internal::cut(mathematical_mesh,
-                    neighbors,
-                    physical_mesh,
-                    physical_edges,
-                    region_to_part,
-                    part,
-                    near,
-                    state,
-                    cutting);
+      internal::cut(part, neighbors, near, state, cutting);
     }
     if (mathematical_mesh.rank_cells() != nullptr)
       internal::label_far_cells(mathematical_mesh,

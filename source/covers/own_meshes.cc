@@ -7,6 +7,7 @@
 
 #include "cutting.h"
 #include "fitted_mesh.h"
+#include "parts_to_cut.h"
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -158,36 +159,25 @@ namespace NMM
         return filling;
       }
 
-      const MathematicalMesh mathematical_mesh = combine_meshes({mesh}, 1);
-      internal::PartToCut    part;
-      part.part         = 0;
-      part.cells        = {0, mathematical_mesh.n_cells()};
-      const auto around = edges.region_edges(region);
-      part.edges.assign(around.begin(), around.end());
-      std::vector<ElementEdge> shapes;
-      for (const unsigned int e : part.edges)
-        shapes.push_back(edges.edges()[e].shape);
-      const auto         &cells = mathematical_mesh.cells();
-      internal::NearEdges near  = internal::find_edges_near_triangles(
-        mathematical_mesh.vertices(),
-        ArrayView<const internal::Triangle>(cells.data(), cells.size()),
-        shapes,
-        shape.scale);
-      for (unsigned int &edge : near.edges)
-        edge = part.edges[edge];
+      const MathematicalMesh     mathematical_mesh = combine_meshes({mesh}, 1);
+      const auto                 around            = edges.region_edges(region);
+      const internal::PartToCut  part              = {&mathematical_mesh,
+                                                      &physical_mesh,
+                                                      &edges,
+                                                      &region_to_part,
+                                                      0,
+                                                      {0, mathematical_mesh.n_cells()},
+                                                      {around.begin(), around.end()}};
+      const auto                &cells             = mathematical_mesh.cells();
       std::vector<unsigned char> state(cells.size(),
                                        internal::CellState::untouched);
       internal::Cutting          cutting;
       cutting.cell_region.assign(cells.size(), invalid_index);
       cutting.is_met.assign(edges.edges().size(), 0);
       region_to_part[region] = 0;
-      internal::cut(mathematical_mesh,
+      internal::cut(part,
                     internal::find_neighbors(mathematical_mesh),
-                    physical_mesh,
-                    edges,
-                    region_to_part,
-                    part,
-                    near,
+                    internal::find_near_edges(part, shape.scale),
                     state,
                     cutting);
       region_to_part[region] = invalid_index;

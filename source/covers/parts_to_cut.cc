@@ -13,20 +13,23 @@ namespace NMM
 
     std::vector<PartToCut>
     find_parts(const MathematicalMesh          &mesh,
+               const PhysicalMesh              &physical_mesh,
                const PhysicalEdges             &physical_edges,
-               const std::vector<unsigned int> &region_to_part,
-               const unsigned int               n_regions)
+               const std::vector<unsigned int> &region_to_part)
     {
       const auto part_of = [&](const unsigned int region) {
         return region_to_part.empty() ? 0u : region_to_part[region];
       };
-      std::vector<PartToCut> parts(mesh.n_parts());
-      for (unsigned int p = 0; p < parts.size(); ++p)
-      {
-        parts[p].part  = p;
-        parts[p].cells = mesh.part_cells(p);
-      }
-      for (unsigned int r = 0; r < n_regions; ++r)
+      std::vector<PartToCut> parts;
+      for (unsigned int p = 0; p < mesh.n_parts(); ++p)
+        parts.push_back({&mesh,
+                         &physical_mesh,
+                         &physical_edges,
+                         &region_to_part,
+                         p,
+                         mesh.part_cells(p),
+                         {}});
+      for (unsigned int r = 0; r < physical_mesh.regions().size(); ++r)
         for (const unsigned int e : physical_edges.region_edges(r))
         {
           // An edge between two regions of a part is taken once.
@@ -146,11 +149,10 @@ namespace NMM
 
 
     NearEdges
-    find_near_edges(const MathematicalMesh &mesh,
-                    const PhysicalEdges    &physical_edges,
-                    const PartToCut        &part,
-                    const double            scale)
+    find_near_edges(const PartToCut &part, const double scale)
     {
+      const MathematicalMesh   &mesh           = *part.mesh;
+      const PhysicalEdges      &physical_edges = *part.physical_edges;
       std::vector<ElementEdge>  shapes;
       std::vector<unsigned int> shape_to_edge;
       shapes.reserve(part.edges.size());

@@ -15,9 +15,9 @@ namespace NMM
     /// The parts that have regions, each with its physical edges.
     std::vector<PartToCut>
     find_parts(const MathematicalMesh          &mesh,
+               const PhysicalMesh              &physical_mesh,
                const PhysicalEdges             &physical_edges,
-               const std::vector<unsigned int> &region_to_part,
-               unsigned int                     n_regions);
+               const std::vector<unsigned int> &region_to_part);
 
     /// Upper bound of the coordinates of a box [m].
     double
@@ -25,10 +25,7 @@ namespace NMM
 
     /// The physical edges near each cell of a part; see largest_coordinate() for @p scale.
     NearEdges
-    find_near_edges(const MathematicalMesh &mesh,
-                    const PhysicalEdges    &physical_edges,
-                    const PartToCut        &part,
-                    double                  scale);
+    find_near_edges(const PartToCut &part, double scale);
 
     /**
      * Set the regions of untouched cells of a distributed mesh that touched cells do not determine.

@@ -62,7 +62,6 @@ namespace NMM
     const Deformation state =
       elasticity->assemble_between(begin,
                                    end,
-                                   1.,
                                    tangent,
                                    &first,
                                    &last,

@@ -7,122 +7,47 @@ namespace NMM
   {
     EdgeTerms::EdgeTerms(const CoverSystem       &covers,
                          const ElasticityProblem &problem,
-                         const CurveConditions   &conditions,
                          TraceConstants          &trace_constants)
       : covers(&covers)
-      , problem(&problem)
-      , conditions(&conditions)
       , maker(covers, problem, trace_constants)
       , degree(covers.manifold_mesh().mathematical_mesh().degree())
       , n_per_cell(WeightFunctions::n_per_cell(degree))
     {
       for (const unsigned int m :
            problem.region_to_material(covers.manifold_mesh().physical_mesh()))
-        region_to_initial_stress.push_back(problem.materials[m].initial_stress);
-    }
-
-
-    void
-    EdgeTerms::add_weak_points(LocalSystem &system) const
-    {
-      for (const WeakPoint &point : points)
       {
-        dealii::Tensor<1, 2> initial;
-        for (unsigned int s = 0; s < point.n_sides; ++s)
-          initial +=
-            point.sides[s].share *
-            (region_to_initial_stress[point.sides[s].region] * point.normal);
-        // the right-hand side is the negative residual of zero displacements
-        add_nitsche(point,
-                    WeakTraction(point, n_per_cell, maker.elasticities()),
-                    -point.prescribed,
-                    initial,
-                    point.weight,
-                    -1.,
-                    system);
+        region_to_response.emplace_back();
+        region_to_response.back().stress = problem.materials[m].initial_stress;
+        hooke_moduli(problem.materials[m].plane_elasticity(problem.plane_state),
+                     region_to_response.back().tangent);
       }
     }
 
 
-    void
-    EdgeTerms::add_conditions(const unsigned int element, LocalSystem &system)
+    NitscheTerms
+    EdgeTerms::terms_at_rest(const WeakPoint &point) const
     {
-      const ManifoldMesh &mesh = covers->manifold_mesh();
-      const unsigned int  cell = mesh.cell(element);
-      for (const ElementEdge &edge : mesh.edges(element))
+      NitscheTerms terms(point, n_per_cell, point.penalty);
+      terms.d = -point.prescribed;
+      for (unsigned int s = 0; s < point.n_sides; ++s)
       {
-        const std::vector<unsigned int> &on_edge =
-          conditions->conditions(element, edge);
-        if (on_edge.empty())
-          continue;
-        const EdgeRule rule =
-          make_edge_rule(edge, cell_frame(mesh, element), 2 * degree);
-        for (const unsigned int c : on_edge)
-        {
-          const BoundaryCondition &condition = problem->boundary_conditions[c];
-          switch (condition.type)
-          {
-            case BoundaryCondition::Type::traction:
-            case BoundaryCondition::Type::pressure:
-            case BoundaryCondition::Type::follower_pressure:
-              add_load(condition, cell, rule, system);
-              break;
-            case BoundaryCondition::Type::displacement:
-            case BoundaryCondition::Type::normal_displacement:
-              points.clear();
-              maker.append_condition(c, element, rule, points);
-              add_weak_points(system);
-              break;
-          }
-        }
+        const auto &response = region_to_response[point.sides[s].region];
+        terms.fluxes[s].set_elastic(response.stress,
+                                    response.tangent,
+                                    point.normal,
+                                    terms.d);
       }
+      return terms;
     }
 
 
     void
-    EdgeTerms::add_load(const BoundaryCondition &condition,
-                        const unsigned int       cell,
-                        const EdgeRule          &rule,
-                        LocalSystem             &system) const
+    EdgeTerms::add_weak_points(const EdgeTables       &edges,
+                               const EdgeTables::Site &site,
+                               LocalSystem            &system) const
     {
-      if (condition.value == nullptr)
-        return;
-      const MathematicalMesh &mesh =
-        covers->manifold_mesh().mathematical_mesh();
-
-      double w[WeightFunctions::max_per_cell];
-      for (unsigned int q = 0; q < rule.points.size(); ++q)
-      {
-        const dealii::Point<2> x = mesh.reference_to_real(cell, rule.points[q]);
-        dealii::Tensor<1, 2>   t;
-        if (condition.type != BoundaryCondition::Type::traction)
-          t = -condition.value->value(x) * rule.normals[q];
-        else
-          for (unsigned int c = 0; c < 2; ++c)
-            t[c] = condition.value->value(x, c);
-
-        WeightFunctions::values(degree, rule.points[q], w);
-        for (unsigned int i = 0; i < n_per_cell; ++i)
-          for (unsigned int c = 0; c < 2; ++c)
-            system.rhs[2 * i + c] += rule.weights[q] * w[i] * t[c];
-      }
-    }
-
-
-    void
-    EdgeTerms::add_tie(const unsigned int element,
-                       const ElementEdge &edge,
-                       LocalSystem       &system)
-    {
-      const ManifoldMesh &mesh = covers->manifold_mesh();
-      points.clear();
-      maker.append_tie(element,
-                       edge,
-                       make_edge_rule(edge,
-                                      cell_frame(mesh, element),
-                                      2 * degree),
-                       points);
-      add_weak_points(system);
+      for (unsigned int q = site.first_point; q < site.last_point; ++q)
+        terms_at_rest(edges.weak_points[q]).add(system);
     }
 
 
@@ -130,7 +55,7 @@ namespace NMM
     EdgeTerms::compute_disk_edge(const unsigned int element,
                                  const ElementEdge &edge,
                                  const DiskCover   &disk,
-                                 DiskEdge          &result)
+                                 DiskEdge          &result) const
     {
       const ManifoldMesh     &mesh              = covers->manifold_mesh();
       const MathematicalMesh &mathematical_mesh = mesh.mathematical_mesh();
@@ -155,11 +80,11 @@ namespace NMM
       result.work_matrix.reinit(n, n);
 
       // The functions are no polynomials.
-      const unsigned int further_degree = 4;
-      const EdgeRule     rule           = make_edge_rule(edge,
+      const unsigned int     further_degree = 4;
+      const EdgeRule         rule           = make_edge_rule(edge,
                                            cell_frame(mesh, element),
                                            2 * degree + further_degree);
-      points.clear();
+      std::vector<WeakPoint> points;
       maker.append_tie(element, edge, rule, points);
       DiskPoint functions;
       functions.displacements.resize(n);
@@ -190,9 +115,9 @@ namespace NMM
                               const unsigned int inside,
                               DiskEdge          &result) const
     {
-      const double       w_1 = point.sides[inside].share, w_2 = 1. - w_1;
-      const WeakTraction traction =
-        WeakTraction(point, n_per_cell, maker.elasticities());
+      const double w_1 = point.sides[inside].share, w_2 = 1. - w_1;
+      double       traction[LocalSystem::max_covers][2][2];
+      terms_at_rest(point).traction_derivatives(traction);
       // jump and flux are those of the element minus its neighbour, and with its normal
       const double sign = inside == 0 ? 1. : -1.;
       const auto   mean = [&](const unsigned int k) {
@@ -212,8 +137,8 @@ namespace NMM
           const double jump     = sign * point.jump[k];
           for (unsigned int c = 0; c < 2; ++c)
           {
-            const double flux = sign * (traction.derivative[k][0][c] * F[0] +
-                                        traction.derivative[k][1][c] * F[1]);
+            const double flux =
+              sign * (traction[k][0][c] * F[0] + traction[k][1][c] * F[1]);
             result.couplings[j](2 * k + c) +=
               point.weight *
               (mean(k) * t[c] - flux + point.penalty * jump * F[c]);

@@ -9,9 +9,7 @@
 #include <deal.II/lac/vector.h>
 
 #include <array>
-#include <mechanics/curve_conditions.h>
-#include <mechanics/local_system.h>
-#include <mechanics/weak_points.h>
+#include <mechanics/finite_terms.h>
 #include <vector>
 
 namespace NMM
@@ -19,28 +17,22 @@ namespace NMM
   namespace internal
   {
     /**
-     * Terms on edges of elements in small displacements: loads and displacement conditions on
-     * boundaries, ties across interfaces and closed joints.
-     * See WeakPointMaker for penalties and averages.
+     * Terms on edges of elements in small displacements, at rest: displacement conditions, ties,
+     * and the circles of disk covers.
      */
     class EdgeTerms
     {
     public:
       EdgeTerms(const CoverSystem       &covers,
                 const ElasticityProblem &problem,
-                const CurveConditions   &conditions,
                 TraceConstants          &trace_constants);
 
-      /// Add loads and displacement conditions on the boundary edges of an element.
+      /// Add the terms of the displacement conditions or ties at a site of @p edges, see
+      /// StaticElasticity.
       void
-      add_conditions(unsigned int element, LocalSystem &system);
-
-      /// Add a tie to a system of the covers of @p element, followed by those of
-      /// edge.neighbor.
-      void
-      add_tie(unsigned int       element,
-              const ElementEdge &edge,
-              LocalSystem       &system);
+      add_weak_points(const EdgeTables       &edges,
+                      const EdgeTables::Site &site,
+                      LocalSystem            &system) const;
 
       /// Terms of the functions F_j of a disk cover on an edge of its circle. Unknowns are those of
       /// an element, followed by those of its neighbour; v is a displacement of these.
@@ -71,12 +63,12 @@ namespace NMM
       compute_disk_edge(unsigned int       element,
                         const ElementEdge &edge,
                         const DiskCover   &disk,
-                        DiskEdge          &result);
+                        DiskEdge          &result) const;
 
     private:
-      /// Add Nitsche's terms at the points of @p points, see StaticElasticity.
-      void
-      add_weak_points(LocalSystem &system) const;
+      /// The terms of a point with the fluxes of Hooke's law at zero displacements.
+      NitscheTerms
+      terms_at_rest(const WeakPoint &point) const;
 
       /// The functions F_j of a disk and their tractions sigma(F_j) n at a point of its circle.
       struct DiskPoint
@@ -92,21 +84,11 @@ namespace NMM
                      unsigned int     inside,
                      DiskEdge        &result) const;
 
-      void
-      add_load(const BoundaryCondition &condition,
-               unsigned int             cell,
-               const EdgeRule          &rule,
-               LocalSystem             &system) const;
-
-      const CoverSystem       *covers;
-      const ElasticityProblem *problem;
-      const CurveConditions   *conditions;
-      WeakPointMaker           maker;
-      /// Points of the edge at hand.
-      std::vector<WeakPoint> points;
-      unsigned int           degree, n_per_cell;
-
-      std::vector<dealii::SymmetricTensor<2, 2>> region_to_initial_stress;
+      const CoverSystem *covers;
+      WeakPointMaker     maker;
+      unsigned int       degree, n_per_cell;
+      /// Stress and moduli of each region at rest.
+      std::vector<HyperelasticLaw::Response> region_to_response;
     };
   } // namespace internal
 } // namespace NMM

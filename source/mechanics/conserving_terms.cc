@@ -226,14 +226,7 @@ namespace NMM
         return secant_moduli(result.E_0, result.E_1, result.moduli);
       }
 
-      for (unsigned int M = 0; M < 2; ++M)
-        for (unsigned int J = 0; J < 2; ++J)
-          for (unsigned int N = 0; N < 2; ++N)
-            for (unsigned int L = 0; L < 2; ++L)
-              result.moduli[2 * M + J][2 * N + L] =
-                (M == J && N == L ? elasticity.lambda : 0.) +
-                elasticity.mu *
-                  ((M == N && J == L ? 1. : 0.) + (M == L && J == N ? 1. : 0.));
+      hooke_moduli(elasticity, result.moduli);
       std::copy(&result.moduli[0][0],
                 &result.moduli[0][0] + 16,
                 &result.end_moduli[0][0]);
@@ -278,9 +271,7 @@ namespace NMM
                             const Tensor<2, 2> &H_1,
                             const bool          with_tangent,
                             const double        damping,
-                            Tensor<2, 2>       &P,
-                            double (&A)[4][4],
-                            double &dissipated) const
+                            Response           &response) const
     {
       const Tensor<2, 2>    F = with_identity(0.5 * (H_0 + H_1));
       SymmetricTensor<2, 2> S;
@@ -300,7 +291,7 @@ namespace NMM
         S[0][0] += pressure;
         S[1][1] += pressure;
       }
-      dissipated = 0.;
+      response.dissipated = 0.;
       if (damping > 0.)
       {
         const SymmetricTensor<2, 2> change =
@@ -310,10 +301,10 @@ namespace NMM
           damping * elasticity.lambda * dealii::trace(change);
         viscous[0][0] += pressure;
         viscous[1][1] += pressure;
-        dissipated = viscous * change;
+        response.dissipated = viscous * change;
         S += viscous;
       }
-      P = F * Tensor<2, 2>(S);
+      response.stress = F * Tensor<2, 2>(S);
       if (!with_tangent)
         return Deformation::admissible;
 
@@ -340,7 +331,7 @@ namespace NMM
               if (moduli > 0.)
                 a += lambda * F[i][J] * F_1[k][L] +
                      mu * (F[i][L] * F_1[k][J] + (J == L ? b[i][k] : 0.));
-              A[2 * i + J][2 * k + L] = a;
+              response.tangent[2 * i + J][2 * k + L] = a;
             }
       return Deformation::admissible;
     }
@@ -354,50 +345,24 @@ namespace NMM
           const ElementTables::View &table,
           const LocalDisplacement   &begin,
           const LocalDisplacement   &end,
-          const bool                 with_tangent,
           const double               damping,
-          LocalSystem               &local,
-          double                    &dissipated)
+          LocalSystem               &local)
       {
-        Tensor<2, 2> P;
-        double       A[4][4], loss;
+        ConservingLaw::Response response;
         for (unsigned int q = 0; q < table.n_points; ++q)
         {
           const double(*g)[2] = table.gradients + q * n;
           const double weight = table.weights[q];
           if (law.evaluate(displacement_gradient(n, begin.values, g),
                            displacement_gradient(n, end.values, g),
-                           with_tangent,
+                           local.with_matrix,
                            damping,
-                           P,
-                           A,
-                           loss) != Deformation::admissible)
+                           response) != Deformation::admissible)
             return Deformation::inverted;
-          P *= weight;
-          dissipated += weight * loss;
-          for (unsigned int i = 0; i < n; ++i)
-          {
-            local.rhs[2 * i] += P[0][0] * g[i][0] + P[0][1] * g[i][1];
-            local.rhs[2 * i + 1] += P[1][0] * g[i][0] + P[1][1] * g[i][1];
-          }
-          if (!with_tangent)
-            continue;
-          for (unsigned int i = 0; i < n; ++i)
-          {
-            const double g0 = weight * g[i][0], g1 = weight * g[i][1];
-            for (unsigned int c = 0; c < 2; ++c)
-            {
-              double M[4];
-              for (unsigned int b = 0; b < 4; ++b)
-                M[b] = g0 * A[2 * c][b] + g1 * A[2 * c + 1][b];
-              double *row = local.matrix + 2 * n * (2 * i + c);
-              for (unsigned int j = 0; j < n; ++j)
-              {
-                row[2 * j] += M[0] * g[j][0] + M[1] * g[j][1];
-                row[2 * j + 1] += M[2] * g[j][0] + M[3] * g[j][1];
-              }
-            }
-          }
+          local.dissipated += weight * response.dissipated;
+          add_stress(n, g, weight * response.stress, local.rhs);
+          if (local.with_matrix)
+            add_moduli(n, g, weight, response.tangent, local.matrix, 2 * n);
         }
         return Deformation::admissible;
       }
@@ -406,23 +371,15 @@ namespace NMM
 
     Deformation
     add_conserving_terms(const ConservingLaw       &law,
-                         const unsigned int         n_per_cell,
                          const ElementTables::View &table,
                          const LocalDisplacement   &begin,
                          const LocalDisplacement   &end,
-                         const bool                 with_tangent,
                          const double               damping,
-                         LocalSystem               &local,
-                         double                    &dissipated)
+                         LocalSystem               &local)
     {
-      return (n_per_cell == 3 ? add<3> : add<6>)(law,
-                                                 table,
-                                                 begin,
-                                                 end,
-                                                 with_tangent,
-                                                 damping,
-                                                 local,
-                                                 dissipated);
+      return (local.n_covers == 3
+                ? add<3>
+                : add<6>)(law, table, begin, end, damping, local);
     }
   } // namespace internal
 } // namespace NMM

@@ -13,23 +13,6 @@ namespace NMM
 {
   namespace internal
   {
-    /// The product C : X, the sum over (N, L) of C_MJNL X_NL, where C_MJNL is stored at
-    /// [2M + J][2N + L].
-    inline dealii::Tensor<2, 2>
-    multiply(const double (&C)[4][4], const dealii::Tensor<2, 2> &X)
-    {
-      dealii::Tensor<2, 2> result;
-      for (unsigned int M = 0; M < 2; ++M)
-        for (unsigned int J = 0; J < 2; ++J)
-        {
-          const double(&row)[4] = C[2 * M + J];
-          result[M][J]          = row[0] * X[0][0] + row[1] * X[0][1] +
-                         row[2] * X[1][0] + row[3] * X[1][1];
-        }
-      return result;
-    }
-
-
     /// I + @p H.
     inline dealii::Tensor<2, 2>
     with_identity(dealii::Tensor<2, 2> H)
@@ -66,28 +49,37 @@ namespace NMM
       ConservingLaw(std::shared_ptr<const HyperelasticLaw> law,
                     const dealii::SymmetricTensor<2, 2>   &initial_stress);
 
+      /// Stress between two states.
+      struct Response
+      {
+        /// P [Pa].
+        dealii::Tensor<2, 2> stress;
+        /// A_iJkL at [2i + J][2k + L] [Pa].
+        double tangent[4][4];
+        /// Energy that damping dissipates [J/m^3].
+        double dissipated;
+      };
+
       /**
        * The states are given by their displacement gradients H = F - I. With F, whose diagonal is 1,
        * strains would be rounded by 1e-16, however small they are, and damping multiplies that by
        * beta / h.
        *
-       * Compute P [Pa] and, if @p with_tangent, A = 2 dP/dF_1, the derivative with respect to F_m
-       * at fixed F_0, where A_iJkL is stored at [2i + J][2k + L]. A is not symmetric.
+       * The tangent is A = 2 dP/dF_1, the derivative with respect to F_m at fixed F_0. It is not
+       * symmetric, and computed only if @p with_tangent.
        *
        * Stiffness-proportional damping adds to S the stress
        * @f[ S_v = \frac{\beta}{h}\,C : (E_1 - E_0), @f]
        * C being the moduli of the undeformed state and @p damping = beta / h [-]. This is a
        * Kelvin-Voigt solid: rigid motions are not damped, however large the rotation is, and
-       * momenta are conserved. @p dissipated is S_v : (E_1 - E_0) >= 0 [J/m^3].
+       * momenta are conserved. It dissipates S_v : (E_1 - E_0) >= 0.
        */
       Deformation
       evaluate(const dealii::Tensor<2, 2> &H_0,
                const dealii::Tensor<2, 2> &H_1,
                bool                        with_tangent,
                double                      damping,
-               dealii::Tensor<2, 2>       &P,
-               double (&A)[4][4],
-               double &dissipated) const;
+               Response                   &response) const;
 
       /// The change of the second Piola-Kirchhoff stress S with E between two states. Moduli
       /// C_MJNL are stored at [2M + J][2N + L].
@@ -147,54 +139,42 @@ namespace NMM
 
     /**
      * Add to @p local the internal forces of an element between the displacements @p begin and
-     * @p end and, if @p with_tangent, their derivative with respect to the mean displacement at
+     * @p end and, if it has a matrix, their derivative with respect to the mean displacement at
      * fixed @p begin. The energy that ConservingLaw::evaluate() dissipates because of @p damping is
-     * added to @p dissipated [J/m].
+     * added to local.dissipated.
      */
     Deformation
     add_conserving_terms(const ConservingLaw       &law,
-                         unsigned int               n_per_cell,
                          const ElementTables::View &table,
                          const LocalDisplacement   &begin,
                          const LocalDisplacement   &end,
-                         bool                       with_tangent,
                          double                     damping,
-                         LocalSystem               &local,
-                         double                    &dissipated);
+                         LocalSystem               &local);
 
 
     /**
-     * Add the terms of a displacement condition or tie at a point between two states. The work of
-     * these forces is exactly the change of the energy of add_weak_point(),
+     * Compute the fluxes of a displacement condition or tie at a point between two states, whose
+     * forces do exactly the work by which the energy of elastic_fluxes() changes,
      * @f[ \Pi = \int -\sum_s \text{share}_s\,a_s\cdot S(E_s)N
      *      + \frac{\gamma}{2}|d|^2, \qquad a_s = F_s^T d, @f]
      * except for the work of moving supports. E, a and |d|^2 are quadratic in F and d, so
      * that their change is their derivative in the middle of the step times the change of F
      * and d. They are invariant under a rotation of a tied pair. With means (m) of both states,
-     * C : (E_1 - E_0) = S_1 - S_0 (ConservingLaw::Secant) and M = C : (a_m (x) N), the residual
-     * @f[ r(v) = \int \gamma\,d_m\cdot v - \sum_s \text{share}_s
-     *      \left((d_m\otimes S_m N + F_m M):\nabla v
-     *      + F_m S_m N\cdot Bv\right) @f]
-     * conserves momenta wherever the derivative of Pi does, like
+     * C : (E_1 - E_0) = S_1 - S_0 (ConservingLaw::Secant) and M = C : (a_m (x) N), the fluxes
+     * @f[ t = F_m S_m N, \qquad Q = d_m\otimes S_m N + F_m M @f]
+     * conserve momenta wherever the derivative of Pi does, like
      * Gonzalez' G-equivariant discrete gradient (J. Nonlinear Sci. 6 (1996)
-     * 449), but at each point separately. The derivative is that of add_conserving_terms().
-     * Arguments are those of add_weak_point(), with these differences: Tangent::robust omits all
-     * terms of the derivative that vanish with the jumps; @p prescribed is B g at both
-     * states; the work that supports do by its change is added to @p work [J/m].
+     * 449), but at each point separately. The derivatives are those of add_conserving_terms();
+     * Tangent::robust omits all of their terms that vanish with the jumps.
+     * @p d are the jumps of both states; terms.d becomes their mean.
      */
     Deformation
-    add_conserving_weak_point(
-      const WeakPoint                           &point,
-      const std::vector<ConservingLaw>          &region_to_law,
-      unsigned int                               n_per_cell,
-      const std::array<dealii::Tensor<1, 2>, 2> &prescribed,
-      double                                     growth,
-      const LocalDisplacement                   &begin,
-      const LocalDisplacement                   &end,
-      Tangent                                    tangent,
-      LocalSystem                               &local,
-      double                                    &work,
-      double                                    &largest_jump);
+    conserving_fluxes(const std::vector<ConservingLaw>          &region_to_law,
+                      const LocalDisplacement                   &begin,
+                      const LocalDisplacement                   &end,
+                      const std::array<dealii::Tensor<1, 2>, 2> &d,
+                      Tangent                                    tangent,
+                      NitscheTerms                              &terms);
   } // namespace internal
 } // namespace NMM
 

@@ -46,7 +46,7 @@ namespace NMM
 
 
     void
-    DiskSystem::assemble(EdgeTerms             &edge_terms,
+    DiskSystem::assemble(const EdgeTerms       &edge_terms,
                          const CurveConditions &conditions,
                          const Vector          &like)
     {
@@ -72,7 +72,7 @@ namespace NMM
 
     void
     DiskSystem::add_circle(const unsigned int     d,
-                           EdgeTerms             &edge_terms,
+                           const EdgeTerms       &edge_terms,
                            const CurveConditions &conditions)
     {
       const unsigned int n_per_cell =

@@ -43,7 +43,7 @@ namespace NMM
 
       /// Assemble B, C and g. @p like is a vector of the owned unknowns. Collective.
       void
-      assemble(EdgeTerms             &edge_terms,
+      assemble(const EdgeTerms       &edge_terms,
                const CurveConditions &conditions,
                const Vector          &like);
 
@@ -82,7 +82,7 @@ namespace NMM
        */
       void
       add_circle(unsigned int           d,
-                 EdgeTerms             &edge_terms,
+                 const EdgeTerms       &edge_terms,
                  const CurveConditions &conditions);
 
       /// Set g of disk @p d.

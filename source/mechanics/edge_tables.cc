@@ -1,16 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <mechanics/edge_tables.h>
-#include <mechanics/point_terms.h>
 
 namespace NMM
 {
   namespace internal
   {
-    namespace
-    {
-      using Type = BoundaryCondition::Type;
-    } // namespace
+    using Type = BoundaryCondition::Type;
 
 
     EdgeTables::EdgeTables(const CoverSystem       &covers,
@@ -23,14 +19,14 @@ namespace NMM
       , degree(covers.manifold_mesh().mathematical_mesh().degree())
       , n_per_cell(WeightFunctions::n_per_cell(degree))
     {
-      const ManifoldMesh &mesh = covers.manifold_mesh();
       const auto [first, last] = covers.locally_owned_elements();
       for (unsigned int e = first; e < last; ++e)
         add_conditions(e, curve_conditions);
-      for (unsigned int e = first; e < last; ++e)
-        for (const ElementEdge &edge : mesh.edges(e))
-          if (curve_conditions.is_tied(e, edge) && e < edge.neighbor)
-            add_tie(e, edge);
+      for_each_tie(covers,
+                   curve_conditions,
+                   [&](const unsigned int e, const ElementEdge &edge) {
+                     add_tie(e, edge);
+                   });
     }
 
 
@@ -52,11 +48,9 @@ namespace NMM
           make_edge_rule(edge, cell_frame(mesh, element), 2 * degree);
         for (const unsigned int c : on_edge)
         {
-          const Type type = problem->boundary_conditions[c].type;
-          if (type == Type::follower_pressure)
+          if (problem->boundary_conditions[c].type == Type::follower_pressure)
             add_follower(c, element, rule);
-          else if (type == Type::displacement ||
-                   type == Type::normal_displacement)
+          else if (is_weak(problem->boundary_conditions[c]))
             maker.append_condition(c, element, rule, weak_points);
         }
       }
@@ -163,7 +157,9 @@ namespace NMM
     DeadLoads::DeadLoads(const CoverSystem          &covers,
                          const QuadratureCollection &quadrature,
                          const ElasticityProblem    &problem,
-                         const CurveConditions      &conditions)
+                         const CurveConditions      &conditions,
+                         const PointTerms           &points,
+                         const bool                  are_displacements_small)
       : boundary_conditions(problem.boundary_conditions.size())
       , point_forces(problem.point_forces.size())
       , covers(&covers)
@@ -173,8 +169,8 @@ namespace NMM
     {
       if (problem.body_force != nullptr || problem.gravity.norm() > 0.)
         add_volume_loads(quadrature);
-      add_tractions(conditions);
-      add_point_forces();
+      add_tractions(conditions, are_displacements_small);
+      add_point_forces(points.point_force_elements());
     }
 
 
@@ -225,7 +221,8 @@ namespace NMM
 
 
     void
-    DeadLoads::add_tractions(const CurveConditions &conditions)
+    DeadLoads::add_tractions(const CurveConditions &conditions,
+                             const bool             are_displacements_small)
     {
       const ManifoldMesh     &mesh              = covers->manifold_mesh();
       const MathematicalMesh &mathematical_mesh = mesh.mathematical_mesh();
@@ -235,8 +232,9 @@ namespace NMM
       for (unsigned int c = 0; c < problem->boundary_conditions.size(); ++c)
       {
         const BoundaryCondition &condition = problem->boundary_conditions[c];
-        if (condition.value == nullptr || (condition.type != Type::traction &&
-                                           condition.type != Type::pressure))
+        if (condition.value == nullptr || is_weak(condition) ||
+            (condition.type == Type::follower_pressure &&
+             !are_displacements_small))
           continue;
         for (unsigned int e = first; e < last; ++e)
           for (const ElementEdge &edge : mesh.edges(e))
@@ -253,7 +251,7 @@ namespace NMM
               const dealii::Point<2> x =
                 mathematical_mesh.reference_to_real(cell, rule.points[q]);
               dealii::Tensor<1, 2> t;
-              if (condition.type == Type::pressure)
+              if (condition.type != Type::traction)
                 t = -condition.value->value(x) * rule.normals[q];
               else
                 for (unsigned int d = 0; d < 2; ++d)
@@ -269,22 +267,17 @@ namespace NMM
 
 
     void
-    DeadLoads::add_point_forces()
+    DeadLoads::add_point_forces(const std::vector<unsigned int> &elements)
     {
       const ManifoldMesh     &mesh              = covers->manifold_mesh();
       const MathematicalMesh &mathematical_mesh = mesh.mathematical_mesh();
-      if (problem->point_forces.empty())
-        return;
-      // PointTerms finds the element of each point force
-      double w[WeightFunctions::max_per_cell];
+      double                  w[WeightFunctions::max_per_cell];
       const auto [first, last] = covers->locally_owned_elements();
-      Collector collector(covers->n_covers());
-      for (unsigned int f = 0; f < problem->point_forces.size(); ++f)
+      Collector collector(elements.empty() ? 0 : covers->n_covers());
+      for (unsigned int f = 0; f < elements.size(); ++f)
       {
-        const PointForce &force = problem->point_forces[f];
-        ElasticityProblem single;
-        single.point_forces  = {force};
-        const unsigned int e = PointTerms(*covers, single).elements().front();
+        const PointForce  &force = problem->point_forces[f];
+        const unsigned int e     = elements[f];
         if (e < first || e >= last)
           continue;
         WeightFunctions::values(

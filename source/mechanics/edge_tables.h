@@ -7,6 +7,7 @@
 
 #include <mechanics/curve_conditions.h>
 #include <mechanics/local_system.h>
+#include <mechanics/point_terms.h>
 #include <mechanics/weak_points.h>
 #include <vector>
 
@@ -80,7 +81,8 @@ namespace NMM
     /**
      * Loads that keep direction and size, as forces on covers. There is one list of forces for
      * each boundary condition, each point force, gravity and the body force. The list is empty if
-     * the problem does not have the load.
+     * the problem does not have the load. Follower pressure is no such load, except for small
+     * displacements.
      */
     class DeadLoads
     {
@@ -88,7 +90,9 @@ namespace NMM
       DeadLoads(const CoverSystem          &covers,
                 const QuadratureCollection &quadrature,
                 const ElasticityProblem    &problem,
-                const CurveConditions      &conditions);
+                const CurveConditions      &conditions,
+                const PointTerms           &points,
+                bool                        are_displacements_small = false);
 
       /// The forces of one load on covers, each of which occurs once.
       struct Load
@@ -122,10 +126,11 @@ namespace NMM
       add_volume_loads(const QuadratureCollection &quadrature);
 
       void
-      add_tractions(const CurveConditions &conditions);
+      add_tractions(const CurveConditions &conditions,
+                    bool                   are_displacements_small);
 
       void
-      add_point_forces();
+      add_point_forces(const std::vector<unsigned int> &elements);
 
       const CoverSystem       *covers;
       const ElasticityProblem *problem;

@@ -50,10 +50,8 @@ namespace NMM
         }
         if (!found)
           append(rule, jacobian, degree);
-        entries.push_back({rule.size(), n_all_points, begin});
-        n_all_points += rule.size();
+        entries.push_back({rule.size(), begin});
       }
-      n_shared_tables = shared.size();
     }
 
 

@@ -46,32 +46,10 @@ namespace NMM
                   entry.first * n_per_cell};
       }
 
-      /// Index of the element's first quadrature point in a consecutive numbering of the points
-      /// of all owned elements.
-      unsigned int
-      first_point(const unsigned int element) const
-      {
-        return entries[element - first_element].first_point;
-      }
-
-      unsigned int
-      n_points() const
-      {
-        return n_all_points;
-      }
-
-      /// Number of tables that whole elements share.
-      unsigned int
-      n_shared() const
-      {
-        return n_shared_tables;
-      }
-
     private:
       struct Entry
       {
         unsigned int n_points;
-        unsigned int first_point;
         std::size_t  first;
       };
 
@@ -82,7 +60,6 @@ namespace NMM
              unsigned int                 degree);
 
       unsigned int        first_element, n_per_cell;
-      unsigned int        n_all_points = 0, n_shared_tables = 0;
       std::vector<Entry>  entries;
       std::vector<double> weights, gradients;
     };
@@ -120,6 +97,51 @@ namespace NMM
                          const double (*gradients)[2])
     {
       return displacement_gradient(n, u, gradients, 1.);
+    }
+
+
+    /// Add the forces P_cJ dw_i/dX_J of a stress @p P to @p rhs, for @p n weight functions.
+    inline DEAL_II_ALWAYS_INLINE void
+    add_stress(const unsigned int n,
+               const double (*gradients)[2],
+               const dealii::Tensor<2, 2> &P,
+               double                     *rhs)
+    {
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int c = 0; c < 2; ++c)
+          rhs[2 * i + c] +=
+            P[c][0] * gradients[i][0] + P[c][1] * gradients[i][1];
+    }
+
+
+    /// Add @p weight times the sum over (J, L) of dw_i/dX_J A_cJdL dw_j/dX_L, with A_cJdL at
+    /// [2c + J][2d + L], to the entries of @p n weight functions in a matrix whose rows are
+    /// @p stride apart. A need not be symmetric.
+    inline DEAL_II_ALWAYS_INLINE void
+    add_moduli(const unsigned int n,
+               const double (*gradients)[2],
+               const double weight,
+               const double (&A)[4][4],
+               double            *matrix,
+               const unsigned int stride)
+    {
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        const double g0 = weight * gradients[i][0],
+                     g1 = weight * gradients[i][1];
+        for (unsigned int c = 0; c < 2; ++c)
+        {
+          double M[4];
+          for (unsigned int b = 0; b < 4; ++b)
+            M[b] = g0 * A[2 * c][b] + g1 * A[2 * c + 1][b];
+          double *row = matrix + stride * (2 * i + c);
+          for (unsigned int j = 0; j < n; ++j)
+          {
+            row[2 * j] += M[0] * gradients[j][0] + M[1] * gradients[j][1];
+            row[2 * j + 1] += M[2] * gradients[j][0] + M[3] * gradients[j][1];
+          }
+        }
+      }
     }
   } // namespace internal
 } // namespace NMM

@@ -36,19 +36,14 @@ namespace NMM
     read_nodal_values(*data->covers, u, data->nodal);
     if (with_tangent && increment != nullptr)
       read_nodal_values(*data->covers, *increment, data->nodal_increment);
-    const Data::Task task{load_factor,
-                          tangent,
-                          with_tangent,
-                          with_tangent && increment != nullptr};
-
-    return data->assemble(task);
+    return data->assemble(
+      {load_factor, tangent, with_tangent && increment != nullptr});
   }
 
 
   Deformation
   FiniteElasticity::assemble_between(const Vector         &begin,
                                      const Vector         &end,
-                                     const double          load_factor,
                                      const Tangent         tangent,
                                      const LoadAmplitudes *first,
                                      const LoadAmplitudes *last,
@@ -61,10 +56,7 @@ namespace NMM
     d.active_covers.for_each(d.covers->n_covers(), [&](const unsigned int k) {
       d.nodal[k] = 0.5 * (d.nodal_begin[k] + d.nodal_end[k]);
     });
-    Data::Task task{load_factor,
-                    tangent,
-                    tangent != Tangent::none,
-                    /* has_increment = */ false};
+    Data::Task task{/* load_factor = */ 1., tangent};
     task.is_between = true;
     task.first      = first;
     task.last       = last;
@@ -274,10 +266,4 @@ namespace NMM
     return data->is_inelastic;
   }
 
-
-  unsigned int
-  FiniteElasticity::n_shared_tables() const
-  {
-    return data->tables.n_shared();
-  }
 } // namespace NMM

@@ -1,3 +1,5 @@
+#include <nmm/base/exceptions.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -5,12 +7,32 @@
 #include <base/in_order.h>
 #include <cmath>
 #include <mechanics/finite_elasticity_data.h>
+#include <mechanics/floating_blocks.h>
 #include <mechanics/nodal_values.h>
+#include <mechanics/trace_constant.h>
 
 // Assembly of elements, displacement conditions, ties and loads.
 namespace NMM
 {
   using namespace internal;
+
+  namespace
+  {
+    /// The mesh of @p covers, once it is known to be fit for @p problem.
+    const ManifoldMesh &
+    checked_mesh(const CoverSystem &covers, const ElasticityProblem &problem)
+    {
+      const ManifoldMesh &mesh = covers.manifold_mesh();
+      AssertThrow(mesh.exchange() == nullptr,
+                  InputError("a distributed mathematical mesh is for linear "
+                             "static problems only",
+                             "a nonlinear analysis",
+                             "use make_regular_mesh()"));
+      problem.check(mesh.physical_mesh());
+      return mesh;
+    }
+  } // namespace
+
 
   FiniteElasticity::Data::Data(
     const CoverSystem                       &covers,
@@ -18,8 +40,29 @@ namespace NMM
     const dealii::AffineConstraints<double> &constraints,
     const ElasticityProblem                 &problem,
     const bool                               may_float)
-    : ReferenceTables(covers, quadrature, constraints, problem, may_float)
+    : covers(&covers)
+    , constraints(&constraints)
+    , problem(&problem)
+    , n_per_cell(covers.manifold_mesh().mathematical_mesh().n_covers_per_cell())
+    , curve_conditions(checked_mesh(covers, problem), problem)
+    , points(covers, problem)
+    , tables(covers, quadrature)
+    , dead_loads(covers, quadrature, problem, curve_conditions, points)
+    , assembler(covers, constraints)
   {
+    if (!may_float)
+      check_no_block_floats(covers, problem, curve_conditions, points);
+    TraceConstants trace_constants(covers,
+                                   quadrature,
+                                   constraints,
+                                   curve_conditions);
+    edges = std::make_unique<EdgeTables>(covers,
+                                         problem,
+                                         curve_conditions,
+                                         trace_constants);
+    for (const EdgeTables::Site &tie : edges->ties)
+      assembler.couple({covers_of_tie(tie).data(), 2 * n_per_cell});
+    assembler.ignore_inhomogeneities();
     for (const unsigned int m :
          problem.region_to_material(covers.manifold_mesh().physical_mesh()))
     {
@@ -118,46 +161,36 @@ namespace NMM
       gather(site, nodal_begin, begin);
       gather(site, nodal_end, end);
     }
-    for (unsigned int q = site.first_point; q < site.last_point; ++q)
-    {
+    Deformation state = Deformation::admissible;
+    for_each_weak_point(site, [&](const unsigned int q) {
+      if (state != Deformation::admissible)
+        return;
       const WeakPoint      &point  = edges->weak_points[q];
       std::array<double, 2> factor = {};
       if (point.condition != invalid_index)
-      {
-        if (!amplitudes.released_conditions.empty() &&
-            amplitudes.released_conditions[point.condition])
-          continue;
         factor =
           factors(&LoadAmplitudes::boundary_conditions, point.condition, task);
+      NitscheTerms terms(point, n_per_cell, penalty_growth[q] * point.penalty);
+      if (task.is_between)
+      {
+        const std::array<dealii::Tensor<1, 2>, 2> d = {
+          {terms.jump(begin, factor[0]), terms.jump(end, factor[1])}};
+        state = conserving_fluxes(
+          region_to_conserving_law, begin, end, d, task.tangent, terms);
+        gauge_jump(point, d[1]);
+        energies.work_of_conditions -= point.weight * (factor[1] - factor[0]) *
+                                       (terms.force() * point.prescribed);
       }
-      const Deformation state =
-        task.is_between
-          ? add_conserving_weak_point(point,
-                                      region_to_conserving_law,
-                                      n_per_cell,
-                                      {{factor[0] * point.prescribed,
-                                        factor[1] * point.prescribed}},
-                                      penalty_growth[q],
-                                      begin,
-                                      end,
-                                      task.tangent,
-                                      local,
-                                      energies.work_of_conditions,
-                                      largest_jump)
-          : add_weak_point(point,
-                           region_to_law,
-                           n_per_cell,
-                           factor[0] * point.prescribed,
-                           penalty_growth[q],
-                           u,
-                           task.tangent,
-                           local,
-                           energies.conditions,
-                           largest_jump);
-      if (state != Deformation::admissible)
-        return Deformation::inverted;
-    }
-    return Deformation::admissible;
+      else
+      {
+        terms.d = terms.jump(u, factor[0]);
+        state   = elastic_fluxes(region_to_law, u, task.tangent, terms);
+        gauge_jump(point, terms.d);
+      }
+      if (state == Deformation::admissible)
+        terms.add(local);
+    });
+    return state;
   }
 
 
@@ -174,27 +207,18 @@ namespace NMM
       {
         const auto [first, last] =
           factors(&LoadAmplitudes::fixed_points, f, task);
-        const auto add =
-          [&](const double factor, const bool with_tangent, LocalSystem &to) {
-            return add_fixed_point(*covers,
-                                   element,
-                                   problem->fixed_points[f],
-                                   points.stiffness(f),
-                                   factor,
-                                   u,
-                                   with_tangent,
-                                   to);
-          };
-        energies.conditions +=
-          add(0.5 * (first + last), task.with_tangent, local);
+        points.add_spring(f, 0.5 * (first + last), u, local);
         if (first != last)
         {
           // the energy is quadratic in the factor, so that this difference is exactly its
           // derivative at the mean factor times the change
-          LocalSystem unused;
-          unused.reset(n_per_cell);
-          energies.work_of_conditions +=
-            add(last, false, unused) - add(first, false, unused);
+          LocalSystem states[2];
+          for (unsigned int i = 0; i < 2; ++i)
+          {
+            states[i].reset(n_per_cell, /* needs_matrix = */ false);
+            points.add_spring(f, i == 0 ? first : last, u, states[i]);
+          }
+          energies.work_of_conditions += states[1].energy - states[0].energy;
         }
       }
   }
@@ -210,10 +234,8 @@ namespace NMM
     {
       const EdgeTables::FollowerPoint &point = edges->follower_points[q];
       add_follower_point(point,
-                         n_per_cell,
                          condition_factor(point.condition, task),
                          u,
-                         task.with_tangent,
                          local);
     }
   }
@@ -223,8 +245,7 @@ namespace NMM
   FiniteElasticity::Data::add_volume(const unsigned int       element,
                                      const Task              &task,
                                      const LocalDisplacement &u,
-                                     LocalSystem             &local,
-                                     Energies                &sums) const
+                                     LocalSystem             &local) const
   {
     const auto         element_covers = covers->covers(element);
     const unsigned int region         = covers->manifold_mesh().region(element);
@@ -234,25 +255,19 @@ namespace NMM
       first.gather(element_covers, nodal_begin);
       second.gather(element_covers, nodal_end);
       return add_conserving_terms(region_to_conserving_law[region],
-                                  n_per_cell,
                                   tables(element),
                                   first,
                                   second,
-                                  task.with_tangent,
                                   task.damping,
-                                  local,
-                                  sums.dissipated);
+                                  local);
     }
     if (task.has_increment)
       first.gather(element_covers, nodal_increment);
     return add_volume_terms(*region_to_law[region],
-                            n_per_cell,
                             tables(element),
                             u,
                             task.has_increment ? &first : nullptr,
-                            task.with_tangent,
-                            local,
-                            sums.strain);
+                            local);
   }
 
 
@@ -264,7 +279,6 @@ namespace NMM
     {
       LocalSystem       local;
       LocalDisplacement u;
-      Energies          energies;
       Deformation       state;
     };
 
@@ -293,10 +307,8 @@ namespace NMM
         if (is_absent(e) || is_inverted)
           return;
         volume.u.gather(covers->covers(e), nodal);
-        volume.local.reset(n_per_cell);
-        volume.energies = Energies();
-        volume.state =
-          add_volume(e, task, volume.u, volume.local, volume.energies);
+        volume.local.reset(n_per_cell, task.with_tangent());
+        volume.state = add_volume(e, task, volume.u, volume.local);
       },
       [&](const unsigned int i, Volume &volume) {
         const unsigned int e     = element_of(i);
@@ -305,9 +317,10 @@ namespace NMM
         if (!is_absent(e) && state == Deformation::admissible)
         {
           ++n_assembled;
-          energies.strain += volume.energies.strain;
-          energies.dissipated += volume.energies.dissipated;
-          state = volume.state;
+          energies.strain += volume.local.energy;
+          energies.dissipated += volume.local.dissipated;
+          volume.local.energy = 0.;
+          state               = volume.state;
           std::fill_n(known, 2 * n_per_cell, 0.);
           gauge(volume.local, known);
           if (state == Deformation::admissible && has_condition)
@@ -319,7 +332,8 @@ namespace NMM
           if (!problem->fixed_points.empty())
             add_fixed_points(e, task, volume.u, volume.local);
           gauge(volume.local, known);
-          add_local(covers->covers(e), task, volume.local);
+          energies.conditions += volume.local.energy;
+          add_local(covers->covers(e), volume.local);
         }
       });
     return state;
@@ -337,10 +351,11 @@ namespace NMM
           !(is_active(tie.element) || is_active(tie.neighbor)))
         continue;
       gather(tie, nodal, u);
-      local.reset(2 * n_per_cell);
+      local.reset(2 * n_per_cell, task.with_tangent());
       if (add_weak_points(tie, task, u, local) != Deformation::admissible)
         return Deformation::inverted;
-      add_local({covers_of_tie(tie).data(), 2 * n_per_cell}, task, local);
+      energies.conditions += local.energy;
+      add_local({covers_of_tie(tie).data(), 2 * n_per_cell}, local);
     }
     return Deformation::admissible;
   }
@@ -386,7 +401,7 @@ namespace NMM
   Deformation
   FiniteElasticity::Data::assemble(const Task &task)
   {
-    assembler.reset(task.with_tangent);
+    assembler.reset(task.with_tangent());
     energies          = Energies();
     force_square      = 0.;
     largest_jump      = 0.;
@@ -394,7 +409,7 @@ namespace NMM
     if (state == Deformation::admissible)
       state = add_ties(task);
     add_dead_loads(task);
-    assembler.compress(task.with_tangent);
+    assembler.compress(task.with_tangent());
 
     // if an element is inverted on any rank, the result is inverted on all ranks
     double sums[7] = {state == Deformation::inverted ? 1. : 0.,

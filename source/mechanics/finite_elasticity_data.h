@@ -3,15 +3,23 @@
 
 #include <nmm/mechanics/finite_elasticity.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <linear_algebra/cover_matrix_assembler.h>
 #include <mechanics/conserving_terms.h>
-#include <mechanics/reference_tables.h>
+#include <mechanics/curve_conditions.h>
+#include <mechanics/edge_tables.h>
+#include <mechanics/element_tables.h>
+#include <mechanics/point_terms.h>
+#include <memory>
 #include <vector>
 
 namespace NMM
 {
-  /// The linear system and its assembly (finite_elasticity_assembly.cc).
-  struct FiniteElasticity::Data : internal::ReferenceTables
+  /// Tables that are computed once in the reference configuration, the linear system and its
+  /// assembly (finite_elasticity_assembly.cc).
+  struct FiniteElasticity::Data
   {
     using LocalDisplacement = internal::LocalDisplacement;
     using LocalSystem       = internal::LocalSystem;
@@ -28,13 +36,53 @@ namespace NMM
     {
       double  load_factor;
       Tangent tangent;
-      bool    with_tangent, has_increment;
+      bool    has_increment = false;
       /// Whether forces are those between two states, see assemble_between(), which also explains
       /// the following members.
       bool                  is_between = false;
       const LoadAmplitudes *first = nullptr, *last = nullptr;
       double                damping = 0.;
+
+      bool
+      with_tangent() const
+      {
+        return tangent != Tangent::none;
+      }
     };
+
+    /// The covers of both elements of a tie.
+    std::array<unsigned int, LocalSystem::max_covers>
+    covers_of_tie(const EdgeTables::Site &tie) const
+    {
+      return internal::covers_of_pair(*covers, tie.element, tie.neighbor);
+    }
+
+    /// Read the displacements of the covers of a site's element, then those of its neighbor.
+    void
+    gather(const EdgeTables::Site                  &site,
+           const std::vector<dealii::Tensor<1, 2>> &from,
+           LocalDisplacement                       &u) const
+    {
+      u.gather(covers->covers(site.element), from);
+      if (site.neighbor != invalid_index)
+        u.gather(covers->covers(site.neighbor), from, n_per_cell);
+    }
+
+    /// Call action(i) for the points of a site of conditions or ties that have not been released.
+    template <typename Action>
+    void
+    for_each_weak_point(const EdgeTables::Site &site,
+                        const Action           &action) const
+    {
+      const std::vector<bool> &released = amplitudes.released_conditions;
+      for (unsigned int q = site.first_point; q < site.last_point; ++q)
+      {
+        const unsigned int condition = edges->weak_points[q].condition;
+        if (condition == invalid_index || released.empty() ||
+            !released[condition])
+          action(q);
+      }
+    }
 
     /// The factor of a load: amplitude of its boundary condition times the load factor [-].
     double
@@ -70,8 +118,7 @@ namespace NMM
     add_volume(unsigned int             element,
                const Task              &task,
                const LocalDisplacement &u,
-               LocalSystem             &local,
-               Energies                &sums) const;
+               LocalSystem             &local) const;
 
     /// Assemble all terms at the displacements in `nodal`.
     Deformation
@@ -108,16 +155,15 @@ namespace NMM
     std::vector<HyperelasticLaw::Response>
     laws_at_rest() const;
 
-    /// Add the internal forces of an element at the displacements in `nodal` to local.rhs. Returns
-    /// its strain energy [J/m].
-    double
+    /// Add the internal forces and the strain energy of an element at the displacements in `nodal`.
+    void
     add_linearized_volume(unsigned int                     element,
                           const HyperelasticLaw::Response &at_rest,
                           LocalSystem                     &local) const;
 
-    /// Add the forces of displacement conditions or ties at a site to local.rhs, except for those
-    /// that vanish with the jump d. Returns their energy [J/m].
-    double
+    /// Add the energy and the forces of displacement conditions or ties at a site, except for forces
+    /// that vanish with the jump d.
+    void
     add_linearized_weak_points(
       const EdgeTables::Site                       &site,
       const std::vector<HyperelasticLaw::Response> &at_rest,
@@ -163,15 +209,35 @@ namespace NMM
       }
     }
 
+    /// Take note of the jump @p d at a point.
+    void
+    gauge_jump(const internal::WeakPoint &point, const dealii::Tensor<1, 2> &d)
+    {
+      // the trace constant of an element without area is infinite
+      const double jump = d.norm() * point.trace_constant;
+      if (std::isfinite(jump))
+        largest_jump = std::max(largest_jump, jump);
+    }
+
     void
     add_local(dealii::ArrayView<const unsigned int> covers,
-              const Task                           &task,
               const LocalSystem                    &local)
     {
       assembler.add(covers,
-                    task.with_tangent ? local.matrix : nullptr,
+                    local.with_matrix ? local.matrix : nullptr,
                     local.rhs);
     }
+
+    const CoverSystem                       *covers;
+    const dealii::AffineConstraints<double> *constraints;
+    const ElasticityProblem                 *problem;
+    unsigned int                             n_per_cell;
+    internal::CurveConditions                curve_conditions;
+    internal::PointTerms                     points;
+    internal::ElementTables                  tables;
+    std::unique_ptr<EdgeTables>              edges;
+    internal::DeadLoads                      dead_loads;
+    internal::CoverMatrixAssembler           assembler;
 
     bool                                 is_inelastic = false;
     internal::RegionLaws                 region_to_law;

@@ -83,9 +83,7 @@ namespace NMM
                  const ElementTables::View &table,
                  const LocalDisplacement   &u,
                  const LocalDisplacement   *increment,
-                 const bool                 with_tangent,
-                 LocalSystem               &local,
-                 double                    &energy)
+                 LocalSystem               &local)
       {
         HyperelasticLaw::Response response;
         for (unsigned int q = 0; q < table.n_points; ++q)
@@ -93,19 +91,14 @@ namespace NMM
           const double(*g)[2]       = table.gradients + q * n;
           const double       weight = table.weights[q];
           const Tensor<2, 2> F      = deformation_gradient(n, u.values, g);
-          if ((with_tangent
+          if ((local.with_matrix
                  ? law.evaluate(F, response)
                  : law.evaluate_stress(F, response)) != Deformation::admissible)
             return Deformation::inverted;
 
-          energy += weight * response.energy;
-          const Tensor<2, 2> P = weight * response.stress;
-          for (unsigned int i = 0; i < n; ++i)
-          {
-            local.rhs[2 * i] += P[0][0] * g[i][0] + P[0][1] * g[i][1];
-            local.rhs[2 * i + 1] += P[1][0] * g[i][0] + P[1][1] * g[i][1];
-          }
-          if (!with_tangent)
+          local.energy += weight * response.energy;
+          add_stress(n, g, weight * response.stress, local.rhs);
+          if (!local.with_matrix)
             continue;
           if (increment != nullptr)
             linearize_stress(law.small_strain(),
@@ -113,7 +106,7 @@ namespace NMM
                              response.tangent);
           add_stiffness<n>(weight, g, response.tangent, local.matrix);
         }
-        if (with_tangent)
+        if (local.with_matrix)
           symmetrize(local);
         return Deformation::admissible;
       }
@@ -122,129 +115,47 @@ namespace NMM
 
     Deformation
     add_volume_terms(const HyperelasticLaw     &law,
-                     const unsigned int         n_per_cell,
                      const ElementTables::View &table,
                      const LocalDisplacement   &u,
                      const LocalDisplacement   *increment,
-                     const bool                 with_tangent,
-                     LocalSystem               &local,
-                     double                    &energy)
+                     LocalSystem               &local)
     {
-      return n_per_cell == 3
-               ? add_volume<3>(
-                   law, table, u, increment, with_tangent, local, energy)
-               : add_volume<6>(
-                   law, table, u, increment, with_tangent, local, energy);
+      return (local.n_covers == 3
+                ? add_volume<3>
+                : add_volume<6>)(law, table, u, increment, local);
     }
 
 
     Deformation
-    add_weak_point(const WeakPoint         &point,
-                   const RegionLaws        &region_to_law,
-                   const unsigned int       n_per_cell,
-                   const Tensor<1, 2>      &prescribed,
-                   const double             growth,
+    elastic_fluxes(const RegionLaws        &region_to_law,
                    const LocalDisplacement &u,
                    const Tangent            tangent,
-                   LocalSystem             &local,
-                   double                  &energy,
-                   double                  &largest_jump)
+                   NitscheTerms            &terms)
     {
-      const unsigned int n = point.n_sides * n_per_cell;
-      AssertDimension(n, local.n_covers);
-      const Tensor<1, 2> &N = point.normal;
-      const auto         &B = point.projection;
-
-      Tensor<1, 2> jump;
-      for (unsigned int k = 0; k < n; ++k)
-        for (unsigned int c = 0; c < 2; ++c)
-          jump[c] += point.jump[k] * u.values[k][c];
-      const Tensor<1, 2> d = B * jump - prescribed;
-      const Tensor<2, 2> G = dealii::outer_product(d, N);
-
-      const double penalty       = growth * point.penalty;
-      const bool   with_tangent  = tangent != Tangent::none;
-      const double relative_jump = d.norm() * point.trace_constant;
-      if (std::isfinite(relative_jump))
-        largest_jump = std::max(largest_jump, relative_jump);
-      const bool with_third_derivative =
+      const WeakPoint   &point = terms.point;
+      const Tensor<2, 2> G     = dealii::outer_product(terms.d, point.normal);
+      const bool         with_third_derivative =
         tangent == Tangent::consistent ||
-        (with_tangent && relative_jump < close_jump);
-
-      // mean traction, and its derivative with respect to unknown c of cover k
-      Tensor<1, 2> traction;
-      double       flux[LocalSystem::max_covers][2][2];
+        (tangent == Tangent::robust &&
+         terms.d.norm() * point.trace_constant < close_jump);
       for (unsigned int s = 0; s < point.n_sides; ++s)
       {
-        const WeakPoint::Side    &side = point.sides[s];
-        const HyperelasticLaw    &law  = *region_to_law[side.region];
-        const Tensor<2, 2>        F    = deformation_gradient(n_per_cell,
-                                                    u.values + s * n_per_cell,
-                                                    side.gradients);
+        const HyperelasticLaw    &law  = *region_to_law[point.sides[s].region];
+        WeakFlux                 &flux = terms.fluxes[s];
+        const Tensor<2, 2>        F    = terms.gradient(u, s, 1.);
         HyperelasticLaw::Response response;
         if (law.evaluate(F, response) != Deformation::admissible)
           return Deformation::inverted;
-        traction += side.share * (response.stress * N);
-        for (unsigned int i = 0; i < n_per_cell; ++i)
-          for (unsigned int a = 0; a < 2; ++a)
-            for (unsigned int c = 0; c < 2; ++c)
-            {
-              double f = 0.;
-              for (unsigned int J = 0; J < 2; ++J)
-                for (unsigned int L = 0; L < 2; ++L)
-                  f += response.tangent[2 * a + J][2 * c + L] * N[J] *
-                       side.gradients[i][L];
-              flux[s * n_per_cell + i][a][c] = side.share * f;
-            }
-        if (!with_third_derivative)
-          continue;
-        double derivative[4][4];
-        if (law.tangent_derivative(F, G, derivative) != Deformation::admissible)
+        flux.set_elastic(response.stress,
+                         response.tangent,
+                         point.normal,
+                         terms.d);
+        flux.has_conjugate_by_gradient = with_third_derivative;
+        if (with_third_derivative &&
+            law.tangent_derivative(F, G, flux.conjugate_by_gradient) !=
+              Deformation::admissible)
           return Deformation::inverted;
-        const double weight = -point.weight * side.share;
-        for (unsigned int i = 0; i < n_per_cell; ++i)
-          for (unsigned int c = 0; c < 2; ++c)
-          {
-            double *row = local.row(s * n_per_cell + i, c) + 2 * s * n_per_cell;
-            double  M[4];
-            for (unsigned int b = 0; b < 4; ++b)
-              M[b] = weight * (side.gradients[i][0] * derivative[2 * c][b] +
-                               side.gradients[i][1] * derivative[2 * c + 1][b]);
-            for (unsigned int j = 0; j < n_per_cell; ++j)
-              for (unsigned int e = 0; e < 2; ++e)
-                row[2 * j + e] += M[2 * e] * side.gradients[j][0] +
-                                  M[2 * e + 1] * side.gradients[j][1];
-          }
       }
-
-      energy += point.weight * (0.5 * penalty * d.norm_square() - traction * d);
-      const Tensor<1, 2> force = penalty * d - B * traction;
-      for (unsigned int k = 0; k < n; ++k)
-        for (unsigned int c = 0; c < 2; ++c)
-          local.rhs[2 * k + c] +=
-            point.weight * (point.jump[k] * force[c] - flux[k][0][c] * d[0] -
-                            flux[k][1][c] * d[1]);
-      if (!with_tangent)
-        return Deformation::admissible;
-
-      double projected[LocalSystem::max_covers][2][2];
-      for (unsigned int k = 0; k < n; ++k)
-        for (unsigned int a = 0; a < 2; ++a)
-          for (unsigned int c = 0; c < 2; ++c)
-            projected[k][a][c] =
-              B[a][0] * flux[k][0][c] + B[a][1] * flux[k][1][c];
-      for (unsigned int k = 0; k < n; ++k)
-        for (unsigned int c = 0; c < 2; ++c)
-        {
-          double *row = local.row(k, c);
-          for (unsigned int j = 0; j < n; ++j)
-            for (unsigned int e = 0; e < 2; ++e)
-              row[2 * j + e] +=
-                point.weight *
-                (-projected[k][e][c] * point.jump[j] -
-                 point.jump[k] * projected[j][c][e] +
-                 penalty * point.jump[k] * point.jump[j] * B[c][e]);
-        }
       return Deformation::admissible;
     }
 
@@ -285,70 +196,30 @@ namespace NMM
 
     void
     add_follower_point(const EdgeTables::FollowerPoint &point,
-                       const unsigned int               n_per_cell,
                        const double                     factor,
                        const LocalDisplacement         &u,
-                       const bool                       with_tangent,
                        LocalSystem                     &local)
     {
-      Tensor<1, 2> t = point.tangent;
-      for (unsigned int j = 0; j < n_per_cell; ++j)
+      const unsigned int n = local.n_covers;
+      Tensor<1, 2>       t = point.tangent;
+      for (unsigned int j = 0; j < n; ++j)
         for (unsigned int c = 0; c < 2; ++c)
           t[c] += point.tangential[j] * u.values[j][c];
       const double pressure = factor * point.weighted_pressure;
-      for (unsigned int i = 0; i < n_per_cell; ++i)
+      for (unsigned int i = 0; i < n; ++i)
       {
         const double p = pressure * point.values[i];
         local.rhs[2 * i] += p * t[1];
         local.rhs[2 * i + 1] -= p * t[0];
-        if (!with_tangent)
+        if (!local.with_matrix)
           continue;
         double *row0 = local.row(i, 0), *row1 = local.row(i, 1);
-        for (unsigned int j = 0; j < n_per_cell; ++j)
+        for (unsigned int j = 0; j < n; ++j)
         {
           row0[2 * j + 1] += p * point.tangential[j];
           row1[2 * j] -= p * point.tangential[j];
         }
       }
-    }
-
-
-    double
-    add_fixed_point(const CoverSystem       &covers,
-                    const unsigned int       element,
-                    const FixedPoint        &fixed,
-                    const double             stiffness,
-                    const double             factor,
-                    const LocalDisplacement &u,
-                    const bool               with_tangent,
-                    LocalSystem             &local)
-    {
-      const ManifoldMesh     &mesh              = covers.manifold_mesh();
-      const MathematicalMesh &mathematical_mesh = mesh.mathematical_mesh();
-      const unsigned int      n                 = local.n_covers;
-      double                  w[WeightFunctions::max_per_cell];
-      WeightFunctions::values(
-        mathematical_mesh.degree(),
-        mathematical_mesh.real_to_reference(mesh.cell(element), fixed.point),
-        w);
-      double energy = 0.;
-      for (unsigned int c = 0; c < 2; ++c)
-      {
-        if (!fixed.components[c])
-          continue;
-        double distance = -factor * fixed.displacement[c];
-        for (unsigned int i = 0; i < n; ++i)
-          distance += w[i] * u.values[i][c];
-        energy += 0.5 * stiffness * distance * distance;
-        for (unsigned int i = 0; i < n; ++i)
-        {
-          local.rhs[2 * i + c] += stiffness * w[i] * distance;
-          if (with_tangent)
-            for (unsigned int j = 0; j < n; ++j)
-              local.row(i, c)[2 * j + c] += stiffness * w[i] * w[j];
-        }
-      }
-      return energy;
     }
   } // namespace internal
 } // namespace NMM

@@ -5,7 +5,7 @@
 
 #include <mechanics/edge_tables.h>
 #include <mechanics/element_tables.h>
-#include <mechanics/local_system.h>
+#include <mechanics/nitsche_terms.h>
 #include <memory>
 #include <vector>
 
@@ -17,24 +17,36 @@ namespace NMM
     using RegionLaws = std::vector<std::shared_ptr<const HyperelasticLaw>>;
 
 
-    /// Displacements of the covers of an element, or of two elements one after the other
-    /// [m].
-    struct LocalDisplacement
+    /// The product C : X, the sum over (N, L) of C_MJNL X_NL, where C_MJNL is stored at
+    /// [2M + J][2N + L].
+    inline dealii::Tensor<2, 2>
+    multiply(const double (&C)[4][4], const dealii::Tensor<2, 2> &X)
     {
-      double values[LocalSystem::max_covers][2];
+      dealii::Tensor<2, 2> result;
+      for (unsigned int M = 0; M < 2; ++M)
+        for (unsigned int J = 0; J < 2; ++J)
+        {
+          const double(&row)[4] = C[2 * M + J];
+          result[M][J]          = row[0] * X[0][0] + row[1] * X[0][1] +
+                         row[2] * X[1][0] + row[3] * X[1][1];
+        }
+      return result;
+    }
 
-      /// Read the displacements of @p covers from @p nodal and store them
-      /// from position @p first on.
-      void
-      gather(const dealii::ArrayView<const unsigned int> &covers,
-             const std::vector<dealii::Tensor<1, 2>>     &nodal,
-             const unsigned int                           first = 0)
-      {
-        for (unsigned int i = 0; i < covers.size(); ++i)
-          for (unsigned int c = 0; c < 2; ++c)
-            values[first + i][c] = nodal[covers[i]][c];
-      }
-    };
+
+    /// Compute the moduli of small strains in the same order [Pa].
+    inline void
+    hooke_moduli(const PlaneElasticity &c, double (&moduli)[4][4])
+    {
+      for (unsigned int M = 0; M < 2; ++M)
+        for (unsigned int J = 0; J < 2; ++J)
+          for (unsigned int N = 0; N < 2; ++N)
+            for (unsigned int L = 0; L < 2; ++L)
+              moduli[2 * M + J][2 * N + L] =
+                (M == J && N == L ? c.lambda : 0.) +
+                c.mu *
+                  ((M == N && J == L ? 1. : 0.) + (M == L && J == N ? 1. : 0.));
+    }
 
 
     /// Largest |d| Lambda up to which Tangent::robust is the full derivative [-].
@@ -42,7 +54,8 @@ namespace NMM
 
 
     /**
-     * Add the internal forces of an element to local.rhs and their derivative to local.matrix:
+     * Add the internal forces of an element to local.rhs, their derivative to local.matrix, and the
+     * strain energy:
      * @f[ r_{ic} = \int P_{cJ}\,\partial_J w_i, \qquad
      *     K_{ic,jd} = \int \partial_J w_i\,A_{cJdL}\,\partial_L w_j @f]
      * @p local must be zero before. @p increment, if not null, is the displacement of the last
@@ -50,46 +63,27 @@ namespace NMM
      * one linearized in the last iteration, S(u) - C : H^T H / 2 with
      * H = grad(increment). This is the mixed integration point Newton method (Magisano,
      * Leonetti & Garcea, CMAME 313 (2017) 986), which saves many
-     * iterations for large rotations with small strains. The strain energy is added to
-     * @p energy [J/m].
+     * iterations for large rotations with small strains.
      */
     Deformation
     add_volume_terms(const HyperelasticLaw     &law,
-                     unsigned int               n_per_cell,
                      const ElementTables::View &table,
                      const LocalDisplacement   &u,
                      const LocalDisplacement   *increment,
-                     bool                       with_tangent,
-                     LocalSystem               &local,
-                     double                    &energy);
+                     LocalSystem               &local);
 
 
     /**
-     * Add the terms of a displacement condition or tie at a point by the potential form of
-     * Nitsche's method. With the jump d = B (u - g), the mean stress
-     * {P} = sum_s share_s P_s and G = d (x) N, the potential is
-     * @f[ \Pi = \int -\{P\}:G + \frac{\gamma}{2}|d|^2. @f]
-     * Residual and tangent are its derivatives (B symmetric, a projection):
-     * @f[ r(v) = \int -\{A[\nabla v]\}:G - \{P\}:(Bv\otimes N)
-     *      + \gamma\,d\cdot v, @f]
-     * @f[ K(v,w) = \int -\{D_G A[\nabla v,\nabla w]\}
-     *      - \{A[\nabla v]\}:(Bw\otimes N) - \{A[\nabla w]\}:(Bv\otimes N)
-     *      + \gamma\,Bv\cdot w. @f]
-     * @p prescribed is B g at the current load factor, and @p growth multiplies
-     * gamma. For Tangent::robust see FiniteElasticity::assemble(). The potential is added to
-     * @p energy [J/m]. @p largest_jump becomes |d| Lambda [-] if that is larger.
+     * Compute the fluxes of a displacement condition or tie at a point whose potential is
+     * @f[ \Pi = \int -\{P\}:G + \frac{\gamma}{2}|d|^2, \qquad G = d\otimes N, @f]
+     * for the jump terms.d. The derivative of Q is the third derivative of the strain energy in the
+     * direction G; for Tangent::robust see FiniteElasticity::assemble().
      */
     Deformation
-    add_weak_point(const WeakPoint            &point,
-                   const RegionLaws           &region_to_law,
-                   unsigned int                n_per_cell,
-                   const dealii::Tensor<1, 2> &prescribed,
-                   double                      growth,
-                   const LocalDisplacement    &u,
-                   Tangent                     tangent,
-                   LocalSystem                &local,
-                   double                     &energy,
-                   double                     &largest_jump);
+    elastic_fluxes(const RegionLaws        &region_to_law,
+                   const LocalDisplacement &u,
+                   Tangent                  tangent,
+                   NitscheTerms            &terms);
 
 
     /// Norm of the moduli A at a weak point divided by that of the undeformed state [-], the
@@ -110,24 +104,9 @@ namespace NMM
      */
     void
     add_follower_point(const EdgeTables::FollowerPoint &point,
-                       unsigned int                     n_per_cell,
                        double                           factor,
                        const LocalDisplacement         &u,
-                       bool                             with_tangent,
                        LocalSystem                     &local);
-
-
-    /// Add the spring of a fixed point (12), whose displacement is multiplied by @p factor, to the
-    /// system of its element. Returns the energy of the spring [J/m].
-    double
-    add_fixed_point(const CoverSystem       &covers,
-                    unsigned int             element,
-                    const FixedPoint        &fixed,
-                    double                   stiffness,
-                    double                   factor,
-                    const LocalDisplacement &u,
-                    bool                     with_tangent,
-                    LocalSystem             &local);
   } // namespace internal
 } // namespace NMM
 

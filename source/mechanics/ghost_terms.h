@@ -14,6 +14,21 @@ namespace NMM
 {
   namespace internal
   {
+    /// The pairs of elements of a ghost penalty, which may be null, that this rank assembles: those
+    /// whose first element it owns.
+    inline std::vector<std::pair<unsigned int, unsigned int>>
+    owned_pairs(const CoverSystem &covers, const GhostPenalty *ghost_penalty)
+    {
+      std::vector<std::pair<unsigned int, unsigned int>> result;
+      const auto [first, last] = covers.locally_owned_elements();
+      if (ghost_penalty != nullptr)
+        for (const auto &pair : ghost_penalty->pairs)
+          if (pair.first >= first && pair.first < last)
+            result.push_back(pair);
+      return result;
+    }
+
+
     /**
      * The terms of the ghost penalty, see GhostPenalty, for a pair of joined
      * elements. Local systems have the covers of the first element, followed by those of the

@@ -68,7 +68,7 @@ namespace NMM
              InelasticLaw::Response     &response);
 
     void
-    add_volume(const Element &item, bool with_tangent, LocalSystem &local);
+    add_volume(const Element &item, LocalSystem &local);
 
     /// Add the terms of a displacement condition or tie, and advance @p state by its number of
     /// states. Returns false if nothing was added because a block is absent.
@@ -76,7 +76,6 @@ namespace NMM
     add_weak_points(const Element &item,
                     const Site    &site,
                     std::size_t   &state,
-                    bool           with_tangent,
                     LocalSystem   &local);
 
     const FiniteElasticity::Data *elastic;
@@ -182,31 +181,22 @@ namespace NMM
     }
     current[state] = response.state;
 
-    const PlaneElasticity        &c     = region_to_elasticity[region];
-    const double                  trace = c.lambda * dealii::trace(strain);
-    dealii::SymmetricTensor<2, 2> hooke = 2. * c.mu * strain;
-    hooke[0][0] += trace;
-    hooke[1][1] += trace;
-    excess.stress      = response.stress - hooke;
+    const PlaneElasticity              &c     = region_to_elasticity[region];
+    const dealii::SymmetricTensor<2, 2> hooke = c.stress(gradient);
+    excess.stress                             = response.stress - hooke;
     excess.energy      = response.energy - 0.5 * (hooke * strain);
     excess.has_tangent = with_tangent && !response.is_elastic;
     if (!excess.has_tangent)
       return;
-    for (unsigned int ij = 0; ij < 4; ++ij)
-      for (unsigned int kl = 0; kl < 4; ++kl)
-      {
-        const unsigned int i = ij / 2, j = ij % 2, k = kl / 2, l = kl % 2;
-        excess.tangent[ij][kl] =
-          response.tangent[ij][kl] - (i == j && k == l ? c.lambda : 0.) -
-          c.mu * ((i == k && j == l ? 1. : 0.) + (i == l && j == k ? 1. : 0.));
-      }
+    hooke_moduli(c, excess.tangent);
+    for (unsigned int a = 0; a < 4; ++a)
+      for (unsigned int b = 0; b < 4; ++b)
+        excess.tangent[a][b] = response.tangent[a][b] - excess.tangent[a][b];
   }
 
 
   void
-  InelasticTerms::Data::add_volume(const Element &item,
-                                   const bool     with_tangent,
-                                   LocalSystem   &local)
+  InelasticTerms::Data::add_volume(const Element &item, LocalSystem &local)
   {
     const CoverSystem &covers = *elastic->covers;
     const unsigned int n      = elastic->n_per_cell;
@@ -225,7 +215,7 @@ namespace NMM
       evaluate(region,
                displacement_gradient(n, u.values, g),
                state,
-               with_tangent,
+               local.with_matrix,
                excess,
                response);
       totals.energy += weight * excess.energy;
@@ -233,30 +223,10 @@ namespace NMM
       totals.n_yielding += !response.is_elastic;
       if (response.state.equivalent_plastic_strain > 0.)
         totals.yielded_area += weight;
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int c = 0; c < 2; ++c)
-        {
-          local.rhs[2 * i + c] += weight * (excess.stress[c][0] * g[i][0] +
-                                            excess.stress[c][1] * g[i][1]);
-          forces[2 * i + c] += weight * (response.stress[c][0] * g[i][0] +
-                                         response.stress[c][1] * g[i][1]);
-        }
-      if (!excess.has_tangent)
-        continue;
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int c = 0; c < 2; ++c)
-        {
-          double *row = local.row(i, c);
-          double  M[4];
-          for (unsigned int b = 0; b < 4; ++b)
-            M[b] = weight * (g[i][0] * excess.tangent[2 * c][b] +
-                             g[i][1] * excess.tangent[2 * c + 1][b]);
-          for (unsigned int j = 0; j < n; ++j)
-          {
-            row[2 * j] += M[0] * g[j][0] + M[1] * g[j][1];
-            row[2 * j + 1] += M[2] * g[j][0] + M[3] * g[j][1];
-          }
-        }
+      add_stress(n, g, weight * dealii::Tensor<2, 2>(excess.stress), local.rhs);
+      add_stress(n, g, weight * dealii::Tensor<2, 2>(response.stress), forces);
+      if (excess.has_tangent)
+        add_moduli(n, g, weight, excess.tangent, local.matrix, 2 * n);
     }
     for (unsigned int i = 0; i < 2 * n; ++i)
       totals.force_scale += forces[i] * forces[i];
@@ -267,7 +237,6 @@ namespace NMM
   InelasticTerms::Data::add_weak_points(const Element &item,
                                         const Site    &site,
                                         std::size_t   &state,
-                                        const bool     with_tangent,
                                         LocalSystem   &local)
   {
     const EdgeTables        &edges    = *elastic->edges;
@@ -287,49 +256,29 @@ namespace NMM
         state += point.n_sides;
         continue;
       }
-      const dealii::Tensor<1, 2> &N = point.normal;
+      NitscheTerms terms(point, n, /* penalty = */ 0.);
       for (unsigned int s = 0; s < point.n_sides; ++s, ++state)
       {
-        const WeakPoint::Side &side = point.sides[s];
-        if (!is_inelastic(side.region))
+        const unsigned int region = point.sides[s].region;
+        if (!is_inelastic(region))
           continue;
         Excess                 excess;
         InelasticLaw::Response response;
-        evaluate(side.region,
-                 displacement_gradient(n, u.values + s * n, side.gradients),
+        evaluate(region,
+                 terms.gradient(u, s),
                  state,
-                 with_tangent,
+                 local.with_matrix,
                  excess,
                  response);
         totals.n_yielding += !response.is_elastic;
-        const double               weight = -point.weight * side.share;
-        const dealii::Tensor<1, 2> force =
-          weight * (point.projection * (excess.stress * N));
-        if (point.condition != invalid_index)
-          totals.support_work[point.condition] -= force * point.prescribed;
-        for (unsigned int k = 0; k < local.n_covers; ++k)
-          for (unsigned int c = 0; c < 2; ++c)
-            local.rhs[2 * k + c] += point.jump[k] * force[c];
-        if (!excess.has_tangent)
-          continue;
-        // derivative of the force with respect to unknown e of cover j of this side
-        for (unsigned int j = 0; j < n; ++j)
-          for (unsigned int e = 0; e < 2; ++e)
-          {
-            dealii::Tensor<1, 2> traction;
-            for (unsigned int a = 0; a < 2; ++a)
-              for (unsigned int J = 0; J < 2; ++J)
-                for (unsigned int L = 0; L < 2; ++L)
-                  traction[a] += excess.tangent[2 * a + J][2 * e + L] * N[J] *
-                                 side.gradients[j][L];
-            const dealii::Tensor<1, 2> derivative =
-              weight * (point.projection * traction);
-            for (unsigned int k = 0; k < local.n_covers; ++k)
-              for (unsigned int c = 0; c < 2; ++c)
-                local.row(k, c)[2 * (s * n + j) + e] +=
-                  point.jump[k] * derivative[c];
-          }
+        terms.fluxes[s].traction = excess.stress * point.normal;
+        if (excess.has_tangent)
+          terms.fluxes[s].set_traction_derivative(excess.tangent, point.normal);
       }
+      if (point.condition != invalid_index)
+        totals.support_work[point.condition] -=
+          point.weight * (terms.force() * point.prescribed);
+      terms.add(local);
     }
     return !is_absent;
   }
@@ -368,8 +317,8 @@ namespace NMM
       {
         if (!d.elastic->is_absent(item.element))
         {
-          local.reset(d.elastic->n_per_cell);
-          d.add_volume(item, with_tangent, local);
+          local.reset(d.elastic->n_per_cell, with_tangent);
+          d.add_volume(item, local);
           add_local(covers.covers(item.element), local);
         }
         state += d.elastic->tables(item.element).n_points;
@@ -382,8 +331,8 @@ namespace NMM
           both.insert(both.end(),
                       covers.covers(site->neighbor).begin(),
                       covers.covers(site->neighbor).end());
-        local.reset(both.size());
-        if (d.add_weak_points(item, *site, state, with_tangent, local))
+        local.reset(both.size(), with_tangent);
+        if (d.add_weak_points(item, *site, state, local))
           add_local({both.data(), both.size()}, local);
       }
     }

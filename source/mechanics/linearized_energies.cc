@@ -10,23 +10,6 @@ namespace NMM
   using namespace internal;
   using dealii::Tensor;
 
-  namespace
-  {
-    /// First Piola-Kirchhoff stress to the first order in the displacement gradient @p H,
-    /// P_0 + A H [Pa].
-    Tensor<2, 2>
-    linear_stress(const HyperelasticLaw::Response &at_rest,
-                  const Tensor<2, 2>              &H)
-    {
-      Tensor<2, 2> P = at_rest.stress;
-      for (unsigned int a = 0; a < 4; ++a)
-        for (unsigned int b = 0; b < 4; ++b)
-          P[a / 2][a % 2] += at_rest.tangent[a][b] * H[b / 2][b % 2];
-      return P;
-    }
-  } // namespace
-
-
   std::vector<HyperelasticLaw::Response>
   FiniteElasticity::Data::laws_at_rest() const
   {
@@ -43,7 +26,7 @@ namespace NMM
   }
 
 
-  double
+  void
   FiniteElasticity::Data::add_linearized_volume(
     const unsigned int               element,
     const HyperelasticLaw::Response &at_rest,
@@ -52,23 +35,19 @@ namespace NMM
     const ElementTables::View table = tables(element);
     LocalDisplacement         u;
     u.gather(covers->covers(element), nodal);
-    double energy = 0.;
     for (unsigned int q = 0; q < table.n_points; ++q)
     {
       const double(*g)[2]  = table.gradients + q * n_per_cell;
       const double       w = table.weights[q];
       const Tensor<2, 2> H = displacement_gradient(n_per_cell, u.values, g);
-      const Tensor<2, 2> P = linear_stress(at_rest, H);
-      energy += 0.5 * w * dealii::scalar_product(at_rest.stress + P, H);
-      for (unsigned int i = 0; i < n_per_cell; ++i)
-        for (unsigned int c = 0; c < 2; ++c)
-          local.rhs[2 * i + c] += w * (P[c][0] * g[i][0] + P[c][1] * g[i][1]);
+      const Tensor<2, 2> P = at_rest.stress + multiply(at_rest.tangent, H);
+      local.energy += 0.5 * w * dealii::scalar_product(at_rest.stress + P, H);
+      add_stress(n_per_cell, g, w * P, local.rhs);
     }
-    return energy;
   }
 
 
-  double
+  void
   FiniteElasticity::Data::add_linearized_weak_points(
     const EdgeTables::Site                       &site,
     const std::vector<HyperelasticLaw::Response> &at_rest,
@@ -76,44 +55,23 @@ namespace NMM
   {
     LocalDisplacement u;
     gather(site, nodal, u);
-    double energy = 0.;
-    for (unsigned int q = site.first_point; q < site.last_point; ++q)
-    {
-      const WeakPoint &point  = edges->weak_points[q];
-      const bool       is_tie = point.condition == invalid_index;
-      if (!is_tie && !amplitudes.released_conditions.empty() &&
-          amplitudes.released_conditions[point.condition])
-        continue;
-      Tensor<1, 2> jump, traction;
-      for (unsigned int k = 0; k < point.n_sides * n_per_cell; ++k)
-        for (unsigned int c = 0; c < 2; ++c)
-          jump[c] += point.jump[k] * u.values[k][c];
+    for_each_weak_point(site, [&](const unsigned int q) {
+      const WeakPoint &point = edges->weak_points[q];
+      NitscheTerms terms(point, n_per_cell, penalty_growth[q] * point.penalty);
+      terms.d = terms.jump(u,
+                           point.condition == invalid_index ||
+                               amplitudes.boundary_conditions.empty()
+                             ? 1.
+                             : amplitudes.boundary_conditions[point.condition]);
       for (unsigned int s = 0; s < point.n_sides; ++s)
       {
-        const WeakPoint::Side &side = point.sides[s];
-        traction +=
-          side.share *
-          (linear_stress(at_rest[side.region],
-                         displacement_gradient(n_per_cell,
-                                               u.values + s * n_per_cell,
-                                               side.gradients)) *
-           point.normal);
+        const HyperelasticLaw::Response &law = at_rest[point.sides[s].region];
+        terms.fluxes[s].traction =
+          (law.stress + multiply(law.tangent, terms.gradient(u, s))) *
+          point.normal;
       }
-      Tensor<1, 2> d = point.projection * jump;
-      if (!is_tie)
-        d -= (amplitudes.boundary_conditions.empty()
-                ? 1.
-                : amplitudes.boundary_conditions[point.condition]) *
-             point.prescribed;
-      const double penalty = penalty_growth[q] * point.penalty;
-      energy += point.weight * (0.5 * penalty * d.norm_square() - traction * d);
-      const Tensor<1, 2> force =
-        point.weight * (penalty * d - point.projection * traction);
-      for (unsigned int k = 0; k < point.n_sides * n_per_cell; ++k)
-        for (unsigned int c = 0; c < 2; ++c)
-          local.rhs[2 * k + c] += point.jump[k] * force[c];
-    }
-    return energy;
+      terms.add(local);
+    });
   }
 
 
@@ -124,20 +82,21 @@ namespace NMM
     const auto [first, last] = covers->locally_owned_elements();
     double      energy       = 0.;
     LocalSystem local;
-    const auto  add = [&](const unsigned int n, const auto &energy_of) {
-      local.reset(n);
-      energy += energy_of();
+    const auto  add = [&](const unsigned int n, const auto &add_terms) {
+      local.reset(n, /* needs_matrix = */ false);
+      add_terms();
+      energy += local.energy;
       for (unsigned int i = 0; i < 2 * n; ++i)
         square += local.rhs[i] * local.rhs[i];
     };
     for (const EdgeTables::Site &site : edges->conditions)
       if (!is_absent(site.element))
         add(n_per_cell,
-            [&]() { return add_linearized_weak_points(site, at_rest, local); });
+            [&]() { add_linearized_weak_points(site, at_rest, local); });
     for (const EdgeTables::Site &tie : edges->ties)
       if (!is_absent(tie.element) && !is_absent(tie.neighbor))
         add(2 * n_per_cell,
-            [&]() { return add_linearized_weak_points(tie, at_rest, local); });
+            [&]() { add_linearized_weak_points(tie, at_rest, local); });
     for (unsigned int f = 0; f < problem->fixed_points.size(); ++f)
     {
       const unsigned int e = points.fixed_point_elements()[f];
@@ -148,16 +107,12 @@ namespace NMM
       LocalDisplacement u;
       u.gather(covers->covers(e), nodal);
       add(n_per_cell, [&]() {
-        return add_fixed_point(*covers,
-                               e,
-                               problem->fixed_points[f],
-                               points.stiffness(f),
-                               amplitudes.fixed_points.empty()
-                                 ? 1.
-                                 : amplitudes.fixed_points[f],
-                               u,
-                               /* with_tangent = */ false,
-                               local);
+        points.add_spring(f,
+                          amplitudes.fixed_points.empty()
+                            ? 1.
+                            : amplitudes.fixed_points[f],
+                          u,
+                          local);
       });
     }
     return energy;
@@ -180,11 +135,11 @@ namespace NMM
     {
       if (d.is_absent(e))
         continue;
-      local.reset(d.n_per_cell);
-      sums[0] +=
-        d.add_linearized_volume(e,
-                                at_rest[d.covers->manifold_mesh().region(e)],
-                                local);
+      local.reset(d.n_per_cell, /* needs_matrix = */ false);
+      d.add_linearized_volume(e,
+                              at_rest[d.covers->manifold_mesh().region(e)],
+                              local);
+      sums[0] += local.energy;
       for (unsigned int i = 0; i < 2 * d.n_per_cell; ++i)
         sums[2] += local.rhs[i] * local.rhs[i];
     }

@@ -6,14 +6,16 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 namespace NMM
 {
   namespace internal
   {
     /**
-     * Dense matrix and right-hand side of one element, or of two that are tied, per unit
-     * thickness. Component c of local cover i is row 2i + c.
+     * The sum of some terms of one element, or of two that are tied, per unit thickness: their
+     * energy, its derivative (the forces of terms without potential), and the matrix, which is the
+     * derivative of the forces. Component c of local cover i is row 2i + c.
      */
     struct LocalSystem
     {
@@ -21,16 +23,23 @@ namespace NMM
         2 * WeightFunctions::max_per_cell;
 
       unsigned int n_covers = 0;
+      /// Whether terms are also added to the matrix.
+      bool with_matrix = true;
+      /// Energy of the terms, and energy that they dissipate [J/m].
+      double energy = 0., dissipated = 0.;
       /// The matrix (2 n_covers x 2 n_covers), stored row by row.
       double matrix[4 * max_covers * max_covers];
-      /// The right-hand side (2 n_covers).
+      /// The forces (2 n_covers); their sign is that of internal forces minus loads.
       double rhs[2 * max_covers];
 
       void
-      reset(const unsigned int n)
+      reset(const unsigned int n, const bool needs_matrix = true)
       {
-        n_covers = n;
-        std::fill_n(matrix, 4 * n * n, 0.);
+        n_covers    = n;
+        with_matrix = needs_matrix;
+        energy = dissipated = 0.;
+        if (with_matrix)
+          std::fill_n(matrix, 4 * n * n, 0.);
         std::fill_n(rhs, 2 * n, 0.);
       }
 
@@ -39,6 +48,26 @@ namespace NMM
       row(const unsigned int i, const unsigned int c)
       {
         return matrix + (2 * i + c) * 2 * n_covers;
+      }
+    };
+
+
+    /// Displacements of the covers of an element, or of two elements one after the other
+    /// [m].
+    struct LocalDisplacement
+    {
+      double values[LocalSystem::max_covers][2];
+
+      /// Read the displacements of @p covers from @p nodal and store them
+      /// from position @p first on.
+      void
+      gather(const dealii::ArrayView<const unsigned int> &covers,
+             const std::vector<dealii::Tensor<1, 2>>     &nodal,
+             const unsigned int                           first = 0)
+      {
+        for (unsigned int i = 0; i < covers.size(); ++i)
+          for (unsigned int c = 0; c < 2; ++c)
+            values[first + i][c] = nodal[covers[i]][c];
       }
     };
 

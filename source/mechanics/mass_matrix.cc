@@ -51,13 +51,7 @@ namespace NMM
     const std::vector<unsigned int> region_to_material =
       problem.region_to_material(mesh.physical_mesh());
 
-    // each ghost pair is assembled by the rank that owns its first element
-    std::vector<std::pair<unsigned int, unsigned int>> pairs;
-    if (ghost_penalty != nullptr)
-      for (const auto &pair : ghost_penalty->pairs)
-        if (pair.first >= first && pair.first < last)
-          pairs.push_back(pair);
-
+    const auto           pairs = owned_pairs(covers, ghost_penalty);
     CoverMatrixAssembler assembler(covers, constraints);
     for (const auto &[e, f] : pairs)
       assembler.couple({covers_of_pair(covers, e, f).data(), 2 * n});

@@ -56,14 +56,6 @@ namespace NMM
       for (const Material &material : problem.materials)
         default_stiffness =
           std::max(default_stiffness, 1000. * material.youngs_modulus);
-
-      all_elements = force_elements;
-      all_elements.insert(all_elements.end(),
-                          fixed_elements.begin(),
-                          fixed_elements.end());
-      std::sort(all_elements.begin(), all_elements.end());
-      all_elements.erase(std::unique(all_elements.begin(), all_elements.end()),
-                         all_elements.end());
     }
 
 
@@ -75,9 +67,9 @@ namespace NMM
 
 
     const std::vector<unsigned int> &
-    PointTerms::elements() const
+    PointTerms::point_force_elements() const
     {
-      return all_elements;
+      return force_elements;
     }
 
 
@@ -90,44 +82,37 @@ namespace NMM
 
 
     void
-    PointTerms::add(const unsigned int element, LocalSystem &system) const
+    PointTerms::add_spring(const unsigned int       fixed_point,
+                           const double             factor,
+                           const LocalDisplacement &u,
+                           LocalSystem             &local) const
     {
-      const MathematicalMesh &mesh =
-        covers->manifold_mesh().mathematical_mesh();
-      const unsigned int cell   = covers->manifold_mesh().cell(element);
-      const unsigned int degree = mesh.degree();
-      const unsigned int n      = WeightFunctions::n_per_cell(degree);
-      double             w[WeightFunctions::max_per_cell];
-
-      for (unsigned int f = 0; f < force_elements.size(); ++f)
-        if (force_elements[f] == element)
+      const ManifoldMesh     &mesh              = covers->manifold_mesh();
+      const MathematicalMesh &mathematical_mesh = mesh.mathematical_mesh();
+      const FixedPoint       &fixed  = problem->fixed_points[fixed_point];
+      const double            spring = stiffness(fixed_point);
+      double                  w[WeightFunctions::max_per_cell];
+      WeightFunctions::values(mathematical_mesh.degree(),
+                              mathematical_mesh.real_to_reference(
+                                mesh.cell(fixed_elements[fixed_point]),
+                                fixed.point),
+                              w);
+      for (unsigned int c = 0; c < 2; ++c)
+      {
+        if (!fixed.components[c])
+          continue;
+        double distance = -factor * fixed.displacement[c];
+        for (unsigned int i = 0; i < local.n_covers; ++i)
+          distance += w[i] * u.values[i][c];
+        local.energy += 0.5 * spring * distance * distance;
+        for (unsigned int i = 0; i < local.n_covers; ++i)
         {
-          const PointForce &force = problem->point_forces[f];
-          WeightFunctions::values(degree,
-                                  mesh.real_to_reference(cell, force.point),
-                                  w);
-          for (unsigned int i = 0; i < n; ++i)
-            for (unsigned int c = 0; c < 2; ++c)
-              system.rhs[2 * i + c] += w[i] * force.force[c];
+          local.rhs[2 * i + c] += spring * w[i] * distance;
+          if (local.with_matrix)
+            for (unsigned int j = 0; j < local.n_covers; ++j)
+              local.row(i, c)[2 * j + c] += spring * w[i] * w[j];
         }
-
-      for (unsigned int f = 0; f < fixed_elements.size(); ++f)
-        if (fixed_elements[f] == element)
-        {
-          const FixedPoint &fixed = problem->fixed_points[f];
-          WeightFunctions::values(degree,
-                                  mesh.real_to_reference(cell, fixed.point),
-                                  w);
-          for (unsigned int c = 0; c < 2; ++c)
-            if (fixed.components[c])
-              for (unsigned int i = 0; i < n; ++i)
-              {
-                const double spring = stiffness(f) * w[i];
-                for (unsigned int j = 0; j < n; ++j)
-                  system.row(i, c)[2 * j + c] += spring * w[j];
-                system.rhs[2 * i + c] += spring * fixed.displacement[c];
-              }
-        }
+      }
     }
   } // namespace internal
 } // namespace NMM

@@ -12,8 +12,8 @@ namespace NMM
   namespace internal
   {
     /**
-     * The terms of point forces (11) and fixed points (12), each in the element that contains its
-     * point.
+     * The elements that contain the points of point forces (11) and fixed points (12), and the
+     * springs of the latter.
      * @throws InputError for a point outside the solid.
      */
     class PointTerms
@@ -31,18 +31,22 @@ namespace NMM
       double
       stiffness(unsigned int fixed_point) const;
 
-      /// Elements with point terms, ascending.
+      /// Element of each point force, like fixed_point_elements().
       const std::vector<unsigned int> &
-      elements() const;
+      point_force_elements() const;
 
-      /// Add the terms of all points in an element.
+      /// Add the spring of a fixed point, whose displacement is multiplied by @p factor, to the
+      /// system of its element with the displacements @p u.
       void
-      add(unsigned int element, LocalSystem &system) const;
+      add_spring(unsigned int             fixed_point,
+                 double                   factor,
+                 const LocalDisplacement &u,
+                 LocalSystem             &local) const;
 
     private:
       const CoverSystem        *covers;
       const ElasticityProblem  *problem;
-      std::vector<unsigned int> force_elements, fixed_elements, all_elements;
+      std::vector<unsigned int> force_elements, fixed_elements;
       double                    default_stiffness;
     };
   } // namespace internal

@@ -10,6 +10,7 @@
 #include <mechanics/boundary_terms.h>
 #include <mechanics/curve_conditions.h>
 #include <mechanics/disk_system.h>
+#include <mechanics/edge_tables.h>
 #include <mechanics/floating_blocks.h>
 #include <mechanics/ghost_terms.h>
 #include <mechanics/local_system.h>
@@ -32,20 +33,40 @@ namespace NMM
     }
 
 
-    /// Call action(pair) for each pair of the ghost penalty whose first element
-    /// is owned.
-    template <typename Action>
+    /// Couple the covers of elements that are tied or have a ghost penalty.
     void
-    for_each_ghost_pair(const CoverSystem  &covers,
-                        const GhostPenalty *ghost_penalty,
-                        const Action       &action)
+    couple_pairs(
+      const CoverSystem                                        &covers,
+      const internal::CurveConditions                          &conditions,
+      const std::vector<std::pair<unsigned int, unsigned int>> &ghost_pairs,
+      internal::CoverMatrixAssembler                           &assembler)
     {
-      if (ghost_penalty == nullptr)
-        return;
-      const auto [first, last] = covers.locally_owned_elements();
-      for (const auto &pair : ghost_penalty->pairs)
-        if (pair.first >= first && pair.first < last)
-          action(pair);
+      const unsigned int n =
+        2 * covers.manifold_mesh().mathematical_mesh().n_covers_per_cell();
+      const auto couple = [&](const unsigned int e,
+                              const unsigned int neighbor) {
+        assembler.couple(
+          {internal::covers_of_pair(covers, e, neighbor).data(), n});
+      };
+      internal::for_each_tie(
+        covers, conditions, [&](const unsigned int e, const ElementEdge &edge) {
+          couple(e, edge.neighbor);
+        });
+      for (const auto &pair : ghost_pairs)
+        couple(pair.first, pair.second);
+    }
+
+
+    /// Add the forces of all loads to the right-hand side.
+    void
+    add_loads(const internal::DeadLoads      &loads,
+              internal::CoverMatrixAssembler &assembler)
+    {
+      loads.for_each_load([&](const internal::DeadLoads::Load &load) {
+        constexpr double no_matrix[4] = {};
+        for (unsigned int i = 0; i < load.covers.size(); ++i)
+          assembler.add({&load.covers[i], 1}, no_matrix, &load.forces[i][0]);
+      });
     }
   } // namespace
 
@@ -90,33 +111,29 @@ namespace NMM
 
     auto                 section = time_section(timer, "sparsity");
     CoverMatrixAssembler assembler(*covers, *constraints);
-    for_each_tie(*covers,
-                 conditions,
-                 [&](const unsigned int e, const ElementEdge &edge) {
-                   const auto pair = covers_of_pair(*covers, e, edge.neighbor);
-                   assembler.couple({pair.data(), 2 * n_per_cell});
-                 });
-    for_each_ghost_pair(*covers,
-                        ghost_penalty,
-                        [&](const std::pair<unsigned int, unsigned int> &pair) {
-                          const auto both =
-                            covers_of_pair(*covers, pair.first, pair.second);
-                          assembler.couple({both.data(), 2 * n_per_cell});
-                        });
+    const auto           ghost_pairs = owned_pairs(*covers, ghost_penalty);
+    couple_pairs(*covers, conditions, ghost_pairs, assembler);
     assembler.build(matrix, rhs);
     assembler.reset();
 
     section.reset();
     section = time_section(timer, "assembly");
     const VolumeTerms volume_terms(*covers, *quadrature, *problem);
+    const GhostTerms  ghost_terms(*covers, *problem);
     TraceConstants    trace_constants(
       *covers, *quadrature, *constraints, conditions, ghost_penalty);
-    EdgeTerms   edge_terms(*covers, *problem, conditions, trace_constants);
-    LocalSystem local;
-    const auto [first, last] = covers->locally_owned_elements();
-    auto point_element       = std::lower_bound(points.elements().begin(),
-                                          points.elements().end(),
-                                          first);
+    const EdgeTables edges(*covers, *problem, conditions, trace_constants);
+    const EdgeTerms  edge_terms(*covers, *problem, trace_constants);
+    // the right-hand side is the negative force of all terms at rest
+    const auto add = [&](const dealii::ArrayView<const unsigned int> &to,
+                         LocalSystem                                 &local) {
+      for (unsigned int i = 0; i < 2 * local.n_covers; ++i)
+        local.rhs[i] = -local.rhs[i];
+      assembler.add(to, local.matrix, local.rhs);
+    };
+    const LocalDisplacement rest{};
+    auto                    condition = edges.conditions.begin();
+    const auto [first, last]          = covers->locally_owned_elements();
     for_each_in_order<LocalSystem>(
       first,
       last,
@@ -125,31 +142,37 @@ namespace NMM
         volume_terms.add(e, system);
       },
       [&](const unsigned int e, LocalSystem &system) {
-        edge_terms.add_conditions(e, system);
-        if (point_element != points.elements().end() && *point_element == e)
-        {
-          points.add(e, system);
-          ++point_element;
-        }
-        assembler.add(covers->covers(e), system.matrix, system.rhs);
+        if (condition != edges.conditions.end() && condition->element == e)
+          edge_terms.add_weak_points(edges, *condition++, system);
+        for (unsigned int f = 0; f < problem->fixed_points.size(); ++f)
+          if (points.fixed_point_elements()[f] == e)
+            points.add_spring(f, 1., rest, system);
+        add(covers->covers(e), system);
       });
-    for_each_tie(
-      *covers, conditions, [&](const unsigned int e, const ElementEdge &edge) {
-        const auto pair = covers_of_pair(*covers, e, edge.neighbor);
-        local.reset(2 * n_per_cell);
-        edge_terms.add_tie(e, edge, local);
-        assembler.add({pair.data(), 2 * n_per_cell}, local.matrix, local.rhs);
+    LocalSystem local;
+    const auto  add_pair = [&](const unsigned int e,
+                              const unsigned int neighbor,
+                              const auto        &add_terms) {
+      const auto pair = covers_of_pair(*covers, e, neighbor);
+      local.reset(2 * n_per_cell);
+      add_terms();
+      add({pair.data(), 2 * n_per_cell}, local);
+    };
+    for (const EdgeTables::Site &tie : edges.ties)
+      add_pair(tie.element, tie.neighbor, [&]() {
+        edge_terms.add_weak_points(edges, tie, local);
       });
-    const GhostTerms ghost_terms(*covers, *problem);
-    for_each_ghost_pair(
-      *covers,
-      ghost_penalty,
-      [&](const std::pair<unsigned int, unsigned int> &pair) {
-        const auto both = covers_of_pair(*covers, pair.first, pair.second);
-        local.reset(2 * n_per_cell);
+    for (const auto &pair : ghost_pairs)
+      add_pair(pair.first, pair.second, [&]() {
         ghost_terms.add_stiffness(pair, local);
-        assembler.add({both.data(), 2 * n_per_cell}, local.matrix, local.rhs);
       });
+    add_loads(DeadLoads(*covers,
+                        *quadrature,
+                        *problem,
+                        conditions,
+                        points,
+                        /* are_displacements_small = */ true),
+              assembler);
     section.reset();
     section = time_section(timer, "to Trilinos");
     assembler.compress();

@@ -9,12 +9,11 @@ namespace NMM
                                            const unsigned int           degree)
     {
       const unsigned int n_per_cell = WeightFunctions::n_per_cell(degree);
-      double             g[n_max][2], w[n_max];
+      double             g[n_max][2];
       for (unsigned int q = 0; q < rule.size(); ++q)
       {
         const double weight = rule.weight(q);
         WeightFunctions::gradients(degree, rule.point(q), g);
-        WeightFunctions::values(degree, rule.point(q), w);
         for (unsigned int i = 0; i < n_per_cell; ++i)
         {
           const double g0 = weight * g[i][0], g1 = weight * g[i][1];
@@ -28,7 +27,6 @@ namespace NMM
           }
           gradients[i][0] += g0;
           gradients[i][1] += g1;
-          values[i] += weight * w[i];
         }
       }
     }
@@ -88,7 +86,6 @@ namespace NMM
                              const ElasticityProblem    &problem)
       : covers(&covers)
       , quadrature(&quadrature)
-      , problem(&problem)
       , degree(covers.manifold_mesh().mathematical_mesh().degree())
       , n_per_cell(WeightFunctions::n_per_cell(degree))
       , has_whole_integrals(false)
@@ -101,7 +98,6 @@ namespace NMM
         region_to_elasticity.push_back(
           material.plane_elasticity(problem.plane_state));
         region_to_initial_stress.push_back(material.initial_stress);
-        region_to_weight.push_back(material.density * problem.gravity);
       }
 
       const auto [first, last] = covers.locally_owned_elements();
@@ -138,7 +134,6 @@ namespace NMM
                            region_to_elasticity[region],
                            system);
 
-      const dealii::Tensor<1, 2>          &weight = region_to_weight[region];
       const dealii::SymmetricTensor<2, 2> &stress =
         region_to_initial_stress[region];
       for (unsigned int i = 0; i < n_per_cell; ++i)
@@ -147,37 +142,7 @@ namespace NMM
         const double g0 = t00 * g[0] + t01 * g[1], g1 = t10 * g[0] + t11 * g[1];
         for (unsigned int c = 0; c < 2; ++c)
           system.rhs[2 * i + c] +=
-            det * (integrals->values[i] * weight[c] - stress[c][0] * g0 -
-                   stress[c][1] * g1);
-      }
-      if (problem->body_force != nullptr)
-        add_body_force_function(element, system);
-    }
-
-
-    void
-    VolumeTerms::add_body_force_function(const unsigned int element,
-                                         LocalSystem       &system) const
-    {
-      const ManifoldMesh     &mesh              = covers->manifold_mesh();
-      const MathematicalMesh &mathematical_mesh = mesh.mathematical_mesh();
-      const unsigned int      cell              = mesh.cell(element);
-      const double det = dealii::determinant(mathematical_mesh.jacobian(cell));
-
-      const dealii::Quadrature<2> &rule = quadrature->rule(element);
-      double                       w[WeightFunctions::max_per_cell];
-      for (unsigned int q = 0; q < rule.size(); ++q)
-      {
-        const dealii::Point<2> x =
-          mathematical_mesh.reference_to_real(cell, rule.point(q));
-        WeightFunctions::values(degree, rule.point(q), w);
-        for (unsigned int c = 0; c < 2; ++c)
-        {
-          const double f =
-            det * rule.weight(q) * problem->body_force->value(x, c);
-          for (unsigned int i = 0; i < n_per_cell; ++i)
-            system.rhs[2 * i + c] += f * w[i];
-        }
+            det * (stress[c][0] * g0 + stress[c][1] * g1);
       }
     }
   } // namespace internal

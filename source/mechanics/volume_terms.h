@@ -27,8 +27,6 @@ namespace NMM
       double gradient_products[n_max][n_max][2][2] = {};
       /// Integrals of dw_i/dxi_a.
       double gradients[n_max][2] = {};
-      /// Integrals of w_i.
-      double values[n_max] = {};
     };
 
 
@@ -42,7 +40,8 @@ namespace NMM
 
 
     /**
-     * The terms of stiffness (7), initial stress (9) and body force (10) of an element.
+     * The terms of stiffness (7) and initial stress (9) of an element in small displacements, at
+     * rest.
      *
      * With the integrals of products of reference gradients
      * S_ij^ab = sum_q w_q g_i^a g_j^b, which all whole elements share, the
@@ -62,19 +61,14 @@ namespace NMM
       add(unsigned int element, LocalSystem &system) const;
 
     private:
-      void
-      add_body_force_function(unsigned int element, LocalSystem &system) const;
-
       const CoverSystem          *covers;
       const QuadratureCollection *quadrature;
-      const ElasticityProblem    *problem;
       unsigned int                degree, n_per_cell;
       bool                        has_whole_integrals;
       ReferenceIntegrals          whole_integrals;
 
       std::vector<PlaneElasticity>               region_to_elasticity;
       std::vector<dealii::SymmetricTensor<2, 2>> region_to_initial_stress;
-      std::vector<dealii::Tensor<1, 2>>          region_to_weight;
     };
   } // namespace internal
 } // namespace NMM

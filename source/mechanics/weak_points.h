@@ -14,6 +14,15 @@ namespace NMM
 {
   namespace internal
   {
+    /// Whether Nitsche's method imposes a boundary condition: the condition is no load.
+    inline bool
+    is_weak(const BoundaryCondition &condition)
+    {
+      return condition.type == BoundaryCondition::Type::displacement ||
+             condition.type == BoundaryCondition::Type::normal_displacement;
+    }
+
+
     /// A quadrature point, in the reference configuration, of a displacement condition (one side)
     /// or of a tie (two), which Nitsche's method imposes.
     struct WeakPoint
@@ -118,38 +127,6 @@ namespace NMM
       unsigned int                 degree, n_per_cell;
       std::vector<PlaneElasticity> region_to_elasticity;
     };
-
-
-    /// Derivative of the mean traction {sigma} n at a weak point by the displacements of covers:
-    /// [cover][component of the traction][component of the displacement].
-    struct WeakTraction
-    {
-      double derivative[LocalSystem::max_covers][2][2];
-
-      /// Compute the derivative in the reference configuration, for @p n_per_cell covers of each
-      /// side.
-      WeakTraction(const WeakPoint                    &point,
-                   unsigned int                        n_per_cell,
-                   const std::vector<PlaneElasticity> &elasticities);
-    };
-
-
-    /**
-     * Add Nitsche's terms at a weak point, times @p weight,
-     * @f[ \int \gamma\,B d\cdot[v] - Bt\cdot[v] - Bd\cdot\{\sigma(v)\}n @f]
-     * to the right-hand side, times @p sign, and their derivative to the matrix. Here d is the
-     * difference from the prescribed displacement, of which @p difference is B d, and @p t is the
-     * mean traction, both at the displacements about which the problem is linear. See
-     * StaticElasticity.
-     */
-    void
-    add_nitsche(const WeakPoint            &point,
-                const WeakTraction         &traction,
-                const dealii::Tensor<1, 2> &difference,
-                const dealii::Tensor<1, 2> &t,
-                double                      weight,
-                double                      sign,
-                LocalSystem                &system);
   } // namespace internal
 } // namespace NMM
 

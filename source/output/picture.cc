@@ -56,18 +56,26 @@ namespace NMM
     }
 
 
+    /// How lines are drawn; the width is in units of the layout.
+    struct Stroke
+    {
+      double                width;
+      cairo_line_cap_t      cap;
+      std::array<double, 4> colour;
+    };
+
+
     void
     draw_lines(cairo_t                                  *cr,
                const std::vector<PictureData::Polyline> &lines,
                const Layout                             &layout,
                const double                              scale,
-               const double                              width,
-               const cairo_line_cap_t                    cap,
-               const std::array<double, 4>              &colour)
+               const Stroke                             &stroke)
     {
+      const auto &colour = stroke.colour;
       cairo_set_source_rgba(cr, colour[0], colour[1], colour[2], colour[3]);
-      cairo_set_line_width(cr, width * layout.unit);
-      cairo_set_line_cap(cr, cap);
+      cairo_set_line_width(cr, stroke.width * layout.unit);
+      cairo_set_line_cap(cr, stroke.cap);
       cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
       for (const PictureData::Polyline &line : lines)
       {
@@ -190,8 +198,7 @@ namespace NMM
                   labels[i],
                   x + width + 9. * u,
                   tick_y + 5. * u,
-                  15. * u,
-                  105. * u);
+                  {15. * u, 105. * u});
       }
     }
 
@@ -250,12 +257,11 @@ namespace NMM
       std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 
     void
-    fill(cairo_surface_t   *surface,
-         const PictureData &data,
-         const Layout      &layout,
-         const double       minimum,
-         const double       range,
-         const unsigned int n_colours)
+    fill(cairo_surface_t                 *surface,
+         const PictureData               &data,
+         const Layout                    &layout,
+         const std::pair<double, double> &span,
+         const unsigned int               n_colours)
     {
       cairo_surface_flush(surface);
       const double margin = 10. * layout.unit;
@@ -271,13 +277,8 @@ namespace NMM
       canvas.bottom      = std::min(canvas.bottom, layout.height - 1);
       const auto colours = internal::make_colour_table(n_colours);
       for (const PictureData::Triangle &triangle : data.triangles)
-        internal::fill_quadratic_triangle(triangle,
-                                          layout,
-                                          data.deformation_scale,
-                                          minimum,
-                                          range,
-                                          colours,
-                                          canvas);
+        internal::fill_quadratic_triangle(
+          triangle, layout, data.deformation_scale, span, colours, canvas);
       cairo_surface_mark_dirty(surface);
     }
 
@@ -426,7 +427,7 @@ namespace NMM
           continue;
         constexpr double text_width = 52., sample_width = 22., gap = 6.;
         x -= text_width * u;
-        draw_text(cr, words[kind], x, 63. * u, 15. * u, text_width * u);
+        draw_text(cr, words[kind], x, 63. * u, {15. * u, text_width * u});
         const auto &colour =
           colour_of_bar(static_cast<PictureData::Bar::Kind>(kind));
         cairo_set_source_rgb(cr, colour[0], colour[1], colour[2]);
@@ -437,7 +438,7 @@ namespace NMM
         x -= (2. * gap + sample_width + 4.) * u;
       }
       draw_text(
-        cr, text, x - 260. * u, 63. * u, 15. * u, 260. * u, false, true);
+        cr, text, x - 260. * u, 63. * u, {15. * u, 260. * u, false, true});
     }
 
 
@@ -474,7 +475,7 @@ namespace NMM
       if (!data.tips.empty())
       {
         draw_ring(cr, Point<2>(x + 7. * u, y), u);
-        draw_text(cr, "crack tip", x + 20. * u, y + 5. * u, 15. * u, 90. * u);
+        draw_text(cr, "crack tip", x + 20. * u, y + 5. * u, {15. * u, 90. * u});
         x += 120. * u;
       }
       if (data.grown_faces.empty())
@@ -483,7 +484,8 @@ namespace NMM
       cairo_move_to(cr, x, y);
       cairo_line_to(cr, x + 22. * u, y);
       cairo_stroke(cr);
-      draw_text(cr, "grown crack", x + 30. * u, y + 5. * u, 15. * u, 110. * u);
+      draw_text(
+        cr, "grown crack", x + 30. * u, y + 5. * u, {15. * u, 110. * u});
     }
 
 
@@ -506,30 +508,24 @@ namespace NMM
                  data.mesh_lines,
                  layout,
                  scale,
-                 0.4,
-                 CAIRO_LINE_CAP_BUTT,
-                 {{1., 1., 1., 0.35}});
+                 {0.4, CAIRO_LINE_CAP_BUTT, {{1., 1., 1., 0.35}}});
       draw_lines(cr,
                  data.interfaces,
                  layout,
                  scale,
-                 1.,
-                 CAIRO_LINE_CAP_BUTT,
-                 {{0.9, 0.9, 0.9, 0.9}});
+                 {1., CAIRO_LINE_CAP_BUTT, {{0.9, 0.9, 0.9, 0.9}}});
       draw_lines(cr,
                  data.outlines,
                  layout,
                  scale,
-                 1.4,
-                 CAIRO_LINE_CAP_ROUND,
-                 {{0.05, 0.05, 0.05, 1.}});
+                 {1.4, CAIRO_LINE_CAP_ROUND, {{0.05, 0.05, 0.05, 1.}}});
       draw_lines(cr,
                  data.grown_faces,
                  layout,
                  scale,
-                 grown_face_width,
-                 CAIRO_LINE_CAP_ROUND,
-                 {{0.05, 0.05, 0.05, 1.}});
+                 {grown_face_width,
+                  CAIRO_LINE_CAP_ROUND,
+                  {{0.05, 0.05, 0.05, 1.}}});
       draw_obstacles(cr, data, layout);
       draw_bars(cr, data, layout, largest_traction);
       for (const PictureData::Vertex &tip : data.tips)
@@ -564,8 +560,7 @@ namespace NMM
       fill(surface.get(),
            data,
            layout,
-           minimum,
-           maximum > minimum ? maximum - minimum : 1.,
+           {minimum, maximum > minimum ? maximum - minimum : 1.},
            n_colours);
       const double largest =
         frame.bar_scale ? *frame.bar_scale : extents.largest_traction();
@@ -575,22 +570,18 @@ namespace NMM
       const double width      = layout.width - 60. * u;
       const double note_width = frame.note.empty() ? 0. : 0.35 * width;
       draw_text(
-        cr.get(), title, 30. * u, 36. * u, 24. * u, width - note_width, true);
+        cr.get(), title, 30. * u, 36. * u, {24. * u, width - note_width, true});
       if (!frame.note.empty())
         draw_text(cr.get(),
                   frame.note,
                   30. * u + width - note_width + 10. * u,
                   36. * u,
-                  22. * u,
-                  note_width - 10. * u,
-                  false,
-                  true);
+                  {22. * u, note_width - 10. * u, false, true});
       draw_text(cr.get(),
                 subtitle(data, parameters, choose_exponent(minimum, maximum)),
                 30. * u,
                 63. * u,
-                17. * u,
-                data.contacts.empty() ? width : 0.52 * width);
+                {17. * u, data.contacts.empty() ? width : 0.52 * width});
       if (!data.contacts.empty())
         draw_legend_of_bars(cr.get(), data, layout, largest, parameters);
       draw_legend_of_cracks(cr.get(), data, layout);

@@ -108,8 +108,7 @@ namespace NMM
     fill_quadratic_triangle(const PictureData::Triangle      &triangle,
                             const Layout                     &layout,
                             const double                      scale,
-                            const double                      minimum,
-                            const double                      range,
+                            const std::pair<double, double>  &span,
                             const std::vector<std::uint32_t> &colours,
                             Canvas                           &canvas)
     {
@@ -134,7 +133,7 @@ namespace NMM
           x += shape[k] * nodes[k];
           value += shape[k] * triangle.values[k];
         }
-        return std::make_pair(layout(x), (value - minimum) / range);
+        return std::make_pair(layout(x), (value - span.first) / span.second);
       };
       for (int j = 0; j < n; ++j)
         for (int i = 0; i + j < n; ++i)

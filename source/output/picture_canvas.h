@@ -4,6 +4,7 @@
 #include <nmm/output/picture.h>
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace NMM
@@ -50,14 +51,13 @@ namespace NMM
     make_colour_table(unsigned int n_colours);
 
 
-    /// Fills a triangle with the colours of its values; the table spans the values from @p minimum
-    /// to @p minimum + @p range. @p scale is the factor on displacements.
+    /// Fills a triangle with the colours of its values; the table spans the values from
+    /// @p span.first on, over a width of @p span.second. @p scale is the factor on displacements.
     void
     fill_quadratic_triangle(const PictureData::Triangle      &triangle,
                             const Layout                     &layout,
                             double                            scale,
-                            double                            minimum,
-                            double                            range,
+                            const std::pair<double, double>  &span,
                             const std::vector<std::uint32_t> &colours,
                             Canvas                           &canvas);
   } // namespace internal

@@ -16,25 +16,23 @@ namespace NMM
               const std::string &text,
               const double       x,
               const double       y,
-              const double       size,
-              const double       max_width,
-              const bool         bold,
-              const bool         right_adjusted)
+              const TextStyle   &style)
     {
       cairo_select_font_face(cr,
                              "sans-serif",
                              CAIRO_FONT_SLANT_NORMAL,
-                             bold ? CAIRO_FONT_WEIGHT_BOLD
-                                  : CAIRO_FONT_WEIGHT_NORMAL);
-      cairo_set_font_size(cr, size);
+                             style.is_bold ? CAIRO_FONT_WEIGHT_BOLD
+                                           : CAIRO_FONT_WEIGHT_NORMAL);
+      cairo_set_font_size(cr, style.size);
       cairo_text_extents_t extents;
       cairo_text_extents(cr, text.c_str(), &extents);
-      if (extents.x_advance > max_width)
-        cairo_set_font_size(cr, size * max_width / extents.x_advance);
+      if (extents.x_advance > style.max_width)
+        cairo_set_font_size(cr,
+                            style.size * style.max_width / extents.x_advance);
       cairo_set_source_rgb(cr, 0.1, 0.1, 0.1);
       cairo_move_to(cr,
-                    right_adjusted
-                      ? x + std::max(0., max_width - extents.x_advance)
+                    style.is_right_adjusted
+                      ? x + std::max(0., style.max_width - extents.x_advance)
                       : x,
                     y);
       cairo_show_text(cr, text.c_str());
@@ -78,10 +76,7 @@ namespace NMM
                 number_text(length) + ' ' + unit,
                 start - (text_width + 8.) * u,
                 y,
-                15. * u,
-                text_width * u,
-                false,
-                true);
+                {15. * u, text_width * u, false, true});
     }
 
 
@@ -111,8 +106,7 @@ namespace NMM
                   names[i],
                   x + 35. * u,
                   y + 0.6 * line,
-                  std::min(15. * u, 0.7 * line),
-                  90. * u);
+                  {std::min(15. * u, 0.7 * line), 90. * u});
       }
     }
 
@@ -158,7 +152,7 @@ namespace NMM
                           extents.x_advance + 0.4 * size,
                           1.2 * size);
           cairo_fill(cr);
-          draw_text(cr, text, x, y, size, 10. * size);
+          draw_text(cr, text, x, y, {size, 10. * size});
         }
       cairo_restore(cr);
     }

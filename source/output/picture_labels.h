@@ -11,17 +11,21 @@ namespace NMM
 {
   namespace internal
   {
-    /// Draws @p text with its base line at (@p x, @p y), smaller than @p size if it would be wider
-    /// than @p max_width [pixels].
+    /// How a text is drawn: smaller than `size` if it would be wider than `max_width` [pixels].
+    struct TextStyle
+    {
+      double size, max_width;
+      bool   is_bold           = false;
+      bool   is_right_adjusted = false;
+    };
+
+    /// Draws @p text with its base line at (@p x, @p y).
     void
     draw_text(cairo_t           *cr,
               const std::string &text,
               double             x,
               double             y,
-              double             size,
-              double             max_width,
-              bool               bold           = false,
-              bool               right_adjusted = false);
+              const TextStyle   &style);
 
     std::string
     number_text(double value, unsigned int n_digits = 4);

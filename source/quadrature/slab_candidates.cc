@@ -111,20 +111,6 @@ namespace NMM
 
 
     void
-    SlabCandidates::add_piece(const FrameEdge &edge,
-                              const double     left,
-                              const double     right,
-                              const bool       is_bottom,
-                              const double     t_min,
-                              const double     t_max,
-                              const double     slope_sign)
-    {
-      pieces.push_back(
-        {&edge, left, right, is_bottom, t_min, t_max, slope_sign});
-    }
-
-
-    void
     SlabCandidates::make_pieces(const std::vector<FrameEdge> &edges)
     {
       pieces.clear();
@@ -151,8 +137,8 @@ namespace NMM
           if (!edge.is_arc)
           {
             if (a != b)
-              add_piece(
-                edge, std::min(a, b), std::max(a, b), a < b, 0., 0., 0.);
+              pieces.push_back(
+                {&edge, std::min(a, b), std::max(a, b), a < b, 0., 0., 0.});
             continue;
           }
           const double u      = edge.sine_axis[0];
@@ -165,29 +151,29 @@ namespace NMM
             const double s    = edge.arc_coordinate(0, t_turn);
             const double sign = v > 0. ? 1. : -1.;
             slices.push_back(s);
-            add_piece(edge,
-                      std::min(a, s),
-                      std::max(a, s),
-                      sign > 0.,
-                      -t_end,
-                      t_turn,
-                      sign);
-            add_piece(edge,
-                      std::min(b, s),
-                      std::max(b, s),
-                      sign < 0.,
-                      t_turn,
-                      t_end,
-                      -sign);
+            pieces.push_back({&edge,
+                              std::min(a, s),
+                              std::max(a, s),
+                              sign > 0.,
+                              -t_end,
+                              t_turn,
+                              sign});
+            pieces.push_back({&edge,
+                              std::min(b, s),
+                              std::max(b, s),
+                              sign < 0.,
+                              t_turn,
+                              t_end,
+                              -sign});
           }
           else if (a != b)
-            add_piece(edge,
-                      std::min(a, b),
-                      std::max(a, b),
-                      a < b,
-                      -t_end,
-                      t_end,
-                      a < b ? 1. : -1.);
+            pieces.push_back({&edge,
+                              std::min(a, b),
+                              std::max(a, b),
+                              a < b,
+                              -t_end,
+                              t_end,
+                              a < b ? 1. : -1.});
         }
       std::sort(slices.begin(), slices.end());
     }
@@ -195,13 +181,11 @@ namespace NMM
 
     bool
     SlabCandidates::add_point(const ElementFrame          &frame,
-                              const Piece                 &bottom,
-                              const Piece                 &top,
-                              const double                 left,
-                              const double                 right,
+                              const Trapezoid             &trapezoid,
                               const std::array<double, 2> &s,
                               const double                 weight)
     {
+      const Piece &bottom = *trapezoid.bottom, &top = *trapezoid.top;
       // Where the element is not much wider than the spacing of doubles, the
       // rounded point may be outside. Then a correction towards the target is tried, then one
       // towards the middle of the trapezoid. If both fail, the point is left out, and the
@@ -211,8 +195,8 @@ namespace NMM
       for (unsigned int attempt = 0; attempt < 4; ++attempt)
       {
         const std::array<double, 2> rounded = frame.reference_to_scaled(xi);
-        if (rounded[0] > left + inside_margin &&
-            rounded[0] < right - inside_margin &&
+        if (rounded[0] > trapezoid.left + inside_margin &&
+            rounded[0] < trapezoid.right - inside_margin &&
             rounded[1] > bottom.height(rounded[0]) + inside_margin &&
             rounded[1] < top.height(rounded[0]) - inside_margin)
         {
@@ -235,16 +219,16 @@ namespace NMM
 
     void
     SlabCandidates::fill_trapezoid(const ElementFrame &frame,
-                                   const Piece        &bottom,
-                                   const Piece        &top,
-                                   const double        left,
-                                   const double        right,
-                                   const unsigned int  n_along,
-                                   const unsigned int  n_across,
+                                   const Trapezoid    &trapezoid,
+                                   const PointCounts  &counts,
                                    GaussTable         &gauss)
     {
+      const auto [bottom, top, left, right] = trapezoid;
+      unsigned int n_along                  = counts.along;
+      if (bottom->edge->is_arc || top->edge->is_arc)
+        n_along += counts.extra_on_arcs;
       Grading grading = {false, false};
-      for (const Piece *piece : {&bottom, &top})
+      for (const Piece *piece : {bottom, top})
         if (piece->edge->is_arc)
         {
           const double at_left  = piece->arc_speed(left);
@@ -254,25 +238,22 @@ namespace NMM
           grading.at_right      = grading.at_right || at_right < 0.3 * middle;
         }
       // The first call grows the table, which must not happen after references are taken.
-      gauss.rule(n_across);
+      gauss.rule(counts.across);
       const GaussTable::Rule &along = gauss.rule(
         n_along + (grading.at_left ? 1 : 0) + (grading.at_right ? 1 : 0));
-      const GaussTable::Rule &across = gauss.rule(n_across);
+      const GaussTable::Rule &across = gauss.rule(counts.across);
       for (std::size_t i = 0; i < along.points.size(); ++i)
       {
         const auto [x, dx]  = grading(along.points[i]);
         const double s      = left + x * (right - left);
-        const double lower  = bottom.height(s);
-        const double height = top.height(s) - lower;
+        const double lower  = bottom->height(s);
+        const double height = top->height(s) - lower;
         if (height <= 4. * inside_margin)
           continue;
         const double weight = along.weights[i] * dx * (right - left) * height;
         for (std::size_t j = 0; j < across.points.size(); ++j)
           add_point(frame,
-                    bottom,
-                    top,
-                    left,
-                    right,
+                    trapezoid,
                     {{s, lower + across.points[j] * height}},
                     weight * across.weights[j]);
       }
@@ -283,9 +264,7 @@ namespace NMM
     SlabCandidates::fill_slab(const ElementFrame &frame,
                               const double        left,
                               const double        right,
-                              const unsigned int  n_along,
-                              const unsigned int  n_across,
-                              const unsigned int  n_arc_extra,
+                              const PointCounts  &counts,
                               GaussTable         &gauss)
     {
       const double middle = 0.5 * (left + right);
@@ -308,16 +287,7 @@ namespace NMM
         if (piece->is_bottom && ++winding == 1)
           bottom = piece;
         else if (!piece->is_bottom && --winding == 0)
-          fill_trapezoid(frame,
-                         *bottom,
-                         *piece,
-                         left,
-                         right,
-                         n_along + (bottom->edge->is_arc || piece->edge->is_arc
-                                      ? n_arc_extra
-                                      : 0),
-                         n_across,
-                         gauss);
+          fill_trapezoid(frame, {bottom, piece, left, right}, counts, gauss);
       }
     }
 
@@ -336,14 +306,15 @@ namespace NMM
 
       // Across the slab the integrand is of degree m. Along the slab its integral over the height
       // of a trapezoid is of degree m + 1.
-      unsigned int n_along  = (degree + 3) / 2 + level;
-      unsigned int n_across = (degree + 2) / 2 + level;
+      PointCounts counts = {(degree + 3) / 2 + level,
+                            (degree + 2) / 2 + level,
+                            0};
       if (level >= 2)
-        n_along = n_across = degree + 1 + 2 * (level - 2);
+        counts.along = counts.across = degree + 1 + 2 * (level - 2);
       // On arcs there are enough points for the moments to correct the rest, and at the last level
       // enough to need no correction.
       constexpr std::array<unsigned int, 4> extra = {{1, 2, 4, 14}};
-      const unsigned int n_arc_extra              = extra[std::min(level, 3u)];
+      counts.extra_on_arcs                        = extra[std::min(level, 3u)];
 
       for (std::size_t i = 0; i + 1 < slices.size();)
       {
@@ -352,13 +323,7 @@ namespace NMM
                slices[next] - slices[i] <= narrowest_slab)
           ++next;
         if (next < slices.size())
-          fill_slab(frame,
-                    slices[next - 1],
-                    slices[next],
-                    n_along,
-                    n_across,
-                    n_arc_extra,
-                    gauss);
+          fill_slab(frame, slices[next - 1], slices[next], counts, gauss);
         i = next;
       }
     }

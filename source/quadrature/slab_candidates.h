@@ -83,40 +83,36 @@ namespace NMM
       void
       make_pieces(const std::vector<FrameEdge> &edges);
 
-      void
-      add_piece(const FrameEdge &edge,
-                double           left,
-                double           right,
-                bool             is_bottom,
-                double           t_min,
-                double           t_max,
-                double           slope_sign);
+      /// The part of a slab from `left` to `right` between two pieces.
+      struct Trapezoid
+      {
+        const Piece *bottom, *top;
+        double       left, right;
+      };
+
+      /// Numbers of Gauss points along a slab and across it, and of further points along it where
+      /// an arc bounds it.
+      struct PointCounts
+      {
+        unsigned int along, across, extra_on_arcs;
+      };
 
       void
       fill_slab(const ElementFrame &frame,
                 double              left,
                 double              right,
-                unsigned int        n_along,
-                unsigned int        n_across,
-                unsigned int        n_arc_extra,
+                const PointCounts  &counts,
                 GaussTable         &gauss);
 
       void
       fill_trapezoid(const ElementFrame &frame,
-                     const Piece        &bottom,
-                     const Piece        &top,
-                     double              left,
-                     double              right,
-                     unsigned int        n_along,
-                     unsigned int        n_across,
+                     const Trapezoid    &trapezoid,
+                     const PointCounts  &counts,
                      GaussTable         &gauss);
 
       bool
       add_point(const ElementFrame          &frame,
-                const Piece                 &bottom,
-                const Piece                 &top,
-                double                       left,
-                double                       right,
+                const Trapezoid             &trapezoid,
                 const std::array<double, 2> &s,
                 double                       weight);
 

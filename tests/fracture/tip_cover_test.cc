@@ -86,10 +86,9 @@ namespace
                                                *model->quadrature,
                                                model->constraints,
                                                conditions);
-      internal::EdgeTerms             edge_terms(model->covers,
-                                     model->problem,
-                                     conditions,
-                                     trace_constants);
+      const internal::EdgeTerms       edge_terms(model->covers,
+                                           model->problem,
+                                           trace_constants);
       internal::DiskSystem            disks(model->covers,
                                  model->constraints,
                                  model->problem,

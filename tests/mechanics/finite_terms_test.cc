@@ -388,16 +388,17 @@ TEST(FiniteTerms, DampingOfSmallStrainsIsNotRounded)
                                       PlaneState::plane_strain),
                                     dealii::SymmetricTensor<2, 2>());
   Tensor<2, 2>                  H_0;
-  H_0[0][0]                 = 1e-8;
-  const Tensor<2, 2> H_1    = (1. + 1e-10) * H_0;
-  const double       change = H_1[0][0] - H_0[0][0];
-  Tensor<2, 2>       P, unused;
-  double             A[4][4], dissipated = 0.;
-  ASSERT_EQ(law.evaluate(H_0, H_1, false, damping, P, A, dissipated),
+  H_0[0][0]                                = 1e-8;
+  const Tensor<2, 2>                H_1    = (1. + 1e-10) * H_0;
+  const double                      change = H_1[0][0] - H_0[0][0];
+  internal::ConservingLaw::Response response;
+  ASSERT_EQ(law.evaluate(H_0, H_1, false, damping, response),
             Deformation::admissible);
   // E (1 - nu) / ((1 + nu) (1 - 2 nu)) = 2.4 of the strain 1e-8 and of its change
-  EXPECT_NEAR(P[0][0],
+  EXPECT_NEAR(response.stress[0][0],
               2.4 * (1e-8 + damping * change),
               2.4 * 1e-5 * damping * 1e-18);
-  EXPECT_NEAR(dissipated, 2.4 * damping * change * change, 1e-5 * dissipated);
+  EXPECT_NEAR(response.dissipated,
+              2.4 * damping * change * change,
+              1e-5 * response.dissipated);
 }

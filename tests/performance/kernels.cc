@@ -168,16 +168,16 @@ namespace
     }
     LocalSystem local;
     for (const bool with_tangent : {false, true})
-      measure(
-        (with_tangent ? "forces and tangent, " : "forces, ") + name,
-        "element of " + std::to_string(rule.size()) + " points",
-        [&]() {
-          local.reset(6);
-          const Deformation state = add_volume_terms(
-            *hyperelastic, 6, table, u, nullptr, with_tangent, local, sum);
-          AssertThrow(state == Deformation::admissible,
-                      dealii::ExcInternalError());
-        });
+      measure((with_tangent ? "forces and tangent, " : "forces, ") + name,
+              "element of " + std::to_string(rule.size()) + " points",
+              [&]() {
+                local.reset(6, with_tangent);
+                const Deformation state =
+                  add_volume_terms(*hyperelastic, table, u, nullptr, local);
+                sum += local.energy;
+                AssertThrow(state == Deformation::admissible,
+                            dealii::ExcInternalError());
+              });
   }
 
 

@@ -49,8 +49,8 @@ namespace NMM
    * Order of calls in this room: make a mathematical mesh with make_regular_mesh(),
    * make_graded_mesh(), read_gmsh_mesh() or make_distributed_mesh(); cut it with a PhysicalMesh by
    * the constructor of ManifoldMesh, or by make_own_meshes() if regions may be smaller than cells;
-   * number the unknowns by a CoverSystem (by CoverFunctions if some covers have more than a
-   * constant); treat covers with little support by aggregate() or make_ghost_penalty().
+   * number the unknowns by a CoverSystem; treat covers with little support by aggregate() or
+   * make_ghost_penalty().
    * @code
    * RegularMeshParameters parameters;
    * parameters.cell_size = 0.1;

@@ -124,7 +124,6 @@ namespace NMM
     Deformation
     assemble_between(const Vector         &begin,
                      const Vector         &end,
-                     double                load_factor,
                      Tangent               tangent,
                      const LoadAmplitudes *first   = nullptr,
                      const LoadAmplitudes *last    = nullptr,
@@ -263,10 +262,6 @@ namespace NMM
     /// a law, without initial stress; InelasticTerms adds the rest.
     bool
     is_inelastic() const;
-
-    /// Number of tables of gradients that whole elements share.
-    unsigned int
-    n_shared_tables() const;
 
   private:
     friend class InelasticTerms;

@@ -13,6 +13,36 @@ namespace NMM
   using internal::is_load;
 
 
+  namespace
+  {
+    /// @throws InputError for a release of a load or of what does not exist.
+    void
+    check_releases(const Loading &loading, const ElasticityProblem &problem)
+    {
+      for (const Release &release : loading.releases)
+      {
+        const bool is_condition =
+          release.kind == Release::Kind::boundary_condition;
+        const std::size_t n = is_condition ? problem.boundary_conditions.size()
+                                           : problem.fixed_points.size();
+        AssertThrow(
+          release.index < n,
+          InputError(std::string("There is no ") +
+                       (is_condition ? "boundary condition " : "fixed point ") +
+                       std::to_string(release.index),
+                     "a release at " + std::to_string(release.time) + " s",
+                     "give an index below " + std::to_string(n)));
+        AssertThrow(
+          !is_condition || !is_load(problem.boundary_conditions[release.index]),
+          InputError("A load cannot be released",
+                     "the boundary condition '" +
+                       problem.boundary_conditions[release.index].name + "'",
+                     "let its amplitude become 0"));
+      }
+    }
+  } // namespace
+
+
   ElasticModel::ElasticModel(FiniteElasticity           &elasticity,
                              const QuadratureCollection &mass_quadrature,
                              Loading                     loading_in,
@@ -28,7 +58,7 @@ namespace NMM
                                std::to_string(material.density),
                              "material '" + material.name + "'",
                              "dynamics needs a density above 0"));
-    check_loading();
+    check_releases(loading, problem);
     assemble_mass_matrix(covers,
                          mass_quadrature,
                          elasticity.affine_constraints(),
@@ -128,7 +158,7 @@ namespace NMM
       return;
     elasticity->set_absent_blocks(presence.absent_blocks);
     set_absent_unknowns();
-    ++n_departures;
+    ++n_changes;
     set_mass_of_translation();
   }
 
@@ -153,34 +183,6 @@ namespace NMM
     absent.set_size(positions.size());
     absent.add_indices(of_absent.begin(), of_absent.end());
     absent.compress();
-  }
-
-
-  void
-  ElasticModel::check_loading() const
-  {
-    const ElasticityProblem &problem = elasticity->elasticity_problem();
-    for (const Release &release : loading.releases)
-    {
-      const bool is_condition =
-        release.kind == Release::Kind::boundary_condition;
-      const std::size_t n = is_condition ? problem.boundary_conditions.size()
-                                         : problem.fixed_points.size();
-      AssertThrow(
-        release.index < n,
-        InputError(std::string("There is no ") +
-                     (is_condition ? "boundary condition " : "fixed point ") +
-                     std::to_string(release.index),
-                   "a release at " + std::to_string(release.time) + " s",
-                   "give an index below " + std::to_string(n)));
-      AssertThrow(!is_condition ||
-                    !is_load(problem.boundary_conditions[release.index]),
-                  InputError("A load cannot be released",
-                             "the boundary condition '" +
-                               problem.boundary_conditions[release.index].name +
-                               "'",
-                             "let its amplitude become 0"));
-    }
   }
 
 
@@ -287,6 +289,7 @@ namespace NMM
   {
     if (coefficient == 0.)
       return nullptr;
+    ++n_changes;
     const ElasticityProblem &problem = elasticity->elasticity_problem();
     LoadAmplitudes           free    = amplitudes_at(0.);
     free.released_conditions.assign(problem.boundary_conditions.size(), true);

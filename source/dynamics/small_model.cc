@@ -70,15 +70,6 @@ namespace NMM
   }
 
 
-  const SmallModel::Matrix *
-  SmallModel::damp_by_stiffness(const double coefficient,
-                                const bool   is_conserving)
-  {
-    has_stiffness = false;
-    return ElasticModel::damp_by_stiffness(coefficient, is_conserving);
-  }
-
-
   ForceProperties
   SmallModel::properties() const
   {

@@ -18,6 +18,7 @@ namespace NMM
       , begin(&begin)
     {
       const ModelLayout &layout = model.layout();
+      result.residual           = &forces;
       for (Vector *vector : {&forces, &scratch})
         vector->reinit(layout.locally_owned, layout.communicator);
       for (Vector *vector : {&u_begin, &u_end, &u_middle})
@@ -37,6 +38,9 @@ namespace NMM
       step.predict(h);
       layout.constraints->distribute(step.u);
       u_end = step.u;
+      held.clear();
+      if (sleeping)
+        held = sleeping->mask();
       model->begin_step({u_begin, u_end, begin->time, h});
     }
 
@@ -70,7 +74,7 @@ namespace NMM
     void
     StepEquations::set_active_blocks(const std::vector<bool> &is_active)
     {
-      model->blocks().set_active_blocks(is_active, held_blocks());
+      model->blocks().set_active_blocks(is_active, held);
       if (!is_active.empty() && matrix.rows.empty())
         matrix.rows.reinit(blocks_of_unknowns());
       matrix.rows.select(is_active);
@@ -101,6 +105,21 @@ namespace NMM
     }
 
 
+    void
+    StepEquations::assemble_matrix(const AssembledForces &sum)
+    {
+      matrix.assemble(step, sum);
+      const ForceProperties properties = model->properties();
+      result.tangent                   = &matrix.matrix();
+      result.body_tangent              = sum.body_tangent;
+      result.is_symmetric              = step.scheme.is_conserving
+                                           ? properties.is_symmetric_between
+                                           : properties.is_symmetric;
+      result.pattern_version           = sum.pattern_version;
+      result.coupled_blocks            = sum.coupled_blocks;
+    }
+
+
     Deformation
     StepEquations::assemble(const Vector &u,
                             const Tangent tangent,
@@ -118,7 +137,7 @@ namespace NMM
         return Deformation::inverted;
       const AssembledForces &sum = model->forces();
       if (tangent != Tangent::none)
-        matrix.assemble(step, sum);
+        assemble_matrix(sum);
 
       const auto f = forces.begin();
       rows.for_each(n, [&](const unsigned int i) { f[i] = 0.; });
@@ -132,14 +151,15 @@ namespace NMM
       });
       square =
         dealii::Utilities::MPI::sum(square, model->layout().communicator);
-      scale = std::hypot(sum.scale, std::sqrt(square));
+      const double scale = std::hypot(sum.scale, std::sqrt(square));
       // Accelerations are differences of displacements divided by the square of the step. The force
       // scale contains their rounding, so that tolerances can be met however small the step is.
       constexpr double rounding = 1e-6;
       const double     h        = step.length;
-      scale                     = std::hypot(scale,
-                         rounding / (step.scheme.beta * h * h) *
-                           mass_of_displacement);
+      result.force_scale        = std::hypot(scale,
+                                      rounding / (step.scheme.beta * h * h) *
+                                        mass_of_displacement);
+      result.force_rounding     = sum.rounding;
       step.mix_velocities(rows, scratch);
       matrix.add_damping(1., scratch, forces);
       subtract_closing(step.closing_share());

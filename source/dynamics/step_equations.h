@@ -37,60 +37,10 @@ namespace NMM
                Tangent       tangent,
                const Vector *increment) override;
 
-      const Vector &
-      residual() const override
-      {
-        return forces;
-      }
-
-      const dealii::TrilinosWrappers::SparseMatrix &
-      tangent() const override
-      {
-        return matrix.matrix();
-      }
-
-      const BodyMatrix *
-      body_tangent() const override
-      {
-        return matrix.body_matrix();
-      }
-
-      bool
-      tangent_is_symmetric() const override
-      {
-        const ForceProperties properties = model->properties();
-        return step.scheme.is_conserving ? properties.is_symmetric_between
-                                         : properties.is_symmetric;
-      }
-
-      double
-      force_scale() const override
-      {
-        return scale;
-      }
-
-      double
-      force_rounding() const override
-      {
-        return model->forces().rounding;
-      }
-
-      unsigned int
-      pattern_version() const override
-      {
-        return model->forces().pattern_version;
-      }
-
       const std::vector<unsigned int> &
       blocks_of_unknowns() const override
       {
         return model->layout().blocks_of_unknowns;
-      }
-
-      const std::vector<bool> &
-      held_blocks() const override
-      {
-        return sleeping ? sleeping->mask() : NonlinearSystem::held_blocks();
       }
 
       void
@@ -100,12 +50,6 @@ namespace NMM
       take_touched_blocks() override
       {
         return model->blocks().take_touched_blocks();
-      }
-
-      const std::vector<BlockPair> *
-      coupled_blocks() const override
-      {
-        return model->forces().coupled_blocks;
       }
 
       void
@@ -126,6 +70,9 @@ namespace NMM
       Deformation
       assemble_model(const Vector &u, Tangent tangent, const Vector *increment);
 
+      void
+      assemble_matrix(const AssembledForces &sum);
+
       /// Subtract the closing forces, times @p share, from the forces in active rows.
       void
       subtract_closing(double share);
@@ -133,7 +80,6 @@ namespace NMM
       MechanicalModel    *model;
       const DynamicState *begin;
       Vector              forces, scratch, u_middle;
-      double              scale = 0.;
       /// Norm of M u_0, by which the rounding of accelerations is estimated [kg].
       double mass_of_displacement = 0.;
     };

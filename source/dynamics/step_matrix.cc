@@ -84,16 +84,15 @@ namespace NMM
       const double k = step.stiffness_factor(), c = step.damping_factor(),
                    m    = step.mass_factor();
       in_place          = forces.scaled_tangent;
-      bodies            = forces.body_tangent;
       const auto add_to = [&](const auto &add) {
         add(m + c * damping.mass, *layout->mass);
         if (damping.stiffness > 0. && c != 0.)
           add(c * damping.stiffness, stiffness_at_rest);
       };
-      if (bodies != nullptr)
+      if (forces.body_tangent != nullptr)
       {
         add_to([&](const double factor, const Matrix &A) {
-          bodies->add(factor, A);
+          forces.body_tangent->add(factor, A);
         });
         return;
       }

@@ -51,13 +51,6 @@ namespace NMM
         return in_place != nullptr ? *in_place : own_matrix;
       }
 
-      /// The matrix if it is a body matrix, otherwise null.
-      const BodyMatrix *
-      body_matrix() const
-      {
-        return bodies;
-      }
-
       /// Rows that products and sums are computed in.
       ActiveItems rows;
 
@@ -74,12 +67,9 @@ namespace NMM
       Matrix          stiffness_at_rest, own_matrix;
       /// Pattern of `own_matrix`, see AssembledForces::pattern_version; invalid_index: none.
       unsigned int own_version = invalid_index;
-      /// @{
-      /// Matrices of the model to which mass and damping are added; null if it has none to add to.
-      Matrix     *in_place = nullptr;
-      BodyMatrix *bodies   = nullptr;
-      /// @}
-      Vector product;
+      /// The model's matrix to which mass and damping are added; null: it has none to add to.
+      Matrix *in_place = nullptr;
+      Vector  product;
     };
   } // namespace internal
 } // namespace NMM

@@ -581,34 +581,6 @@ namespace NMM
     }
 
 
-    void
-    AccountedContact::append_to(std::vector<ForceTerm *> &terms)
-    {
-      terms.insert(terms.end(), {&term, this});
-    }
-
-
-    void
-    AccountedContact::begin_step(const StepBegin &)
-    {
-      analysis->remember_states();
-    }
-
-
-    Deformation
-    AccountedContact::assemble(const Trial &, AssembledForces &)
-    {
-      return Deformation::admissible;
-    }
-
-
-    ForceProperties
-    AccountedContact::properties() const
-    {
-      return {};
-    }
-
-
     StepFault
     AccountedContact::find_fault(const Vector &)
     {
@@ -661,13 +633,6 @@ namespace NMM
     {
       work = friction_work;
       term.restore_history(history);
-    }
-
-
-    double
-    AccountedContact::friction_work() const
-    {
-      return work;
     }
   } // namespace internal
 } // namespace NMM

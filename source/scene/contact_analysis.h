@@ -208,16 +208,28 @@ namespace NMM
 
       /// Append both to the terms of a MechanicalModel.
       void
-      append_to(std::vector<ForceTerm *> &terms);
+      append_to(std::vector<ForceTerm *> &terms)
+      {
+        terms.insert(terms.end(), {&term, this});
+      }
 
       void
-      begin_step(const StepBegin &step) override;
+      begin_step(const StepBegin &) override
+      {
+        analysis->remember_states();
+      }
 
       Deformation
-      assemble(const Trial &trial, AssembledForces &sum) override;
+      assemble(const Trial &, AssembledForces &) override
+      {
+        return Deformation::admissible;
+      }
 
       ForceProperties
-      properties() const override;
+      properties() const override
+      {
+        return {};
+      }
 
       /// A penetration that is larger than the scene allows is a fault.
       StepFault
@@ -239,7 +251,10 @@ namespace NMM
 
       /// Energy that friction, dashpots and breaking bonds have dissipated so far [J/m].
       double
-      friction_work() const;
+      friction_work() const
+      {
+        return work;
+      }
 
     private:
       ContactTerm      term;

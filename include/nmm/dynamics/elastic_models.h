@@ -102,11 +102,11 @@ namespace NMM
     void
     add_base_force(double t, double scale, Vector &forces) const;
 
-    /// A number that changes whenever an event or absent blocks change the forces.
+    /// A number that changes whenever forces or tangents that were known are no longer so.
     unsigned int
     version() const
     {
-      return n_passed + (loading.releases.size() + 1) * n_departures;
+      return n_passed + (loading.releases.size() + 1) * n_changes;
     }
 
     /// Forces of the solid.
@@ -121,9 +121,6 @@ namespace NMM
 
   private:
     void
-    check_loading() const;
-
-    void
     set_blocks();
 
     void
@@ -132,8 +129,9 @@ namespace NMM
     void
     set_absent_unknowns();
 
-    /// Number of releases passed so far, and of changes of absent blocks.
-    unsigned int   n_passed = 0, n_departures = 0;
+    /// Number of releases passed so far, and of changes of absent blocks or of the tangent by
+    /// damp_by_stiffness().
+    unsigned int   n_passed = 0, n_changes = 0;
     Matrix         mass_matrix;
     Vector         positions, mass_of_translation[2];
     LoadAmplitudes current;
@@ -220,9 +218,6 @@ namespace NMM
                Loading                     loading       = {},
                const GhostPenalty         *ghost_penalty = nullptr);
     ~SmallModel() override;
-
-    const Matrix *
-    damp_by_stiffness(double coefficient, bool is_conserving) override;
 
     void
     begin_step(const StepBegin &step) override;

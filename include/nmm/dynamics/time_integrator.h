@@ -23,7 +23,8 @@
  *
  * | file (in nmm/dynamics) | job |
  * |---|---|
- * | mechanical_model.h | unknowns and masses of a body, and its forces as a list of terms |
+ * | force_term.h | interface of one kind of force, and the unknowns of a body |
+ * | mechanical_model.h | the forces of a body as a list of terms |
  * | elastic_models.h | the term of a solid: small displacements, or total Lagrangian |
  * | contact_term.h | the term of contact |
  * | loading.h | loads, releases and base acceleration as functions of time |

@@ -13,7 +13,7 @@
 #include <nmm/covers/aggregation.h>
 #include <nmm/covers/cover_system.h>
 #include <nmm/covers/own_meshes.h>
-#include <nmm/dynamics/contact_model.h>
+#include <nmm/dynamics/contact_term.h>
 #include <nmm/dynamics/elastic_models.h>
 #include <nmm/dynamics/relaxation.h>
 #include <nmm/dynamics/time_integrator.h>
@@ -267,8 +267,8 @@ namespace StepNMM4
   Slope::Vector
   Slope::relevant(const Vector &owned) const
   {
-    Vector result(model->locally_owned(),
-                  model->locally_relevant(),
+    Vector result(model->layout().locally_owned,
+                  model->layout().locally_relevant,
                   MPI_COMM_WORLD);
     result = owned;
     return result;
@@ -285,8 +285,9 @@ namespace StepNMM4
   Slope::Vector
   Slope::find_equilibrium()
   {
-    NMM::ContactModel         with_contact(*model, *contact);
-    NMM::TimeIntegrator       integrator(with_contact,
+    NMM::ContactTerm          touch(model->layout(), *contact);
+    NMM::MechanicalModel      forces(model->layout(), {model.get(), &touch});
+    NMM::TimeIntegrator       integrator(forces,
                                    NMM::TimeScheme::constant_acceleration());
     NMM::RelaxationParameters relaxation;
     relaxation.step = 1e-3;
@@ -315,11 +316,14 @@ namespace StepNMM4
     const Vector u     = find_equilibrium();
     outcome.start_time = timer.cpu_time();
 
-    NMM::ContactModel   released(*model, *contact, {{1, 0.}});
-    NMM::TimeIntegrator integrator(released,
+    NMM::ContactTerm     touch(model->layout(), *contact, {{1, 0.}});
+    NMM::MechanicalModel forces(model->layout(), {model.get(), &touch});
+    NMM::TimeIntegrator  integrator(forces,
                                    NMM::TimeScheme::energy_momentum(),
                                    {/* mass = */ 0., parameters.damping});
-    integrator.initialize(u, Vector(model->locally_owned(), MPI_COMM_WORLD));
+    integrator.initialize(u,
+                          Vector(model->layout().locally_owned,
+                                 MPI_COMM_WORLD));
     set_in_motion(integrator, step, outcome);
     outcome.motion_time = timer.cpu_time() - outcome.start_time;
     outcome.finish();

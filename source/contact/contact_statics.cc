@@ -11,34 +11,12 @@ namespace NMM
   using namespace internal;
   using dealii::Tensor;
 
-  struct ContactSystem::Data
-  {
-    NonlinearSystem *elasticity;
-    Contact         *contact;
-    Vector           sum;
-    double           scale = 0.;
-    /// See ContactSystem::hold(); empty if nothing is held.
-    Vector held;
-    double share = 0.;
-
-    bool
-    is_plain() const
-    {
-      return contact->is_idle() && held.size() == 0;
-    }
-  };
-
-
   ContactSystem::ContactSystem(NonlinearSystem &elasticity, Contact &contact)
-    : data(std::make_unique<Data>())
+    : elasticity(&elasticity)
+    , contact(&contact)
+    , sum(contact.residual())
   {
-    data->elasticity = &elasticity;
-    data->contact    = &contact;
-    data->sum.reinit(contact.residual());
   }
-
-
-  ContactSystem::~ContactSystem() = default;
 
 
   Deformation
@@ -46,83 +24,32 @@ namespace NMM
                           const Tangent tangent,
                           const Vector *increment)
   {
-    Data             &d     = *data;
-    const Deformation state = d.elasticity->assemble(u, tangent, increment);
+    const Deformation state = elasticity->assemble(u, tangent, increment);
     if (state != Deformation::admissible)
       return state;
-    d.scale = d.elasticity->force_scale();
-    if (d.is_plain())
+    const AssembledSystem &elastic = elasticity->assembled();
+    result                         = elastic;
+    if (contact->is_idle() && held_forces.size() == 0)
       return state;
-    d.sum = d.elasticity->residual();
-    if (d.held.size() > 0)
-      d.sum.add(-d.share, d.held);
-    if (d.contact->is_idle())
+    sum             = *elastic.residual;
+    result.residual = &sum;
+    if (held_forces.size() > 0)
+      sum.add(-held_share, held_forces);
+    if (contact->is_idle())
       return state;
     const bool with_tangent = tangent != Tangent::none;
-    d.contact->assemble(u, with_tangent);
-    d.sum += d.contact->residual();
-    d.scale = std::hypot(d.scale, d.contact->residual().l2_norm());
+    contact->assemble(u, with_tangent);
+    sum += contact->residual();
     if (with_tangent)
-      d.contact->add_to_tangent(d.elasticity->tangent());
+      contact->add_to_tangent(*elastic.tangent);
+    result.force_scale =
+      std::hypot(elastic.force_scale, contact->residual().l2_norm());
+    result.force_rounding = contact->force_rounding();
+    result.tangent        = &contact->tangent();
+    result.is_symmetric =
+      elastic.is_symmetric && contact->tangent_is_symmetric();
+    result.pattern_version = contact->pattern_version();
     return state;
-  }
-
-
-  const ContactSystem::Vector &
-  ContactSystem::residual() const
-  {
-    return data->is_plain() ? data->elasticity->residual() : data->sum;
-  }
-
-
-  void
-  ContactSystem::hold(const Vector &forces)
-  {
-    data->held = forces;
-  }
-
-
-  void
-  ContactSystem::set_held_share(const double share)
-  {
-    data->share = share;
-  }
-
-
-  const dealii::TrilinosWrappers::SparseMatrix &
-  ContactSystem::tangent() const
-  {
-    return data->contact->is_idle() ? data->elasticity->tangent()
-                                    : data->contact->tangent();
-  }
-
-
-  bool
-  ContactSystem::tangent_is_symmetric() const
-  {
-    return data->elasticity->tangent_is_symmetric() &&
-           (data->contact->is_idle() || data->contact->tangent_is_symmetric());
-  }
-
-
-  double
-  ContactSystem::force_scale() const
-  {
-    return data->scale;
-  }
-
-
-  double
-  ContactSystem::force_rounding() const
-  {
-    return data->contact->force_rounding();
-  }
-
-
-  unsigned int
-  ContactSystem::pattern_version() const
-  {
-    return data->contact->is_idle() ? 0 : data->contact->pattern_version();
   }
 
 

@@ -10,9 +10,8 @@ namespace NMM
     using dealii::Point;
     using dealii::Tensor;
 
-    BlockInertia::BlockInertia(const MechanicalModel &model)
-      : model(&model)
-      , block_of(&model_interface<BlockModel>(model).blocks_of_unknowns())
+    BlockInertia::BlockInertia(const ModelLayout &layout)
+      : block_of(&layout.blocks_of_unknowns)
     {
       Assert(!block_of->empty(), dealii::ExcInternalError());
       const unsigned int n =
@@ -20,17 +19,17 @@ namespace NMM
       masses.assign(n, 0.);
       inertias.assign(n, 0.);
 
-      Vector ones(model.locally_owned(), model.communicator());
+      Vector ones(layout.locally_owned, layout.communicator);
       Vector scaled(ones), moved(ones);
       for (const auto i : ones.locally_owned_elements())
-        if (!model.constraints().is_constrained(i))
+        if (!layout.constraints->is_constrained(i))
           ones(i) = 1.;
       ones.compress(dealii::VectorOperation::insert);
       nodal_mass.reinit(ones);
-      model.mass().vmult(nodal_mass, ones);
+      layout.mass->vmult(nodal_mass, ones);
       // Moments about the origin of the coordinates would lose the digits of its distance.
-      positions                      = model.reference_positions();
-      const auto                from = model.reference_positions().begin();
+      positions                      = *layout.reference_positions;
+      const auto                from = layout.reference_positions->begin();
       std::vector<unsigned int> first_unknown(n, invalid_index);
       for (unsigned int i = 0; i < block_of->size(); i += 2)
       {
@@ -42,7 +41,7 @@ namespace NMM
       }
       scaled = positions;
       scaled.scale(ones);
-      model.mass().vmult(moved, scaled);
+      layout.mass->vmult(moved, scaled);
       std::vector<double> first(2 * n, 0.);
       auto                m = nodal_mass.begin();
       auto                x = scaled.begin();

@@ -10,14 +10,14 @@ namespace NMM
   namespace internal
   {
     /// Masses and moments of inertia of blocks, and resultants of forces or momenta on each block.
-    /// Requires one rank and a model that distinguishes blocks. All quantities are per unit
+    /// Requires one rank and several blocks. All quantities are per unit
     /// thickness.
     class BlockInertia
     {
     public:
       using Vector = MechanicalModel::Vector;
 
-      explicit BlockInertia(const MechanicalModel &model);
+      explicit BlockInertia(const ModelLayout &layout);
 
       unsigned int
       n_blocks() const
@@ -70,7 +70,6 @@ namespace NMM
           Vector                  &moved);
 
     private:
-      const MechanicalModel           *model;
       const std::vector<unsigned int> *block_of;
       std::vector<double>              masses, inertias;
       /// Reference positions of the unknowns, relative to that of the first one of their block [m].

@@ -119,15 +119,14 @@ namespace NMM
   {
     const DynamicState    &state = integrator.state();
     const MechanicalModel &model = integrator.model();
-    const SavedModel      &saved = model_interface<SavedModel>(model);
     internal::ByteWriter   archive;
-    archive &saved.fingerprint() & scheme_fingerprint(integrator.scheme()) &
-      state.closing.act_at(state.time) & saved.internal_state();
+    archive &model.fingerprint() & scheme_fingerprint(integrator.scheme()) &
+      state.closing.act_at(state.time) & model.internal_state();
     archive_scalars(archive, state);
     for (const Vector *vector : vectors_of(state))
       archive &global_values(*vector);
     internal::CheckpointFile{kind, of_caller, archive.written}.write(
-      filename, model.communicator());
+      filename, model.layout().communicator);
   }
 
 
@@ -143,15 +142,17 @@ namespace NMM
   void
   Checkpoint::read(const std::string &filename, TimeIntegrator &integrator)
   {
-    const MechanicalModel &model = integrator.model();
-    const auto             file =
-      internal::CheckpointFile::read(filename, model.communicator(), kind);
+    MechanicalModel &model = integrator.model();
+    const auto       file =
+      internal::CheckpointFile::read(filename,
+                                     model.layout().communicator,
+                                     kind);
     internal::ByteReader               archive(file.state);
     std::uint64_t                      mesh, scheme;
     bool                               is_closing;
     std::vector<char>                  model_state;
     archive &mesh &scheme &is_closing &model_state;
-    if (mesh != model_interface<SavedModel>(model).fingerprint())
+    if (mesh != model.fingerprint())
       refuse_checkpoint(
         "The checkpoint is of another mesh, geometry, material or kinematics",
         filename);
@@ -160,7 +161,7 @@ namespace NMM
                         filename);
     DynamicState state = integrator.state();
     archive_scalars(archive, state);
-    check_scalars(state, model_interface<BlockModel>(model).n_blocks());
+    check_scalars(state, model.layout().n_blocks);
     // the forces follow below
     require_in_checkpoint(!is_closing || state.time < state.closing.end,
                           "its closing forces do not fit its time");
@@ -182,8 +183,7 @@ namespace NMM
       vector->compress(dealii::VectorOperation::insert);
     }
     require_in_checkpoint(archive.n_left() == 0, "it is longer than its state");
-    model_interface<SavedModel>(integrator.model())
-      .restore_internal_state(model_state);
+    model.restore_internal_state(model_state);
     try
     {
       integrator.restore(state);

@@ -6,12 +6,41 @@
 #include <cmath>
 #include <dynamics/load_amplitudes.h>
 #include <dynamics/solid_hash.h>
-#include <limits>
 
 namespace NMM
 {
   using internal::amplitude;
   using internal::is_load;
+
+
+  namespace
+  {
+    /// @throws InputError for a release of a load or of what does not exist.
+    void
+    check_releases(const Loading &loading, const ElasticityProblem &problem)
+    {
+      for (const Release &release : loading.releases)
+      {
+        const bool is_condition =
+          release.kind == Release::Kind::boundary_condition;
+        const std::size_t n = is_condition ? problem.boundary_conditions.size()
+                                           : problem.fixed_points.size();
+        AssertThrow(
+          release.index < n,
+          InputError(std::string("There is no ") +
+                       (is_condition ? "boundary condition " : "fixed point ") +
+                       std::to_string(release.index),
+                     "a release at " + std::to_string(release.time) + " s",
+                     "give an index below " + std::to_string(n)));
+        AssertThrow(
+          !is_condition || !is_load(problem.boundary_conditions[release.index]),
+          InputError("A load cannot be released",
+                     "the boundary condition '" +
+                       problem.boundary_conditions[release.index].name + "'",
+                     "let its amplitude become 0"));
+      }
+    }
+  } // namespace
 
 
   ElasticModel::ElasticModel(FiniteElasticity           &elasticity,
@@ -20,7 +49,6 @@ namespace NMM
                              const GhostPenalty         *ghost_penalty)
     : elasticity(&elasticity)
     , loading(std::move(loading_in))
-    , passed_until(-std::numeric_limits<double>::max())
   {
     const CoverSystem       &covers  = elasticity.cover_system();
     const ElasticityProblem &problem = elasticity.elasticity_problem();
@@ -30,7 +58,7 @@ namespace NMM
                                std::to_string(material.density),
                              "material '" + material.name + "'",
                              "dynamics needs a density above 0"));
-    check_loading();
+    check_releases(loading, problem);
     assemble_mass_matrix(covers,
                          mass_quadrature,
                          elasticity.affine_constraints(),
@@ -43,17 +71,35 @@ namespace NMM
                 covers.locally_owned_dofs(2),
                 covers.locally_relevant_dofs(2),
                 &elasticity.affine_constraints(),
-                &positions};
-    positions.reinit(locally_owned(), communicator());
+                &positions,
+                &mass_matrix,
+                covers.manifold_mesh().physical_mesh().n_blocks(),
+                {},
+                {}};
+    for (Vector *vector : {&positions, &last_loads})
+      vector->reinit(unknowns.locally_owned, unknowns.communicator);
     for (const auto k : covers.locally_owned_covers())
       for (unsigned int c = 0; c < 2; ++c)
         positions(2 * k + c) = covers.node(k)[c];
     positions.compress(dealii::VectorOperation::insert);
-    absent.set_size(positions.size());
+    unknowns.absent_unknowns.set_size(positions.size());
     set_blocks();
     set_mass_of_translation();
+    for (const Release &release : loading.releases)
+      event_times.push_back(release.time);
     elasticity.set_amplitudes(current);
     set_amplitudes(amplitudes_at(0.));
+  }
+
+
+  void
+  ElasticModel::set_fingerprint()
+  {
+    internal::Hash hash_of_solid =
+      internal::hash_of_solid(elasticity->cover_system(),
+                              elasticity->elasticity_problem());
+    hash_of_solid.add(properties().is_linear);
+    hash = hash_of_solid.value();
   }
 
 
@@ -62,20 +108,14 @@ namespace NMM
   {
     const CoverSystem  &covers = elasticity->cover_system();
     const ManifoldMesh &mesh   = covers.manifold_mesh();
-    if (n_blocks() < 2 ||
-        dealii::Utilities::MPI::n_mpi_processes(communicator()) > 1)
+    if (unknowns.n_blocks < 2 ||
+        dealii::Utilities::MPI::n_mpi_processes(unknowns.communicator) > 1)
       return;
-    unknown_to_block.resize(2 * covers.n_covers());
+    std::vector<unsigned int> &block_of = unknowns.blocks_of_unknowns;
+    block_of.resize(2 * covers.n_covers());
     for (unsigned int e = 0; e < mesh.n_elements(); ++e)
       for (const unsigned int k : covers.covers(e))
-        unknown_to_block[2 * k] = unknown_to_block[2 * k + 1] = mesh.block(e);
-  }
-
-
-  const std::vector<unsigned int> &
-  ElasticModel::blocks_of_unknowns() const
-  {
-    return unknown_to_block;
+        block_of[2 * k] = block_of[2 * k + 1] = mesh.block(e);
   }
 
 
@@ -92,10 +132,10 @@ namespace NMM
   {
     for (unsigned int c = 0; c < 2; ++c)
     {
-      Vector translation(locally_owned(), communicator());
+      Vector translation(unknowns.locally_owned, unknowns.communicator);
       for (const auto k : elasticity->cover_system().locally_owned_covers())
-        if (!constraints().is_constrained(2 * k + c) &&
-            !absent.is_element(2 * k + c))
+        if (!unknowns.constraints->is_constrained(2 * k + c) &&
+            !unknowns.absent_unknowns.is_element(2 * k + c))
           translation(2 * k + c) = 1.;
       translation.compress(dealii::VectorOperation::insert);
       mass_of_translation[c].reinit(translation);
@@ -105,136 +145,44 @@ namespace NMM
 
 
   void
-  ElasticModel::set_absent_blocks(const std::vector<bool> &is_absent)
+  ElasticModel::set_presence(const Presence &present)
   {
-    elasticity->set_absent_blocks(is_absent);
-    const CoverSystem  &covers = elasticity->cover_system();
-    const ManifoldMesh &mesh   = covers.manifold_mesh();
-    absent.clear();
-    absent.set_size(positions.size());
-    if (!is_absent.empty())
-    {
-      std::vector<dealii::types::global_dof_index> unknowns;
-      for (unsigned int e = 0; e < mesh.n_elements(); ++e)
-        if (is_absent[mesh.block(e)])
-          for (const unsigned int k : covers.covers(e))
-            if (covers.locally_owned_covers().is_element(k))
-              unknowns.insert(unknowns.end(), {2 * k, 2 * k + 1});
-      std::sort(unknowns.begin(), unknowns.end());
-      unknowns.erase(std::unique(unknowns.begin(), unknowns.end()),
-                     unknowns.end());
-      absent.add_indices(unknowns.begin(), unknowns.end());
-    }
-    absent.compress();
-    ++n_departures;
+    last_loads_at.reset();
+    n_passed = 0;
+    for (const Release &release : loading.releases)
+      if (release.time <= present.events_passed)
+        ++n_passed;
+    const bool is_departure = present.absent_blocks != presence.absent_blocks;
+    presence                = present;
+    if (!is_departure)
+      return;
+    elasticity->set_absent_blocks(presence.absent_blocks);
+    set_absent_unknowns();
+    ++n_changes;
     set_mass_of_translation();
   }
 
 
-  unsigned int
-  ElasticModel::n_blocks() const
-  {
-    return elasticity->cover_system()
-      .manifold_mesh()
-      .physical_mesh()
-      .n_blocks();
-  }
-
-
-  dealii::IndexSet
-  ElasticModel::absent_unknowns() const
-  {
-    return absent;
-  }
-
-
   void
-  ElasticModel::check_loading() const
+  ElasticModel::set_absent_unknowns()
   {
-    const ElasticityProblem &problem = elasticity->elasticity_problem();
-    for (const Release &release : loading.releases)
-    {
-      const bool is_condition =
-        release.kind == Release::Kind::boundary_condition;
-      const std::size_t n = is_condition ? problem.boundary_conditions.size()
-                                         : problem.fixed_points.size();
-      AssertThrow(
-        release.index < n,
-        InputError(std::string("There is no ") +
-                     (is_condition ? "boundary condition " : "fixed point ") +
-                     std::to_string(release.index),
-                   "a release at " + std::to_string(release.time) + " s",
-                   "give an index below " + std::to_string(n)));
-      AssertThrow(!is_condition ||
-                    !is_load(problem.boundary_conditions[release.index]),
-                  InputError("A load cannot be released",
-                             "the boundary condition '" +
-                               problem.boundary_conditions[release.index].name +
-                               "'",
-                             "let its amplitude become 0"));
-    }
-  }
-
-
-  const ModelLayout &
-  ElasticModel::layout() const
-  {
-    return unknowns;
-  }
-
-
-  std::uint64_t
-  ElasticModel::fingerprint() const
-  {
-    internal::Hash hash =
-      internal::hash_of_solid(elasticity->cover_system(),
-                              elasticity->elasticity_problem());
-    hash.add(force_properties().is_linear);
-    return hash.value();
-  }
-
-
-  const ElasticModel::Matrix &
-  ElasticModel::mass() const
-  {
-    return mass_matrix;
-  }
-
-
-  const ElasticModel::Matrix &
-  ElasticModel::tangent() const
-  {
-    return elasticity->tangent();
-  }
-
-
-  double
-  ElasticModel::force_scale() const
-  {
-    return elasticity->force_scale();
-  }
-
-
-  std::vector<double>
-  ElasticModel::events() const
-  {
-    std::vector<double> times;
-    for (const Release &release : loading.releases)
-      times.push_back(release.time);
-    std::sort(times.begin(), times.end());
-    times.erase(std::unique(times.begin(), times.end()), times.end());
-    return times;
-  }
-
-
-  void
-  ElasticModel::pass_events(const double t)
-  {
-    passed_until = t;
-    n_passed     = 0;
-    for (const Release &release : loading.releases)
-      if (release.time <= t)
-        ++n_passed;
+    const CoverSystem  &covers = elasticity->cover_system();
+    const ManifoldMesh &mesh   = covers.manifold_mesh();
+    std::vector<dealii::types::global_dof_index> of_absent;
+    if (!presence.absent_blocks.empty())
+      for (unsigned int e = 0; e < mesh.n_elements(); ++e)
+        if (presence.absent_blocks[mesh.block(e)])
+          for (const unsigned int k : covers.covers(e))
+            if (covers.locally_owned_covers().is_element(k))
+              of_absent.insert(of_absent.end(), {2 * k, 2 * k + 1});
+    std::sort(of_absent.begin(), of_absent.end());
+    of_absent.erase(std::unique(of_absent.begin(), of_absent.end()),
+                    of_absent.end());
+    dealii::IndexSet &absent = unknowns.absent_unknowns;
+    absent.clear();
+    absent.set_size(positions.size());
+    absent.add_indices(of_absent.begin(), of_absent.end());
+    absent.compress();
   }
 
 
@@ -246,7 +194,7 @@ namespace NMM
       amplitudes = loading.amplitudes(t);
     const ElasticityProblem &problem = elasticity->elasticity_problem();
     for (const Release &release : loading.releases)
-      if (release.time <= passed_until)
+      if (release.time <= presence.events_passed)
       {
         const bool is_condition =
           release.kind == Release::Kind::boundary_condition;
@@ -334,16 +282,55 @@ namespace NMM
   }
 
 
-  const ElasticModel::Matrix &
-  ElasticModel::stiffness_at_rest()
+  /// Supports are left out, because those that move would be held back by a damping that acts on the
+  /// velocity.
+  const ElasticModel::Matrix *
+  ElasticModel::damp_by_stiffness(const double coefficient, bool)
   {
+    if (coefficient == 0.)
+      return nullptr;
+    ++n_changes;
     const ElasticityProblem &problem = elasticity->elasticity_problem();
     LoadAmplitudes           free    = amplitudes_at(0.);
     free.released_conditions.assign(problem.boundary_conditions.size(), true);
     free.released_fixed_points.assign(problem.fixed_points.size(), true);
     set_amplitudes(free);
     (void)elasticity->assemble(zero, 0., Tangent::consistent);
-    return elasticity->tangent();
+    return &elasticity->tangent();
+  }
+
+
+  StepWork
+  ElasticModel::commit(const Trial &step)
+  {
+    const double t_0 = step.begin_time, t_1 = step.end_time;
+    StepWork     work;
+    Vector       begin(unknowns.locally_owned, unknowns.communicator);
+    Vector       change(begin), loads(begin);
+    begin  = *step.begin;
+    change = *step.end;
+    if (step.is_conserving)
+    {
+      Vector mean(change), middle(zero);
+      mean.sadd(0.5, 0.5, begin);
+      middle = mean;
+      change -= begin;
+      external_forces(middle, 0.5 * (t_0 + t_1), loads);
+      work.loads    = loads * change;
+      work.supports = work_of_supports_between(step, middle);
+      return work;
+    }
+    change -= begin;
+    if (!last_loads_at || *last_loads_at != t_0)
+      external_forces(*step.begin, t_0, last_loads);
+    external_forces(*step.end, t_1, loads);
+    last_loads += loads;
+    work.loads = 0.5 * (last_loads * change);
+    last_loads.swap(loads);
+    last_loads_at = t_1;
+    work.supports = 0.5 * (work_of_supports(*step.begin, t_0, t_0, t_1) +
+                           work_of_supports(*step.end, t_1, t_0, t_1));
+    return work;
   }
 
 

@@ -12,19 +12,23 @@ namespace NMM
     : ElasticModel(elasticity, mass_quadrature, std::move(loading), nullptr)
     , has_follower(!elasticity.tangent_is_symmetric())
   {
+    set_fingerprint();
   }
 
 
-  bool
-  FiniteModel::set_stiffness_damping(const double coefficient)
+  const FiniteModel::Matrix *
+  FiniteModel::damp_by_stiffness(const double coefficient,
+                                 const bool   is_conserving)
   {
+    if (!is_conserving)
+      return ElasticModel::damp_by_stiffness(coefficient, is_conserving);
     damping = coefficient;
-    return true;
+    return nullptr;
   }
 
 
   ForceProperties
-  FiniteModel::force_properties() const
+  FiniteModel::properties() const
   {
     return {/* is_linear = */ false,
             elasticity->tangent_is_symmetric(),
@@ -33,60 +37,49 @@ namespace NMM
 
 
   Deformation
-  FiniteModel::assemble(const Vector &u,
-                        const double  t,
-                        const Tangent tangent,
-                        const Vector *increment)
+  FiniteModel::assemble_elasticity(const Trial &trial)
   {
-    set_amplitudes(amplitudes_at(t));
-    const Deformation state = elasticity->assemble(u, 1., tangent, increment);
-    if (state == Deformation::admissible)
+    if (!trial.is_conserving)
     {
-      sum = elasticity->residual();
-      add_base_force(t, 1., sum);
+      set_amplitudes(amplitudes_at(trial.end_time));
+      return elasticity->assemble(*trial.end,
+                                  1.,
+                                  trial.tangent,
+                                  trial.increment);
     }
+    const double         t_0 = trial.begin_time, t_1 = trial.end_time;
+    const LoadAmplitudes first = amplitudes_at(t_0), last = amplitudes_at(t_1);
+    set_amplitudes(amplitudes_at(0.5 * (t_0 + t_1)));
+    const Deformation state =
+      elasticity->assemble_between(*trial.begin,
+                                   *trial.end,
+                                   trial.tangent,
+                                   &first,
+                                   &last,
+                                   damping > 0. ? damping / (t_1 - t_0) : 0.);
+    dissipated_between = elasticity->energies().dissipated;
     return state;
   }
 
 
   Deformation
-  FiniteModel::assemble_between(const Vector &begin,
-                                const Vector &end,
-                                const double  t_0,
-                                const double  t_1,
-                                const Tangent tangent)
+  FiniteModel::assemble(const Trial &trial, AssembledForces &forces)
   {
-    const double         t     = 0.5 * (t_0 + t_1);
-    const LoadAmplitudes first = amplitudes_at(t_0), last = amplitudes_at(t_1);
-    set_amplitudes(amplitudes_at(t));
-    const Deformation state =
-      elasticity->assemble_between(begin,
-                                   end,
-                                   tangent,
-                                   &first,
-                                   &last,
-                                   damping > 0. ? damping / (t_1 - t_0) : 0.);
-    dissipated_between = elasticity->energies().dissipated;
-    if (state == Deformation::admissible)
-    {
-      sum = elasticity->residual();
-      add_base_force(t, 1., sum);
-    }
-    return state;
-  }
-
-
-  const FiniteModel::Vector &
-  FiniteModel::residual() const
-  {
-    return sum;
-  }
-
-
-  FiniteModel::Energies
-  FiniteModel::energies() const
-  {
-    return {elasticity->energies().strain, elasticity->energies().conditions};
+    if (assemble_elasticity(trial) != Deformation::admissible)
+      return Deformation::inverted;
+    sum = elasticity->residual();
+    add_base_force(trial.is_conserving
+                     ? 0.5 * (trial.begin_time + trial.end_time)
+                     : trial.end_time,
+                   1.,
+                   sum);
+    forces.residual             = &sum;
+    forces.scale                = elasticity->force_scale();
+    forces.strain_energy        = elasticity->energies().strain;
+    forces.energy_of_conditions = elasticity->energies().conditions;
+    if (trial.tangent != Tangent::none)
+      forces.tangent = &elasticity->tangent();
+    return Deformation::admissible;
   }
 
 
@@ -107,11 +100,13 @@ namespace NMM
   }
 
 
-  /// Without assemble_between(), in schemes that do not conserve, the result is 0.
-  double
-  FiniteModel::accept_step(const Vector &, const double)
+  /// Without conserving forces, nothing is dissipated.
+  StepWork
+  FiniteModel::commit(const Trial &step)
   {
-    return std::exchange(dissipated_between, 0.);
+    StepWork work   = ElasticModel::commit(step);
+    work.dissipated = std::exchange(dissipated_between, 0.);
+    return work;
   }
 
 
@@ -124,7 +119,7 @@ namespace NMM
       // Loads that do not follow u are evaluated in the undeformed state, so that they are bitwise
       // the same in each call.
       const Vector &at = has_follower ? u : zero;
-      known_forces.reinit(locally_owned(), communicator());
+      known_forces.reinit(unknowns.locally_owned, unknowns.communicator);
       set_amplitudes(amplitudes_at(t, /* with_loads = */ false));
       if (elasticity->assemble(at, 1., Tangent::none) ==
           Deformation::admissible)
@@ -153,15 +148,10 @@ namespace NMM
 
 
   double
-  FiniteModel::work_of_supports_between(const Vector &begin,
-                                        const Vector &end,
-                                        const Vector &,
-                                        const double t_0,
-                                        const double t_1)
+  FiniteModel::work_of_supports_between(const Trial &step, const Vector &)
   {
     return loads_change() &&
-               assemble_between(begin, end, t_0, t_1, Tangent::none) ==
-                 Deformation::admissible
+               assemble_elasticity(step) == Deformation::admissible
              ? elasticity->energies().work_of_conditions
              : 0.;
   }

@@ -93,9 +93,8 @@ namespace NMM
       const double kinetic = integrator.account().kinetic;
       // twice the kinetic energy is (v, M v)
       const bool turns_back =
-        integrator.model().mass().matrix_scalar_product(velocity,
-                                                        integrator.state().v) <
-        -std::sqrt(kinetic * previous);
+        integrator.model().layout().mass->matrix_scalar_product(
+          velocity, integrator.state().v) < -std::sqrt(kinetic * previous);
       if (kinetic <= previous || turns_back)
       {
         integrator.stop_motion();

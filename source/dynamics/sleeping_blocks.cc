@@ -10,10 +10,10 @@ namespace NMM
 {
   namespace internal
   {
-    SleepingBlocks::SleepingBlocks(const MechanicalModel &model,
+    SleepingBlocks::SleepingBlocks(const ModelLayout     &layout,
                                    const SleepParameters &parameters)
       : parameters(parameters)
-      , block_of(&model_interface<BlockModel>(model).blocks_of_unknowns())
+      , block_of(&layout.blocks_of_unknowns)
     {
       AssertThrow(
         parameters.speed > 0. && parameters.time >= 0. &&
@@ -31,7 +31,7 @@ namespace NMM
                    "one rank",
                    "the sleep of blocks",
                    "run it on one rank, or without sleep"));
-      inertia.emplace(model);
+      inertia.emplace(layout);
       kinetic.assign(inertia->n_blocks(), 0.);
     }
 

@@ -23,7 +23,7 @@ namespace NMM
       /// Value in DynamicState::rest that marks a sleeping block, instead of its time at rest.
       static constexpr double asleep = std::numeric_limits<double>::infinity();
 
-      SleepingBlocks(const MechanicalModel &model,
+      SleepingBlocks(const ModelLayout     &layout,
                      const SleepParameters &parameters);
 
       /// For each block, whether it sleeps; empty: none does.

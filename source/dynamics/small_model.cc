@@ -1,5 +1,6 @@
 #include <nmm/dynamics/elastic_models.h>
 
+#include <base/archive.h>
 #include <cmath>
 #include <dynamics/load_amplitudes.h>
 
@@ -19,9 +20,10 @@ namespace NMM
                            &initial.forces,
                            &with_loads.forces,
                            &with_supports.forces})
-      vector->reinit(locally_owned(), communicator());
+      vector->reinit(unknowns.locally_owned, unknowns.communicator);
     if (elasticity.is_inelastic())
       inelastic = std::make_unique<InelasticTerms>(elasticity);
+    set_fingerprint();
   }
 
 
@@ -68,38 +70,13 @@ namespace NMM
   }
 
 
-  const SmallModel::Matrix &
-  SmallModel::stiffness_at_rest()
-  {
-    has_stiffness = false;
-    return ElasticModel::stiffness_at_rest();
-  }
-
-
   ForceProperties
-  SmallModel::force_properties() const
+  SmallModel::properties() const
   {
     const bool is_elastic = inelastic == nullptr;
     return {/* is_linear = */ is_elastic,
             /* is_symmetric = */ is_elastic,
             /* is_symmetric_between = */ is_elastic};
-  }
-
-
-  const SmallModel::Matrix &
-  SmallModel::tangent() const
-  {
-    return current_tangent != nullptr ? *current_tangent
-                                      : elasticity->tangent();
-  }
-
-
-  double
-  SmallModel::force_scale() const
-  {
-    const double scale = std::hypot(scale_of_loads, elastic_scale);
-    return inelastic ? std::hypot(scale, inelastic->totals().force_scale)
-                     : scale;
   }
 
 
@@ -111,34 +88,39 @@ namespace NMM
 
 
   void
-  SmallModel::begin_step(const Vector &begin,
-                         const Vector &,
-                         const double t,
-                         const double)
+  SmallModel::begin_step(const StepBegin &step)
   {
     if (!inelastic)
       return;
     // the result is admissible, because an accepted state always has a stress
-    (void)inelastic->assemble(begin, /* with_tangent = */ false);
+    (void)inelastic->assemble(step.u, /* with_tangent = */ false);
     forces_at_begin = inelastic->residual();
     totals_at_begin = inelastic->totals();
-    begin_of_step   = begin;
-    time_at_begin   = t;
+    begin_of_step   = step.u;
+    time_at_begin   = step.time;
+  }
+
+
+  StepWork
+  SmallModel::commit(const Trial &step)
+  {
+    StepWork work = ElasticModel::commit(step);
+    if (inelastic)
+      work.dissipated = accept_inelastic(step);
+    return work;
   }
 
 
   double
-  SmallModel::accept_step(const Vector &end, const double t)
+  SmallModel::accept_inelastic(const Trial &step)
   {
-    // no step has begun if a state has just been set
-    if (!inelastic || begin_of_step.size() == 0)
-      return 0.;
-    inelastic->accept(end);
-    Vector motion(end), force(inelastic->residual());
+    inelastic->accept(*step.end);
+    Vector motion(*step.end), force(inelastic->residual());
     motion -= begin_of_step;
     force.sadd(0.5, 0.5, forces_at_begin);
     Vector owned_motion(force);
     owned_motion                         = motion;
+    const double                  t      = step.end_time;
     const InelasticTerms::Totals &totals = inelastic->totals();
     return force * owned_motion - (totals.energy - totals_at_begin.energy) +
            0.5 * (work_on_inelastic(totals_at_begin, time_at_begin, t) +
@@ -161,49 +143,79 @@ namespace NMM
   }
 
 
-  std::vector<char>
-  SmallModel::internal_state() const
+  void
+  SmallModel::save(internal::ByteWriter &archive) const
   {
-    return inelastic ? inelastic->internal_state() : std::vector<char>();
+    if (!inelastic)
+      return;
+    std::vector<char> state = inelastic->internal_state();
+    archive.transfer(state.data(), state.size());
   }
 
 
   void
-  SmallModel::restore_internal_state(const std::vector<char> &state)
+  SmallModel::restore(internal::ByteReader &archive)
   {
-    if (inelastic)
-      inelastic->restore_internal_state(state);
+    if (!inelastic)
+      return;
+    std::vector<char> state(archive.n_left());
+    archive.transfer(state.data(), state.size());
+    inelastic->restore_internal_state(state);
   }
 
 
   Deformation
-  SmallModel::add_inelastic(const Vector &u,
-                            const double  share,
-                            const bool    with_tangent)
+  SmallModel::add_inelastic(const Vector    &u,
+                            const double     share,
+                            const bool       with_tangent,
+                            AssembledForces &sum)
   {
     if (inelastic->assemble(u, with_tangent) != Deformation::admissible)
       return Deformation::inverted;
     forces.add(share, inelastic->residual());
+    sum.scale = std::hypot(sum.scale, inelastic->totals().force_scale);
+    sum.strain_energy += inelastic->totals().energy;
     if (with_tangent)
-      current_tangent = &inelastic->add_to(elasticity->tangent());
+      sum.tangent = &inelastic->add_to(elasticity->tangent());
     return Deformation::admissible;
   }
 
 
   Deformation
-  SmallModel::assemble(const Vector &u,
-                       const double  t,
-                       const Tangent tangent,
-                       const Vector *)
+  SmallModel::assemble(const Trial &trial, AssembledForces &sum)
   {
-    owned = u;
-    assemble_owned(t, amplitudes_at(t));
-    elasticity->evaluate_linearized(u);
-    elastic_energies = {elasticity->energies().strain,
-                        elasticity->energies().conditions};
-    elastic_scale    = elasticity->force_scale();
-    return inelastic ? add_inelastic(u, 1., tangent != Tangent::none)
-                     : Deformation::admissible;
+    const double t_0 = trial.begin_time, t_1 = trial.end_time;
+    if (trial.is_conserving)
+    {
+      owned  = *trial.begin;
+      forces = *trial.end;
+      owned.sadd(0.5, 0.5, forces);
+      assemble_owned(0.5 * (t_0 + t_1), amplitudes_between(t_0, t_1));
+      if (inelastic)
+        forces.add(0.5, forces_at_begin);
+    }
+    else
+    {
+      owned = *trial.end;
+      assemble_owned(t_1, amplitudes_at(t_1));
+      elasticity->evaluate_linearized(*trial.end);
+      sum.strain_energy        = elasticity->energies().strain;
+      sum.energy_of_conditions = elasticity->energies().conditions;
+      elastic_scale            = elasticity->force_scale();
+    }
+    sum.residual            = &forces;
+    sum.scale               = std::hypot(scale_of_loads, elastic_scale);
+    const bool with_tangent = trial.tangent != Tangent::none;
+    if (with_tangent)
+      sum.tangent = &elasticity->tangent();
+    if (!inelastic)
+      return Deformation::admissible;
+    // Conserving forces are the mean of those at both ends. Its derivative with respect to the mean
+    // displacement is that of the force at the end with respect to the end.
+    return add_inelastic(*trial.end,
+                         trial.is_conserving ? 0.5 : 1.,
+                         with_tangent,
+                         sum);
   }
 
 
@@ -213,8 +225,8 @@ namespace NMM
     update(amplitudes);
     elasticity->tangent().vmult(forces, owned);
     // the diagonal entries of constrained and absent unknowns are arbitrary
-    constraints().set_zero(forces);
-    for (const auto i : absent)
+    unknowns.constraints->set_zero(forces);
+    for (const auto i : unknowns.absent_unknowns)
       forces(i) = 0.;
     forces.compress(dealii::VectorOperation::insert);
     // the forces of initial stress are in both parts
@@ -222,43 +234,6 @@ namespace NMM
     forces -= with_supports.forces;
     forces += initial.forces;
     add_base_force(t, 1., forces);
-  }
-
-
-  Deformation
-  SmallModel::assemble_between(const Vector &begin,
-                               const Vector &end,
-                               const double  t_0,
-                               const double  t_1,
-                               const Tangent tangent)
-  {
-    owned  = begin;
-    forces = end;
-    owned.sadd(0.5, 0.5, forces);
-    assemble_owned(0.5 * (t_0 + t_1), amplitudes_between(t_0, t_1));
-    if (!inelastic)
-      return Deformation::admissible;
-    forces.add(0.5, forces_at_begin);
-    // Mean of the forces at both ends. Its derivative with respect to the mean displacement is
-    // that of the force at the end with respect to the end.
-    return add_inelastic(end, 0.5, tangent != Tangent::none);
-  }
-
-
-  const SmallModel::Vector &
-  SmallModel::residual() const
-  {
-    return forces;
-  }
-
-
-  SmallModel::Energies
-  SmallModel::energies() const
-  {
-    Energies result = elastic_energies;
-    if (inelastic)
-      result.strain += inelastic->totals().energy;
-    return result;
   }
 
 
@@ -297,18 +272,15 @@ namespace NMM
 
   /// The energy is quadratic in the prescribed displacements, whose mean is that of the step.
   double
-  SmallModel::work_of_supports_between(const Vector &begin,
-                                       const Vector &end,
-                                       const Vector &mean,
-                                       const double  t_0,
-                                       const double  t_1)
+  SmallModel::work_of_supports_between(const Trial &step, const Vector &mean)
   {
     if (!loads_change())
       return 0.;
-    double work = energy_of_conditions(mean, amplitudes_at(t_1)) -
+    const double t_0 = step.begin_time, t_1 = step.end_time;
+    double       work = energy_of_conditions(mean, amplitudes_at(t_1)) -
                   energy_of_conditions(mean, amplitudes_at(t_0));
     if (inelastic)
-      for (const Vector *u : {&begin, &end})
+      for (const Vector *u : {step.begin, step.end})
       {
         (void)inelastic->assemble(*u, /* with_tangent = */ false);
         work += 0.5 * work_on_inelastic(inelastic->totals(), t_0, t_1);

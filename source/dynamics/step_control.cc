@@ -45,8 +45,7 @@ namespace NMM
   StepControl::next_target(const TimeIntegrator &integrator,
                            const double          end) const
   {
-    for (const double event :
-         model_interface<SupportModel>(integrator.model()).events())
+    for (const double event : integrator.model().events())
       if (event > integrator.state().events_passed)
         return std::min(event, end);
     return end;

@@ -118,9 +118,20 @@ namespace NMM
                           const Tangent tangent,
                           const Vector *increment)
   {
-    if (!linearized)
-      return elastic->assemble(u, factor, tangent, increment);
+    if (linearized)
+      return assemble_linearized(u, tangent != Tangent::none);
+    const Deformation state = elastic->assemble(u, factor, tangent, increment);
+    result.residual         = &elastic->residual();
+    result.force_scale      = elastic->force_scale();
+    result.tangent          = &elastic->tangent();
+    result.is_symmetric     = elastic->tangent_is_symmetric();
+    return state;
+  }
 
+
+  Deformation
+  ElasticSystem::assemble_linearized(const Vector &u, const bool with_tangent)
+  {
     if (!has_stiffness || !has_load)
     {
       const Vector zero = [&]() {
@@ -142,52 +153,23 @@ namespace NMM
     elastic->affine_constraints().set_zero(sum);
     energy = 0.5 * (owned * sum);
     sum += load;
-    stiffness = &elastic->tangent();
+    result.residual     = &sum;
+    result.force_scale  = scale;
+    result.tangent      = &elastic->tangent();
+    result.is_symmetric = true;
     if (!inelastic)
       return Deformation::admissible;
-    const bool with_tangent = tangent != Tangent::none;
     if (inelastic->assemble(u, with_tangent) != Deformation::admissible)
       return Deformation::inverted;
     sum += inelastic->residual();
     sum.add(factor - 1., initial_imbalance);
     energy += inelastic->totals().energy;
-    if (with_tangent)
-      stiffness = &inelastic->add_to(elastic->tangent());
-    return Deformation::admissible;
-  }
-
-
-  const ElasticSystem::Vector &
-  ElasticSystem::residual() const
-  {
-    return linearized ? sum : elastic->residual();
-  }
-
-
-  const dealii::TrilinosWrappers::SparseMatrix &
-  ElasticSystem::tangent() const
-  {
-    return linearized && stiffness != nullptr ? *stiffness : elastic->tangent();
-  }
-
-
-  bool
-  ElasticSystem::tangent_is_symmetric() const
-  {
-    if (linearized)
-      return inelastic == nullptr || inelastic->totals().n_yielding == 0;
-    return elastic->tangent_is_symmetric();
-  }
-
-
-  double
-  ElasticSystem::force_scale() const
-  {
-    if (!linearized)
-      return elastic->force_scale();
     // forces due to initial stress balance each other as loads do
-    return inelastic ? std::hypot(scale, inelastic->totals().force_scale)
-                     : scale;
+    result.force_scale  = std::hypot(scale, inelastic->totals().force_scale);
+    result.is_symmetric = inelastic->totals().n_yielding == 0;
+    if (with_tangent)
+      result.tangent = &inelastic->add_to(elastic->tangent());
+    return Deformation::admissible;
   }
 
 

@@ -573,35 +573,25 @@ namespace NMM
     }
 
 
-    AccountedContactModel::AccountedContactModel(MechanicalModel &model,
-                                                 ContactAnalysis &analysis)
-      : ContactModel(model, analysis.contact(), analysis.releases())
+    AccountedContact::AccountedContact(const ModelLayout &layout,
+                                       ContactAnalysis   &analysis)
+      : term(layout, analysis.contact(), analysis.releases())
       , analysis(&analysis)
     {
     }
 
 
-    void
-    AccountedContactModel::begin_step(const Vector &begin,
-                                      const Vector &predicted,
-                                      const double  t,
-                                      const double  h)
-    {
-      ContactModel::begin_step(begin, predicted, t, h);
-      analysis->remember_states();
-    }
-
-
     StepFault
-    AccountedContactModel::find_fault(const Vector &end)
+    AccountedContact::find_fault(const Vector &)
     {
-      StepFault fault = ContactModel::find_fault(end);
-      if (!fault.reason.empty() || contact().is_idle())
+      StepFault      fault;
+      const Contact &contact = term.contact();
+      if (contact.is_idle())
         return fault;
-      double penetration = contact().report().largest_penetration;
+      double penetration = contact.report().largest_penetration;
       // In conserving steps the reported penetration is the mean of begin and end. The value
       // computed here is a lower bound of that at the end, since the deepest point may change.
-      if (contact().report().is_between)
+      if (contact.report().is_between)
         penetration =
           2. * penetration - analysis->last_state().report.largest_penetration;
       fault.reason = analysis->find_deep_penetration(penetration);
@@ -609,55 +599,40 @@ namespace NMM
     }
 
 
-    double
-    AccountedContactModel::accept_step(const Vector &end, const double t)
+    StepWork
+    AccountedContact::commit(const Trial &)
     {
-      const double dissipated = ContactModel::accept_step(end, t);
-      work += dissipated_by_contact();
+      work += term.dissipated();
       // The state is taken now, since the integrator assembles once more with all points sticking.
       analysis->take_state(work);
-      return dissipated;
-    }
-
-
-    std::vector<char>
-    AccountedContactModel::internal_state() const
-    {
-      return to_bytes(work,
-                      analysis->largest_penetration_so_far(),
-                      ContactModel::internal_state());
+      return {};
     }
 
 
     void
-    AccountedContactModel::restore_internal_state(
-      const std::vector<char> &state)
+    AccountedContact::save(ByteWriter &archive) const
     {
-      double            saved_work, penetration;
-      std::vector<char> of_contact;
-      from_bytes(state, saved_work, penetration, of_contact);
-      require_in_checkpoint(std::isfinite(saved_work) &&
-                              std::isfinite(penetration),
+      archive &work & analysis->largest_penetration_so_far();
+    }
+
+
+    void
+    AccountedContact::restore(ByteReader &archive)
+    {
+      double         penetration;
+      archive &work &penetration;
+      require_in_checkpoint(std::isfinite(work) && std::isfinite(penetration),
                             "work or penetration of contact is not finite");
-      work = saved_work;
       analysis->continue_from(penetration);
-      ContactModel::restore_internal_state(of_contact);
     }
 
 
     void
-    AccountedContactModel::restore(const double          friction_work,
-                                   const ContactHistory &history)
+    AccountedContact::continue_from(const ContactHistory &history,
+                                    const double          friction_work)
     {
       work = friction_work;
-      restore_history(history);
-    }
-
-
-    double
-    AccountedContactModel::friction_work() const
-    {
-      return work;
+      term.restore_history(history);
     }
   } // namespace internal
 } // namespace NMM

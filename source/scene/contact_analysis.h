@@ -2,7 +2,7 @@
 #define nmm_source_scene_contact_analysis_h
 
 #include <nmm/contact/contact_statics.h>
-#include <nmm/dynamics/contact_model.h>
+#include <nmm/dynamics/contact_term.h>
 #include <nmm/fracture/intensity_factors.h>
 #include <nmm/output/contact_output.h>
 #include <nmm/output/progress.h>
@@ -199,43 +199,65 @@ namespace NMM
     contact_newton_parameters(const Scene &scene, Progress &progress);
 
 
-    /// A contact model that sums the energy dissipated by contact and reports each accepted state
-    /// to a ContactAnalysis.
-    class AccountedContactModel : public ContactModel
+    /// The term of contact, and one beside it without forces that sums the energy dissipated by
+    /// contact and reports each accepted state to a ContactAnalysis.
+    class AccountedContact : public ForceTerm
     {
     public:
-      AccountedContactModel(MechanicalModel &model, ContactAnalysis &analysis);
+      AccountedContact(const ModelLayout &layout, ContactAnalysis &analysis);
+
+      /// Append both to the terms of a MechanicalModel.
+      void
+      append_to(std::vector<ForceTerm *> &terms)
+      {
+        terms.insert(terms.end(), {&term, this});
+      }
 
       void
-      begin_step(const Vector &begin,
-                 const Vector &predicted,
-                 double        t,
-                 double        h) override;
+      begin_step(const StepBegin &) override
+      {
+        analysis->remember_states();
+      }
 
-      /// As in ContactModel. In addition, a penetration that is larger than the scene allows is a
-      /// fault.
+      Deformation
+      assemble(const Trial &, AssembledForces &) override
+      {
+        return Deformation::admissible;
+      }
+
+      ForceProperties
+      properties() const override
+      {
+        return {};
+      }
+
+      /// A penetration that is larger than the scene allows is a fault.
       StepFault
       find_fault(const Vector &end) override;
 
-      double
-      accept_step(const Vector &end, double t) override;
-
-      std::vector<char>
-      internal_state() const override;
+      StepWork
+      commit(const Trial &step) override;
 
       void
-      restore_internal_state(const std::vector<char> &state) override;
+      save(ByteWriter &archive) const override;
 
-      /// Continues with the @p history of a solid that was cut again since; contact has
-      /// dissipated @p friction_work so far [J/m].
       void
-      restore(double friction_work, const ContactHistory &history);
+      restore(ByteReader &archive) override;
+
+      /// Continues with the @p history of contact; contact has dissipated @p friction_work so far
+      /// [J/m].
+      void
+      continue_from(const ContactHistory &history, double friction_work = 0.);
 
       /// Energy that friction, dashpots and breaking bonds have dissipated so far [J/m].
       double
-      friction_work() const;
+      friction_work() const
+      {
+        return work;
+      }
 
     private:
+      ContactTerm      term;
       ContactAnalysis *analysis;
       double           work = 0.;
     };

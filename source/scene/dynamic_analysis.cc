@@ -78,7 +78,8 @@ namespace NMM
       field.reset();
       leaving.reset();
       integrator.reset();
-      contact_model.reset();
+      mechanics.reset();
+      contact_term.reset();
       model.reset();
       elasticity.reset();
       mass_quadrature.reset();
@@ -122,17 +123,18 @@ namespace NMM
         model =
           std::make_unique<SmallModel>(*elasticity, *mass_quadrature, loading);
 
+      std::vector<ForceTerm *> terms = {model.get()};
       if (contact)
-        contact_model =
-          std::make_unique<AccountedContactModel>(*model, *contact);
-
-      MechanicalModel *moved = contact_model.get();
-      if (!contact)
-        moved = model.get();
+      {
+        contact_term =
+          std::make_unique<AccountedContact>(model->layout(), *contact);
+        contact_term->append_to(terms);
+      }
+      mechanics = std::make_unique<MechanicalModel>(model->layout(), terms);
       damping =
         scene.make_damping(*physical_mesh, problem, contact && has_friction());
       integrator = std::make_unique<TimeIntegrator>(
-        *moved,
+        *mechanics,
         parameters.time.time_scheme(kind, kinematics, contact != nullptr),
         damping,
         motion_newton_parameters(scene, progress));
@@ -170,7 +172,7 @@ namespace NMM
       }
       else if (!parameters.initial_velocities.empty())
       {
-        const Vector rest(model->locally_owned(), communicator);
+        const Vector rest(model->layout().locally_owned, communicator);
         integrator->initialize(rest, initial_velocity());
       }
       start_time = time();
@@ -325,7 +327,7 @@ namespace NMM
         contact->hold_obstacles(false);
       if (InelasticTerms *const terms = inelastic_terms())
         terms->restore_internal_state(start.material_state);
-      Vector v(model->locally_owned(), communicator);
+      Vector v(model->layout().locally_owned, communicator);
       if (!scene.parameters().initial_velocities.empty())
         v = initial_velocity();
       // This applies the releases at 0 s.
@@ -510,8 +512,8 @@ namespace NMM
     DynamicAnalysis::Vector
     DynamicAnalysis::displacement() const
     {
-      Vector relevant(model->locally_owned(),
-                      model->locally_relevant(),
+      Vector relevant(model->layout().locally_owned,
+                      model->layout().locally_relevant,
                       communicator);
       relevant = integrator->state().u;
       return relevant;

@@ -70,11 +70,12 @@ namespace NMM
       // Each object refers to those above it.
       std::unique_ptr<QuadratureCollection> mass_quadrature;
       /// Loads and supports as functions of time.
-      Loading                                loading;
-      std::unique_ptr<FiniteElasticity>      elasticity;
-      std::unique_ptr<ElasticModel>          model;
-      std::unique_ptr<AccountedContactModel> contact_model;
-      std::unique_ptr<TimeIntegrator>        integrator;
+      Loading                           loading;
+      std::unique_ptr<FiniteElasticity> elasticity;
+      std::unique_ptr<ElasticModel>     model;
+      std::unique_ptr<AccountedContact> contact_term;
+      std::unique_ptr<MechanicalModel>  mechanics;
+      std::unique_ptr<TimeIntegrator>   integrator;
       /// The damping, with the coefficients that Scene::make_damping() chooses.
       RayleighDamping damping;
       /// Null if no block may leave the scene.
@@ -174,7 +175,7 @@ namespace NMM
         ContactHistory history;
         /// Kinetic and stored energy [J/m].
         double energy = 0.;
-        /// See AccountedContactModel::friction_work() [J/m].
+        /// See AccountedContact::friction_work() [J/m].
         double friction_work = 0.;
       };
 

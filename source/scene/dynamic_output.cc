@@ -51,7 +51,7 @@ namespace NMM
     DynamicAnalysis::take_contact()
     {
       contact->remember_states();
-      contact->take_state(contact_model->friction_work());
+      contact->take_state(contact_term->friction_work());
     }
 
 

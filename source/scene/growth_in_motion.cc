@@ -268,7 +268,7 @@ namespace NMM
       if (contact)
       {
         former.history       = contact->contact().history();
-        former.friction_work = contact_model->friction_work();
+        former.friction_work = contact_term->friction_work();
       }
       // The solid remains until its state is carried over; what else refers to it does not.
       clear_equations();
@@ -322,12 +322,12 @@ namespace NMM
       {
         contact->continue_from(
           former.solid.contact->largest_penetration_so_far());
-        contact_model->restore(
-          former.friction_work,
+        contact_term->continue_from(
           carry_history(former.history,
                         former.solid.contact->faces(),
                         contact->faces(),
-                        contact->contact().parameters().slave_priority));
+                        contact->contact().parameters().slave_priority),
+          former.friction_work);
       }
       integrator->continue_after_cut(state, former.energy, duration);
       // A few steps resolve the time in which the faces separate.

@@ -79,13 +79,15 @@ namespace NMM
     StrengthTrial
     SafetyFactorAnalysis::try_factor(const double factor)
     {
-      const SceneParameters                 &parameters = scene.parameters();
-      std::unique_ptr<AccountedContactModel> with_contact;
+      const SceneParameters            &parameters  = scene.parameters();
+      std::vector<ForceTerm *>          force_terms = {model.get()};
+      std::unique_ptr<AccountedContact> with_contact;
       if (contact)
       {
         contact->begin_anew(factor);
         with_contact =
-          std::make_unique<AccountedContactModel>(*model, *contact);
+          std::make_unique<AccountedContact>(model->layout(), *contact);
+        with_contact->append_to(force_terms);
       }
       InelasticTerms *const terms = inelastic_terms_of(model.get());
       if (terms != nullptr)
@@ -93,11 +95,9 @@ namespace NMM
         terms->forget_states();
         terms->set_materials(reduce_strength(problem.materials, factor));
       }
-      MechanicalModel *moved = with_contact.get();
-      if (!contact)
-        moved = model.get();
-      TimeIntegrator integrator(
-        *moved,
+      MechanicalModel mechanics(model->layout(), force_terms);
+      TimeIntegrator  integrator(
+        mechanics,
         parameters.time.time_scheme(Analysis::safety_factor,
                                     parameters.model.kinematics,
                                     /* has_contact = */ true),
@@ -106,11 +106,12 @@ namespace NMM
       if (parameters.safety_factor.start == Start::settled)
       {
         if (contact)
-          with_contact->restore_history(settled_contact);
+          with_contact->continue_from(settled_contact);
         if (terms != nullptr)
           terms->restore_internal_state(settled_materials);
         integrator.initialize(settled,
-                              Vector(model->locally_owned(), communicator));
+                              Vector(model->layout().locally_owned,
+                                     communicator));
       }
       RelaxationParameters relaxation = parameters.relaxation.relaxation;
       relaxation.max_displacement = parameters.safety_factor.max_displacement;
@@ -298,8 +299,8 @@ namespace NMM
     {
       evaluator.reset();
       recovery.reset();
-      Vector relevant(model->locally_owned(),
-                      model->locally_relevant(),
+      Vector relevant(model->layout().locally_owned,
+                      model->layout().locally_relevant,
                       communicator);
       relevant = shown_displacement;
       field = std::make_unique<DisplacementField>(*covers, problem, relevant);

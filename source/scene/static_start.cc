@@ -1,7 +1,7 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/base/stop.h>
 #include <nmm/contact/contact_statics.h>
-#include <nmm/dynamics/contact_model.h>
+#include <nmm/dynamics/contact_term.h>
 #include <nmm/dynamics/elastic_models.h>
 #include <nmm/dynamics/relaxation.h>
 #include <nmm/mechanics/elastic_system.h>
@@ -225,17 +225,19 @@ namespace NMM
         model = std::make_unique<FiniteModel>(elasticity,
                                               input.mass_quadrature,
                                               std::move(loading));
+      std::vector<ForceTerm *> terms = {model.get()};
       if (input.contact != nullptr)
-        contact_model =
-          std::make_unique<ContactModel>(*model, input.contact->contact());
-      MechanicalModel *moved = contact_model.get();
-      if (input.contact == nullptr)
-        moved = model.get();
+      {
+        contact_term = std::make_unique<ContactTerm>(model->layout(),
+                                                     input.contact->contact());
+        terms.push_back(contact_term.get());
+      }
+      mechanics = std::make_unique<MechanicalModel>(model->layout(), terms);
 
       TimeParameters time = parameters.time;
       time.scheme         = TimeParameters::Scheme::automatic;
       time_integrator     = std::make_unique<TimeIntegrator>(
-        *moved,
+        *mechanics,
         time.time_scheme(Analysis::relaxation,
                          parameters.model.kinematics,
                          input.contact != nullptr),

@@ -2,7 +2,7 @@
 #define nmm_source_scene_static_start_h
 
 #include <nmm/covers/cover_system.h>
-#include <nmm/dynamics/contact_model.h>
+#include <nmm/dynamics/contact_term.h>
 #include <nmm/dynamics/elastic_models.h>
 #include <nmm/dynamics/time_integrator.h>
 #include <nmm/mechanics/finite_elasticity.h>
@@ -63,10 +63,11 @@ namespace NMM
       std::function<void(double)> before_step;
 
     private:
-      FiniteElasticity                elasticity;
-      std::unique_ptr<ElasticModel>   model;
-      std::unique_ptr<ContactModel>   contact_model;
-      std::unique_ptr<TimeIntegrator> time_integrator;
+      FiniteElasticity                 elasticity;
+      std::unique_ptr<ElasticModel>    model;
+      std::unique_ptr<ContactTerm>     contact_term;
+      std::unique_ptr<MechanicalModel> mechanics;
+      std::unique_ptr<TimeIntegrator>  time_integrator;
     };
 
 

@@ -59,8 +59,8 @@ namespace NMM
     {
       if (!crack_tips)
         return;
-      Vector relevant(model->locally_owned(),
-                      model->locally_relevant(),
+      Vector relevant(model->layout().locally_owned,
+                      model->layout().locally_relevant,
                       communicator);
       relevant = integrator->state().a;
       const DisplacementField u(*covers, problem, displacement()),

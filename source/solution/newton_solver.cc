@@ -27,14 +27,6 @@ namespace NMM
   }
 
 
-  const std::vector<bool> &
-  NonlinearSystem::held_blocks() const
-  {
-    static const std::vector<bool> none;
-    return none;
-  }
-
-
   struct NewtonSolver::Data
   {
     using Group = NewtonGroups::Group;
@@ -187,8 +179,8 @@ namespace NMM
       return state;
     // the first assembly comprises all blocks that are not held
     if (blocks.empty() || scale == 0.)
-      scale = system->force_scale();
-    rounding    = system->force_rounding();
+      scale = system->assembled().force_scale;
+    rounding    = system->assembled().force_rounding;
     double norm = 0.;
     if (blocks.empty())
     {
@@ -226,7 +218,7 @@ namespace NMM
     while (true)
     {
       touched.clear();
-      const unsigned int version = system->pattern_version();
+      const unsigned int version = system->assembled().pattern_version;
       const Deformation  state =
         assemble_blocks(u,
                         k > parameters.n_robust_iterations ? Tangent::consistent
@@ -235,13 +227,16 @@ namespace NMM
                         blocks);
       if (state != Deformation::admissible)
         return state;
-      if (const BodyMatrix *body_matrix = system->body_tangent())
+      if (const BodyMatrix *body_matrix = system->assembled().body_tangent)
         groups.unite(blocks, *body_matrix);
       else
-        groups.unite(blocks, system->tangent(), system->coupled_blocks());
+        groups.unite(blocks,
+                     system->tangent(),
+                     system->assembled().coupled_blocks);
       blocks = groups.reactivate(touched);
       // a matrix that got another pattern has lost the rows assembled before
-      const bool is_lost = is_partial && version != system->pattern_version();
+      const bool is_lost =
+        is_partial && version != system->assembled().pattern_version;
       if (is_lost)
         blocks = all_active();
       else if (blocks.empty())
@@ -275,19 +270,19 @@ namespace NMM
   {
     dealii::Timer timer;
     if (direct_solver == nullptr ||
-        is_symmetric != system->tangent_is_symmetric() || n != owned.size())
+        is_symmetric != system->assembled().is_symmetric || n != owned.size())
     {
-      is_symmetric  = system->tangent_is_symmetric();
+      is_symmetric  = system->assembled().is_symmetric;
       n             = owned.size();
       direct_solver = std::make_unique<internal::DirectSolver>(
         is_symmetric ? internal::DirectSolver::Symmetry::symmetric
                      : internal::DirectSolver::Symmetry::unsymmetric,
         system->blocks_of_unknowns());
     }
-    else if (version != system->pattern_version())
+    else if (version != system->assembled().pattern_version)
       direct_solver->forget_analysis();
-    version = system->pattern_version();
-    if (const BodyMatrix *body_matrix = system->body_tangent())
+    version = system->assembled().pattern_version;
+    if (const BodyMatrix *body_matrix = system->assembled().body_tangent)
       direct_solver->factorize(*body_matrix, groups.unknowns().chosen());
     else
       direct_solver->factorize(system->tangent(),
@@ -478,7 +473,8 @@ namespace NMM
   {
     // Residuals below this multiple of the tolerance may be due to rounding.
     constexpr double near = 1e4;
-    if (rounding_by_unknowns >= 0. || system->body_tangent() != nullptr ||
+    if (rounding_by_unknowns >= 0. ||
+        system->assembled().body_tangent != nullptr ||
         report->relative_residual > near * tolerance)
       return;
     const internal::MatrixRows rows(system->tangent());

@@ -130,8 +130,7 @@ namespace
       {
         Body         body = free_square(law, state, 20.);
         const double h    = 0.1;
-        model_interface<TangentModel>(*body.mechanics)
-          .set_stiffness_damping(0.05);
+        body.mechanics->damp_by_stiffness(0.05, /* is_conserving = */ true);
         std::mt19937                           generator(7);
         std::uniform_real_distribution<double> random(-0.15, 0.15);
         const auto                             field = [&] {
@@ -144,24 +143,21 @@ namespace
         };
         const Vector begin = field(), end = field(), direction = field();
         const auto   relevant = [&](const Vector &v) {
-          Vector result(body.mechanics->locally_owned(),
-                        body.mechanics->locally_relevant(),
-                        body.mechanics->communicator());
+          Vector result(body.mechanics->layout().locally_owned,
+                        body.mechanics->layout().locally_relevant,
+                        body.mechanics->layout().communicator);
           result = v;
           return result;
         };
         const auto residual = [&](const double share, const bool with_tangent) {
           Vector at(end);
           at.add(share, direction);
-          EXPECT_EQ(body.mechanics->assemble_between(relevant(begin),
-                                                     relevant(at),
-                                                     0.,
-                                                     h,
-                                                     with_tangent
-                                                       ? Tangent::consistent
-                                                       : Tangent::none),
-                    Deformation::admissible);
-          return body.mechanics->residual();
+          const Vector from = relevant(begin), to = relevant(at);
+          Trial        trial =
+            Trial::step(from, to, 0., h, /* is_conserving = */ true);
+          trial.tangent = with_tangent ? Tangent::consistent : Tangent::none;
+          EXPECT_EQ(body.mechanics->assemble(trial), Deformation::admissible);
+          return Vector(*body.mechanics->forces().residual);
         };
         const double step = 1e-5;
         Vector       difference(residual(step, false));
@@ -170,9 +166,9 @@ namespace
         residual(0., true);
         Vector product(begin);
         Vector free(direction);
-        body.mechanics->constraints().set_zero(free);
-        body.mechanics->tangent().vmult(product, free);
-        body.mechanics->constraints().set_zero(product);
+        body.model->constraints.set_zero(free);
+        body.mechanics->forces().tangent->vmult(product, free);
+        body.model->constraints.set_zero(product);
         const double norm = product.l2_norm();
         product -= difference;
         // truncation and rounding of the difference

@@ -1,6 +1,6 @@
 // Contact in time: friction on an incline, impact.
 #include <nmm/covers/aggregation.h>
-#include <nmm/dynamics/contact_model.h>
+#include <nmm/dynamics/contact_term.h>
 
 #include <dynamics/dynamic_model.h>
 #include <gtest/gtest.h>
@@ -17,10 +17,11 @@ namespace NMM
       /// A body on faces: the contact has to be there before vectors are.
       struct TouchingBody
       {
-        Body                            body;
-        std::unique_ptr<ContactSurface> surface;
-        std::unique_ptr<Contact>        contact;
-        std::unique_ptr<ContactModel>   model;
+        Body                             body;
+        std::unique_ptr<ContactSurface>  surface;
+        std::unique_ptr<Contact>         contact;
+        std::unique_ptr<ContactTerm>     touch;
+        std::unique_ptr<MechanicalModel> model;
 
         void
         make(const ContactParameters &parameters)
@@ -29,7 +30,10 @@ namespace NMM
           contact = std::make_unique<Contact>(*surface,
                                               body.model->constraints,
                                               parameters);
-          model   = std::make_unique<ContactModel>(*body.mechanics, *contact);
+          touch = std::make_unique<ContactTerm>(body.solid->layout(), *contact);
+          model = std::make_unique<MechanicalModel>(
+            body.solid->layout(),
+            std::vector<ForceTerm *>{body.solid.get(), touch.get()});
         }
       };
 

@@ -13,31 +13,36 @@ namespace NMM
 {
   namespace Test
   {
-    using Vector = MechanicalModel::Vector;
+    using Vector = ForceTerm::Vector;
 
     /// A body in the making: change `model->problem`, then call a make function.
     struct Body
     {
       std::unique_ptr<Model>            model;
       std::unique_ptr<FiniteElasticity> elasticity;
+      std::unique_ptr<ElasticModel>     solid;
       std::unique_ptr<MechanicalModel>  mechanics;
 
       void
       make_small(Loading loading = {})
       {
         make_elasticity();
-        mechanics = std::make_unique<SmallModel>(*elasticity,
-                                                 *model->quadrature,
-                                                 std::move(loading));
+        solid     = std::make_unique<SmallModel>(*elasticity,
+                                             *model->quadrature,
+                                             std::move(loading));
+        mechanics = std::make_unique<MechanicalModel>(
+          solid->layout(), std::vector<ForceTerm *>{solid.get()});
       }
 
       void
       make_finite(Loading loading = {})
       {
         make_elasticity();
-        mechanics = std::make_unique<FiniteModel>(*elasticity,
-                                                  *model->quadrature,
-                                                  std::move(loading));
+        solid     = std::make_unique<FiniteModel>(*elasticity,
+                                              *model->quadrature,
+                                              std::move(loading));
+        mechanics = std::make_unique<MechanicalModel>(
+          solid->layout(), std::vector<ForceTerm *>{solid.get()});
       }
 
       Vector
@@ -54,16 +59,17 @@ namespace NMM
       Vector
       zero() const
       {
-        return Vector(mechanics->locally_owned(), mechanics->communicator());
+        return Vector(mechanics->layout().locally_owned,
+                      mechanics->layout().communicator);
       }
 
       /// Of owned unknowns.
       DisplacementField
       field(const Vector &owned) const
       {
-        Vector relevant(mechanics->locally_owned(),
-                        mechanics->locally_relevant(),
-                        mechanics->communicator());
+        Vector relevant(mechanics->layout().locally_owned,
+                        mechanics->layout().locally_relevant,
+                        mechanics->layout().communicator);
         relevant = owned;
         return DisplacementField(model->covers, model->problem, relevant);
       }
@@ -87,7 +93,8 @@ namespace NMM
               dealii::determinant(dealii::unit_symmetric_tensor<2>() +
                                   displacements.gradient(e, rule.point(q)));
         }
-        return dealii::Utilities::MPI::sum(area, mechanics->communicator());
+        return dealii::Utilities::MPI::sum(area,
+                                           mechanics->layout().communicator);
       }
 
     private:
@@ -139,11 +146,12 @@ namespace NMM
 
     /// Two masses on springs of their own, without constraints: what
     /// schemes do is known in closed form. On MPI_COMM_SELF.
-    class Oscillators : public MechanicalModel
+    class Oscillators : private ForceTerm, public MechanicalModel
     {
     public:
       Oscillators(const double k_0, const double k_1, const double m = 1.)
-        : owned(2)
+        : MechanicalModel(unknowns, {this})
+        , owned(2)
       {
         owned.add_range(0, 2);
         dealii::DynamicSparsityPattern pattern(2, 2);
@@ -161,74 +169,47 @@ namespace NMM
         none.close();
         for (Vector *vector : {&positions, &forces, &displacements})
           vector->reinit(owned, MPI_COMM_SELF);
-        unknowns = {MPI_COMM_SELF, owned, owned, &none, &positions};
-      }
-
-      const ModelLayout &
-      layout() const override
-      {
-        return unknowns;
-      }
-      const Matrix &
-      mass() const override
-      {
-        return mass_matrix;
-      }
-      const Matrix &
-      stiffness_at_rest() override
-      {
-        return stiffness;
-      }
-      ForceProperties
-      force_properties() const override
-      {
-        return {true, true, true};
-      }
-      Deformation
-      assemble(const Vector &u, double, Tangent, const Vector *) override
-      {
-        displacements = u;
-        stiffness.vmult(forces, displacements);
-        return Deformation::admissible;
-      }
-      Deformation
-      assemble_between(const Vector &begin,
-                       const Vector &end,
-                       double        t_0,
-                       double        t_1,
-                       Tangent) override
-      {
-        Vector mean(begin);
-        mean.sadd(0.5, 0.5, end);
-        return assemble(mean, 0.5 * (t_0 + t_1), Tangent::none, nullptr);
-      }
-      const Vector &
-      residual() const override
-      {
-        return forces;
-      }
-      const Matrix &
-      tangent() const override
-      {
-        return stiffness;
-      }
-      double
-      force_scale() const override
-      {
-        return 1.;
-      }
-      Energies
-      energies() const override
-      {
-        return {0.5 * (displacements * forces), 0.};
-      }
-      void
-      external_forces(const Vector &, double, Vector &result) override
-      {
-        result = 0.;
+        unknowns = {MPI_COMM_SELF,
+                    owned,
+                    owned,
+                    &none,
+                    &positions,
+                    &mass_matrix,
+                    0,
+                    {},
+                    {}};
       }
 
     private:
+      using Vector = ForceTerm::Vector;
+      using Matrix = ForceTerm::Matrix;
+
+      const Matrix *
+      damp_by_stiffness(double, bool) override
+      {
+        return &stiffness;
+      }
+
+      ForceProperties
+      properties() const override
+      {
+        return {};
+      }
+
+      Deformation
+      assemble(const Trial &trial, AssembledForces &sum) override
+      {
+        displacements = *trial.end;
+        if (trial.is_conserving)
+          displacements.sadd(0.5, 0.5, *trial.begin);
+        stiffness.vmult(forces, displacements);
+        sum.residual      = &forces;
+        sum.tangent       = &stiffness;
+        sum.scale         = 1.;
+        sum.strain_energy = 0.5 * (displacements * forces);
+        return Deformation::admissible;
+      }
+
       dealii::IndexSet                  owned;
       ModelLayout                       unknowns;
       Matrix                            mass_matrix, stiffness;

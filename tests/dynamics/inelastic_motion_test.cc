@@ -34,8 +34,8 @@ namespace
   void
   push(const Body &body, TimeIntegrator &integrator)
   {
-    const Vector rest(body.mechanics->locally_owned(),
-                      body.mechanics->communicator());
+    const Vector rest(body.mechanics->layout().locally_owned,
+                      body.mechanics->layout().communicator);
     integrator.initialize(
       rest,
       interpolate_velocity(body.model->covers,

@@ -1,7 +1,7 @@
 // Blocks that leave the scene: who they are, what goes with them, what stays.
 #include <nmm/covers/aggregation.h>
 #include <nmm/dynamics/checkpoint.h>
-#include <nmm/dynamics/contact_model.h>
+#include <nmm/dynamics/contact_term.h>
 #include <nmm/dynamics/leaving_blocks.h>
 
 #include <dynamics/dynamic_model.h>
@@ -74,8 +74,8 @@ namespace NMM
         Tensor<1, 2>            value;
         if (element >= first && element < last)
           value = field.displacement(element, xi);
-        return dealii::Utilities::MPI::sum(value,
-                                           body.mechanics->communicator());
+        return dealii::Utilities::MPI::sum(
+          value, body.mechanics->layout().communicator);
       }
 
 
@@ -160,24 +160,20 @@ namespace NMM
                     0.5 * density * g * g * end * end,
                     1e-7 * account.kinetic);
         // nothing of it is worked on any more
-        Vector relevant(body.mechanics->locally_owned(),
-                        body.mechanics->locally_relevant(),
-                        body.mechanics->communicator());
+        Vector relevant(body.mechanics->layout().locally_owned,
+                        body.mechanics->layout().locally_relevant,
+                        body.mechanics->layout().communicator);
         relevant = u;
         (void)body.elasticity->assemble(relevant, 1., Tangent::none);
         EXPECT_EQ(body.elasticity->n_assembled_elements(),
                   n_elements(body, first));
-        for (const auto i :
-             model_interface<BlockModel>(*body.mechanics).absent_unknowns())
+        for (const auto i : body.mechanics->layout().absent_unknowns)
           EXPECT_EQ(integrator.state().v(i), 0.);
 
         // a new start has them all again
         integrator.initialize();
         EXPECT_EQ(integrator.state().left_blocks.size(), 0u);
-        EXPECT_EQ(model_interface<BlockModel>(*body.mechanics)
-                    .absent_unknowns()
-                    .n_elements(),
-                  0u);
+        EXPECT_EQ(body.mechanics->layout().absent_unknowns.n_elements(), 0u);
       }
 
 
@@ -195,11 +191,12 @@ namespace NMM
 
       struct Stack
       {
-        Body                            body;
-        std::unique_ptr<ContactSurface> surface;
-        std::unique_ptr<Contact>        contact;
-        std::unique_ptr<ContactModel>   model;
-        std::unique_ptr<TimeIntegrator> integrator;
+        Body                             body;
+        std::unique_ptr<ContactSurface>  surface;
+        std::unique_ptr<Contact>         contact;
+        std::unique_ptr<ContactTerm>     touch;
+        std::unique_ptr<MechanicalModel> model;
+        std::unique_ptr<TimeIntegrator>  integrator;
       };
 
 
@@ -225,8 +222,12 @@ namespace NMM
           std::make_unique<Contact>(*result.surface,
                                     result.body.model->constraints,
                                     parameters);
-        result.model = std::make_unique<ContactModel>(*result.body.mechanics,
-                                                      *result.contact);
+        const ModelLayout &layout = result.body.solid->layout();
+        result.touch = std::make_unique<ContactTerm>(layout, *result.contact);
+        result.model = std::make_unique<MechanicalModel>(
+          layout,
+          std::vector<ForceTerm *>{result.body.solid.get(),
+                                   result.touch.get()});
         result.integrator =
           std::make_unique<TimeIntegrator>(*result.model,
                                            TimeScheme::energy_momentum());

@@ -43,13 +43,12 @@ namespace NMM
       // scheme, from where it has been turned to already; the others stay.
       TEST(BlockInertia, FliesAsStiffBodiesDo)
       {
-        constexpr double   h = 0.05, omega = 3., turned = 0.4;
-        const Tensor<1, 2> velocity({0.7, -0.2});
-        auto               bodies = three_blocks(30.);
-        MechanicalModel   &model  = *bodies->model;
-        const auto        &blocks =
-          model_interface<BlockModel>(model).blocks_of_unknowns();
-        internal::BlockInertia inertia(model);
+        constexpr double       h = 0.05, omega = 3., turned = 0.4;
+        const Tensor<1, 2>     velocity({0.7, -0.2});
+        auto                   bodies = three_blocks(30.);
+        const ModelLayout     &layout = bodies->model->layout();
+        const auto            &blocks = layout.blocks_of_unknowns;
+        internal::BlockInertia inertia(layout);
 
         // area and centre of the third block by its corners
         const Point<2> x[4] = {{3., 2.}, {4.5, 2.2}, {4., 3.}, {3.1, 2.8}};
@@ -67,9 +66,9 @@ namespace NMM
                     rock_density * area,
                     1e-9 * rock_density * area);
 
-        Vector     u(model.locally_owned(), model.communicator());
+        Vector     u(layout.locally_owned, layout.communicator);
         Vector     v(u), p(u), moved(u), expected(u);
-        const auto X       = model.reference_positions().begin();
+        const auto X       = layout.reference_positions->begin();
         const auto rotated = [](const Tensor<1, 2> &a, const double angle) {
           return Tensor<1, 2>(
             {std::cos(angle) * a[0] - std::sin(angle) * a[1],
@@ -92,7 +91,7 @@ namespace NMM
         }
         for (Vector *vector : {&u, &v, &expected})
           vector->compress(dealii::VectorOperation::insert);
-        model.mass().vmult(p, v);
+        layout.mass->vmult(p, v);
         inertia.fly(p, u, h, {false, false, true}, moved);
         moved -= expected;
         // rounding of places of some metres

@@ -97,7 +97,7 @@ namespace
     const double   omega = 2., alpha = 0.2, beta = 0.02;
     Oscillators    model(omega * omega, 1.);
     TimeIntegrator integrator(model, trapezoidal, {alpha, beta});
-    Vector         u(model.locally_owned(), MPI_COMM_SELF), v(u);
+    Vector         u(model.layout().locally_owned, MPI_COMM_SELF), v(u);
     u(0) = 1.;
     integrator.initialize(u, v);
     const double h = 1e-3;
@@ -184,10 +184,11 @@ namespace
   double
   first_frequency(const Body &body)
   {
-    (void)body.mechanics->assemble(body.zero(), 0., Tangent::consistent);
-    const MechanicalModel::Matrix         &K = body.mechanics->tangent();
-    const MechanicalModel::Matrix         &M = body.mechanics->mass();
-    dealii::SolverControl                  control;
+    (void)body.mechanics->assemble(
+      Trial::at(body.zero(), 0., Tangent::consistent));
+    const MechanicalModel::Matrix &K = *body.mechanics->forces().tangent;
+    const MechanicalModel::Matrix &M = *body.mechanics->layout().mass;
+    dealii::SolverControl          control;
     dealii::TrilinosWrappers::SolverDirect solver(control);
     solver.initialize(K);
     Vector x = body.velocity([](const Point<2> &p) {
@@ -199,9 +200,9 @@ namespace
     double square = 0.;
     for (unsigned int i = 0; i < 30; ++i)
     {
-      body.mechanics->constraints().set_zero(x);
+      body.model->constraints.set_zero(x);
       M.vmult(y, x);
-      body.mechanics->constraints().set_zero(y);
+      body.model->constraints.set_zero(y);
       y /= std::sqrt(x * y);
       solver.solve(x, y);
       // Rayleigh's quotient, with K x = y

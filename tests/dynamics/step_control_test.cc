@@ -83,7 +83,7 @@ namespace
     // |u'''| h^3 / 12 gives
     Oscillators           model(1., 1.);
     TimeIntegrator        integrator(model, TimeScheme::newmark());
-    Vector                u(model.locally_owned(), MPI_COMM_SELF), v(u);
+    Vector                u(model.layout().locally_owned, MPI_COMM_SELF), v(u);
     StepControlParameters parameters = steps(0.01);
     u(0)                             = 1.;
     parameters.max_step              = 10.;

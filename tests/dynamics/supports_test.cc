@@ -254,18 +254,18 @@ namespace
           // each cover on its own, so that the joint opens
           const auto field = [&](const double scale) {
             Vector v = body.zero();
-            for (const auto k : body.mechanics->locally_owned())
+            for (const auto k : body.mechanics->layout().locally_owned)
               v(k) = scale * random(generator);
             v.compress(dealii::VectorOperation::insert);
-            body.mechanics->constraints().distribute(v);
+            body.model->constraints.distribute(v);
             return v;
           };
           const Vector begin = field(0.1), end = field(0.1),
                        direction = field(0.1 / size);
           const auto relevant    = [&](const Vector &v) {
-            Vector result(body.mechanics->locally_owned(),
-                          body.mechanics->locally_relevant(),
-                          body.mechanics->communicator());
+            Vector result(body.mechanics->layout().locally_owned,
+                          body.mechanics->layout().locally_relevant,
+                          body.mechanics->layout().communicator);
             result = v;
             return result;
           };
@@ -273,15 +273,12 @@ namespace
                                     const bool   with_tangent) {
             Vector at(end);
             at.add(share, direction);
-            EXPECT_EQ(body.mechanics->assemble_between(relevant(begin),
-                                                       relevant(at),
-                                                       0.,
-                                                       0.,
-                                                       with_tangent
-                                                         ? Tangent::consistent
-                                                         : Tangent::none),
-                      Deformation::admissible);
-            return body.mechanics->residual();
+            const Vector from = relevant(begin), to = relevant(at);
+            Trial        trial =
+              Trial::step(from, to, 0., 0., /* is_conserving = */ true);
+            trial.tangent = with_tangent ? Tangent::consistent : Tangent::none;
+            EXPECT_EQ(body.mechanics->assemble(trial), Deformation::admissible);
+            return Vector(*body.mechanics->forces().residual);
           };
           const double step = 1e-5;
           Vector       difference(residual(step, false));
@@ -290,9 +287,9 @@ namespace
           residual(0., true);
           Vector product(begin);
           Vector free(direction);
-          body.mechanics->constraints().set_zero(free);
-          body.mechanics->tangent().vmult(product, free);
-          body.mechanics->constraints().set_zero(product);
+          body.model->constraints.set_zero(free);
+          body.mechanics->forces().tangent->vmult(product, free);
+          body.model->constraints.set_zero(product);
           const double norm = product.l2_norm();
           product -= difference;
           std::cout << "derivative off by " << product.l2_norm() / norm << '\n';

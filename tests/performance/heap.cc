@@ -93,24 +93,10 @@ namespace
     }
 
     Deformation
-    assemble(const Vector &u,
-             const double  t,
-             const Tangent tangent,
-             const Vector *increment) override
+    assemble(const Trial &trial, AssembledForces &forces) override
     {
       const Stopwatch watch(stages->elements);
-      return FiniteModel::assemble(u, t, tangent, increment);
-    }
-
-    Deformation
-    assemble_between(const Vector &begin,
-                     const Vector &end,
-                     const double  t_0,
-                     const double  t_1,
-                     const Tangent tangent) override
-    {
-      const Stopwatch watch(stages->elements);
-      return FiniteModel::assemble_between(begin, end, t_0, t_1, tangent);
+      return FiniteModel::assemble(trial, forces);
     }
 
   private:
@@ -118,38 +104,27 @@ namespace
   };
 
 
-  class TimedContact : public ContactModel
+  class TimedContact : public ContactTerm
   {
   public:
-    TimedContact(MechanicalModel &model, Contact &contact, Stages &stages)
-      : ContactModel(model, contact)
+    TimedContact(const ModelLayout &layout, Contact &contact, Stages &stages)
+      : ContactTerm(layout, contact)
       , stages(&stages)
     {
     }
 
     Deformation
-    assemble_between(const Vector &begin,
-                     const Vector &end,
-                     const double  t_0,
-                     const double  t_1,
-                     const Tangent tangent) override
+    assemble(const Trial &trial, AssembledForces &sum) override
     {
-      const double    elements = stages->elements;
       const Stopwatch watch(stages->contact);
-      const auto      state =
-        ContactModel::assemble_between(begin, end, t_0, t_1, tangent);
-      stages->contact -= stages->elements - elements;
-      return state;
+      return ContactTerm::assemble(trial, sum);
     }
 
     void
-    begin_step(const Vector &begin,
-               const Vector &predicted,
-               const double  t,
-               const double  h) override
+    begin_step(const StepBegin &step) override
     {
       const Stopwatch watch(stages->search);
-      ContactModel::begin_step(begin, predicted, t, h);
+      ContactTerm::begin_step(step);
     }
 
   private:
@@ -269,12 +244,15 @@ namespace
       0.2 * std::sqrt(coulomb(parameters).normal_stiffness * density * 0.5);
     static_cast<Bodies &>(*bodies).start(parameters,
                                          /* is_linearized = */ false);
-    bodies->mechanics = std::make_unique<TimedElements>(*bodies->elasticity,
-                                                        bodies->quadrature,
-                                                        stages);
-    bodies->model     = std::make_unique<TimedContact>(*bodies->mechanics,
-                                                   *bodies->contact,
-                                                   stages);
+    bodies->solid = std::make_unique<TimedElements>(*bodies->elasticity,
+                                                    bodies->quadrature,
+                                                    stages);
+    const ModelLayout &layout = bodies->solid->layout();
+    bodies->touch =
+      std::make_unique<TimedContact>(layout, *bodies->contact, stages);
+    bodies->model = std::make_unique<MechanicalModel>(
+      layout,
+      std::vector<ForceTerm *>{bodies->solid.get(), bodies->touch.get()});
     RayleighDamping damping;
     damping.stiffness = stiffness_damping;
     bodies->integrate(TimeScheme::energy_momentum(), damping);

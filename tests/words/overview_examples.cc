@@ -5,7 +5,7 @@
 #include <nmm/contact/contact_statics.h>
 #include <nmm/contact/coulomb_law.h>
 #include <nmm/covers/graded_mesh.h>
-#include <nmm/dynamics/contact_model.h>
+#include <nmm/dynamics/contact_term.h>
 #include <nmm/dynamics/elastic_models.h>
 #include <nmm/dynamics/step_control.h>
 #include <nmm/fracture/fracture.h>
@@ -292,8 +292,9 @@ namespace
   {
     // clang-format off
     // Example of dynamics/time_integrator.h
-    FiniteModel  body(elasticity, mass_quadrature, loading);
-    ContactModel model(body, contact);
+    FiniteModel solid(elasticity, mass_quadrature, loading);
+    ContactTerm touch(solid.layout(), contact);
+    MechanicalModel model(solid.layout(), {&solid, &touch});
     TimeIntegrator integrator(model, TimeScheme::energy_momentum());
     integrator.initialize(u, v);
     StepControlParameters parameters;

@@ -263,7 +263,7 @@ namespace NMM
    * ContactTimeStep::begin() at the beginning of the step, then ContactTimeStep::assemble()
    * (schemes that conserve energy) or assemble() in each iteration; at the end of the step
    * assemble() and accept(), or begin() again if the step is repeated. ContactStatics and
-   * ContactModel make these calls:
+   * ContactTerm make these calls:
    * @code
    * ContactSurface surface(covers);
    * CoulombLaw     law;

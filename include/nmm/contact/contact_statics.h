@@ -13,7 +13,8 @@ namespace NMM
 {
   /**
    * Elasticity and contact as one system of equations for Newton's method: forces and tangents
-   * are added. If there are no candidate pairs, the system is the elasticity alone.
+   * are added, the tangents in the matrix of the contact. If there are no candidate pairs, the system
+   * is the elasticity alone.
    *
    * Lifetime: both must outlive this object.
    */
@@ -22,46 +23,34 @@ namespace NMM
   public:
     /// Combine two systems with the same unknowns.
     ContactSystem(NonlinearSystem &elasticity, Contact &contact);
-    ~ContactSystem() override;
 
     Deformation
     assemble(const Vector &u,
              Tangent       tangent,
              const Vector *increment) override;
 
-    const Vector &
-    residual() const override;
-
-    /// Sum of both tangents, stored in the matrix of the contact; the tangent of the elasticity if
-    /// there are no candidate pairs.
-    const dealii::TrilinosWrappers::SparseMatrix &
-    tangent() const override;
-
-    /// Whether both tangents are symmetric.
-    bool
-    tangent_is_symmetric() const override;
-
-    double
-    force_scale() const override;
-
-    double
-    force_rounding() const override;
-
-    unsigned int
-    pattern_version() const override;
-
     /// Subtract a share of @p forces from the residual (owned unknowns [N/m]): what still holds an
     /// initial stress that is out of balance.
     void
-    hold(const Vector &forces);
+    hold(const Vector &forces)
+    {
+      held_forces = forces;
+    }
 
     /// Set that share, from 0 to 1 [-]; 0 initially.
     void
-    set_held_share(double share);
+    set_held_share(const double share)
+    {
+      held_share = share;
+    }
 
   private:
-    struct Data;
-    std::unique_ptr<Data> data;
+    NonlinearSystem *elasticity;
+    Contact         *contact;
+    Vector           sum;
+    /// See hold(); empty if nothing is held.
+    Vector held_forces;
+    double held_share = 0.;
   };
 
 

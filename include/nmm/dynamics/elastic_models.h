@@ -9,74 +9,41 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace NMM
 {
   /**
-   * The common part of elastic models in `small` and `finite` kinematics: consistent mass (8),
-   * loads as functions of time, releases, base acceleration.
+   * The force term of a solid: the common part of `small` and `finite` kinematics, with consistent
+   * mass (8), loads as functions of time, releases, base acceleration.
    *
    * Lifetime: the elasticity must outlive this object, and from then on only this object may set
    * its load amplitudes.
    */
-  class ElasticModel : public MechanicalModel,
-                       public SupportModel,
-                       public SavedModel,
-                       public BlockModel
+  class ElasticModel : public ForceTerm, public BlockTerm
   {
   public:
-    /// See MechanicalModel::Vector.
-    using Vector = MechanicalModel::Vector;
-    /// See MechanicalModel::Matrix.
-    using Matrix = MechanicalModel::Matrix;
-
+    /// The unknowns of the solid, for a MechanicalModel.
     const ModelLayout &
-    layout() const override;
-
-    std::uint64_t
-    fingerprint() const override;
-
-    const Matrix &
-    mass() const override;
-
-    const Matrix &
-    tangent() const override;
-
-    double
-    force_scale() const override;
+    layout() const
+    {
+      return unknowns;
+    }
 
     void
-    set_absent_blocks(const std::vector<bool> &is_absent) override;
+    set_presence(const Presence &presence) override;
 
-    unsigned int
-    n_blocks() const override;
+    /// In finite kinematics conserving forces contain the damping.
+    const Matrix *
+    damp_by_stiffness(double coefficient, bool is_conserving) override;
 
-    dealii::IndexSet
-    absent_unknowns() const override;
-
-    const std::vector<unsigned int> &
-    blocks_of_unknowns() const override;
+    /// Work of loads and of supports.
+    StepWork
+    commit(const Trial &step) override;
 
     void
     set_active_blocks(const std::vector<bool> &is_active,
                       const std::vector<bool> &is_held) override;
-
-    std::vector<double>
-    events() const override;
-
-    void
-    pass_events(double t) override;
-
-    /// The stiffness of the solid and its ties in the undeformed state, without supports: those
-    /// that move would be held back by a damping that acts on the velocity.
-    const Matrix &
-    stiffness_at_rest() override;
-
-    double
-    work_of_supports(const Vector &u,
-                     double        t,
-                     double        t_0,
-                     double        t_1) override;
 
   protected:
     /**
@@ -100,10 +67,28 @@ namespace NMM
     LoadAmplitudes
     amplitudes_between(double t_0, double t_1) const;
 
+    /// Write the loads at @p u and @p t [s], inertia forces of a moving base included, into
+    /// @p forces (owned unknowns) [N/m].
+    virtual void
+    external_forces(const Vector &u, double t, Vector &forces) = 0;
+
+    /// Work that supports do [J/m] by moving from their positions at @p t_0 to those at @p t_1, with
+    /// the forces at the displacements @p u and the time @p t [s].
+    virtual double
+    work_of_supports(const Vector &u, double t, double t_0, double t_1);
+
+    /// The same with the conserving forces of a step, which @p mean is the middle of.
+    virtual double
+    work_of_supports_between(const Trial &step, const Vector &mean) = 0;
+
     /// Energy of displacement conditions, ties and fixed points at @p u with the given amplitudes
-    /// [J/m]. Invalidates the residual.
+    /// [J/m].
     virtual double
     energy_of_conditions(const Vector &u, const LoadAmplitudes &amplitudes) = 0;
+
+    /// Set fingerprint(); to be called at the end of constructors.
+    void
+    set_fingerprint();
 
     /// Pass amplitudes on to the elasticity. Returns whether they differ from the last ones.
     bool
@@ -117,11 +102,11 @@ namespace NMM
     void
     add_base_force(double t, double scale, Vector &forces) const;
 
-    /// A number that changes whenever an event or absent blocks change the forces.
+    /// A number that changes whenever forces or tangents that were known are no longer so.
     unsigned int
     version() const
     {
-      return n_passed + (loading.releases.size() + 1) * n_departures;
+      return n_passed + (loading.releases.size() + 1) * n_changes;
     }
 
     /// Forces of the solid.
@@ -131,103 +116,81 @@ namespace NMM
     /// The undeformed state: locally relevant unknowns, zero except for inhomogeneities of the
     /// constraints [m].
     Vector zero;
-    /// Owned unknowns of absent blocks.
-    dealii::IndexSet absent;
+    /// See layout().
+    ModelLayout unknowns;
 
   private:
-    void
-    check_loading() const;
-
     void
     set_blocks();
 
     void
     set_mass_of_translation();
 
-    /// Number of releases passed so far, and of calls of set_absent_blocks().
-    unsigned int n_passed = 0, n_departures = 0;
-    /// See blocks_of_unknowns(). Empty on several ranks, or if there is only one block.
-    std::vector<unsigned int> unknown_to_block;
-    Matrix                    mass_matrix;
-    Vector                    positions, mass_of_translation[2];
-    ModelLayout               unknowns;
-    LoadAmplitudes            current;
-    double                    passed_until;
+    void
+    set_absent_unknowns();
+
+    /// Number of releases passed so far, and of changes of absent blocks or of the tangent by
+    /// damp_by_stiffness().
+    unsigned int   n_passed = 0, n_changes = 0;
+    Matrix         mass_matrix;
+    Vector         positions, mass_of_translation[2];
+    LoadAmplitudes current;
+    Presence       presence;
+    /// Loads at the end of the last step that was committed [N/m] and its time [s], unless they
+    /// have changed since.
+    Vector                last_loads;
+    std::optional<double> last_loads_at;
   };
 
 
   /// The dynamic model in total Lagrangian kinematics, see FiniteElasticity. In conserving steps
   /// stiffness-proportional damping acts on the rate of the Green-Lagrange strain, and hence
   /// neither on rigid rotation nor on supports and ties.
-  class FiniteModel : public ElasticModel,
-                      public SteppedModel,
-                      public TangentModel
+  class FiniteModel : public ElasticModel
   {
   public:
-    /// See MechanicalModel::Vector.
-    using Vector = MechanicalModel::Vector;
-    /// See MechanicalModel::Matrix.
-    using Matrix = MechanicalModel::Matrix;
-
     /// See the constructor of ElasticModel for arguments and errors.
     FiniteModel(FiniteElasticity           &elasticity,
                 const QuadratureCollection &mass_quadrature,
                 Loading                     loading = {});
 
-    bool
-    set_stiffness_damping(double coefficient) override;
+    const Matrix *
+    damp_by_stiffness(double coefficient, bool is_conserving) override;
 
     ForceProperties
-    force_properties() const override;
+    properties() const override;
 
     Deformation
-    assemble(const Vector &u,
-             double        t,
-             Tangent       tangent,
-             const Vector *increment = nullptr) override;
-
-    Deformation
-    assemble_between(const Vector &begin,
-                     const Vector &end,
-                     double        t_0,
-                     double        t_1,
-                     Tangent       tangent) override;
-
-    const Vector &
-    residual() const override;
-
-    Energies
-    energies() const override;
+    assemble(const Trial &trial, AssembledForces &forces) override;
 
     /// A step is faulty if displacement conditions or ties are violated by a considerable part of
     /// the size of an element, see FiniteElasticity::largest_jump().
     StepFault
     find_fault(const Vector &end) override;
 
-    double
-    accept_step(const Vector &end, double t) override;
+    StepWork
+    commit(const Trial &step) override;
 
+  private:
     void
     external_forces(const Vector &u, double t, Vector &forces) override;
 
     double
-    work_of_supports_between(const Vector &begin,
-                             const Vector &end,
-                             const Vector &mean,
-                             double        t_0,
-                             double        t_1) override;
+    work_of_supports_between(const Trial &step, const Vector &mean) override;
 
-  private:
     double
     energy_of_conditions(const Vector         &u,
                          const LoadAmplitudes &amplitudes) override;
+
+    Deformation
+    assemble_elasticity(const Trial &trial);
 
     Vector       sum, known_forces;
     unsigned int known_at  = 0;
     bool         has_known = false;
     bool         has_follower;
     /// Coefficient of the stiffness in the damping [s], and the energy that damping dissipates in
-    /// the step of the last assemble_between() [J/m].
+    /// the step of the last conserving forces [J/m].
     double damping = 0., dissipated_between = 0.;
   };
 
@@ -241,19 +204,14 @@ namespace NMM
    * the work of loads and that of moving supports are told apart. K changes with releases and
    * absent blocks only; each part of f is assembled when its amplitudes change.
    *
-   * Inelastic materials add their forces (InelasticTerms). assemble_between() uses the mean of
+   * Inelastic materials add their forces (InelasticTerms). Conserving forces contain the mean of
    * these forces at both ends of a step. The energy dissipated in a step is the work of that mean
    * minus the change of the stored energy, so that the energy balance closes.
    * Stiffness-proportional damping uses the stiffness of the elastic solid.
    */
-  class SmallModel : public ElasticModel, public SteppedModel
+  class SmallModel : public ElasticModel
   {
   public:
-    /// See MechanicalModel::Vector.
-    using Vector = MechanicalModel::Vector;
-    /// See MechanicalModel::Matrix.
-    using Matrix = MechanicalModel::Matrix;
-
     /// See the constructor of ElasticModel for arguments and errors.
     SmallModel(FiniteElasticity           &elasticity,
                const QuadratureCollection &mass_quadrature,
@@ -261,55 +219,36 @@ namespace NMM
                const GhostPenalty         *ghost_penalty = nullptr);
     ~SmallModel() override;
 
-    const Matrix &
-    stiffness_at_rest() override;
+    void
+    begin_step(const StepBegin &step) override;
 
-    const Matrix &
-    tangent() const override;
+    ForceProperties
+    properties() const override;
 
-    double
-    force_scale() const override;
+    Deformation
+    assemble(const Trial &trial, AssembledForces &sum) override;
+
+    StepWork
+    commit(const Trial &step) override;
 
     void
-    begin_step(const Vector &begin,
-               const Vector &predicted,
-               double        t,
-               double        h) override;
-
-    double
-    accept_step(const Vector &end, double t) override;
-
-    std::vector<char>
-    internal_state() const override;
+    save(internal::ByteWriter &archive) const override;
 
     void
-    restore_internal_state(const std::vector<char> &state) override;
+    restore(internal::ByteReader &archive) override;
 
     /// Forces of inelastic materials, or null if all materials are elastic.
     InelasticTerms *
     inelastic_terms() const;
 
-    ForceProperties
-    force_properties() const override;
-
-    Deformation
-    assemble(const Vector &u,
-             double        t,
-             Tangent       tangent,
-             const Vector *increment = nullptr) override;
-
-    Deformation
-    assemble_between(const Vector &begin,
-                     const Vector &end,
-                     double        t_0,
-                     double        t_1,
-                     Tangent       tangent) override;
-
-    const Vector &
-    residual() const override;
-
-    Energies
-    energies() const override;
+  private:
+    /// A part of f [N/m] and the amplitudes that it was assembled for.
+    struct Part
+    {
+      Vector         forces;
+      LoadAmplitudes amplitudes;
+      bool           is_known = false;
+    };
 
     void
     external_forces(const Vector &u, double t, Vector &forces) override;
@@ -321,20 +260,7 @@ namespace NMM
                      double        t_1) override;
 
     double
-    work_of_supports_between(const Vector &begin,
-                             const Vector &end,
-                             const Vector &mean,
-                             double        t_0,
-                             double        t_1) override;
-
-  private:
-    /// A part of f [N/m] and the amplitudes that it was assembled for.
-    struct Part
-    {
-      Vector         forces;
-      LoadAmplitudes amplitudes;
-      bool           is_known = false;
-    };
+    work_of_supports_between(const Trial &step, const Vector &mean) override;
 
     double
     energy_of_conditions(const Vector         &u,
@@ -360,22 +286,26 @@ namespace NMM
                       double                        t_0,
                       double                        t_1) const;
 
-    /// Add @p share times the inelastic forces at @p u to the forces.
+    /// Add @p share times the inelastic forces at @p u to the forces, and their tangent and energy to
+    /// @p sum.
     Deformation
-    add_inelastic(const Vector &u, double share, bool with_tangent);
+    add_inelastic(const Vector    &u,
+                  double           share,
+                  bool             with_tangent,
+                  AssembledForces &sum);
+
+    /// Work of friction within the material in the step [J/m].
+    double
+    accept_inelastic(const Trial &step);
 
     Vector       owned, forces;
     unsigned int stiffness_at  = 0;
     bool         has_stiffness = false;
     /// Forces of initial stress, and these together with loads or with prescribed displacements.
     Part initial, with_loads, with_supports;
-    /// Energies and force scale [N/m] of the last assemble(), without inelastic terms, and the force
-    /// scale of the loads [N/m].
-    Energies                        elastic_energies;
+    /// Force scale of the last forces at one time, without inelastic terms, and of loads [N/m].
     double                          elastic_scale = 0., scale_of_loads = 0.;
     std::unique_ptr<InelasticTerms> inelastic;
-    /// Tangent of the last assembly if there are inelastic materials; null: that of `elasticity`.
-    const Matrix *current_tangent = nullptr;
     /// Inelastic forces [N/m] and sums, displacements [m] and time [s] at the beginning of the step.
     Vector                 forces_at_begin, begin_of_step;
     InelasticTerms::Totals totals_at_begin;
@@ -385,7 +315,7 @@ namespace NMM
 
   /// Interpolate a velocity field v(X) [m/s], given for each block (ManifoldMesh::block()), at the
   /// nodes of the covers. Returns owned unknowns, which satisfy @p constraints.
-  MechanicalModel::Vector
+  ForceTerm::Vector
   interpolate_velocity(
     const CoverSystem                                             &covers,
     const dealii::AffineConstraints<double>                       &constraints,

@@ -23,9 +23,10 @@
  *
  * | file (in nmm/dynamics) | job |
  * |---|---|
- * | mechanical_model.h | interface of models to time integration: mass, forces, events, blocks |
- * | elastic_models.h | the model of small displacements and the total Lagrangian one |
- * | contact_model.h | adds contact to a model |
+ * | force_term.h | interface of one kind of force, and the unknowns of a body |
+ * | mechanical_model.h | the forces of a body as a list of terms |
+ * | elastic_models.h | the term of a solid: small displacements, or total Lagrangian |
+ * | contact_term.h | the term of contact |
  * | loading.h | loads, releases and base acceleration as functions of time |
  * | time_scheme.h | coefficients of the time integration schemes |
  * | time_integrator.h | one time step, energy account, sleeping and leaving blocks |
@@ -37,8 +38,9 @@
  *
  * Order of calls:
  * @code
- * FiniteModel  body(elasticity, mass_quadrature, loading);
- * ContactModel model(body, contact);                     // only if blocks touch
+ * FiniteModel solid(elasticity, mass_quadrature, loading);
+ * ContactTerm touch(solid.layout(), contact);            // only if blocks touch
+ * MechanicalModel model(solid.layout(), {&solid, &touch});
  * TimeIntegrator integrator(model, TimeScheme::energy_momentum());
  * integrator.initialize(u, v);                           // otherwise undeformed and at rest
  * StepControlParameters parameters;
@@ -108,7 +110,7 @@ namespace NMM
   };
 
 
-  /// All data that a continuation needs besides SavedModel::internal_state(). Vectors hold owned
+  /// All data that a continuation needs besides MechanicalModel::internal_state(). Vectors hold owned
   /// unknowns.
   struct DynamicState
   {
@@ -124,7 +126,7 @@ namespace NMM
     /// accelerations are the mean ones of the last step.
     Vector u, v, a;
     /// @}
-    /// Time up to which events of the model have been passed [s]; see SupportModel::pass_events().
+    /// Time up to which events of the model have been passed [s]; see MechanicalModel::pass_events().
     double events_passed = 0.;
     /// Step that would be tried next, chosen by the step control; 0: none yet [s].
     double next_step = 0.;
@@ -167,7 +169,7 @@ namespace NMM
   struct Account
   {
     /// @{
-    /// Kinetic energy, strain energy and energy of conditions (MechanicalModel::Energies) of the
+    /// Kinetic energy, strain energy and energy of conditions (AssembledForces) of the
     /// state; external work, dissipated energy, energy of blocks that have left, work of closing
     /// forces and changes by cuts (EnergySums) since the start [J/m].
     double kinetic = 0., strain = 0., conditions = 0., external_work = 0.,
@@ -234,7 +236,7 @@ namespace NMM
     using Vector = MechanicalModel::Vector;
 
     /// Parameters of Newton's method for time steps. Residuals of rotated stiff bodies cannot be
-    /// reduced below about 1e-10 of force_scale().
+    /// reduced below about 1e-10 of the force scale.
     static NewtonParameters
     default_newton_parameters();
 
@@ -261,7 +263,7 @@ namespace NMM
 
     /// Continue from a state that state() returned. The steps that follow are bitwise the same as
     /// they were, if the internal state of the model has been restored before
-    /// (SavedModel::restore_internal_state()).
+    /// (MechanicalModel::restore_internal_state()).
     void
     restore(const DynamicState &state);
 
@@ -286,7 +288,7 @@ namespace NMM
     stop_motion();
 
     /**
-     * Remove blocks (ManifoldMesh::block()) for good, see BlockModel::set_absent_blocks(). Their
+     * Remove blocks (ManifoldMesh::block()) for good, see Presence. Their
      * energies, including that of contact with other blocks, count as `left`. Blocks that they
      * touched no longer feel their contact forces.
      * @throws InputError for a block that does not exist or has left already.

@@ -21,8 +21,8 @@ namespace NMM
     /// Coefficients of the formulas above [-], in the ranges that check() verifies.
     double beta = 0.25, gamma = 0.5, alpha_m = 0., alpha_f = 0.;
     /// @}
-    /// Whether the forces are those of MechanicalModel::assemble_between(), which depend on both
-    /// ends of the step, instead of r at u_{1 - alpha_f}.
+    /// Whether the forces are conserving (see Trial), which depend on both ends of the step, instead
+    /// of r at u_{1 - alpha_f}.
     bool is_conserving = false;
 
     /// Newmark's scheme. With beta = 1/4 and gamma = 1/2, the trapezoidal rule, it is
@@ -65,8 +65,8 @@ namespace NMM
 
 
   /// Coefficients of Rayleigh damping, C = mass M + stiffness K(u = 0), see
-  /// MechanicalModel::stiffness_at_rest(). K(u = 0) does not rotate with a body. In conserving
-  /// steps of `finite` kinematics the damping does, see TangentModel::set_stiffness_damping().
+  /// ForceTerm::damp_by_stiffness(). K(u = 0) does not rotate with a body. In conserving
+  /// steps of `finite` kinematics the damping does.
   struct RayleighDamping
   {
     /// Coefficient of the mass matrix, not negative [1/s].

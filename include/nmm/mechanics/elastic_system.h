@@ -79,18 +79,6 @@ namespace NMM
              Tangent       tangent,
              const Vector *increment) override;
 
-    const Vector &
-    residual() const override;
-
-    const dealii::TrilinosWrappers::SparseMatrix &
-    tangent() const override;
-
-    bool
-    tangent_is_symmetric() const override;
-
-    double
-    force_scale() const override;
-
     /// Strain energy of the last assembly; in small displacements the energy of displacement
     /// conditions and ties is included [J/m].
     double
@@ -101,6 +89,9 @@ namespace NMM
     void
     find_initial_imbalance();
 
+    Deformation
+    assemble_linearized(const Vector &u, bool with_tangent);
+
     FiniteElasticity *elastic;
     bool              linearized;
     double            factor = 0.;
@@ -110,10 +101,9 @@ namespace NMM
     bool   has_stiffness = false, has_load = false;
     Vector owned, load, sum;
     /// r_0 [N/m]; empty if all materials are elastic.
-    Vector                                        initial_imbalance;
-    std::unique_ptr<InelasticTerms>               inelastic;
-    const dealii::TrilinosWrappers::SparseMatrix *stiffness = nullptr;
-    double                                        scale = 0., energy = 0.;
+    Vector                          initial_imbalance;
+    std::unique_ptr<InelasticTerms> inelastic;
+    double                          scale = 0., energy = 0.;
   };
 } // namespace NMM
 

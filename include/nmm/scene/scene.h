@@ -2,7 +2,7 @@
 #define nmm_scene_scene_h
 
 #include <nmm/contact/contact.h>
-#include <nmm/dynamics/contact_model.h>
+#include <nmm/dynamics/contact_term.h>
 #include <nmm/dynamics/loading.h>
 #include <nmm/geometry/physical_mesh.h>
 #include <nmm/scene/parameter_tree.h>

@@ -48,6 +48,37 @@
 
 namespace NMM
 {
+  /// Equations r(u) = 0 as they were last assembled. Vectors and matrices belong to the system.
+  struct AssembledSystem
+  {
+    /// r(u) on owned unknowns, 0 for constrained ones [N/m].
+    const dealii::TrilinosWrappers::MPI::Vector *residual = nullptr;
+    /// Magnitude of the forces that balance each other, to which |r| is compared [N/m].
+    double force_scale = 0.;
+    /// Estimated norm of the rounding of the residual [N/m]: no solution has a smaller residual.
+    /// 0: it is not known.
+    double force_rounding = 0.;
+
+    /// @name The last assembly with a tangent
+    /// @{
+
+    /// K(u) = dr/du [N/m^2].
+    const dealii::TrilinosWrappers::SparseMatrix *tangent = nullptr;
+    /// The same as a body matrix of the blocks, without entries for blocks that are not coupled;
+    /// `tangent` is not used then. Null: `tangent` is the matrix.
+    const BodyMatrix *body_tangent = nullptr;
+    /// Whether K is symmetric, so that a symmetric factorization may be used.
+    bool is_symmetric = false;
+    /// A number that changes whenever K has a new sparsity pattern. Only the rows that were
+    /// assembled last have valid values then.
+    unsigned int pattern_version = 0;
+    /// Pairs of blocks that K couples in rows of active blocks; a pair may occur several times.
+    /// Null: unknown; the nonzero entries of K tell.
+    const std::vector<BlockPair> *coupled_blocks = nullptr;
+    /// @}
+  };
+
+
   /// The interface of equations r(u) = 0 that NewtonSolver solves: static equilibrium at one load
   /// factor, or a time step.
   class NonlinearSystem
@@ -67,36 +98,25 @@ namespace NMM
     virtual Deformation
     assemble(const Vector &u, Tangent tangent, const Vector *increment) = 0;
 
-    /// r(u) of the last assembly on owned unknowns, 0 for constrained ones [N/m].
-    virtual const Vector &
-    residual() const = 0;
-
-    /// K(u) = dr/du of the last assembly with a tangent [N/m^2].
-    virtual const dealii::TrilinosWrappers::SparseMatrix &
-    tangent() const = 0;
-
-    /// Whether tangent() is symmetric, so that a symmetric factorization may be used.
-    virtual bool
-    tangent_is_symmetric() const = 0;
-
-    /// Magnitude of the forces that balance each other, to which |r| is compared [N/m].
-    virtual double
-    force_scale() const = 0;
-
-    /// Estimated norm of the rounding of residual() in the last assembly [N/m]: no solution has a smaller
-    /// residual. 0: it is not known.
-    virtual double
-    force_rounding() const
+    /// The result of the last assembly.
+    const AssembledSystem &
+    assembled() const
     {
-      return 0.;
+      return result;
     }
 
-    /// A number that changes whenever tangent() has a new sparsity pattern. Only the rows that
-    /// were assembled last have valid values then.
-    virtual unsigned int
-    pattern_version() const
+    /// AssembledSystem::residual.
+    const Vector &
+    residual() const
     {
-      return 0;
+      return *result.residual;
+    }
+
+    /// AssembledSystem::tangent.
+    const dealii::TrilinosWrappers::SparseMatrix &
+    tangent() const
+    {
+      return *result.tangent;
     }
 
     /// @name Blocks, which are coupled by forces only where they touch
@@ -108,13 +128,8 @@ namespace NMM
     virtual const std::vector<unsigned int> &
     blocks_of_unknowns() const;
 
-    /// For each block, whether it is held: it does not move, whatever acts on it. Empty: no block
-    /// is held.
-    virtual const std::vector<bool> &
-    held_blocks() const;
-
     /// From now on assemble() need be correct in the rows of these blocks only (empty: all).
-    /// Rows of inactive blocks and force_scale() are undefined, but tangent() stays regular.
+    /// Rows of inactive blocks and the force scale are undefined, but the tangent stays regular.
     virtual void
     set_active_blocks(const std::vector<bool> & /*is_active*/)
     {
@@ -128,14 +143,6 @@ namespace NMM
       return {};
     }
 
-    /// Pairs of blocks that the last assembly of tangent() has coupled in rows of active blocks;
-    /// a pair may occur several times. Null: unknown; the nonzero entries of tangent() tell.
-    virtual const std::vector<BlockPair> *
-    coupled_blocks() const
-    {
-      return nullptr;
-    }
-
     /// Tell the system that the next tangents belong to another state, so that rows assembled
     /// before need not be kept.
     virtual void
@@ -143,14 +150,20 @@ namespace NMM
     {
     }
 
-    /// The last tangent as a body matrix of blocks_of_unknowns(), without entries for blocks that
-    /// are not coupled; tangent() is not used then. Null: tangent() is the matrix.
-    virtual const BodyMatrix *
-    body_tangent() const
+    /// For each block, whether it is held: it does not move, whatever acts on it. Empty: no block
+    /// is held.
+    const std::vector<bool> &
+    held_blocks() const
     {
-      return nullptr;
+      return held;
     }
     /// @}
+
+  protected:
+    /// See assembled(); set by assemble().
+    AssembledSystem result;
+    /// See held_blocks().
+    std::vector<bool> held;
   };
 
 
@@ -160,7 +173,7 @@ namespace NMM
   /// Tolerances and strategy of NewtonSolver.
   struct NewtonParameters
   {
-    /// Convergence requires |r| <= residual_tolerance * force_scale() [-], or |r| <= force_rounding().
+    /// Convergence requires |r| <= residual_tolerance times the force scale [-], or |r| <= the rounding of forces.
     double residual_tolerance = 1e-9;
     /// Convergence also requires |r . du| <= energy_tolerance * the largest |r . du| of all
     /// iterations so far, du being the last correction [-].
@@ -198,7 +211,7 @@ namespace NMM
     /// An entry of the history.
     struct Iteration
     {
-      /// |r| / force_scale() of the active unknowns before the correction [-].
+      /// |r| / force scale of the active unknowns before the correction [-].
       double relative_residual = 0.;
       /// Sum over all active groups of |r . du|, r being the residual before the correction du
       /// [J/m].
@@ -217,7 +230,7 @@ namespace NMM
     std::string reason;
     /// One entry per iteration; a failed one is the last.
     std::vector<Iteration> iterations;
-    /// |r| / force_scale() after the last iteration [-].
+    /// |r| / force scale after the last iteration [-].
     double relative_residual = 0.;
     /// Step lengths that line searches tried and did not take, of all iterations and groups.
     unsigned int n_line_search_cuts = 0;
@@ -259,7 +272,7 @@ namespace NMM
    * others.
    *
    * A residual is a sum of forces that have been rounded. Its floor is estimated from
-   * NonlinearSystem::force_rounding(), for example of stiff springs that multiply the rounding of gaps,
+   * AssembledSystem::force_rounding, for example of stiff springs that multiply the rounding of gaps,
    * and from the rounding of the unknowns, @f$ \epsilon\,(\sum_{ij} (K_{ij} u_j)^2)^{1/2} @f$, for example
    * in cells that are much thinner than the displacements are large. A residual below this floor, but
    * at most ten times the tolerance, counts as converged once an iteration has not halved it.

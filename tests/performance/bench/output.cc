@@ -59,28 +59,27 @@ namespace NMM
         model.problem.gravity             = Tensor<1, 2>({0., -9.81});
         model.problem.boundary_conditions = {
           condition(Type::displacement, "left")};
-        FiniteElasticity                 elasticity(*model.covers,
+        FiniteElasticity              elasticity(*model.covers,
                                     *model.quadrature,
                                     model.constraints,
                                     model.problem,
                                     /* may_float = */ true);
-        std::unique_ptr<MechanicalModel> mechanics;
+        std::unique_ptr<ElasticModel> solid;
         if (is_finite)
-          mechanics =
-            std::make_unique<FiniteModel>(elasticity, *model.quadrature);
+          solid = std::make_unique<FiniteModel>(elasticity, *model.quadrature);
         else
-          mechanics =
-            std::make_unique<SmallModel>(elasticity, *model.quadrature);
-        TimeIntegrator integrator(*mechanics, TimeScheme::newmark());
+          solid = std::make_unique<SmallModel>(elasticity, *model.quadrature);
+        MechanicalModel mechanics(solid->layout(), {solid.get()});
+        TimeIntegrator  integrator(mechanics, TimeScheme::newmark());
         integrator.initialize();
 
         const std::filesystem::path folder =
           std::filesystem::temp_directory_path() / "nmm-bench-output";
         const OutputDirectory directory(folder);
         directory.create();
-        Vector relevant(mechanics->locally_owned(),
-                        mechanics->locally_relevant(),
-                        mechanics->communicator());
+        Vector relevant(mechanics.layout().locally_owned,
+                        mechanics.layout().locally_relevant,
+                        mechanics.layout().communicator);
         model.lap();
         row.factorization = row.solution = row.output = row.iterations = 0.;
         for (unsigned int file = 0; file < n_files; ++file)

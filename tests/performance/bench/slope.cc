@@ -4,7 +4,7 @@
 #include <nmm/scene/scene.h>
 
 #include "measure.h"
-#include "timed_model.h"
+#include "timed_term.h"
 #include <cmath>
 #include <support/contact_bars/moving_bodies.h>
 
@@ -30,7 +30,7 @@ namespace NMM
             if (!bodies.constraints.is_constrained(2 * k + c))
               one(2 * k + c) = 1.;
           one.compress(dealii::VectorOperation::insert);
-          bodies.mechanics->mass().vmult(product, one);
+          bodies.solid->layout().mass->vmult(product, one);
           sum[c] = product * u;
           mass   = product * one;
         }
@@ -70,10 +70,12 @@ namespace NMM
         const Vector u = bodies.find_rest(1e-3, 1e-7);
         row.solution   = watch.lap();
 
-        TimedModel   elastic(*bodies.mechanics);
-        ContactModel with_contact(elastic, *bodies.contact, switches.releases);
-        TimedModel   all(with_contact);
-        TimeIntegrator integrator(all, TimeScheme::energy_momentum());
+        ContactTerm     contact(bodies.solid->layout(),
+                            *bodies.contact,
+                            switches.releases);
+        TimedTerm       elastic(*bodies.solid), touch(contact);
+        MechanicalModel all(bodies.solid->layout(), {&elastic, &touch});
+        TimeIntegrator  integrator(all, TimeScheme::energy_momentum());
         integrator.initialize(u, bodies.zero());
         StepControlParameters steps;
         steps.initial_step = step;
@@ -93,8 +95,8 @@ namespace NMM
         watch.lap();
         row.total        = watch.total();
         row.assembly     = elastic.forces.wall_time();
-        row.contact      = all.forces.wall_time() - row.assembly;
-        row.search       = all.steps.wall_time() - elastic.steps.wall_time();
+        row.contact      = touch.forces.wall_time();
+        row.search       = touch.steps.wall_time();
         row.elements     = bodies.mesh.n_elements();
         row.unknowns     = 2. * (bodies.covers.n_covers() -
                              bodies.aggregation.cover_to_root.size());

@@ -29,17 +29,27 @@ namespace NMM
     {
       integrator.reset();
       model.reset();
-      mechanics.reset();
+      touch.reset();
+      solid.reset();
       Bodies::start(parameters, kinematics == Kinematics::small);
       if (kinematics == Kinematics::small)
-        mechanics = std::make_unique<SmallModel>(*elasticity,
-                                                 quadrature,
-                                                 std::move(loading));
+        make_model(std::make_unique<SmallModel>(*elasticity,
+                                                quadrature,
+                                                std::move(loading)));
       else
-        mechanics = std::make_unique<FiniteModel>(*elasticity,
-                                                  quadrature,
-                                                  std::move(loading));
-      model = std::make_unique<ContactModel>(*mechanics, *contact);
+        make_model(std::make_unique<FiniteModel>(*elasticity,
+                                                 quadrature,
+                                                 std::move(loading)));
+    }
+
+
+    void
+    MovingBodies::make_model(std::unique_ptr<ElasticModel> solid_in)
+    {
+      solid = std::move(solid_in);
+      touch = std::make_unique<ContactTerm>(solid->layout(), *contact);
+      model = std::make_unique<MechanicalModel>(
+        solid->layout(), std::vector<ForceTerm *>{solid.get(), touch.get()});
     }
 
 
@@ -156,7 +166,7 @@ namespace NMM
     {
       const auto &blocks = cover_to_block();
       Vector      weighed(field);
-      mechanics->mass().vmult(weighed, field);
+      solid->layout().mass->vmult(weighed, field);
       constraints.set_zero(weighed);
       Tensor<1, 2> sum;
       for (const auto k : covers.locally_owned_covers())
@@ -175,7 +185,7 @@ namespace NMM
     {
       const auto &blocks = cover_to_block();
       Vector      momentum(velocity);
-      mechanics->mass().vmult(momentum, velocity);
+      solid->layout().mass->vmult(momentum, velocity);
       constraints.set_zero(momentum);
       double sum = 0.;
       for (const auto k : covers.locally_owned_covers())
@@ -213,7 +223,7 @@ namespace NMM
     MovingBodies::angular_velocity(const unsigned int block)
     {
       const double        m        = mass(block);
-      const Vector       &at_rest  = mechanics->reference_positions();
+      const Vector       &at_rest  = *solid->layout().reference_positions;
       const Tensor<1, 2>  center   = weigh(block, at_rest) / m;
       Vector              position = at_rest;
       const DynamicState &state    = integrator->state();

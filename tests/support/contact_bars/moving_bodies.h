@@ -1,7 +1,7 @@
 #ifndef nmm_tests_support_contact_bars_moving_bodies_h
 #define nmm_tests_support_contact_bars_moving_bodies_h
 
-#include <nmm/dynamics/contact_model.h>
+#include <nmm/dynamics/contact_term.h>
 #include <nmm/dynamics/elastic_models.h>
 #include <nmm/dynamics/relaxation.h>
 
@@ -108,9 +108,15 @@ namespace NMM
       Tensor<1, 2>
       force_of(const std::string &master) const;
 
-      std::unique_ptr<MechanicalModel> mechanics;
-      std::unique_ptr<ContactModel>    model;
+      /// The model is the sum of the terms of solid and contact.
+      std::unique_ptr<ElasticModel>    solid;
+      std::unique_ptr<ContactTerm>     touch;
+      std::unique_ptr<MechanicalModel> model;
       std::unique_ptr<TimeIntegrator>  integrator;
+
+      /// Make the model of @p solid and the contact.
+      void
+      make_model(std::unique_ptr<ElasticModel> solid);
 
     private:
       /// Sums of weights e_b^T M f for a block: f's two components.

@@ -49,14 +49,12 @@ namespace NMM
       const Vector rest(statics.statics->solution());
 
       // the contact goes on from where the statics left it
-      bodies.mechanics = stack.kinematics == Kinematics::small
-                           ? std::unique_ptr<MechanicalModel>(
-                               std::make_unique<SmallModel>(*bodies.elasticity,
-                                                            bodies.quadrature))
-                           : std::make_unique<FiniteModel>(*bodies.elasticity,
-                                                           bodies.quadrature);
-      bodies.model =
-        std::make_unique<ContactModel>(*bodies.mechanics, *bodies.contact);
+      if (stack.kinematics == Kinematics::small)
+        bodies.make_model(
+          std::make_unique<SmallModel>(*bodies.elasticity, bodies.quadrature));
+      else
+        bodies.make_model(
+          std::make_unique<FiniteModel>(*bodies.elasticity, bodies.quadrature));
       Vector begin(bodies.zero());
       begin = rest;
       bodies.integrate(TimeScheme::energy_momentum(), begin, bodies.zero());

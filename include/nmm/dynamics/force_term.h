@@ -1,0 +1,347 @@
+#ifndef nmm_dynamics_force_term_h
+#define nmm_dynamics_force_term_h
+
+#include <nmm/base/assembly.h>
+#include <nmm/base/step_fault.h>
+#include <nmm/base/types.h>
+#include <nmm/linear_algebra/body_matrix.h>
+
+#include <deal.II/base/index_set.h>
+#include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace NMM
+{
+  namespace internal
+  {
+    class ByteReader;
+    class ByteWriter;
+  } // namespace internal
+
+
+  /**
+   * The unknowns of a body: their distribution over ranks, constraints, positions, masses and
+   * blocks. They come in pairs: u_{2k} and u_{2k+1} are the components [m] of the displacement of
+   * the reference position X_k. Rigid motions are represented exactly. Constrained unknowns follow
+   * from the constraints; equations hold for free ones. All quantities are per unit thickness.
+   */
+  struct ModelLayout
+  {
+    /// Ranks that share the unknowns.
+    MPI_Comm communicator = MPI_COMM_SELF;
+    /// @{
+    /// Unknowns that this rank owns, and those whose values it needs for an assembly.
+    dealii::IndexSet locally_owned, locally_relevant;
+    /// @}
+    /// Constraints of u; their inhomogeneities do not change in time. Increments of u satisfy the
+    /// homogeneous constraints.
+    const dealii::AffineConstraints<double> *constraints = nullptr;
+    /// Reference positions of the unknowns: entries 2k and 2k + 1 are the coordinates of X_k [m];
+    /// owned unknowns.
+    const dealii::TrilinosWrappers::MPI::Vector *reference_positions = nullptr;
+    /// Mass matrix M [kg/m]. The rows of constrained unknowns have an arbitrary diagonal entry.
+    const dealii::TrilinosWrappers::SparseMatrix *mass = nullptr;
+    /// Number of blocks, absent ones included; 0 if there are none to distinguish.
+    unsigned int n_blocks = 0;
+    /// Block of each owned unknown; empty if all unknowns are solved together, as on several
+    /// ranks. See NonlinearSystem::blocks_of_unknowns().
+    std::vector<unsigned int> blocks_of_unknowns;
+    /// Owned unknowns of absent blocks. Only this changes, see ForceTerm::set_presence().
+    dealii::IndexSet absent_unknowns;
+  };
+
+
+  /// Properties of forces r(u, t) that solvers may exploit.
+  struct ForceProperties
+  {
+    /// Whether r is linear in u and its tangent changes at events only.
+    bool is_linear = true;
+    /// @{
+    /// Whether the tangents of forces at one time and of conserving forces are symmetric.
+    bool is_symmetric = true, is_symmetric_between = true;
+    /// @}
+  };
+
+
+  /// Which parts of a body are there.
+  struct Presence
+  {
+    /// Events up to and including this time have happened [s].
+    double events_passed = std::numeric_limits<double>::lowest();
+    /**
+     * For each block (ManifoldMesh::block()), whether it is absent; empty: none is. Absent blocks
+     * exert and feel no forces, they are not assembled, nothing touches them, and the energy that
+     * their contacts held is lost. Their unknowns stay where they are: their equations keep the
+     * rows of the mass matrix, with a right-hand side of zero.
+     */
+    std::vector<bool> absent_blocks;
+  };
+
+
+  /// The beginning of a step.
+  struct StepBegin
+  {
+    /// Displacements at the beginning, locally relevant unknowns [m].
+    const dealii::TrilinosWrappers::MPI::Vector &u;
+    /// Approximate displacements at the end [m].
+    const dealii::TrilinosWrappers::MPI::Vector &predicted;
+    /// Time at the beginning, and length of the step [s].
+    double time, length;
+  };
+
+
+  /**
+   * Displacements for which forces are assembled, either those at one time, or the conserving
+   * forces of a step. The work of conserving internal forces along u_1 - u_0 is the change of the
+   * strain energy, and they exert no moment in the mean position. Loads are then those of the mean
+   * time, and tangents are derivatives with respect to the mean displacement at fixed u_0.
+   */
+  struct Trial
+  {
+    /// See NonlinearSystem::Vector.
+    using Vector = dealii::TrilinosWrappers::MPI::Vector;
+
+    /// Displacements u_1, locally relevant unknowns [m].
+    const Vector *end = nullptr;
+    /// Their time t_1 [s].
+    double end_time = 0.;
+    /// Displacements u_0 at the beginning of the step; null if there is none [m].
+    const Vector *begin = nullptr;
+    /// Their time t_0 [s].
+    double begin_time = 0.;
+    /// Whether the forces of the step are conserving ones.
+    bool is_conserving = false;
+    /// Derivative that is assembled as well.
+    Tangent tangent = Tangent::none;
+    /// See NonlinearSystem::assemble(); may be null.
+    const Vector *increment = nullptr;
+    /// Factor by which a term may multiply a tangent of conserving forces, see
+    /// AssembledForces::scaled_tangent; 0: none may [-].
+    double tangent_factor = 0.;
+
+    /// Forces of the displacements @p u at the time @p t [s].
+    static Trial
+    at(const Vector &u,
+       const double  t,
+       const Tangent tangent   = Tangent::none,
+       const Vector *increment = nullptr)
+    {
+      Trial trial;
+      trial.end       = &u;
+      trial.end_time  = t;
+      trial.tangent   = tangent;
+      trial.increment = increment;
+      return trial;
+    }
+
+    /// The step from @p begin at @p t_0 to @p end at @p t_1 [s].
+    static Trial
+    step(const Vector &begin,
+         const Vector &end,
+         const double  t_0,
+         const double  t_1,
+         const bool    is_conserving)
+    {
+      Trial trial         = at(end, t_1);
+      trial.begin         = &begin;
+      trial.begin_time    = t_0;
+      trial.is_conserving = is_conserving;
+      return trial;
+    }
+  };
+
+
+  /// The sum of the forces r = internal forces - loads that terms have assembled. Each term adds
+  /// its own; vectors and matrices belong to the term that was the last to write them.
+  struct AssembledForces
+  {
+    /// r on owned unknowns, 0 for constrained ones [N/m].
+    dealii::TrilinosWrappers::MPI::Vector *residual = nullptr;
+    /// Magnitude of the forces that balance each other [N/m].
+    double scale = 0.;
+    /// Estimated norm of the rounding of the residual [N/m]; 0: it is not known.
+    double rounding = 0.;
+    /// @{
+    /// Stored energies of the material, and of displacement conditions, ties, springs and
+    /// contacts [J/m]; undefined for conserving forces.
+    double strain_energy = 0., energy_of_conditions = 0.;
+    /// @}
+
+    /// K = dr/du of the last assembly with a tangent [Pa].
+    const dealii::TrilinosWrappers::SparseMatrix *tangent = nullptr;
+    /// K times Trial::tangent_factor in a matrix that the caller may add entries to, which saves
+    /// another one. Such entries are lost when that row is reassembled, and stay otherwise. Null:
+    /// only `tangent` is there.
+    dealii::TrilinosWrappers::SparseMatrix *scaled_tangent = nullptr;
+    /// The same as a body matrix, if it was assembled as one instead; otherwise null.
+    BodyMatrix *body_tangent = nullptr;
+    /// A number that changes whenever K has a new sparsity pattern.
+    unsigned int pattern_version = 0;
+    /// See AssembledSystem::coupled_blocks; null: unknown.
+    const std::vector<BlockPair> *coupled_blocks = nullptr;
+  };
+
+
+  /// What the forces of a term do in a step [J/m].
+  struct StepWork
+  {
+    /// Work of loads, the inertia forces of a moving base included.
+    double loads = 0.;
+    /**
+     * Work of supports that move from their positions at the beginning to those at the end. The
+     * account of conserving forces is exact if their work and this one add up to the change of the
+     * energy of conditions.
+     */
+    double supports = 0.;
+    /// Energy that the term has dissipated.
+    double dissipated = 0.;
+  };
+
+
+  /**
+   * One kind of force on a body: a part of r in
+   * @f[ M\ddot u + C\dot u + r(u,t) = 0. @f]
+   * A term knows no other term and no solver. Order of calls: begin_step(), assemble() as often
+   * as needed, find_fault(), and commit() if the step is accepted; otherwise begin_step() again.
+   * A term that remembers nothing from step to step has only assemble(). All functions are
+   * collective.
+   */
+  class ForceTerm
+  {
+  public:
+    /// Distributed vector of displacements [m], velocities [m/s] or forces [N/m].
+    using Vector = dealii::TrilinosWrappers::MPI::Vector;
+    /// Distributed sparse matrix of the unknowns.
+    using Matrix = dealii::TrilinosWrappers::SparseMatrix;
+
+    virtual ~ForceTerm() = default;
+
+    /// Prepare a step.
+    virtual void
+    begin_step(const StepBegin & /*step*/)
+    {
+    }
+
+    /// Add the forces of a trial and, unless Trial::tangent is Tangent::none, their tangent to
+    /// @p sum, which has those of the terms before this one.
+    virtual Deformation
+    assemble(const Trial &trial, AssembledForces &sum) = 0;
+
+    /// Properties of the forces at present; contact, for example, makes them nonlinear as soon as
+    /// faces are near each other.
+    virtual ForceProperties
+    properties() const = 0;
+
+    /// Reason why the step to the displacements @p end must not be accepted, if any.
+    virtual StepFault
+    find_fault(const Vector & /*end*/)
+    {
+      return {};
+    }
+
+    /// Accept a step, whose forces were the last ones assembled, and return its work. What the
+    /// term remembers becomes that at the end. Invalidates the residual.
+    virtual StepWork
+    commit(const Trial & /*step*/)
+    {
+      return {};
+    }
+
+    /// Apply events, such as the removal of a support, and the absence of blocks to the forces of
+    /// all following assemblies.
+    virtual void
+    set_presence(const Presence & /*presence*/)
+    {
+    }
+
+    /**
+     * Let there be stiffness-proportional damping with the @p coefficient [s]; asked of the solid
+     * only. A term whose conserving forces contain it from now on, and whose commit() returns the
+     * energy that it dissipates, returns null. Otherwise it returns the stiffness of the solid at
+     * u = 0, without loads and without supports, which would be held back where they move [Pa]: the
+     * caller adds the damping, which then does not rotate with a body. Overwrites the tangent.
+     * @throws InputError for a term that cannot be damped, unless the coefficient is 0.
+     */
+    virtual const Matrix *
+    damp_by_stiffness(double coefficient, bool is_conserving);
+
+    /// @{
+    /// Save and restore all data besides u that a continuation needs; the same on all ranks.
+    virtual void
+    save(internal::ByteWriter & /*archive*/) const
+    {
+    }
+
+    virtual void
+    restore(internal::ByteReader & /*archive*/)
+    {
+    }
+    /// @}
+
+    /// Times at which the forces jump, e.g. because a support is removed [s].
+    const std::vector<double> &
+    events() const
+    {
+      return event_times;
+    }
+
+    /// A hash of what the forces depend on, to verify that a saved state fits. It does not depend
+    /// on the number of ranks.
+    std::uint64_t
+    fingerprint() const
+    {
+      return hash;
+    }
+
+  protected:
+    /// See events().
+    std::vector<double> event_times;
+    /// See fingerprint().
+    std::uint64_t hash = 0;
+  };
+
+
+  /// The interface of terms that can be assembled for some blocks only, which saves time where
+  /// most blocks have converged or sleep. MechanicalModel::blocks() calls it.
+  class BlockTerm
+  {
+  public:
+    virtual ~BlockTerm() = default;
+
+    /// From now on forces are needed in the rows of active blocks only (empty: all); other rows,
+    /// energies and the scale are undefined. Blocks in @p is_held do not move: they are
+    /// inactive, and take_touched_blocks() does not report them.
+    virtual void
+    set_active_blocks(const std::vector<bool> &is_active,
+                      const std::vector<bool> &is_held) = 0;
+
+    /// Blocks that are neither active nor held, and that have been in contact with an active one
+    /// since the last call of this function.
+    virtual std::vector<unsigned int>
+    take_touched_blocks()
+    {
+      return {};
+    }
+
+    /// For each block, whether it has a closed contact point at the beginning of the step. Empty:
+    /// no block has, or all blocks are solved together.
+    virtual std::vector<bool>
+    pressed_blocks() const
+    {
+      return {};
+    }
+
+    /// Rows of the tangent that have been assembled so far need not be kept.
+    virtual void
+    forget_tangent()
+    {
+    }
+  };
+} // namespace NMM
+
+#endif

@@ -1,0 +1,221 @@
+#include <nmm/base/exceptions.h>
+#include <nmm/dynamics/mechanical_model.h>
+
+#include <algorithm>
+#include <base/archive.h>
+#include <cmath>
+#include <utility>
+
+namespace NMM
+{
+  const ForceTerm::Matrix *
+  ForceTerm::damp_by_stiffness(const double coefficient, const bool)
+  {
+    AssertThrow(coefficient == 0.,
+                InputError("These forces cannot be damped by their stiffness",
+                           "",
+                           "choose 0 for that coefficient of damping"));
+    return nullptr;
+  }
+
+
+  void
+  BlockTerms::set_active_blocks(const std::vector<bool> &is_active,
+                                const std::vector<bool> &is_held)
+  {
+    for (BlockTerm *term : terms)
+      term->set_active_blocks(is_active, is_held);
+  }
+
+
+  std::vector<unsigned int>
+  BlockTerms::take_touched_blocks()
+  {
+    std::vector<unsigned int> touched;
+    for (BlockTerm *term : terms)
+      for (const unsigned int block : term->take_touched_blocks())
+        touched.push_back(block);
+    return touched;
+  }
+
+
+  std::vector<bool>
+  BlockTerms::pressed_blocks() const
+  {
+    std::vector<bool> pressed;
+    for (const BlockTerm *term : terms)
+    {
+      const std::vector<bool> of_term = term->pressed_blocks();
+      pressed.resize(std::max(pressed.size(), of_term.size()), false);
+      for (unsigned int b = 0; b < of_term.size(); ++b)
+        pressed[b] = pressed[b] || of_term[b];
+    }
+    return pressed;
+  }
+
+
+  void
+  BlockTerms::forget_tangent()
+  {
+    for (BlockTerm *term : terms)
+      term->forget_tangent();
+  }
+
+
+  MechanicalModel::MechanicalModel(const ModelLayout       &layout,
+                                   std::vector<ForceTerm *> terms_in)
+    : unknowns(&layout)
+    , terms(std::move(terms_in))
+  {
+    for (ForceTerm *term : terms)
+      if (auto *const of_blocks = dynamic_cast<BlockTerm *>(term))
+        block_terms.terms.push_back(of_blocks);
+    for (ForceTerm *term : terms)
+      term->set_presence(presence);
+  }
+
+
+  void
+  MechanicalModel::begin_step(const StepBegin &step)
+  {
+    for (ForceTerm *term : terms)
+      term->begin_step(step);
+  }
+
+
+  Deformation
+  MechanicalModel::assemble(const Trial &trial)
+  {
+    if (trial.tangent != Tangent::none)
+      sum = AssembledForces();
+    sum.scale = sum.rounding = sum.strain_energy = sum.energy_of_conditions =
+      0.;
+    for (ForceTerm *term : terms)
+      if (term->assemble(trial, sum) != Deformation::admissible)
+        return Deformation::inverted;
+    return Deformation::admissible;
+  }
+
+
+  ForceProperties
+  MechanicalModel::properties() const
+  {
+    ForceProperties all;
+    for (const ForceTerm *term : terms)
+    {
+      const ForceProperties one = term->properties();
+      all.is_linear             = all.is_linear && one.is_linear;
+      all.is_symmetric          = all.is_symmetric && one.is_symmetric;
+      all.is_symmetric_between =
+        all.is_symmetric_between && one.is_symmetric_between;
+    }
+    return all;
+  }
+
+
+  StepFault
+  MechanicalModel::find_fault(const Vector &end)
+  {
+    StepFault fault;
+    for (ForceTerm *term : terms)
+      if (fault.reason.empty())
+        fault = term->find_fault(end);
+    return fault;
+  }
+
+
+  StepWork
+  MechanicalModel::commit(const Trial &step)
+  {
+    StepWork work;
+    for (ForceTerm *term : terms)
+    {
+      const StepWork of_term = term->commit(step);
+      work.loads += of_term.loads;
+      work.supports += of_term.supports;
+      work.dissipated += of_term.dissipated;
+    }
+    return work;
+  }
+
+
+  const MechanicalModel::Matrix *
+  MechanicalModel::damp_by_stiffness(const double coefficient,
+                                     const bool   is_conserving)
+  {
+    return terms.front()->damp_by_stiffness(coefficient, is_conserving);
+  }
+
+
+  void
+  MechanicalModel::pass_events(const double t)
+  {
+    presence.events_passed = t;
+    for (ForceTerm *term : terms)
+      term->set_presence(presence);
+  }
+
+
+  void
+  MechanicalModel::set_absent_blocks(const std::vector<bool> &is_absent)
+  {
+    presence.absent_blocks = is_absent;
+    for (ForceTerm *term : terms)
+      term->set_presence(presence);
+  }
+
+
+  std::vector<double>
+  MechanicalModel::events() const
+  {
+    std::vector<double> times;
+    for (const ForceTerm *term : terms)
+      times.insert(times.end(), term->events().begin(), term->events().end());
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    return times;
+  }
+
+
+  std::uint64_t
+  MechanicalModel::fingerprint() const
+  {
+    std::uint64_t hash = 0;
+    for (const ForceTerm *term : terms)
+      hash ^= term->fingerprint();
+    return hash;
+  }
+
+
+  /// The bytes of each term are followed by those of all terms before it, as a list.
+  std::vector<char>
+  MechanicalModel::internal_state() const
+  {
+    std::vector<char> state;
+    for (const ForceTerm *term : terms)
+    {
+      internal::ByteWriter archive;
+      term->save(archive);
+      if (term != terms.front())
+        archive &state;
+      state = std::move(archive.written);
+    }
+    return state;
+  }
+
+
+  void
+  MechanicalModel::restore_internal_state(std::vector<char> state)
+  {
+    for (auto term = terms.rbegin(); term != terms.rend(); ++term)
+    {
+      internal::ByteReader archive(state);
+      std::vector<char>    of_terms_before;
+      (*term)->restore(archive);
+      if (*term != terms.front())
+        archive &of_terms_before;
+      internal::ByteReader::require(archive.n_left() == 0);
+      state = std::move(of_terms_before);
+    }
+  }
+} // namespace NMM

@@ -1,0 +1,167 @@
+// Terms of one's own beside those of solid and contact.
+
+#include <base/archive.h>
+#include <dynamics/dynamic_model.h>
+#include <gtest/gtest.h>
+
+using namespace NMM;
+using namespace NMM::Test;
+
+namespace
+{
+  /// Pulls all of a body to the right with the force of an acceleration [m/s^2], and counts the
+  /// steps in which it did.
+  class Pull : public ForceTerm
+  {
+  public:
+    Pull(const ModelLayout &layout, const double acceleration)
+      : force(layout.locally_owned, layout.communicator)
+    {
+      Vector right(force);
+      for (const auto i : layout.locally_owned)
+        right(i) = i % 2 == 0 ? acceleration : 0.;
+      right.compress(dealii::VectorOperation::insert);
+      layout.constraints->distribute(right);
+      layout.mass->vmult(force, right);
+      layout.constraints->set_zero(force);
+    }
+
+    Deformation
+    assemble(const Trial &, AssembledForces &sum) override
+    {
+      *sum.residual -= force;
+      sum.scale = std::hypot(sum.scale, force.l2_norm());
+      return Deformation::admissible;
+    }
+
+    ForceProperties
+    properties() const override
+    {
+      return {};
+    }
+
+    StepFault
+    find_fault(const Vector &end) override
+    {
+      StepFault fault;
+      if (end.linfty_norm() > furthest)
+        fault.reason = "more than " + std::to_string(furthest) + " m";
+      return fault;
+    }
+
+    StepWork
+    commit(const Trial &step) override
+    {
+      Vector change(force), begin(force);
+      change = *step.end;
+      begin  = *step.begin;
+      change -= begin;
+      ++n_steps;
+      StepWork work;
+      work.loads = force * change;
+      return work;
+    }
+
+    void
+    save(internal::ByteWriter &archive) const override
+    {
+      archive &n_steps;
+    }
+
+    void
+    restore(internal::ByteReader &archive) override
+    {
+      archive &n_steps;
+    }
+
+    unsigned int n_steps  = 0;
+    double       furthest = 1e3;
+
+  private:
+    Vector force;
+  };
+
+
+  /// A free square and two terms that pull it.
+  struct PulledSquare
+  {
+    explicit PulledSquare(const bool is_finite)
+      : body(box({0., 0.}, {1., 1.}, 0.7, material("rock", 1e4, 0.2, 2.)))
+    {
+      if (is_finite)
+        body.make_finite();
+      else
+        body.make_small();
+      const ModelLayout &layout = body.solid->layout();
+      one                       = std::make_unique<Pull>(layout, 1.);
+      two                       = std::make_unique<Pull>(layout, 2.);
+      model                     = std::make_unique<MechanicalModel>(
+        layout,
+        std::vector<ForceTerm *>{body.solid.get(), one.get(), two.get()});
+    }
+
+    Body                             body;
+    std::unique_ptr<Pull>            one, two;
+    std::unique_ptr<MechanicalModel> model;
+  };
+
+
+  // 1 + 2 m/s^2 for 0.5 s: both terms act and work in linear and in Newton's steps, of both schemes,
+  // and their account closes.
+  TEST(Terms, AddUpMPI)
+  {
+    for (const bool is_finite : {false, true})
+      for (const TimeScheme &scheme :
+           {TimeScheme::newmark(), TimeScheme::energy_momentum()})
+      {
+        PulledSquare   square(is_finite);
+        TimeIntegrator integrator(*square.model, scheme);
+        for (unsigned int k = 0; k < 10; ++k)
+          step(integrator, 0.05);
+        // rounding of ten solutions, each of which starts from the last one
+        constexpr double tolerance = 1e-9;
+        const Account   &account   = integrator.account();
+        EXPECT_NEAR(account.linear_momentum[0], 2. * 3. * 0.5, tolerance);
+        EXPECT_NEAR(account.external_work, 0.5 * 2. * 1.5 * 1.5, tolerance);
+        EXPECT_NEAR(account.balance, 0., tolerance);
+        EXPECT_EQ(square.one->n_steps, 10u);
+      }
+  }
+
+
+  TEST(Terms, AreSavedInTheirOrder)
+  {
+    PulledSquare   square(true), other(true);
+    TimeIntegrator integrator(*square.model, TimeScheme::newmark());
+    step(integrator, 0.05);
+    square.two->n_steps = 7;
+    other.model->restore_internal_state(square.model->internal_state());
+    EXPECT_EQ(other.one->n_steps, 1u);
+    EXPECT_EQ(other.two->n_steps, 7u);
+    std::vector<char> longer = square.model->internal_state();
+    longer.push_back(0);
+    EXPECT_THROW(other.model->restore_internal_state(longer), InputError);
+  }
+
+
+  TEST(Terms, TheFirstFaultRejectsAStep)
+  {
+    PulledSquare   square(true);
+    TimeIntegrator integrator(*square.model, TimeScheme::newmark());
+    square.one->furthest    = 0.01;
+    square.two->furthest    = 0.001;
+    const StepReport report = integrator.try_step(0.5);
+    EXPECT_FALSE(report.converged);
+    EXPECT_EQ(report.reason, "more than 0.010000 m");
+  }
+
+
+  // Forces whose stiffness is not known must not be left undamped in silence.
+  TEST(Terms, WithoutStiffnessAreNotDamped)
+  {
+    PulledSquare    square(false);
+    MechanicalModel pull(square.body.solid->layout(), {square.one.get()});
+    EXPECT_THROW(TimeIntegrator(pull, TimeScheme::newmark(), {0., 0.1}),
+                 InputError);
+  }
+} // namespace

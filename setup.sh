@@ -268,10 +268,12 @@ command_fuzz()
   local generator failed=()
   configure_and_build release program_nmm-fuzz
   local n
-  for generator in geometry scene growth contact-growth growth-in-motion; do
-    # a solution with contact, and a motion, take seconds
+  for generator in geometry scene growth contact-growth growth-in-motion \
+      blocks networks; do
+    # a solution with contact, and a motion, take seconds, a network half a minute
     n=$1
-    [[ $generator != *-* ]] || n=$(($1 / 100 + 1))
+    [[ $generator != *-* && $generator != blocks ]] || n=$(($1 / 100 + 1))
+    [[ $generator != networks ]] || n=$(($1 / 500 + 1))
     say "Random inputs: $generator"
     build/release/bin/nmm-fuzz "$generator" "$n" "$2" || failed+=("$generator")
   done

@@ -362,7 +362,8 @@ namespace NMM
                 relaxation.max_displacement,
                 Patterns::Double(0),
                 "What moves further finds no rest (exit code 3, and the block "
-                "is named) [m]; 0: ten times as far as the solid is long.");
+                "is named), and no step moves further than a hundredth of it "
+                "[m]; 0: ten times as far as the solid is long.");
     entries.add("Maximum steps",
                 relaxation.max_steps,
                 Patterns::Integer(1, 100000000),
@@ -374,13 +375,9 @@ namespace NMM
   RelaxationSectionParameters::bounded(const double extent) const
   {
     RelaxationParameters result = relaxation;
+    // A column that topples comes to rest further away than it is long.
     if (result.max_displacement == 0.)
-    {
-      // A column that topples comes to rest further away than it is long.
       result.max_displacement = 10. * extent;
-      // No bound on the displacements of a step follows from this one.
-      result.max_step_displacement = result.max_displacement;
-    }
     return result;
   }
 

@@ -226,7 +226,8 @@ namespace
   // ranks changes is Newton's tolerance of 1e-9 of all forces at the most, 2.5e-10 measured. So both
   // components of a force are compared with the larger one: the shear at the floor is a fifth of the
   // pressure. Left out are the balance, which is a difference of nearly equal numbers, the energy
-  // of strain, which is small beside that of motion, and how often states changed on the way.
+  // of strain, which is small beside that of motion, and the iterations with the states that changed
+  // in them: blocks are told apart, and begin where they are, on one rank only.
   TEST(Driver, MotionWithFrictionIsTheSameOnTwoRanks)
   {
     std::map<std::string, double> values[2];
@@ -264,7 +265,7 @@ namespace
     {
       const std::string column = column_of(name);
       if (column == "balance" || column == "strain" ||
-          column == "contact_changes")
+          column == "contact_changes" || column == "iterations")
         continue;
       EXPECT_NEAR(values[1].at(name), value, 1e-9 * sizes.at(column)) << name;
     }

@@ -55,7 +55,7 @@ namespace NMM
    * @f$ (v_n, M v_{n+1}) < -\tfrac12 |v_n|_M\,|v_{n+1}|_M @f$. The second rule is for loose blocks that
    * rattle between their neighbours: TimeScheme::constant_acceleration() lets them bounce back with the
    * same speed in each step, so that their energy has no peak. A slope of 329 blocks had no rest after
-   * 100 steps, and rests after 48. A step from rest of the length h solves
+   * 100 steps without it. A step from rest of the length h solves
    * @f[ \frac{2}{h^2} M\,(u_1 - u_0) + r(u_1) = 0, @f]
    * to a thirtieth of the forces out of balance at its beginning.
    * Loads must not depend on time, because time goes on; where prescribed displacements

@@ -86,9 +86,10 @@ namespace NMM
       unsigned int cover, root;
       double       area, distance;
     };
-    // Ties up to rounding are decided by position.
+    // Ties are decided by position. As in ElementPlace they are taken to a millionth, since
+    // coordinates far from the origin are rounded to some 1e-9 of a cell.
     const auto is_better = [&](const Candidate &a, const Candidate &b) {
-      constexpr double more = 1. + 1e-10;
+      constexpr double more = 1. + 1e-6;
       if (a.area > more * b.area || b.area > more * a.area)
         return a.area > b.area;
       if (a.distance > more * b.distance || b.distance > more * a.distance)

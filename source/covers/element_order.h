@@ -26,9 +26,9 @@ namespace NMM
 
     /**
      * Key by which elements are ordered, with lengths relative to the size of the cell: the
-     * distances of the cell and the element from the middle of the solid, the position of the cell,
-     * the position of the element in the cell, and its size. A symmetric solid on a symmetric mesh
-     * thus has a symmetric order, except for elements on the axis.
+     * distances of the cell and the element from the middle of the solid, the position of the cell
+     * and of the element relative to that middle, and the element's size. A symmetric solid on a
+     * symmetric mesh thus has a symmetric order, except for elements on the axis.
      */
     struct ElementPlace
     {
@@ -47,10 +47,10 @@ namespace NMM
         const dealii::Point<2> middle(0.5 * (box.first + box.second));
         values = {{cell.distance(middle) / cell_size,
                    here.distance(middle) / cell_size,
-                   cell[0] / cell_size,
-                   cell[1] / cell_size,
-                   here[0] / cell_size,
-                   here[1] / cell_size,
+                   (cell[0] - middle[0]) / cell_size,
+                   (cell[1] - middle[1]) / cell_size,
+                   (here[0] - middle[0]) / cell_size,
+                   (here[1] - middle[1]) / cell_size,
                    mesh.area(element) / (cell_size * cell_size)}};
       }
 

@@ -55,6 +55,12 @@ namespace NMM
         return internal::cell_centroid(mesh, e);
       }
 
+      double
+      cell_size(const unsigned int e) const
+      {
+        return mesh.mathematical_mesh().cell_diameter(mesh.cell(e));
+      }
+
       bool
       comes_first(const unsigned int a, const unsigned int b) const
       {
@@ -75,17 +81,20 @@ namespace NMM
                 ElementRoots                        &roots)
     {
       std::vector<unsigned int> &element_to_root = roots.element_to_root;
-      const Point<2>             here            = graph.centroid(e);
-      double                     best            = 1e300;
-      unsigned int               parent          = invalid_index;
+      // Ties are decided as in ElementPlace: to a millionth of a cell, which is more than what
+      // rounding leaves of coordinates far from the origin.
+      const double   tie    = 1e-6 * graph.cell_size(e);
+      const Point<2> here   = graph.centroid(e);
+      double         best   = 1e300;
+      unsigned int   parent = invalid_index;
       for (const unsigned int candidate : parents)
       {
         if (candidate == parent)
           continue;
         const unsigned int root      = element_to_root[candidate];
         const double       d         = here.distance(graph.centroid(root));
-        bool               is_better = d < best * (1. - 1e-10);
-        if (!is_better && d <= best * (1. + 1e-10))
+        bool               is_better = d < best - tie;
+        if (!is_better && d <= best + tie)
           is_better = root != element_to_root[parent]
                         ? graph.comes_first(root, element_to_root[parent])
                         : graph.comes_first(candidate, parent);
@@ -253,6 +262,12 @@ namespace NMM
       centroid(const unsigned int e) const
       {
         return centroids[e];
+      }
+
+      double
+      cell_size(const unsigned int e) const
+      {
+        return places[e].cell_size;
       }
 
       bool

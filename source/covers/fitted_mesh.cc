@@ -31,6 +31,10 @@ namespace NMM
       /// A frame is thin if the ratio of its sides is below this.
       constexpr double thin_ratio = 0.05;
 
+      /// Lengths and areas that differ by less than this ratio are equal. The coordinates of a metre
+      /// in a national grid are rounded to 1e-9 of it.
+      constexpr double tie = 1e-7;
+
 
       Tensor<1, 2>
       turned_left(const Tensor<1, 2> &a)
@@ -123,8 +127,20 @@ namespace NMM
                              8. * std::numeric_limits<double>::epsilon() *
                                std::abs(edges.edges()[e].shape.radius)});
 
+      choose_rectangle();
+    }
+
+
+    void
+    RegionShape::choose_rectangle()
+    {
+      // Of rectangles that are equally small, the one with the shortest longer side is taken, and
+      // of these the one whose longer side is nearest to a direction which is not that of the sides
+      // of ordinary blocks. A triangle has the same area in the rectangles on all its sides.
+      const Tensor<1, 2> preferred(
+        {std::cos(numbers::PI / 36.), std::sin(numbers::PI / 36.)});
+      double smallest = std::numeric_limits<double>::max(), nearest = 0.;
       // A minimum-area rectangle has a side along one of the hull's edges.
-      double smallest = std::numeric_limits<double>::max();
       for (std::size_t i = 0; i < hull.size(); ++i)
       {
         const Tensor<1, 2> side = hull[(i + 1) % hull.size()] - hull[i];
@@ -148,11 +164,23 @@ namespace NMM
           low[d] -= 0.5 * excess;
           length[d] = high[d] - low[d] + 0.5 * excess;
         }
-        if (length[0] * length[1] >= smallest)
+        const bool     is_longer = length[0] >= (1. - tie) * length[1];
+        const double   area      = length[0] * length[1];
+        const double   longer    = length[is_longer ? 0 : 1];
+        const double   nearness  = (is_longer ? e0 : e1) * preferred;
+        const Point<2> lower     = hull[i] + low[0] * e0 + low[1] * e1;
+        if (area > (1. + tie) * smallest)
           continue;
-        smallest             = length[0] * length[1];
-        const Point<2> lower = hull[i] + low[0] * e0 + low[1] * e1;
-        if (length[0] >= length[1])
+        if (area >= (1. - tie) * smallest)
+        {
+          if (longer > (1. + tie) * sides[0])
+            continue;
+          if (longer >= (1. - tie) * sides[0] && nearness <= nearest + tie)
+            continue;
+        }
+        smallest = area;
+        nearest  = nearness;
+        if (is_longer)
         {
           origin = lower;
           axes   = {{e0, e1}};
@@ -220,7 +248,7 @@ namespace NMM
             const double area =
               0.5 * cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
             // Take the first one of equal triangles, in spite of rounding.
-            if (area < smallest * (1. - 1e-10))
+            if (area < smallest * (1. - tie))
             {
               smallest = area;
               best     = triangle;

@@ -24,7 +24,8 @@ namespace NMM
       /// Area of the convex hull with chords in place of arcs [m^2].
       double inner_hull_area;
       /// Minimum-area bounding rectangle: corner [m], directions (orthonormal, right-handed), and
-      /// lengths of the sides, the longer one first [m].
+      /// lengths of the sides, the longer one first [m]. Of several with equal area, the choice
+      /// does not depend on rounding.
       dealii::Point<2>                    origin;
       std::array<dealii::Tensor<1, 2>, 2> axes;
       std::array<double, 2>               sides;
@@ -34,6 +35,11 @@ namespace NMM
       double rounding;
 
       RegionShape(const PhysicalEdges &edges, unsigned int region);
+
+    private:
+      /// Sets origin, axes and sides from hull and rounding.
+      void
+      choose_rectangle();
     };
 
     /**

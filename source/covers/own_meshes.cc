@@ -30,8 +30,9 @@ namespace NMM
     };
 
 
-    /// Relative rounding of a number of cells that a size was computed from.
-    constexpr double rounding = 1e-9;
+    /// Relative rounding of sizes and shares. It is larger than that of a metre in a national grid,
+    /// whose coordinates are rounded to 1e-9 m.
+    constexpr double rounding = 1e-6;
 
 
     void
@@ -40,7 +41,7 @@ namespace NMM
                 const MathematicalMesh &mesh,
                 const unsigned int      cell)
     {
-      if (share > filling.best || filling.cell_size == 0.)
+      if (share > (1. + rounding) * filling.best || filling.cell_size == 0.)
         filling = {share, mesh.cell_diameter(cell)};
     }
 
@@ -216,14 +217,15 @@ namespace NMM
         return best.filling.best >= parameters.filling;
       };
 
-      if (shape.sides[0] <= h && try_mesh(internal::make_single_triangle(shape),
-                                          Outcome::single_triangle))
+      if (shape.sides[0] <= (1. + rounding) * h &&
+          try_mesh(internal::make_single_triangle(shape),
+                   Outcome::single_triangle))
         return best;
 
       std::array<unsigned int, 2> n;
       for (unsigned int d = 0; d < 2; ++d)
         n[d] = static_cast<unsigned int>(
-          std::clamp(std::ceil(shape.sides[d] / h),
+          std::clamp(std::ceil((1. - rounding) * shape.sides[d] / h),
                      1.,
                      static_cast<double>(parameters.n_cells_at_most)));
       unsigned int first_level = 0;
@@ -263,7 +265,8 @@ namespace NMM
         return 0.;
       const internal::RegionShape shape(edges, region);
       const double                n = choice.n_across;
-      return 2. * n * std::ceil(n * shape.sides[1] / shape.sides[0]);
+      return 2. * n *
+             std::ceil((1. - rounding) * n * shape.sides[1] / shape.sides[0]);
     }
 
 

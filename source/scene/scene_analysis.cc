@@ -156,11 +156,16 @@ namespace NMM
       {
         Stage stage(progress, "quadrature");
         // The stiffness matrix needs the degree 2p - 2, and a constant body force p. A body force
-        // that varies is integrated with the accuracy of the mass matrix.
+        // that varies is integrated with the accuracy of the mass matrix. The energy of finite
+        // strains needs 4p - 4: with less, the result depends on which points the rules of cut
+        // elements have, and rounding may decide that.
         const unsigned int p = mathematical_mesh->degree();
-        const unsigned int degree =
-          problem.body_force ? 2 * p : std::max(2 * p - 2, p);
-        quadrature = std::make_unique<QuadratureCollection>(
+        const bool         is_finite =
+          parameters.model.kinematics == Kinematics::finite;
+        const unsigned int degree = std::max({is_finite ? 4 * p - 4 : 2 * p - 2,
+                                              p,
+                                              problem.body_force ? 2 * p : 0});
+        quadrature                = std::make_unique<QuadratureCollection>(
           *manifold_mesh, degree, degree, covers->locally_owned_elements());
         check_load_values(*covers, *quadrature, problem);
       }

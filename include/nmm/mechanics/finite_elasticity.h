@@ -64,8 +64,9 @@ namespace NMM
    * Cost: weights and physical gradients at quadrature points are computed once
    * and shared by equal whole elements; the sparsity pattern is made once.
    * A quadrature of degree 2(p - 1) for whole elements keeps the order of
-   * convergence (the bound for linear problems; the energy of St.
-   * Venant-Kirchhoff is a polynomial of degree 4(p - 1)), see the results of step-nmm-2.
+   * convergence (the bound for linear problems), see the results of step-nmm-2. The energy of St.
+   * Venant-Kirchhoff is a polynomial of degree 4(p - 1): with that degree the result does not
+   * depend on which rule an element has.
    *
    * All terms are per unit thickness. The inhomogeneities of the constraints are not multiplied
    * by the load factor.

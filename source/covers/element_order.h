@@ -25,10 +25,25 @@ namespace NMM
 
 
     /**
+     * Direction of the first curve that was given, (1, 0) if it is a circle. Coordinates along it
+     * turn with the solid, those along the axes do not.
+     */
+    inline dealii::Tensor<1, 2>
+    direction_of_solid(const PhysicalMesh &physical_mesh)
+    {
+      const CurvePiece &first = physical_mesh.curves().front().pieces.front();
+      const dealii::Tensor<1, 2> chord  = first.end - first.start;
+      const double               length = chord.norm();
+      return length > 0. ? chord / length : dealii::Tensor<1, 2>({1., 0.});
+    }
+
+
+    /**
      * Key by which elements are ordered, with lengths relative to the size of the cell: the
      * distances of the cell and the element from the middle of the solid, the position of the cell
-     * and of the element relative to that middle, and the element's size. A symmetric solid on a
-     * symmetric mesh thus has a symmetric order, except for elements on the axis.
+     * and of the element relative to that middle, along direction_of_solid() and across it, and the
+     * element's size. A symmetric solid on a symmetric mesh thus has a symmetric order, except for
+     * elements on the axis, and the order neither depends on the origin nor on the axes.
      */
     struct ElementPlace
     {
@@ -44,13 +59,16 @@ namespace NMM
         const dealii::Point<2> here = mesh.reference_point(element);
         const auto            &box =
           mesh.physical_mesh().bounding_box().get_boundary_points();
-        const dealii::Point<2> middle(0.5 * (box.first + box.second));
+        const dealii::Point<2>     middle(0.5 * (box.first + box.second));
+        const dealii::Tensor<1, 2> along =
+          direction_of_solid(mesh.physical_mesh());
+        const dealii::Tensor<1, 2> across({-along[1], along[0]});
         values = {{cell.distance(middle) / cell_size,
                    here.distance(middle) / cell_size,
-                   (cell[0] - middle[0]) / cell_size,
-                   (cell[1] - middle[1]) / cell_size,
-                   (here[0] - middle[0]) / cell_size,
-                   (here[1] - middle[1]) / cell_size,
+                   (cell - middle) * along / cell_size,
+                   (cell - middle) * across / cell_size,
+                   (here - middle) * along / cell_size,
+                   (here - middle) * across / cell_size,
                    mesh.area(element) / (cell_size * cell_size)}};
       }
 

@@ -24,6 +24,15 @@ namespace NMM
     }
 
 
+    /// Middle of the bounding box of the solid [m].
+    inline dealii::Point<2>
+    middle_of_solid(const PhysicalMesh &physical_mesh)
+    {
+      const auto &box = physical_mesh.bounding_box().get_boundary_points();
+      return dealii::Point<2>(0.5 * (box.first + box.second));
+    }
+
+
     /**
      * Direction of the first curve that was given, (1, 0) if it is a circle. Coordinates along it
      * turn with the solid, those along the axes do not.
@@ -55,11 +64,9 @@ namespace NMM
       ElementPlace(const ManifoldMesh &mesh, const unsigned int element)
         : cell_size(mesh.mathematical_mesh().cell_diameter(mesh.cell(element)))
       {
-        const dealii::Point<2> cell = cell_centroid(mesh, element);
-        const dealii::Point<2> here = mesh.reference_point(element);
-        const auto            &box =
-          mesh.physical_mesh().bounding_box().get_boundary_points();
-        const dealii::Point<2>     middle(0.5 * (box.first + box.second));
+        const dealii::Point<2> cell   = cell_centroid(mesh, element);
+        const dealii::Point<2> here   = mesh.reference_point(element);
+        const dealii::Point<2> middle = middle_of_solid(mesh.physical_mesh());
         const dealii::Tensor<1, 2> along =
           direction_of_solid(mesh.physical_mesh());
         const dealii::Tensor<1, 2> across({-along[1], along[0]});
@@ -95,11 +102,8 @@ namespace NMM
       if (a == b)
         return false;
       // The first value decides in most cases.
-      const MathematicalMesh &cells = mesh.mathematical_mesh();
-      const auto             &box =
-        mesh.physical_mesh().bounding_box().get_boundary_points();
-      const dealii::Point<2> middle(0.5 * (box.first + box.second));
-      const double           size = cells.cell_diameter(mesh.cell(a));
+      const dealii::Point<2> middle = middle_of_solid(mesh.physical_mesh());
+      const double size  = mesh.mathematical_mesh().cell_diameter(mesh.cell(a));
       const double here  = cell_centroid(mesh, a).distance(middle) / size,
                    there = cell_centroid(mesh, b).distance(middle) / size;
       // The difference must be larger than the rounding of the numbers in ElementPlace.

@@ -10,8 +10,8 @@
 #include <regex>
 #include <sstream>
 
-// Nothing that is computed depends on where the origin of the coordinates lies, on the directions of the axes, or on
-// the units of length and stress.
+// Nothing that is computed depends on where the origin of the coordinates lies, on a quarter turn of the solid with its
+// mathematical mesh, or on the units of length and stress.
 
 namespace
 {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <scene/dynamic_analysis.h>
+#include <scene/fastest_turn.h>
 #include <scene/mechanism.h>
 #include <scene/static_start.h>
 #include <scene/time_function.h>
@@ -410,6 +411,35 @@ namespace NMM
         "hop on faces with friction, and what depends on slip counts only "
         "while they touch: leave 'Time/Scheme' out, choose 'generalized "
         "alpha', or set 'Time/Stiffness damping'");
+    }
+
+
+    void
+    DynamicAnalysis::warn_of_turns(const double length)
+    {
+      // The trapezoidal and the conserving scheme turn a rigid body by 2 atan(a / 2) in a step in
+      // which it turns by the angle a, 2 % too little for this one.
+      constexpr double large = 0.5;
+
+      if (has_warned_of_turns || kind != Analysis::dynamics ||
+          scene.parameters().model.kinematics != Kinematics::finite)
+        return;
+      Vector v(displacement());
+      v                         = velocity();
+      const FastestTurn fastest = find_fastest_turn(*covers, displacement(), v);
+      if (fastest.rate * length <= large)
+        return;
+      has_warned_of_turns = true;
+      std::ostringstream line;
+      line.precision(3);
+      line << "  notice: block " << fastest.block << " turns by "
+           << fastest.rate * length << " rad in the step of " << length
+           << " s to " << time()
+           << " s: energies are right, but angles and positions are not "
+              "resolved by such steps (choose a smaller 'Time/Initial step' or "
+              "'Time/Largest step', for turns of at most "
+           << large << " rad)";
+      progress.message(line.str());
     }
 
 

@@ -112,6 +112,8 @@ namespace NMM
       /// checkpoint [J/m].
       double           largest_balance = 0., largest_energy = 0.;
       Progress::Stage *stage = nullptr;
+      /// See warn_of_turns().
+      bool has_warned_of_turns = false;
 
       /// @throws InputError for cracks that grow on several ranks, and for loads on cracks that do not
       /// turn with them in finite kinematics.
@@ -200,6 +202,10 @@ namespace NMM
       /// Say that nothing damps the vibrations of blocks on faces with friction, if that is so.
       void
       warn_of_flutter() const;
+
+      /// Say once that a step turns a block so far that its angle is not resolved, if it does.
+      void
+      warn_of_turns(double length);
 
       /// Makes `leaving` if the scene has limits. @throws InputError for a block that is outside of
       /// them at the start.

@@ -94,6 +94,7 @@ namespace NMM
           "'Fracture/Grading'"));
       can_be_saved = true;
       last_good    = integrator->state();
+      warn_of_turns(record.report.step);
       write_rows(record);
       const OutputParameters &output = scene.parameters().output;
       if (output.fields_every > 0 && step_number() % output.fields_every == 0)

@@ -156,11 +156,17 @@ namespace NMM
   void
   Contact::freeze_geometry(const bool is_frozen)
   {
+    using Problem = Data::Problem;
+    if (data->is_conserving())
+      return;
     if (is_frozen && !data->is_geometry_frozen())
       data->stage = Data::Stage::created;
-    if (!data->is_moving())
-      data->problem = is_frozen ? Data::Problem::statics_of_frozen_geometry
-                                : Data::Problem::statics;
+    if (data->is_moving())
+      data->problem =
+        is_frozen ? Problem::motion_of_frozen_geometry : Problem::motion;
+    else
+      data->problem =
+        is_frozen ? Problem::statics_of_frozen_geometry : Problem::statics;
   }
 
 
@@ -253,17 +259,22 @@ namespace NMM
     // At the end of a step the spring is as find_end() has found it, by which the pressure in the
     // step is measured. Where corners of two bodies coincide, a second projection of the same state
     // may find another face, since rounding decides which is nearest.
-    const ContactLaw::Response spring = spring_pressure(
+    ContactLaw::Response spring = spring_pressure(
       q,
       is_between() ? point_data[q].offset_end - point_data[q].gap_end
                    : point.opening - projection.gap + point_data[q].offset);
     point.pressure = point.multiplier + spring.value;
-    if (!point.is_bonded && point.pressure < -eps * touching * reach)
+    const bool is_open =
+      !point.is_bonded && point.pressure < -eps * touching * reach;
+    if (is_open && !keeps_cohesion(q))
     {
       point.pressure = point.shear = 0.;
       point.state                  = ContactState::open;
       return traction;
     }
+    // Cohesion that is kept acts without any pressure.
+    if (is_open)
+      spring.derivative = 0.;
     if (!point.is_bonded)
       point.pressure = std::max(point.pressure, 0.);
     traction.pressure = point.weight * point.pressure;
@@ -286,6 +297,31 @@ namespace NMM
       report.energy += shear_energy(q, point.shear);
     }
     return traction;
+  }
+
+
+  bool
+  Contact::Data::keeps_cohesion(const unsigned int q) const
+  {
+    return problem == Problem::motion_of_frozen_geometry &&
+           point_data[q].kept_cohesion > 0.;
+  }
+
+
+  ContactLaw::Strength
+  Contact::Data::find_strength(const unsigned int q,
+                               const double       pressure,
+                               const double       slip) const
+  {
+    const ContactLaw    &law      = *point_data[q].law;
+    ContactLaw::Strength strength = law.strength(pressure, slip);
+    if (problem == Problem::motion_of_frozen_geometry && !law.depends_on_slip())
+    {
+      const ContactLaw::Response cohesion = law.cohesion_at(pressure);
+      strength.value += point_data[q].kept_cohesion - cohesion.value;
+      strength.by_pressure -= cohesion.derivative;
+    }
+    return strength;
   }
 
 
@@ -365,7 +401,7 @@ namespace NMM
       if (!is_held)
         break;
       const ContactLaw::Strength strength =
-        law.strength(pressure, fixed.slip + slip);
+        find_strength(q, pressure, fixed.slip + slip);
       const double excess = std::abs(trial) - eps * slip - strength.value;
       if (i == 0 && excess <= 0.)
         return result;
@@ -407,7 +443,7 @@ namespace NMM
     const ContactLaw::Strength strength =
       finds_slip
         ? strength_after_slip(law, point.pressure, fixed.slip, trial, stiffness)
-        : law.strength(point.pressure, fixed.slip + fixed.new_slip);
+        : find_strength(q, point.pressure, fixed.slip + fixed.new_slip);
     const double limit = strength.value;
     // The residual and its tangent are two assemblies at the same displacements.
     if (trial != point.spring_shear)
@@ -668,7 +704,9 @@ namespace NMM
     if (with_tangent)
       d.matrix.couple_all();
     d.move_to(u);
-    d.set_admitted_depth();
+    // Motions with frozen geometry project points at the beginning of a step only.
+    if (d.problem != Data::Problem::motion_of_frozen_geometry)
+      d.set_admitted_depth();
     d.matrix.begin_assembly(with_tangent);
     d.for_each_active_point(
       [&](const unsigned int q) { d.add_point(q, with_tangent); });

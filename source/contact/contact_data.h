@@ -49,6 +49,8 @@ namespace NMM
       statics_of_frozen_geometry,
       /// A time step has begun.
       motion,
+      /// A time step with linearized geometry has begun.
+      motion_of_frozen_geometry,
       /// A time step with ContactTimeStep::assemble() has been tried.
       conserving_motion
     };
@@ -86,6 +88,7 @@ namespace NMM
     is_moving() const
     {
       return problem == Problem::motion ||
+             problem == Problem::motion_of_frozen_geometry ||
              problem == Problem::conserving_motion;
     }
 
@@ -98,7 +101,8 @@ namespace NMM
     bool
     is_geometry_frozen() const
     {
-      return problem == Problem::statics_of_frozen_geometry;
+      return problem == Problem::statics_of_frozen_geometry ||
+             problem == Problem::motion_of_frozen_geometry;
     }
 
     /// Opening of a point by dilation [m], and the derivatives of gap minus opening by the gap and
@@ -153,6 +157,9 @@ namespace NMM
       double stiffening = 1.;
       /// Slip that causes dilation or weakening: at the last accepted state, and since then [m].
       double slip = 0., new_slip = 0.;
+      /// Cohesion at the beginning of a time step of frozen geometry, which acts in the whole step
+      /// [Pa].
+      double kept_cohesion = 0.;
       /// Dilation at the end of a time step.
       Dilation dilation;
       /// Range of this point in faces_beside.
@@ -442,6 +449,18 @@ namespace NMM
     /// most the reach [m].
     double
     bound_initial_closure() const;
+
+    /// Whether the point has cohesion in a step of frozen geometry, even if it opens.
+    bool
+    keeps_cohesion(unsigned int q) const;
+
+    /// Set the cohesion that points keep in a step of frozen geometry.
+    void
+    keep_cohesion();
+
+    /// ContactLaw::strength(), with the cohesion that the point keeps.
+    ContactLaw::Strength
+    find_strength(unsigned int q, double pressure, double slip) const;
 
     /// Shear of the spring of a point if nothing slides [Pa].
     double

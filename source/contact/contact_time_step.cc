@@ -57,7 +57,9 @@ namespace NMM
     Data &d = *data;
     d.enter(Data::Stage::step_begun, d.is_within_step());
     if (!d.is_moving())
-      d.problem = Data::Problem::motion;
+      d.problem = d.is_geometry_frozen()
+                    ? Data::Problem::motion_of_frozen_geometry
+                    : Data::Problem::motion;
     d.matrix.begin_step();
     d.step.nodal_expected.clear();
     d.step.time_begin = time;
@@ -66,6 +68,8 @@ namespace NMM
     d.slip_is_frozen = true;
     contact->assemble(u, false);
     d.slip_is_frozen = false;
+    if (d.is_geometry_frozen())
+      d.keep_cohesion();
     if (!d.memory.has_accepted_state)
       d.memory.energies_of_pairs = d.pair_energies();
     d.keep_energies();
@@ -90,6 +94,19 @@ namespace NMM
                        (d.point_data[q].law->shear_spring() * length);
     }
     d.stage = Data::Stage::step_begun;
+  }
+
+
+  void
+  Contact::Data::keep_cohesion()
+  {
+    for (unsigned int q = 0; q < points.size(); ++q)
+    {
+      const ContactLaw *const law = point_data[q].law;
+      if (law != nullptr && !law->depends_on_slip())
+        point_data[q].kept_cohesion =
+          law->cohesion_at(points[q].pressure).value;
+    }
   }
 
 

@@ -18,6 +18,7 @@ namespace NMM
     const ModelLayout           *layout;
     Contact                     *contact;
     std::vector<ObstacleRelease> releases;
+    ContactUpdate                update = ContactUpdate::every_iteration;
     internal::ActiveItems        active_rows;
     Vector                       sum;
     double                       step_end = 0., dissipated = 0.;
@@ -135,12 +136,14 @@ namespace NMM
 
   ContactTerm::ContactTerm(const ModelLayout           &layout,
                            Contact                     &contact,
-                           std::vector<ObstacleRelease> releases)
+                           std::vector<ObstacleRelease> releases,
+                           const ContactUpdate          update)
     : data(std::make_unique<Data>())
   {
     data->layout   = &layout;
     data->contact  = &contact;
     data->releases = std::move(releases);
+    data->update   = update;
     data->sum.reinit(contact.residual());
     for (const ObstacleRelease &release : data->releases)
       event_times.push_back(release.time);
@@ -155,6 +158,9 @@ namespace NMM
   void
   ContactTerm::begin_step(const StepBegin &step)
   {
+    // see ContactUpdate
+    constexpr double near_rest = 1e-4;
+
     Data        &d        = *data;
     const double step_end = step.time + step.length;
     // both faces of a candidate pair may move by `largest`, and obstacles move as well
@@ -168,6 +174,8 @@ namespace NMM
                                .norm());
     constexpr double margin = 1.5;
     d.contact->set_time(step.time);
+    d.contact->freeze_geometry(d.update == ContactUpdate::every_step &&
+                               step.imbalance > near_rest);
     d.contact->detect(step.u, margin * (2. * largest + obstacles));
     d.is_detected = true;
     if (!d.contact->is_idle())
@@ -187,6 +195,8 @@ namespace NMM
     Data &d = *data;
     if (trial.is_conserving)
     {
+      Assert(d.update == ContactUpdate::every_iteration,
+             dealii::ExcMessage("Conserving forces need exact geometry."));
       d.assemble_conserving(trial, sum);
       return Deformation::admissible;
     }
@@ -242,6 +252,7 @@ namespace NMM
       work.supports = ContactTimeStep(*d.contact)
                         .work_of_obstacles(step.begin_time, step.end_time);
     d.contact->set_time(step.end_time);
+    d.contact->freeze_geometry(false);
     d.contact->assemble(*step.end, /* with_tangent = */ false);
     work.dissipated = d.dissipated = d.contact->accept();
     return work;

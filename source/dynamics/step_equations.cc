@@ -29,7 +29,7 @@ namespace NMM
 
 
     void
-    StepEquations::begin_step(const double h)
+    StepEquations::begin_step(const double h, const double imbalance)
     {
       const ModelLayout &layout = model->layout();
       u_begin                   = begin->u;
@@ -41,7 +41,7 @@ namespace NMM
       held.clear();
       if (sleeping)
         held = sleeping->mask();
-      model->begin_step({u_begin, u_end, begin->time, h});
+      model->begin_step({u_begin, u_end, begin->time, h, imbalance});
     }
 
 

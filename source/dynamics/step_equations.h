@@ -23,7 +23,7 @@ namespace NMM
 
       /// Begin a step of @p h [s], and predict the displacements at its end.
       void
-      begin_step(double h);
+      begin_step(double h, double imbalance);
 
       /// C v + r - closing forces of the state, on owned unknowns, 0 for constrained ones [N/m]; C v
       /// only if @p with_damping. The model's last forces must be those of the state.

@@ -199,7 +199,7 @@ namespace NMM
   void
   TimeIntegrator::Data::predict(const double h)
   {
-    equations.begin_step(h);
+    equations.begin_step(h, account.account().imbalance);
     std::vector<bool> is_flying = model->blocks().pressed_blocks();
     if (is_flying.empty())
       return;

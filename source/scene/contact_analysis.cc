@@ -573,9 +573,10 @@ namespace NMM
     }
 
 
-    AccountedContact::AccountedContact(const ModelLayout &layout,
-                                       ContactAnalysis   &analysis)
-      : term(layout, analysis.contact(), analysis.releases())
+    AccountedContact::AccountedContact(const ModelLayout  &layout,
+                                       ContactAnalysis    &analysis,
+                                       const ContactUpdate update)
+      : term(layout, analysis.contact(), analysis.releases(), update)
       , analysis(&analysis)
     {
     }

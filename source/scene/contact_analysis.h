@@ -204,7 +204,9 @@ namespace NMM
     class AccountedContact : public ForceTerm
     {
     public:
-      AccountedContact(const ModelLayout &layout, ContactAnalysis &analysis);
+      AccountedContact(const ModelLayout &layout,
+                       ContactAnalysis   &analysis,
+                       ContactUpdate      update);
 
       /// Append both to the terms of a MechanicalModel.
       void

@@ -127,8 +127,11 @@ namespace NMM
       std::vector<ForceTerm *> terms = {model.get()};
       if (contact)
       {
-        contact_term =
-          std::make_unique<AccountedContact>(model->layout(), *contact);
+        contact_term = std::make_unique<AccountedContact>(
+          model->layout(),
+          *contact,
+          kind == Analysis::relaxation ? ContactUpdate::every_step
+                                       : ContactUpdate::every_iteration);
         contact_term->append_to(terms);
       }
       mechanics = std::make_unique<MechanicalModel>(model->layout(), terms);

@@ -86,7 +86,9 @@ namespace NMM
       {
         contact->begin_anew(factor);
         with_contact =
-          std::make_unique<AccountedContact>(model->layout(), *contact);
+          std::make_unique<AccountedContact>(model->layout(),
+                                             *contact,
+                                             ContactUpdate::every_step);
         with_contact->append_to(force_terms);
       }
       InelasticTerms *const terms = inelastic_terms_of(model.get());

@@ -228,8 +228,11 @@ namespace NMM
       std::vector<ForceTerm *> terms = {model.get()};
       if (input.contact != nullptr)
       {
-        contact_term = std::make_unique<ContactTerm>(model->layout(),
-                                                     input.contact->contact());
+        contact_term =
+          std::make_unique<ContactTerm>(model->layout(),
+                                        input.contact->contact(),
+                                        std::vector<ObstacleRelease>(),
+                                        ContactUpdate::every_step);
         terms.push_back(contact_term.get());
       }
       mechanics = std::make_unique<MechanicalModel>(model->layout(), terms);

@@ -299,10 +299,16 @@ namespace NMM
     set_time(double time);
 
     /**
-     * Linearize the geometry of contact in static problems of small displacements. Normals,
-     * tangents and nearest points are then those of the first assembly after detect(), which
-     * should be at the displacements of detect(). Forces are linear in the displacements as long
-     * as no point changes its state. The geometry is updated when detect() is called again.
+     * Linearize the geometry of contact, in static problems of small displacements, and in time
+     * steps without conserving forces. Normals, tangents and nearest points are then those of the
+     * first assembly after detect(), which should be at the displacements of detect(). Forces are
+     * linear in the displacements as long as no point changes its state. The geometry is updated
+     * when detect() is called again.
+     *
+     * In time steps, ContactLaw::cohesion_at() is that of the pressure at the beginning of the
+     * step, and acts even if the point opens. Otherwise it changes from nothing to all
+     * within a thousandth of its size in pressure, and points in networks of joints pass to and fro
+     * between both in the iterations. Nothing is changed in steps with conserving forces.
      */
     void
     freeze_geometry(bool is_frozen);

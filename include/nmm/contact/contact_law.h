@@ -118,6 +118,15 @@ namespace NMM
     virtual Strength
     strength(double pressure, double slip) const = 0;
 
+    /// The part of strength() at the @p pressure [Pa] that would not depend on the pressure, if
+    /// shear were not to jump where faces close or open. See Contact::freeze_geometry(), which
+    /// ignores it for laws that depend on the slip.
+    virtual Response
+    cohesion_at(const double /*pressure*/) const
+    {
+      return {};
+    }
+
     /// Shear strength of an intact bond [Pa] under the @p pressure >= 0 [Pa], which is 0 in tension.
     /// A law with cohesion overrides it: otherwise bonds in tension break under any shear.
     virtual double

@@ -34,6 +34,12 @@ namespace NMM
       return {friction * pressure + c.value, friction + c.derivative, 0.};
     }
 
+    Response
+    cohesion_at(const double pressure) const override
+    {
+      return cohesion_under(pressure, cohesion);
+    }
+
     double
     bond_strength(const double pressure) const override
     {

@@ -22,6 +22,24 @@ namespace NMM
   };
 
 
+  /// When a contact term looks for the nearest place and the normal of the face that a point touches.
+  enum class ContactUpdate
+  {
+    /// In each assembly: forces and tangents are exact. The only choice with conserving forces.
+    every_iteration,
+    /**
+     * At the beginning of each step, as in discontinuous deformation analysis, as long as
+     * StepBegin::imbalance is above 1e-4; see Contact::freeze_geometry(). The forces in a step are
+     * then linear as long as no point changes its state. It is meant for relaxations: with exact
+     * forces, points at corners pass from one face to another in the iterations of Newton's
+     * method, which often finds no solution in networks of some hundred blocks. The forces
+     * of accepted states are exact, so that rest does not depend on this choice. Near rest, steps
+     * are exact as well: they are long, and loose blocks would pass to and fro between two faces.
+     */
+    every_step
+  };
+
+
   /**
    * The force term of a Contact between the faces of a body. Obstacles have their positions at the
    * current time. Candidate pairs are searched for at the beginning of each step, within the
@@ -43,7 +61,8 @@ namespace NMM
     /// any order.
     ContactTerm(const ModelLayout           &layout,
                 Contact                     &contact,
-                std::vector<ObstacleRelease> releases = {});
+                std::vector<ObstacleRelease> releases = {},
+                ContactUpdate update = ContactUpdate::every_iteration);
     ~ContactTerm() override;
 
     void

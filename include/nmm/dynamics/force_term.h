@@ -92,6 +92,8 @@ namespace NMM
     const dealii::TrilinosWrappers::MPI::Vector &predicted;
     /// Time at the beginning, and length of the step [s].
     double time, length;
+    /// Forces out of balance at the beginning, see Account::imbalance [-].
+    double imbalance;
   };
 
 

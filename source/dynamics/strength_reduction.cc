@@ -81,6 +81,7 @@ namespace NMM
     const TimeIntegrator::Vector begin  = integrator.state().u;
     const auto                   record = [&](const StepRecord &step) {
       ++result.n_steps;
+      result.n_iterations += step.report.n_iterations + step.n_lost_iterations;
       if (after_step)
         after_step(step);
     };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <scene/current_stress.h>
 #include <scene/mechanism.h>
 #include <scene/safety_factor_analysis.h>
@@ -117,12 +118,11 @@ namespace NMM
       }
       RelaxationParameters relaxation = parameters.relaxation.relaxation;
       relaxation.max_displacement = parameters.safety_factor.max_displacement;
-      StrengthTrial trial         = try_to_stand(integrator,
-                                         relaxation,
-                                         factor,
-                                         [this](const StepRecord &) {
-                                           stop_if_asked(communicator);
-                                         });
+      StrengthTrial trial         = try_to_stand(
+        integrator, relaxation, factor, [&](const StepRecord &step) {
+          stop_if_asked(communicator);
+          show_progress(factor, integrator, step);
+        });
 
       if (trial.outcome == StrengthTrial::Outcome::moves)
         trial.reason += ": " + describe_motion(integrator.state().u);
@@ -139,10 +139,26 @@ namespace NMM
       on_first_rank([&]() { write_trials(); });
       std::ostringstream line;
       line << "  factor " << factor << ' ' << verb(trial.outcome) << " ("
-           << trial.n_steps << " steps" << (trial.reason.empty() ? "" : ", ")
-           << trial.reason << ')';
+           << trial.n_steps << " steps, " << trial.n_iterations << " iterations"
+           << (trial.reason.empty() ? "" : ", ") << trial.reason << ')';
       progress.message(line.str());
       return trial;
+    }
+
+
+    void
+    SafetyFactorAnalysis::show_progress(const double          factor,
+                                        const TimeIntegrator &integrator,
+                                        const StepRecord     &step)
+    {
+      stage->update([&](double) {
+        std::ostringstream line;
+        line << std::setprecision(3) << "factor " << factor << ", step "
+             << integrator.state().step << " of " << step.report.step
+             << " s, motion " << step.report.max_displacement
+             << " m, imbalance " << integrator.account().imbalance;
+        return line.str();
+      });
     }
 
 
@@ -168,6 +184,7 @@ namespace NMM
       try
       {
         Stage search(progress, "trials");
+        stage  = &search;
         result = find_safety_factor(
           [this](const double factor) { return try_factor(factor); },
           parameters.search);

@@ -48,6 +48,9 @@ namespace NMM
       std::vector<char> settled_materials;
       unsigned int      n_start_steps = 0;
 
+      /// The stage of the search, while it runs.
+      Progress::Stage *stage = nullptr;
+
       SafetyFactor result;
       /// The trials so far.
       std::vector<StrengthTrial> trials;
@@ -66,6 +69,12 @@ namespace NMM
 
       StrengthTrial
       try_factor(double factor);
+
+      /// Shows the last step of a trial as a sign of life.
+      void
+      show_progress(double                factor,
+                    const TimeIntegrator &integrator,
+                    const StepRecord     &step);
 
       /// Whether this trial is to be shown instead of the present one.
       bool

@@ -49,8 +49,8 @@ namespace NMM
     Outcome outcome = Outcome::moves;
     /// Largest change of an unknown since the beginning of the trial [m].
     double displacement = 0.;
-    /// Number of accepted steps.
-    unsigned int n_steps = 0;
+    /// Number of accepted steps, and of iterations, those of steps given up included.
+    unsigned int n_steps = 0, n_iterations = 0;
     /// Why the solid does not stand, as part of a message; empty if it stands.
     std::string reason;
 

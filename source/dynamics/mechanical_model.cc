@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <base/archive.h>
 #include <cmath>
+#include <dynamics/coupled_forces.h>
 #include <utility>
 
 namespace NMM
@@ -16,6 +17,24 @@ namespace NMM
                            "",
                            "choose 0 for that coefficient of damping"));
     return nullptr;
+  }
+
+
+  void
+  ForceSink::add(const MaterialVector       &d,
+                 const dealii::Tensor<1, 2> &force,
+                 const dealii::Tensor<2, 2> &stiffness)
+  {
+    const unsigned int         n = d.unknowns.size();
+    dealii::Vector<double>     forces(n);
+    dealii::FullMatrix<double> tangent(n);
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      forces(i) = d.weights[i] * force;
+      for (unsigned int j = 0; j < n; ++j)
+        tangent(i, j) = d.weights[i] * (stiffness * d.weights[j]);
+    }
+    add(d.unknowns, forces, tangent);
   }
 
 
@@ -70,9 +89,22 @@ namespace NMM
     for (ForceTerm *term : terms)
       if (auto *const of_blocks = dynamic_cast<BlockTerm *>(term))
         block_terms.terms.push_back(of_blocks);
+    std::vector<ForceTerm::Unknowns> couplings;
+    for (const ForceTerm *term : terms)
+      for (ForceTerm::Unknowns &unknowns : term->couplings())
+        couplings.push_back(std::move(unknowns));
+    if (!couplings.empty())
+    {
+      coupled =
+        std::make_unique<internal::CoupledForces>(layout, std::move(couplings));
+      block_terms.terms.push_back(coupled.get());
+    }
     for (ForceTerm *term : terms)
       term->set_presence(presence);
   }
+
+
+  MechanicalModel::~MechanicalModel() = default;
 
 
   void
@@ -90,9 +122,13 @@ namespace NMM
       sum = AssembledForces();
     sum.scale = sum.rounding = sum.strain_energy = sum.energy_of_conditions =
       0.;
+    if (coupled)
+      coupled->begin(trial, sum);
     for (ForceTerm *term : terms)
       if (term->assemble(trial, sum) != Deformation::admissible)
         return Deformation::inverted;
+    if (coupled)
+      coupled->finish(trial, sum);
     return Deformation::admissible;
   }
 

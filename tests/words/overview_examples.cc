@@ -7,6 +7,7 @@
 #include <nmm/covers/graded_mesh.h>
 #include <nmm/dynamics/contact_term.h>
 #include <nmm/dynamics/elastic_models.h>
+#include <nmm/dynamics/spring_term.h>
 #include <nmm/dynamics/step_control.h>
 #include <nmm/fracture/fracture.h>
 #include <nmm/geometry/crack_extension.h>
@@ -285,6 +286,8 @@ namespace
            const QuadratureCollection                 &mass_quadrature,
            const Loading                              &loading,
            Contact                                    &contact,
+           const CoverSystem                          &covers,
+           const Spring                               &spring,
            const Vector                               &u,
            const Vector                               &v,
            const double                                end_time,
@@ -294,7 +297,8 @@ namespace
     // Example of dynamics/time_integrator.h
     FiniteModel solid(elasticity, mass_quadrature, loading);
     ContactTerm touch(solid.layout(), contact);
-    MechanicalModel model(solid.layout(), {&solid, &touch});
+    SpringTerm springs(covers, solid.layout(), {spring});
+    MechanicalModel model(solid.layout(), {&solid, &touch, &springs});
     TimeIntegrator integrator(model, TimeScheme::energy_momentum());
     integrator.initialize(u, v);
     StepControlParameters parameters;
@@ -306,6 +310,43 @@ namespace
     // End
     // clang-format on
   }
+
+
+  // clang-format off
+  // Example of dynamics/force_term.h
+  class Band : public ForceTerm                    // a spring of the natural length 0
+  {
+  public:
+    Band(const MaterialVector &d, const double k) : d(d), k(k) {}
+
+    std::vector<Unknowns>
+    couplings() const override
+    {
+      return {d.unknowns};
+    }
+
+    ForceProperties
+    properties() const override
+    {
+      return {};                                   // linear and symmetric
+    }
+
+    Deformation
+    assemble(const Trial &trial, AssembledForces &sum) override
+    {
+      const auto end   = evaluate({d}, *trial.end)[0];
+      const auto begin = trial.is_conserving ? evaluate({d}, *trial.begin)[0] : end;
+      sum.sink->add(d, 0.5 * k * (begin + end), k * dealii::unit_symmetric_tensor<2>());
+      sum.energy_of_conditions += 0.5 * k * end * end;
+      return Deformation::admissible;
+    }
+
+  private:
+    MaterialVector d;
+    double         k;
+  };
+  // End
+  // clang-format on
 
 
   [[maybe_unused]] void
@@ -396,6 +437,7 @@ namespace
                                      "contact/contact.h",
                                      "fracture/fracture.h",
                                      "dynamics/time_integrator.h",
+                                     "dynamics/force_term.h",
                                      "output/output.h",
                                      "scene/scene.h"})
     {

@@ -5,11 +5,14 @@
 #include <nmm/base/step_fault.h>
 #include <nmm/base/types.h>
 #include <nmm/linear_algebra/body_matrix.h>
+#include <nmm/mechanics/material_vector.h>
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
+#include <deal.II/lac/vector.h>
 
 #include <cstdint>
 #include <limits>
@@ -158,6 +161,33 @@ namespace NMM
   };
 
 
+  /// Takes the forces of terms with ForceTerm::couplings(), one local system after the other, and
+  /// adds them to those of all terms. So it does not matter which terms come before or after.
+  class ForceSink
+  {
+  public:
+    virtual ~ForceSink() = default;
+
+    /**
+     * Add @p forces on @p unknowns to r [N/m], and their derivative @p tangent with respect to
+     * these unknowns (that of conserving forces with respect to the mean displacement) to K [Pa].
+     * The unknowns are free ones, in pairs 2k and 2k + 1, and lie within one of the couplings. The
+     * tangent is not read, and may be empty, if none is assembled. All ranks add the same.
+     */
+    virtual void
+    add(const std::vector<dealii::types::global_dof_index> &unknowns,
+        const dealii::Vector<double>                       &forces,
+        const dealii::FullMatrix<double>                   &tangent) = 0;
+
+    /// Add a @p force [N/m] that works on the vector @p d, so that its power is F . d', and its
+    /// derivative @p stiffness = dF/dd [Pa].
+    void
+    add(const MaterialVector       &d,
+        const dealii::Tensor<1, 2> &force,
+        const dealii::Tensor<2, 2> &stiffness);
+  };
+
+
   /// The sum of the forces r = internal forces - loads that terms have assembled. Each term adds
   /// its own; vectors and matrices belong to the term that was the last to write them.
   struct AssembledForces
@@ -173,6 +203,8 @@ namespace NMM
     /// contacts [J/m]; undefined for conserving forces.
     double strain_energy = 0., energy_of_conditions = 0.;
     /// @}
+    /// Where terms with couplings add forces and tangent; null: no term has couplings.
+    ForceSink *sink = nullptr;
 
     /// K = dr/du of the last assembly with a tangent [Pa].
     const dealii::TrilinosWrappers::SparseMatrix *tangent = nullptr;
@@ -210,8 +242,50 @@ namespace NMM
    * @f[ M\ddot u + C\dot u + r(u,t) = 0. @f]
    * A term knows no other term and no solver. Order of calls: begin_step(), assemble() as often
    * as needed, find_fault(), and commit() if the step is accepted; otherwise begin_step() again.
-   * A term that remembers nothing from step to step has only assemble(). All functions are
-   * collective.
+   * A term that remembers nothing from step to step has only assemble() and properties(). All
+   * functions are collective.
+   *
+   * How to write one: derive a class from this one. Forces that do not depend on u are added to
+   * AssembledForces::residual. A force that depends on the unknowns of a few covers, of whichever
+   * blocks, names them in couplings(), and is added to AssembledForces::sink together with its
+   * derivative. The positions of material points, and vectors between them, are functions of the
+   * unknowns that material_point() makes: `d = material_point(covers, constraints, end, "The band")
+   * - material_point(covers, constraints, start, "The band")`. See SpringTerm for more.
+   * @code
+   * class Band : public ForceTerm                    // a spring of the natural length 0
+   * {
+   * public:
+   *   Band(const MaterialVector &d, const double k) : d(d), k(k) {}
+   *
+   *   std::vector<Unknowns>
+   *   couplings() const override
+   *   {
+   *     return {d.unknowns};
+   *   }
+   *
+   *   ForceProperties
+   *   properties() const override
+   *   {
+   *     return {};                                   // linear and symmetric
+   *   }
+   *
+   *   Deformation
+   *   assemble(const Trial &trial, AssembledForces &sum) override
+   *   {
+   *     const auto end   = evaluate({d}, *trial.end)[0];
+   *     const auto begin = trial.is_conserving ? evaluate({d}, *trial.begin)[0] : end;
+   *     sum.sink->add(d, 0.5 * k * (begin + end), k * dealii::unit_symmetric_tensor<2>());
+   *     sum.energy_of_conditions += 0.5 * k * end * end;
+   *     return Deformation::admissible;
+   *   }
+   *
+   * private:
+   *   MaterialVector d;
+   *   double         k;
+   * };
+   * @endcode
+   * A term with stored energy adds it to AssembledForces::energy_of_conditions, and if
+   * Trial::is_conserving its forces do the work of the change of that energy.
    */
   class ForceTerm
   {
@@ -220,8 +294,19 @@ namespace NMM
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
     /// Distributed sparse matrix of the unknowns.
     using Matrix = dealii::TrilinosWrappers::SparseMatrix;
+    /// Global numbers of unknowns.
+    using Unknowns = std::vector<dealii::types::global_dof_index>;
 
     virtual ~ForceTerm() = default;
+
+    /// Sets of free unknowns, in pairs 2k and 2k + 1, that one force of the term couples with each
+    /// other, such as those of both ends of a spring; the same on all ranks. They are asked for
+    /// once, by the constructor of MechanicalModel. Empty: the term does not use the sink.
+    virtual std::vector<Unknowns>
+    couplings() const
+    {
+      return {};
+    }
 
     /// Prepare a step.
     virtual void

@@ -4,10 +4,17 @@
 #include <nmm/dynamics/force_term.h>
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace NMM
 {
+  namespace internal
+  {
+    class CoupledForces;
+  } // namespace internal
+
+
   /// The adapter through which a solver chooses the blocks that terms work on.
   class BlockTerms
   {
@@ -35,10 +42,15 @@ namespace NMM
 
   /**
    * The forces r(u, t) of a body as the sum of a list of terms, such as the solid (FiniteModel,
-   * SmallModel) and contact (ContactTerm), which are called in the order of the list:
+   * SmallModel), contact (ContactTerm) and springs (SpringTerm), which are called in the order of the
+   * list:
    * @code
-   * MechanicalModel model(solid.layout(), {&solid, &contact});
+   * MechanicalModel model(solid.layout(), {&solid, &contact, &springs});
    * @endcode
+   * What terms add to AssembledForces::sink is added last, and only if one of them has
+   * ForceTerm::couplings(). Then it costs a copy of the residual in each assembly, and in those with
+   * a tangent a copy of that, unless it is a body matrix.
+   *
    * Lifetime: layout and terms must outlive this object.
    */
   class MechanicalModel
@@ -52,6 +64,7 @@ namespace NMM
     /// The sum of @p terms, the first of which is that of the solid. All blocks are there, and no
     /// event has happened.
     MechanicalModel(const ModelLayout &layout, std::vector<ForceTerm *> terms);
+    ~MechanicalModel();
 
     /// The layout of the unknowns.
     const ModelLayout &
@@ -126,6 +139,8 @@ namespace NMM
     BlockTerms               block_terms;
     Presence                 presence;
     AssembledForces          sum;
+    /// What terms add to the sink; null: no term has couplings.
+    std::unique_ptr<internal::CoupledForces> coupled;
   };
 } // namespace NMM
 

@@ -27,6 +27,7 @@
  * | mechanical_model.h | the forces of a body as a list of terms |
  * | elastic_models.h | the term of a solid: small displacements, or total Lagrangian |
  * | contact_term.h | the term of contact |
+ * | spring_term.h | the term of springs between material points |
  * | loading.h | loads, releases and base acceleration as functions of time |
  * | time_scheme.h | coefficients of the time integration schemes |
  * | time_integrator.h | one time step, energy account, sleeping and leaving blocks |
@@ -40,7 +41,8 @@
  * @code
  * FiniteModel solid(elasticity, mass_quadrature, loading);
  * ContactTerm touch(solid.layout(), contact);            // only if blocks touch
- * MechanicalModel model(solid.layout(), {&solid, &touch});
+ * SpringTerm springs(covers, solid.layout(), {spring});  // or a term of one's own, see ForceTerm
+ * MechanicalModel model(solid.layout(), {&solid, &touch, &springs});
  * TimeIntegrator integrator(model, TimeScheme::energy_momentum());
  * integrator.initialize(u, v);                           // otherwise undeformed and at rest
  * StepControlParameters parameters;

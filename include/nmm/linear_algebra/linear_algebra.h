@@ -21,6 +21,7 @@
  * | cover_matrix_assembler.h | sums local matrices and right-hand sides into a sparse system |
  * | nmm/linear_algebra/body_matrix.h | dense couplings of many small bodies, instead of a sparse matrix |
  * | matrix_sum.h | adds a matrix of a smaller pattern, in selected rows |
+ * | extended_matrix.h | a copy of a matrix with further couplings, for forces between blocks |
  * | active_items.h | lists of rows, elements or points that belong to selected blocks |
  * | linear_solver.h | symmetric positive definite systems with one matrix, direct or iterative |
  * | matrix_rows.h | the rows of this rank of an Epetra matrix, as arrays |

@@ -29,6 +29,7 @@
  * | inelastic_terms.h | adds inelastic materials to small displacements |
  * | elastic_system.h, nonlinear_statics.h | static equilibrium at growing load factors |
  * | mass_matrix.h | consistent mass matrix |
+ * | material_vector.h | positions of material points as functions of the unknowns |
  * | displacement_field.h, stress_recovery.h, block_motion.h | evaluation of a solution |
  * | error_norms.h, thick_ring.h | errors, and an exact solution to compare with |
  *

@@ -1,0 +1,236 @@
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <dynamics/coupled_forces.h>
+#include <utility>
+
+namespace NMM
+{
+  namespace internal
+  {
+    namespace
+    {
+      [[maybe_unused]] bool
+      are_free_pairs(const CoupledForces::Unknowns           &unknowns,
+                     const dealii::AffineConstraints<double> &constraints)
+      {
+        bool result = unknowns.size() % 2 == 0;
+        for (unsigned int i = 0; i < unknowns.size(); ++i)
+          result = result && unknowns[i] % 2 == i % 2 &&
+                   unknowns[i] / 2 == unknowns[i / 2 * 2] / 2 &&
+                   !constraints.is_constrained(unknowns[i]);
+        return result;
+      }
+    } // namespace
+
+
+    CoupledForces::CoupledForces(const ModelLayout    &layout,
+                                 std::vector<Unknowns> couplings)
+      : layout(&layout)
+      , matrix(std::move(couplings))
+    {
+      residual.reinit(layout.locally_owned, layout.communicator);
+    }
+
+
+    void
+    CoupledForces::begin(const Trial &trial, AssembledForces &sum)
+    {
+      with_tangent = trial.tangent != Tangent::none;
+      begins.assign(1, 0);
+      unknowns.clear();
+      forces.clear();
+      tangents.clear();
+      sum.sink = this;
+    }
+
+
+    void
+    CoupledForces::add(const Unknowns                   &of_forces,
+                       const dealii::Vector<double>     &added,
+                       const dealii::FullMatrix<double> &tangent)
+    {
+      const unsigned int n = of_forces.size();
+      AssertDimension(added.size(), n);
+      Assert(are_free_pairs(of_forces, *layout->constraints),
+             dealii::ExcMessage(
+               "Forces act on pairs of free unknowns 2k and 2k + 1."));
+      unknowns.insert(unknowns.end(), of_forces.begin(), of_forces.end());
+      forces.insert(forces.end(), added.begin(), added.end());
+      begins.push_back(unknowns.size());
+      if (!with_tangent)
+        return;
+      AssertDimension(tangent.m(), n);
+      AssertDimension(tangent.n(), n);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          tangents.push_back(tangent(i, j));
+    }
+
+
+    void
+    CoupledForces::finish(const Trial &trial, AssembledForces &sum)
+    {
+      add_residual(sum);
+      find_blocks(with_tangent);
+      if (!with_tangent)
+        return;
+      if (sum.body_tangent != nullptr)
+        add_body_tangent(trial.tangent_factor, sum);
+      else
+        add_tangent(sum.scaled_tangent != nullptr ? trial.tangent_factor : 1.,
+                    sum);
+      if (sum.coupled_blocks == nullptr)
+        return;
+      all_pairs = *sum.coupled_blocks;
+      all_pairs.insert(all_pairs.end(), pairs.begin(), pairs.end());
+      sum.coupled_blocks = &all_pairs;
+    }
+
+
+    void
+    CoupledForces::add_residual(AssembledForces &sum)
+    {
+      const auto to   = residual.begin();
+      const auto from = std::as_const(*sum.residual).begin();
+      rows.for_each(residual.locally_owned_size(),
+                    [&](const unsigned int i) { to[i] = from[i]; });
+      double square = 0.;
+      for (unsigned int i = 0; i < unknowns.size(); ++i)
+      {
+        if (!layout->locally_owned.is_element(unknowns[i]))
+          continue;
+        const unsigned int row =
+          layout->locally_owned.index_within_set(unknowns[i]);
+        if (!rows.contains(row))
+          continue;
+        to[row] += forces[i];
+        square += forces[i] * forces[i];
+      }
+      square       = dealii::Utilities::MPI::sum(square, layout->communicator);
+      sum.residual = &residual;
+      sum.scale    = std::hypot(sum.scale, std::sqrt(square));
+    }
+
+
+    template <typename Action>
+    void
+    CoupledForces::for_each_matrix(const Action &action) const
+    {
+      const double *values = tangents.data();
+      for (unsigned int l = 0; l + 1 < begins.size(); ++l)
+      {
+        const unsigned int n = begins[l + 1] - begins[l];
+        action(unknowns.data() + begins[l], n, values);
+        values += std::size_t(n) * n;
+      }
+    }
+
+
+    void
+    CoupledForces::add_body_tangent(const double factor, AssembledForces &sum)
+    {
+      BodyMatrix &bodies = *sum.body_tangent;
+      (void)set_version(&bodies, sum);
+      for (double &value : tangents)
+        value *= factor;
+      std::vector<unsigned int> covers;
+      for_each_matrix([&](const dealii::types::global_dof_index *first,
+                          const unsigned int                     n,
+                          const double                          *values) {
+        covers.clear();
+        for (unsigned int i = 0; i < n; i += 2)
+          covers.push_back(first[i] / 2);
+        bodies.add({covers.data(), covers.size()}, values);
+      });
+    }
+
+
+    void
+    CoupledForces::add_tangent(const double factor, AssembledForces &sum)
+    {
+      const Matrix &of_terms =
+        sum.scaled_tangent != nullptr ? *sum.scaled_tangent : *sum.tangent;
+      if (set_version(&of_terms, sum))
+        matrix.build(of_terms, layout->locally_owned, layout->communicator);
+      matrix.read(of_terms, rows);
+      for_each_matrix([&](const dealii::types::global_dof_index *first,
+                          const unsigned int                     n,
+                          const double                          *values) {
+        matrix.add(factor, first, n, values, rows);
+      });
+      sum.tangent = &matrix.matrix();
+      if (sum.scaled_tangent != nullptr)
+        sum.scaled_tangent = &matrix.matrix();
+    }
+
+
+    /// Set the version of the pattern that the sum gets here. Returns whether the pattern of the
+    /// matrix that the terms have written is another one than before.
+    bool
+    CoupledForces::set_version(const void *of_terms, AssembledForces &sum)
+    {
+      const bool is_new =
+        original != of_terms || original_version != sum.pattern_version;
+      if (is_new)
+        ++version;
+      original            = of_terms;
+      original_version    = sum.pattern_version;
+      sum.pattern_version = version;
+      return is_new;
+    }
+
+
+    /// Find the pairs of blocks that the local systems couple, and the blocks that active ones
+    /// touch through them.
+    void
+    CoupledForces::find_blocks(const bool with_pairs)
+    {
+      pairs.clear();
+      const std::vector<unsigned int> &block_of = layout->blocks_of_unknowns;
+      if (block_of.empty())
+        return;
+      const auto is_active = [this](const unsigned int block) {
+        return active.empty() || active[block];
+      };
+      std::vector<unsigned int> blocks;
+      for (unsigned int l = 0; l + 1 < begins.size(); ++l)
+      {
+        blocks.clear();
+        for (unsigned int i = begins[l]; i < begins[l + 1]; ++i)
+          blocks.push_back(block_of[unknowns[i]]);
+        std::sort(blocks.begin(), blocks.end());
+        blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+        if (std::none_of(blocks.begin(), blocks.end(), is_active))
+          continue;
+        for (const unsigned int block : blocks)
+          if (!is_active(block) && (held.empty() || !held[block]))
+            touched.push_back(block);
+        for (unsigned int i = 0; with_pairs && i < blocks.size(); ++i)
+          for (unsigned int j = 0; j < i; ++j)
+            if (is_active(blocks[i]) || is_active(blocks[j]))
+              pairs.emplace_back(blocks[j], blocks[i]);
+      }
+    }
+
+
+    void
+    CoupledForces::set_active_blocks(const std::vector<bool> &is_active,
+                                     const std::vector<bool> &is_held)
+    {
+      active = is_active;
+      held   = is_held;
+      if (!is_active.empty() && rows.empty())
+        rows.reinit(layout->blocks_of_unknowns);
+      rows.select(is_active);
+    }
+
+
+    std::vector<unsigned int>
+    CoupledForces::take_touched_blocks()
+    {
+      return std::exchange(touched, {});
+    }
+  } // namespace internal
+} // namespace NMM

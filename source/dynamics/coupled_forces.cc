@@ -11,15 +11,17 @@ namespace NMM
   {
     namespace
     {
+      /// Whether unknowns are pairs, those of this rank free ones.
       [[maybe_unused]] bool
-      are_free_pairs(const CoupledForces::Unknowns           &unknowns,
-                     const dealii::AffineConstraints<double> &constraints)
+      are_free_pairs(const CoupledForces::Unknowns &unknowns,
+                     const ModelLayout             &layout)
       {
         bool result = unknowns.size() % 2 == 0;
         for (unsigned int i = 0; i < unknowns.size(); ++i)
           result = result && unknowns[i] % 2 == i % 2 &&
                    unknowns[i] / 2 == unknowns[i / 2 * 2] / 2 &&
-                   !constraints.is_constrained(unknowns[i]);
+                   !(layout.locally_owned.is_element(unknowns[i]) &&
+                     layout.constraints->is_constrained(unknowns[i]));
         return result;
       }
     } // namespace
@@ -53,7 +55,7 @@ namespace NMM
     {
       const unsigned int n = of_forces.size();
       AssertDimension(added.size(), n);
-      Assert(are_free_pairs(of_forces, *layout->constraints),
+      Assert(are_free_pairs(of_forces, *layout),
              dealii::ExcMessage(
                "Forces act on pairs of free unknowns 2k and 2k + 1."));
       unknowns.insert(unknowns.end(), of_forces.begin(), of_forces.end());

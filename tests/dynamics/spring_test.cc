@@ -149,7 +149,7 @@ namespace
                                 TimeScheme::constant_acceleration());
       RelaxationParameters parameters;
       parameters.step      = 1.;
-      parameters.tolerance = 1e-11;
+      parameters.tolerance = 1e-10;
       (void)relax(integrator, parameters);
       const Vector &u     = integrator.state().u;
       const double  force = hanging.springs->forces(u)[0];
@@ -241,7 +241,7 @@ namespace
   }
 
 
-  /// A random displacement of the size @p size that satisfies the constraints, on relevant unknowns.
+  /// A random displacement of the size @p size that satisfies the constraints; on one rank.
   Vector
   random_displacement(const ModelLayout &layout,
                       const double       size,
@@ -467,7 +467,7 @@ namespace
     Sprung         pair(squares({1., 1.}, 1e3),
                 Kinematics::finite,
                 eccentric_spring(20.));
-    TimeIntegrator integrator(*pair.model, TimeScheme::newmark());
+    TimeIntegrator integrator(*pair.model, TimeScheme::energy_momentum());
     step(integrator, 0.05);
     const double stored = integrator.account().conditions;
     EXPECT_GT(stored, 0.);
@@ -480,7 +480,7 @@ namespace
     EXPECT_NEAR((integrator.account().linear_momentum - momentum).norm(),
                 0.,
                 1e-12);
-    EXPECT_NEAR(integrator.account().balance, 0., 1e-6 * stored);
+    EXPECT_NEAR(integrator.account().balance, 0., 1e-9 * stored);
   }
 
 
@@ -575,8 +575,8 @@ namespace
       integrator.initialize(
         pair.body.zero(), pair.velocities({vector(-0.5, 0.), vector(0., 0.)}));
       SleepParameters parameters;
-      parameters.time         = 0.;
-      parameters.speed        = 0.02;
+      parameters.time         = 0.05;
+      parameters.speed        = 0.002;
       parameters.acceleration = 0.02;
       if (may_sleep)
         integrator.let_blocks_sleep(parameters);
@@ -584,7 +584,7 @@ namespace
       for (unsigned int n = 0; n < 100; ++n)
       {
         step(integrator, 0.01);
-        if (n == 0)
+        if (n == 5)
           n_asleep = integrator.n_asleep();
       }
       EXPECT_EQ(n_asleep, may_sleep ? 1u : 0u);
@@ -636,7 +636,7 @@ namespace
       spring.start          = {0.3, 0.9};
       spring.end            = {1.8, 0.8};
       spring.stiffness      = 2e6;
-      spring.natural_length = 1.45;
+      spring.natural_length = 1.49;
       springs               = std::make_unique<SpringTerm>(bodies->covers,
                                              bodies->solid->layout(),
                                              std::vector<Spring>{spring});

@@ -121,7 +121,8 @@ namespace
         ASSERT_NEAR(elongation, v / omega * std::sin(n * phase), 1e-5 * v)
           << "step " << n;
       }
-      EXPECT_LT(integrator.account().linear_momentum.norm(), 1e-12 * m_1 * v);
+      // the forces of the solid are rounded to about 1e-16 E u, and act for 5 s
+      EXPECT_LT(integrator.account().linear_momentum.norm(), 1e-8 * m_1 * v);
     }
   }
 
@@ -544,6 +545,33 @@ namespace
   }
 
 
+  // What Newton's method is told of blocks that a spring binds, when it solves some of three.
+  TEST(Springs, ReportWhomTheyTouch)
+  {
+    Sprung       three(squares({1., 1., 1.}, 1e3),
+                 Kinematics::finite,
+                 eccentric_spring(20.));
+    const Vector u            = three.body.zero();
+    BlockTerms  &blocks       = three.model->blocks();
+    const auto   touched_from = [&](const std::vector<bool> &is_active,
+                                  const std::vector<bool> &is_held) {
+      blocks.set_active_blocks(is_active, is_held);
+      EXPECT_EQ(three.model->assemble(Trial::at(u, 0.)),
+                Deformation::admissible);
+      return blocks.take_touched_blocks();
+    };
+    using Blocks = std::vector<unsigned int>;
+    EXPECT_EQ(touched_from({}, {}), Blocks());
+    EXPECT_EQ(touched_from({true, false, false}, {}), Blocks({1}));
+    EXPECT_EQ(touched_from({false, true, true}, {}), Blocks({0}));
+    EXPECT_EQ(touched_from({false, false, true}, {}), Blocks());
+    EXPECT_EQ(touched_from({true, false, false}, {false, true, false}),
+              Blocks());
+    EXPECT_EQ(blocks.take_touched_blocks(), Blocks());
+    EXPECT_TRUE(blocks.pressed_blocks().empty());
+  }
+
+
   // Blocks bound by a spring are one group, and others are solved at their own pace.
   TEST(Springs, GroupsDoNotChangeTheResult)
   {
@@ -681,12 +709,17 @@ namespace
 
   // Springs and contact, in either order, with a body matrix, a matrix that may be added to, and one
   // that may not.
-  TEST(Springs, ActBesideContact)
+  TEST(Springs, ActBesideContactMPI)
   {
+    const bool is_serial =
+      dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
     for (const bool mesh_of_every_block : {true, false})
       for (const TimeScheme &scheme :
            {TimeScheme::energy_momentum(), TimeScheme::generalized_alpha(0.9)})
       {
+        // on several ranks all blocks are one group, and there is no body matrix
+        if (mesh_of_every_block && !is_serial)
+          continue;
         Falling first(mesh_of_every_block), second(mesh_of_every_block),
           together(mesh_of_every_block);
         const Vector expected = first.run(true, scheme);
@@ -699,6 +732,8 @@ namespace
         }
         for (Falling *other : {&second, &together})
         {
+          if (other == &together && !is_serial)
+            continue;
           Vector difference =
             other->run(other == &together, scheme, other == &second);
           difference -= expected;

@@ -7,6 +7,24 @@
 
 namespace NMM
 {
+  void
+  ForceSink::add(const MaterialVector       &d,
+                 const dealii::Tensor<1, 2> &force,
+                 const dealii::Tensor<2, 2> &stiffness)
+  {
+    const unsigned int         n = d.unknowns.size();
+    dealii::Vector<double>     forces(n);
+    dealii::FullMatrix<double> tangent(n);
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      forces(i) = d.weights[i] * force;
+      for (unsigned int j = 0; j < n; ++j)
+        tangent(i, j) = d.weights[i] * (stiffness * d.weights[j]);
+    }
+    add(d.unknowns, forces, tangent);
+  }
+
+
   namespace internal
   {
     namespace

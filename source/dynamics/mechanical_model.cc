@@ -21,24 +21,6 @@ namespace NMM
 
 
   void
-  ForceSink::add(const MaterialVector       &d,
-                 const dealii::Tensor<1, 2> &force,
-                 const dealii::Tensor<2, 2> &stiffness)
-  {
-    const unsigned int         n = d.unknowns.size();
-    dealii::Vector<double>     forces(n);
-    dealii::FullMatrix<double> tangent(n);
-    for (unsigned int i = 0; i < n; ++i)
-    {
-      forces(i) = d.weights[i] * force;
-      for (unsigned int j = 0; j < n; ++j)
-        tangent(i, j) = d.weights[i] * (stiffness * d.weights[j]);
-    }
-    add(d.unknowns, forces, tangent);
-  }
-
-
-  void
   BlockTerms::set_active_blocks(const std::vector<bool> &is_active,
                                 const std::vector<bool> &is_held)
   {

@@ -8,6 +8,7 @@
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
 #include <mechanics/model.h>
+#include <random>
 
 namespace NMM
 {
@@ -141,6 +142,22 @@ namespace NMM
       const StepReport report = integrator.try_step(h);
       AssertThrow(report.converged, dealii::ExcMessage(report.reason));
       integrator.accept();
+    }
+
+
+    /// A random displacement of the size @p size that satisfies the constraints; on one rank.
+    inline Vector
+    random_displacement(const ModelLayout &layout,
+                        const double       size,
+                        std::mt19937      &generator)
+    {
+      std::uniform_real_distribution<double> random(-size, size);
+      Vector owned(layout.locally_owned, layout.communicator);
+      for (const auto i : layout.locally_owned)
+        owned(i) = random(generator);
+      owned.compress(dealii::VectorOperation::insert);
+      layout.constraints->distribute(owned);
+      return owned;
     }
 
 

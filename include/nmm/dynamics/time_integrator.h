@@ -24,6 +24,7 @@
  * | file (in nmm/dynamics) | job |
  * |---|---|
  * | force_term.h | interface of one kind of force, and the unknowns of a body |
+ * | force_sink.h | where forces between a few covers, of whichever blocks, are added |
  * | mechanical_model.h | the forces of a body as a list of terms |
  * | elastic_models.h | the term of a solid: small displacements, or total Lagrangian |
  * | contact_term.h | the term of contact |

@@ -116,9 +116,9 @@ namespace NMM
                               Vector(model->layout().locally_owned,
                                      communicator));
       }
-      RelaxationParameters relaxation = parameters.relaxation.relaxation;
-      relaxation.max_displacement = parameters.safety_factor.max_displacement;
-      StrengthTrial trial         = try_to_stand(
+      const RelaxationParameters relaxation = parameters.relaxation.of_trial(
+        parameters.safety_factor.max_displacement);
+      StrengthTrial trial = try_to_stand(
         integrator, relaxation, factor, [&](const StepRecord &step) {
           stop_if_asked(communicator);
           show_progress(factor, integrator, step);

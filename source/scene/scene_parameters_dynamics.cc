@@ -354,10 +354,10 @@ namespace NMM
                 Patterns::Double(1, 10),
                 "Factor on the step after each step [-].");
     entries.add("Tolerance",
-                relaxation.tolerance,
+                tolerance,
                 Patterns::Double(0, 1),
                 "Forces out of balance over forces in balance that count as "
-                "rest, > 0 [-].");
+                "rest [-]; 0: 1e-8, in trials of the factor of safety 1e-6.");
     entries.add("Largest displacement",
                 relaxation.max_displacement,
                 Patterns::Double(0),
@@ -375,9 +375,21 @@ namespace NMM
   RelaxationSectionParameters::bounded(const double extent) const
   {
     RelaxationParameters result = relaxation;
+    if (tolerance > 0.)
+      result.tolerance = tolerance;
     // A column that topples comes to rest further away than it is long.
     if (result.max_displacement == 0.)
       result.max_displacement = 10. * extent;
+    return result;
+  }
+
+
+  RelaxationParameters
+  RelaxationSectionParameters::of_trial(const double max_displacement) const
+  {
+    RelaxationParameters result = relaxation;
+    result.tolerance = tolerance > 0. ? tolerance : 100. * result.tolerance;
+    result.max_displacement = max_displacement;
     return result;
   }
 
@@ -398,10 +410,6 @@ namespace NMM
                              " s",
                            "parameter 'Relaxation/Step'",
                            "set it to about the lowest period of the solid"));
-    AssertThrow(relaxation.tolerance > 0.,
-                InputError("the tolerance is 0",
-                           "parameter 'Relaxation/Tolerance'",
-                           "give a positive number such as 1e-8"));
   }
 
 

@@ -134,7 +134,7 @@ namespace
           result[0] = result[1] = 0.;
           for (MechanicalModel *model : {&with, &without})
           {
-            model->begin_step({u, u, t, 0.0025});
+            model->begin_step({u, u, t, 0.0025, 0.});
             EXPECT_EQ(model->assemble(trial), Deformation::admissible);
             const double sign = model == &with ? 1. : -1.;
             result[0].add(sign, *model->forces().residual);

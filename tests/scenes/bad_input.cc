@@ -363,7 +363,7 @@ namespace
                                                  "Relaxation/Step=1"};
     expect_rejected_with(relaxation, "Relaxation/Step=0", {"Relaxation/Step"});
     expect_rejected_with(relaxation,
-                         "Relaxation/Tolerance=0",
+                         "Relaxation/Tolerance=-1",
                          {"Relaxation/Tolerance"});
     expect_rejected_with(relaxation, "Time/End time=1", {"Time/End time"});
     expect_rejected_with(relaxation,

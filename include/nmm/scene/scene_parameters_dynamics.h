@@ -144,13 +144,25 @@ namespace NMM
   /// The section `Relaxation`.
   struct RelaxationSectionParameters
   {
-    /// The parameters of relax(), with a largest displacement of 0 if the scene gives none.
+    /// The parameters of relax(), with a largest displacement of 0 if the scene gives none, and
+    /// without the tolerance.
     RelaxationParameters relaxation;
+    /// The tolerance [-]; 0 if the scene gives none.
+    double tolerance = 0.;
 
-    /// The same; a solid of the length @p extent [m] may move ten times that far if the scene
-    /// says nothing.
+    /// The parameters of a relaxation to equilibrium; a solid of the length @p extent [m] may move
+    /// ten times that far if the scene says nothing.
     RelaxationParameters
     bounded(double extent) const;
+
+    /**
+     * Those of a trial of the factor of safety, in which nothing may move by more than
+     * @p max_displacement [m]. If the scene gives no tolerance, it is a hundred times that of an
+     * equilibrium: single small blocks that are loose in a network may go on rattling below it, while
+     * nothing that falls would be slow enough to count as being at rest.
+     */
+    RelaxationParameters
+    of_trial(double max_displacement) const;
 
     /// Declares or reads the entries of the section.
     void

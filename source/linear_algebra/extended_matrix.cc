@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <linear_algebra/extended_matrix.h>
 #include <linear_algebra/matrix_rows.h>
+#include <linear_algebra/matrix_sum.h>
 #include <utility>
 
 namespace NMM
@@ -53,28 +54,19 @@ namespace NMM
             pattern.add_entries(row, coupled.begin(), coupled.end());
       extended.clear();
       extended.reinit(owned, owned, pattern, communicator);
-
-      const MatrixRows       to(extended);
-      const Epetra_BlockMap &of_own = extended.trilinos_matrix().ColMap();
-      original_to_own.resize(from.begins[n]);
-      for (int row = 0; row < n; ++row)
-        for (int i = from.begins[row]; i < from.begins[row + 1]; ++i)
-          original_to_own[i] =
-            entry(to, row, of_own.LID(of_original.GID(from.columns[i])));
     }
 
 
     void
     ExtendedMatrix::read(const Matrix &original, const ActiveItems &rows)
     {
-      const MatrixRows from(original), to(extended);
+      const MatrixRows to(extended);
       rows.for_each(extended.local_size(), [&](const unsigned int row) {
         std::fill(to.values + to.begins[row],
                   to.values + to.begins[row + 1],
                   0.);
-        for (int i = from.begins[row]; i < from.begins[row + 1]; ++i)
-          to.values[original_to_own[i]] = from.values[i];
       });
+      add_rows(1., original, extended, rows);
     }
 
 

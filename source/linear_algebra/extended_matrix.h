@@ -61,8 +61,6 @@ namespace NMM
     private:
       std::vector<std::vector<Index>> couplings;
       Matrix                          extended;
-      /// For each entry of the original, the index of its value in this matrix.
-      std::vector<int> original_to_own;
       /// Local columns of the unknowns of add().
       std::vector<int> columns;
     };

@@ -13,6 +13,14 @@
 
 namespace NMM
 {
+  ContactUpdate
+  update_in_relaxation(const TimeScheme &scheme)
+  {
+    return scheme.is_conserving ? ContactUpdate::every_iteration
+                                : ContactUpdate::every_step;
+  }
+
+
   struct ContactTerm::Data
   {
     const ModelLayout           *layout;

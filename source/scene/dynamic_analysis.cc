@@ -124,13 +124,15 @@ namespace NMM
         model =
           std::make_unique<SmallModel>(*elasticity, *mass_quadrature, loading);
 
+      const TimeScheme scheme =
+        parameters.time.time_scheme(kind, kinematics, contact != nullptr);
       std::vector<ForceTerm *> terms = {model.get()};
       if (contact)
       {
         contact_term = std::make_unique<AccountedContact>(
           model->layout(),
           *contact,
-          kind == Analysis::relaxation ? ContactUpdate::every_step
+          kind == Analysis::relaxation ? update_in_relaxation(scheme)
                                        : ContactUpdate::every_iteration);
         contact_term->append_to(terms);
       }
@@ -138,10 +140,7 @@ namespace NMM
       damping =
         scene.make_damping(*physical_mesh, problem, contact && has_friction());
       integrator = std::make_unique<TimeIntegrator>(
-        *mechanics,
-        parameters.time.time_scheme(kind, kinematics, contact != nullptr),
-        damping,
-        motion_newton_parameters(scene, progress));
+        *mechanics, scheme, damping, motion_newton_parameters(scene, progress));
       make_leaving();
       if (parameters.time.sleep.speed > 0.)
         integrator->let_blocks_sleep(parameters.time.sleep);

@@ -80,7 +80,11 @@ namespace NMM
     StrengthTrial
     SafetyFactorAnalysis::try_factor(const double factor)
     {
-      const SceneParameters            &parameters  = scene.parameters();
+      const SceneParameters &parameters = scene.parameters();
+      const TimeScheme       scheme =
+        parameters.time.time_scheme(Analysis::safety_factor,
+                                    parameters.model.kinematics,
+                                    /* has_contact = */ true);
       std::vector<ForceTerm *>          force_terms = {model.get()};
       std::unique_ptr<AccountedContact> with_contact;
       if (contact)
@@ -89,7 +93,7 @@ namespace NMM
         with_contact =
           std::make_unique<AccountedContact>(model->layout(),
                                              *contact,
-                                             ContactUpdate::every_step);
+                                             update_in_relaxation(scheme));
         with_contact->append_to(force_terms);
       }
       InelasticTerms *const terms = inelastic_terms_of(model.get());
@@ -99,13 +103,10 @@ namespace NMM
         terms->set_materials(reduce_strength(problem.materials, factor));
       }
       MechanicalModel mechanics(model->layout(), force_terms);
-      TimeIntegrator  integrator(
-        mechanics,
-        parameters.time.time_scheme(Analysis::safety_factor,
-                                    parameters.model.kinematics,
-                                    /* has_contact = */ true),
-        {},
-        motion_newton_parameters(scene, progress));
+      TimeIntegrator  integrator(mechanics,
+                                scheme,
+                                {},
+                                motion_newton_parameters(scene, progress));
       if (parameters.safety_factor.start == Start::settled)
       {
         if (contact)

@@ -3,6 +3,7 @@
 
 #include <nmm/contact/contact.h>
 #include <nmm/dynamics/mechanical_model.h>
+#include <nmm/dynamics/time_scheme.h>
 
 #include <memory>
 #include <vector>
@@ -38,6 +39,11 @@ namespace NMM
      */
     every_step
   };
+
+
+  /// What is best for a relaxation with @p scheme: every_step, unless its forces are conserving.
+  ContactUpdate
+  update_in_relaxation(const TimeScheme &scheme);
 
 
   /**

@@ -99,6 +99,7 @@ namespace NMM
       if (result.n_steps < parameters.max_steps)
         result.outcome = Outcome::fails;
     }
+    result.imbalance = integrator.account().imbalance;
     TimeIntegrator::Vector motion(integrator.state().u);
     motion -= begin;
     result.displacement = motion.linfty_norm();

@@ -118,7 +118,8 @@ namespace NMM
                                      communicator));
       }
       const RelaxationParameters relaxation = parameters.relaxation.of_trial(
-        parameters.safety_factor.max_displacement);
+        parameters.safety_factor.max_displacement,
+        parameters.safety_factor.search.tolerance);
       StrengthTrial trial = try_to_stand(
         integrator, relaxation, factor, [&](const StepRecord &step) {
           stop_if_asked(communicator);
@@ -140,7 +141,9 @@ namespace NMM
       on_first_rank([&]() { write_trials(); });
       std::ostringstream line;
       line << "  factor " << factor << ' ' << verb(trial.outcome) << " ("
-           << trial.n_steps << " steps, " << trial.n_iterations << " iterations"
+           << trial.n_steps << " steps, " << trial.n_iterations
+           << " iterations, imbalance " << std::setprecision(2)
+           << trial.imbalance << std::setprecision(6)
            << (trial.reason.empty() ? "" : ", ") << trial.reason << ')';
       progress.message(line.str());
       return trial;

@@ -353,11 +353,13 @@ namespace NMM
                 relaxation.growth,
                 Patterns::Double(1, 10),
                 "Factor on the step after each step [-].");
-    entries.add("Tolerance",
-                tolerance,
-                Patterns::Double(0, 1),
-                "Forces out of balance over forces in balance that count as "
-                "rest [-]; 0: 1e-8, in trials of the factor of safety 1e-6.");
+    entries.add(
+      "Tolerance",
+      tolerance,
+      Patterns::Double(0, 1),
+      "Forces out of balance over forces in balance that count as "
+      "rest [-]; 0: 1e-8, in trials of the factor of safety 1e-4 times "
+      "their tolerance and at most 1e-6.");
     entries.add("Largest displacement",
                 relaxation.max_displacement,
                 Patterns::Double(0),
@@ -385,10 +387,12 @@ namespace NMM
 
 
   RelaxationParameters
-  RelaxationSectionParameters::of_trial(const double max_displacement) const
+  RelaxationSectionParameters::of_trial(const double max_displacement,
+                                        const double factor_tolerance) const
   {
     RelaxationParameters result = relaxation;
-    result.tolerance = tolerance > 0. ? tolerance : 100. * result.tolerance;
+    result.tolerance =
+      tolerance > 0. ? tolerance : std::min(1e-6, 1e-4 * factor_tolerance);
     result.max_displacement = max_displacement;
     return result;
   }

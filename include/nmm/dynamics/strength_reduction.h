@@ -51,6 +51,8 @@ namespace NMM
     double displacement = 0.;
     /// Number of accepted steps, and of iterations, those of steps given up included.
     unsigned int n_steps = 0, n_iterations = 0;
+    /// Account::imbalance at the end [-].
+    double imbalance = 0.;
     /// Why the solid does not stand, as part of a message; empty if it stands.
     std::string reason;
 

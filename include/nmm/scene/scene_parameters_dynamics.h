@@ -157,12 +157,13 @@ namespace NMM
 
     /**
      * Those of a trial of the factor of safety, in which nothing may move by more than
-     * @p max_displacement [m]. If the scene gives no tolerance, it is a hundred times that of an
-     * equilibrium: single small blocks that are loose in a network may go on rattling below it, while
-     * nothing that falls would be slow enough to count as being at rest.
+     * @p max_displacement [m]. If the scene gives no tolerance of rest, it is 1e-4 of
+     * @p factor_tolerance, that of the factor, and at most 1e-6: forces out of balance
+     * are then far below those by which strength differs between two trials, and small blocks that
+     * are loose in a network may go on rattling.
      */
     RelaxationParameters
-    of_trial(double max_displacement) const;
+    of_trial(double max_displacement, double factor_tolerance) const;
 
     /// Declares or reads the entries of the section.
     void

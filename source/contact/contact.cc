@@ -127,7 +127,7 @@ namespace NMM
 
 
   void
-  Contact::detect(const Vector &u, const double least_reach)
+  Contact::detect(const Vector &u, const std::vector<double> &least_reaches)
   {
     Data &d = *data;
     d.stage = Data::Stage::detected;
@@ -141,17 +141,24 @@ namespace NMM
       d.last_penetrations.clear();
     }
     // What touches is found again, however deep it is and however little moves in the step.
-    d.reach =
-      std::max({least_reach, d.parameters.reach, d.memory.touching_reach});
+    const double least =
+      0.5 * std::max(d.parameters.reach, d.memory.touching_reach);
     // Faces that have parted by dilation are still in contact, and so are those that part by less
     // than the initial stress has closed them.
-    const double reach =
-      d.reach + d.largest_opening() + d.largest_initial_closure;
-    if (d.search.update(reach))
+    const double parted =
+      0.5 * (d.largest_opening() + d.largest_initial_closure);
+    d.reaches.assign(d.surface->n_bodies(), least);
+    for (unsigned int body = 0; body < least_reaches.size(); ++body)
+      d.reaches[body] = std::max(least, least_reaches[body]);
+    d.reach = 2. * *std::max_element(d.reaches.begin(), d.reaches.end());
+    std::vector<double> searched = d.reaches;
+    for (double &reach : searched)
+      reach += parted;
+    if (d.search.update(searched))
     {
-      d.memory.searched_nodal = d.nodal;
-      d.memory.searched_time  = d.time;
-      d.memory.searched_reach = reach;
+      d.memory.searched_nodal   = d.nodal;
+      d.memory.searched_time    = d.time;
+      d.memory.searched_reaches = searched;
     }
     d.search.begin(!d.memory.has_accepted_state
                      ? ContactSearch::Begin::reference
@@ -449,22 +456,25 @@ namespace NMM
   }
 
 
-  double
-  Contact::largest_motion(const Vector &from, const Vector &to)
+  std::vector<double>
+  Contact::motions(const Vector &from, const Vector &to)
   {
-    Data                        &d = *data;
-    const unsigned int           n = 3 * d.surface->edges().size();
-    std::vector<ContactPosition> positions(n);
+    Data                        &d     = *data;
+    const auto                  &edges = d.surface->edges();
+    std::vector<ContactPosition> positions(3 * edges.size());
     d.move_to(to);
-    for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int i = 0; i < positions.size(); ++i)
       positions[i] = d.surface->place(i / 3, 0.5 * (i % 3)).x;
     d.move_to(from);
-    double square = 0.;
-    for (unsigned int i = 0; i < n; ++i)
-      square = std::max(
-        square,
-        d.surface->place(i / 3, 0.5 * (i % 3)).x.distance_square(positions[i]));
-    return std::sqrt(square);
+    std::vector<double> result(d.surface->n_bodies(), 0.);
+    for (unsigned int i = 0; i < positions.size(); ++i)
+    {
+      double &largest = result[edges[i / 3].body];
+      largest         = std::max(
+        largest,
+        d.surface->place(i / 3, 0.5 * (i % 3)).x.distance(positions[i]));
+    }
+    return result;
   }
 
 

@@ -518,10 +518,10 @@ namespace NMM
     list_points_of_bodies();
 
     /// Whether the step that began at detect() takes any body through another one, the surface
-    /// being at the end of the step. @p largest_motion is the largest motion of a point of a face
-    /// in the step [m].
+    /// being at the end of the step. @p motions are the largest ones of a point of a face of each
+    /// body in the step [m].
     StepFault
-    find_crossing(double largest_motion);
+    find_crossing(const std::vector<double> &motions);
 
     /// Estimated rounding of the force of a point [N/m].
     double
@@ -655,9 +655,12 @@ namespace NMM
     /// Faces that each point is beside, see ContactSearch::append_faces_beside(). They are found
     /// when points are made, so that they do not change within a step.
     std::vector<unsigned int> faces_beside;
-    /// Reach of the last search, and largest depth of new contact of an edge that has not moved, see
-    /// AdmittedContact [m].
-    double reach = 0., admitted_depth = 0.;
+    /// How far the faces of each body may move until the next search, and the largest sum of two
+    /// of these ways [m].
+    std::vector<double> reaches;
+    double              reach = 0.;
+    /// Largest depth of new contact of an edge that has not moved, see AdmittedContact [m].
+    double admitted_depth = 0.;
     /// Way of each edge since the last accepted state [m], where it bounds the depth of new contact.
     std::vector<double> edge_motions;
     /// Time of set_time() [s].

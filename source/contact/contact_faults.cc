@@ -53,13 +53,14 @@ namespace NMM
 
 
   StepFault
-  Contact::Data::find_crossing(const double largest_motion)
+  Contact::Data::find_crossing(const std::vector<double> &motions)
   {
     if (crossings == nullptr)
       crossings =
         std::make_unique<ContactCrossings>(*surface, parameters.reach);
-    const double motion = 2. * largest_motion;
-    const double depth  = std::max(deepest, report.largest_penetration);
+    const double motion =
+      2. * *std::max_element(motions.begin(), motions.end());
+    const double depth = std::max(deepest, report.largest_penetration);
     if (!crossings->may_cross(motion + depth))
       return {};
 
@@ -68,7 +69,10 @@ namespace NMM
       end[i] = surface->place(i / 3, 0.5 * (i % 3)).x;
     crossings->set_step(search.step_begin(), end);
     std::vector<EdgePair> near;
-    if (motion <= reach)
+    bool                  is_within_reach = true;
+    for (unsigned int body = 0; body < motions.size(); ++body)
+      is_within_reach = is_within_reach && motions[body] <= reaches[body];
+    if (is_within_reach)
       near = find_near(search, *crossings, depth);
     else
     {
@@ -79,7 +83,7 @@ namespace NMM
                               ContactIntegration::points);
       surface->set_displacements(&step.nodal_begin);
       surface->set_time(step.time_detected);
-      further.search(motion);
+      further.search(motions);
       near = find_near(further, *crossings, depth);
       surface->set_time(time);
       surface->set_displacements(&nodal);
@@ -118,8 +122,8 @@ namespace NMM
   {
     Data &d = *data;
     d.move_to(end);
-    const double       motion = d.search.motion();
-    std::ostringstream text;
+    const std::vector<double> motions = d.search.motions();
+    std::ostringstream        text;
     if (!d.is_idle && d.deepest > 0.5 * d.reach)
     {
       text << "a penetration of " << d.deepest
@@ -132,13 +136,15 @@ namespace NMM
         "impacts only",
         0.};
     }
-    if (motion > d.reach)
-    {
-      text << "a point of a face that moved further than the distance of "
-           << d.reach << " m within which faces are looked for";
-      return {text.str(), "", 0.};
-    }
-    return d.find_crossing(motion);
+    // A body that is struck moves further than was expected of it, while what struck it slows down.
+    for (unsigned int body = 0; body < motions.size(); ++body)
+      if (motions[body] > 2. * d.reaches[body])
+      {
+        text << "a point of a face that moved further than the distance of "
+             << 2. * d.reaches[body] << " m within which faces are looked for";
+        return {text.str(), "", 0.};
+      }
+    return d.find_crossing(motions);
   }
 
 
@@ -146,6 +152,6 @@ namespace NMM
   Contact::find_crossing(const Vector &end)
   {
     data->move_to(end);
-    return data->find_crossing(data->search.motion());
+    return data->find_crossing(data->search.motions());
   }
 } // namespace NMM

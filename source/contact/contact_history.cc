@@ -399,6 +399,6 @@ namespace NMM
     d.nodal = d.memory.searched_nodal;
     d.surface->set_displacements(&d.nodal);
     set_time(d.memory.searched_time);
-    d.search.search(d.memory.searched_reach);
+    d.search.search(d.memory.searched_reaches);
   }
 } // namespace NMM

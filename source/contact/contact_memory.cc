@@ -77,9 +77,16 @@ namespace NMM
                                 history.searched_displacements.size() ==
                                   2 * surface.cover_system().n_covers(),
                               "it is of another number of covers in contact");
+        require_finite(history.searched_reaches);
+        require_in_checkpoint(history.searched_displacements.empty() ||
+                                history.searched_reaches.size() == n_bodies,
+                              "bodies in the search are not there");
         require_in_checkpoint(std::isfinite(history.searched_time) &&
-                                std::isfinite(history.searched_reach) &&
-                                history.searched_reach >= 0.,
+                                std::all_of(history.searched_reaches.begin(),
+                                            history.searched_reaches.end(),
+                                            [](const double reach) {
+                                              return reach >= 0.;
+                                            }),
                               "time or reach of the search is no number");
       }
     } // namespace
@@ -125,7 +132,7 @@ namespace NMM
       history.has_accepted_state = has_accepted_state;
       history.multipliers        = multipliers;
       history.searched_time      = searched_time;
-      history.searched_reach     = searched_reach;
+      history.searched_reaches   = searched_reaches;
       history.touching_reach     = touching_reach;
       for (const dealii::Tensor<1, 2> &u : searched_nodal)
         history.searched_displacements.insert(
@@ -165,8 +172,8 @@ namespace NMM
         searched_nodal.resize(values.size() / 2);
         for (unsigned int i = 0; i < values.size(); ++i)
           searched_nodal[i / 2][i % 2] = values[i];
-        searched_time  = history.searched_time;
-        searched_reach = history.searched_reach;
+        searched_time    = history.searched_time;
+        searched_reaches = history.searched_reaches;
       }
       // Corners of masters belong to the rank of the slave, which is not known here, so that every
       // rank takes them.

@@ -44,7 +44,8 @@ namespace NMM
       /// Displacements [m], time [s] and reach [m] of the last search for candidate pairs. A
       /// computation that continues from a checkpoint repeats this search to find the same pairs.
       std::vector<dealii::Tensor<1, 2>> searched_nodal;
-      double                            searched_time = 0., searched_reach = 0.;
+      double                            searched_time = 0.;
+      std::vector<double>               searched_reaches;
       /// See ContactHistory::touching_reach [m].
       double touching_reach = 0.;
 

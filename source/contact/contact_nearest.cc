@@ -78,12 +78,13 @@ namespace NMM
         {
           if (n_parts > 1 && !is_corner(master, end))
             continue;
-          const ContactPosition x = surface->place(master, end).x;
+          const ContactPosition x          = surface->place(master, end).x;
+          const double          pair_reach = reach_of(slave, master);
           double                t;
           Place                 place;
-          if (!surface->is_further(slave, x, reach, 0., 0.) &&
+          if (!surface->is_further(slave, x, pair_reach, 0., 0.) &&
               find_nearest(slave, x, t, place) && t > same_division &&
-              t < 1. - same_division && place.x.distance(x) <= reach &&
+              t < 1. - same_division && place.x.distance(x) <= pair_reach &&
               along_face(
                 -(place.normal() * surface->place(master, end).normal())) > 0.)
             found.push_back(
@@ -122,14 +123,16 @@ namespace NMM
     ContactSearch::is_in_reach(const unsigned int     position,
                                const ContactPosition &x) const
     {
+      const unsigned int slave = slave_edges[position];
       for (const unsigned int master : masters(position))
       {
-        double t;
-        Place  place;
-        if (!surface->is_further(master, x, reach, 0., 0.) &&
+        const double pair_reach = reach_of(slave, master);
+        double       t;
+        Place        place;
+        if (!surface->is_further(master, x, pair_reach, 0., 0.) &&
             find_nearest(master, x, t, place) &&
             surface->place(master, std::clamp(t, 0., 1.)).x.distance(x) <=
-              reach)
+              pair_reach)
           return true;
       }
       return false;

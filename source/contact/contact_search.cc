@@ -179,34 +179,52 @@ namespace NMM
     }
 
 
-    bool
-    ContactSearch::update(const double new_reach)
+    void
+    ContactSearch::set_reaches(const std::vector<double> &given)
     {
-      // If the kept reach is larger than this many times the new one, there are too many
+      AssertDimension(given.size(), surface->n_bodies());
+      reaches = given;
+      reach   = 2. * *std::max_element(given.begin(), given.end());
+    }
+
+
+    bool
+    ContactSearch::update(const std::vector<double> &new_reaches)
+    {
+      // If the kept reach of a body is larger than this many times the new one, there are too many
       // candidates.
       constexpr double far = 4.;
 
+      set_reaches(new_reaches);
       begin_positions.resize(3 * surface->edges().size());
       for (unsigned int i = 0; i < begin_positions.size(); ++i)
         begin_positions[i] = surface->place(i / 3, 0.5 * (i % 3)).x;
-      if (broad_reach > 0. && broad_reach <= far * new_reach &&
-          new_reach + 2. * largest_distance(known_positions) <= broad_reach)
+      bool is_kept = !broad_reaches.empty();
+      if (is_kept)
       {
-        reach = new_reach;
-        return false;
+        const std::vector<double> ways = distances(known_positions);
+        for (unsigned int b = 0; b < reaches.size(); ++b)
+          is_kept = is_kept && broad_reaches[b] <= far * reaches[b] &&
+                    reaches[b] + ways[b] <= broad_reaches[b];
       }
-      search(new_reach);
-      return true;
+      if (!is_kept)
+        search(new_reaches);
+      return !is_kept;
     }
 
 
     void
-    ContactSearch::search(const double new_reach)
+    ContactSearch::search(const std::vector<double> &new_reaches)
     {
       constexpr double margin = 0.5;
 
-      reach                = new_reach;
-      broad_reach          = (1. + margin) * new_reach;
+      set_reaches(new_reaches);
+      broad_reaches = reaches;
+      for (double &broad : broad_reaches)
+        broad *= 1. + margin;
+      const auto broad_reach = [&](const unsigned int edge) {
+        return broad_reaches[surface->edges()[edge].body];
+      };
       const unsigned int n = surface->edges().size();
       std::vector<Box>   boxes;
       std::vector<Entry> entries;
@@ -217,7 +235,7 @@ namespace NMM
       {
         boxes.push_back(box_of(*surface, e, 0.));
         if (!surface->is_absent(e))
-          entries.emplace_back(boxes.back(), e);
+          entries.emplace_back(inflated(boxes.back(), broad_reach(e)), e);
         for (unsigned int i = 0; i < 3; ++i)
           known_positions[3 * e + i] = surface->place(e, 0.5 * i).x;
       }
@@ -246,7 +264,7 @@ namespace NMM
       {
         if (surface->is_absent(e))
           continue;
-        find(e, inflated(boxes[e], broad_reach), [&](const unsigned int m) {
+        find(e, inflated(boxes[e], broad_reach(e)), [&](const unsigned int m) {
           return comes_first(e, m);
         });
         append(e, 2, found);
@@ -262,7 +280,7 @@ namespace NMM
             const ContactPosition &x = known_positions[3 * e + 2 * end];
             const BoxCorner        corner(x[0], x[1]);
             find(e,
-                 inflated(Box(corner, corner), broad_reach),
+                 inflated(Box(corner, corner), broad_reach(e)),
                  [](unsigned int) { return true; });
             append(e, end, found);
           }
@@ -299,16 +317,19 @@ namespace NMM
     }
 
 
-    double
-    ContactSearch::largest_distance(
+    std::vector<double>
+    ContactSearch::distances(
       const std::vector<ContactPosition> &positions) const
     {
-      double square = 0.;
+      std::vector<double> result(surface->n_bodies(), 0.);
       for (unsigned int i = 0; i < positions.size(); ++i)
-        square = std::max(
-          square,
-          surface->place(i / 3, 0.5 * (i % 3)).x.distance_square(positions[i]));
-      return std::sqrt(square);
+      {
+        double &largest = result[surface->edges()[i / 3].body];
+        largest         = std::max(
+          largest,
+          surface->place(i / 3, 0.5 * (i % 3)).x.distance(positions[i]));
+      }
+      return result;
     }
 
 

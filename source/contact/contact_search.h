@@ -122,23 +122,34 @@ namespace NMM
       ~ContactSearch();
 
       /**
-       * Update the masters of this rank's edges at the current positions of the surface. Masters
-       * are searched for within 1.5 times @p reach [m], and kept until a face has moved further
-       * than the difference allows. Returns whether they have been searched for.
+       * Update the masters of this rank's edges at the current positions of the surface. Each body
+       * has a reach [m], and faces of two bodies are candidates if they are nearer to each other
+       * than the sum of both, so that a body that flies off makes no candidates among those at
+       * rest. Masters are searched for within 1.5 times the @p reaches, one for each body, and kept
+       * until a face has moved further than the difference allows. Returns whether they have been
+       * searched for.
        */
       bool
-      update(double reach);
+      update(const std::vector<double> &reaches);
 
       /// Let the next update() search for masters, because bodies have appeared or disappeared.
       void
       forget()
       {
-        broad_reach = 0.;
+        broad_reaches.clear();
       }
 
-      /// Search for masters now, within 1.5 times @p reach [m].
+      /// Search for masters now, within 1.5 times the @p reaches of the bodies [m].
       void
-      search(double reach);
+      search(const std::vector<double> &reaches);
+
+      /// The distance within which all faces of two bodies are candidates [m].
+      double
+      reach_of(unsigned int edge, unsigned int other) const
+      {
+        return reaches[surface->edges()[edge].body] +
+               reaches[surface->edges()[other].body];
+      }
 
       /// Slave edges of this rank that have masters: first those that touch along their length,
       /// then those with a corner at one end, ascending in both parts. Corners of obstacles belong
@@ -185,12 +196,12 @@ namespace NMM
       dealii::ArrayView<const unsigned int>
       masters(unsigned int position) const;
 
-      /// Largest distance [m] that an end or the middle of an edge has moved since update(). It is
-      /// the same on all ranks.
-      double
-      motion() const
+      /// Largest distances [m] that an end or the middle of an edge of each body has moved since
+      /// update(). They are the same on all ranks.
+      std::vector<double>
+      motions() const
       {
-        return largest_distance(begin_positions);
+        return distances(begin_positions);
       }
 
       /// Start, middle and end of all edges at update().
@@ -372,6 +383,9 @@ namespace NMM
       may_touch(unsigned int edge, unsigned int other) const;
 
       void
+      set_reaches(const std::vector<double> &given);
+
+      void
       append(unsigned int                     edge,
              unsigned int                     corner,
              const std::vector<unsigned int> &masters);
@@ -385,8 +399,10 @@ namespace NMM
                      double                                largest_gap,
                      const AdmittedContact                &admitted) const;
 
-      double
-      largest_distance(const std::vector<ContactPosition> &positions) const;
+      /// The largest distances of the three places of an edge from earlier positions, for each body
+      /// [m].
+      std::vector<double>
+      distances(const std::vector<ContactPosition> &positions) const;
 
       /// Distance of a corner at @p x from the body [m], if it is behind a face but in front of
       /// another face that meets this one in a convex corner; negative if there is no such face.
@@ -427,10 +443,14 @@ namespace NMM
       const ContactSurface     *surface;
       std::vector<unsigned int> ranks;
       /// Order of the edges of a block, see comes_first().
-      std::vector<double>       edge_to_side;
-      bool                      only_vertices;
-      Statistics                counts;
-      double                    reach = 0., broad_reach = 0.;
+      std::vector<double> edge_to_side;
+      bool                only_vertices;
+      Statistics          counts;
+      /// The reaches of all bodies, and those within which masters have been searched for; empty if
+      /// there must be a search [m].
+      std::vector<double> reaches, broad_reaches;
+      /// The largest sum of two reaches [m].
+      double                    reach = 0.;
       std::vector<unsigned int> slave_edges, masters_begin, master_edges;
       std::vector<unsigned int> corners;
       /// Positions of start, middle and end of all edges at search(), at update() and at begin().

@@ -113,6 +113,10 @@ namespace NMM
       double reached = 0.;
 
     private:
+      /// The largest motion of a point of a face between two displacements [m].
+      double
+      find_largest_motion(const Vector &from, const Vector &to);
+
       StepFault
       find_by(NewtonSolver &solver,
               LoadStep     &step,
@@ -157,6 +161,15 @@ namespace NMM
       const bool is_broken = contact->break_bonds(broken_at_once) > 0;
       n_breaks += is_broken;
       return is_broken && n_breaks <= max_breaks;
+    }
+
+
+    double
+    ContactEquilibrium::find_largest_motion(const Vector &from,
+                                            const Vector &to)
+    {
+      const std::vector<double> motions = contact->motions(from, to);
+      return *std::max_element(motions.begin(), motions.end());
     }
 
 
@@ -239,7 +252,7 @@ namespace NMM
           (i > 0 && step.newton.iterations.front().relative_residual <=
                       100. * parameters.residual_tolerance) ||
           (elasticity->is_linearized() &&
-           contact->largest_motion(u, detected) <=
+           find_largest_motion(detected, u) <=
              small_motion * contact->parameters().reach);
         if (!is_augmented)
         {

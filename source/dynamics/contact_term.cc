@@ -171,20 +171,22 @@ namespace NMM
 
     Data        &d        = *data;
     const double step_end = step.time + step.length;
-    // both faces of a candidate pair may move by `largest`, and obstacles move as well
-    const double largest   = d.contact->largest_motion(step.u, step.predicted);
-    double       obstacles = 0.;
-    for (const RigidObstacle &obstacle : d.contact->surface().obstacles())
-      if (obstacle.displacement)
-        obstacles = std::max(obstacles,
-                             (obstacle.displacement(step_end) -
-                              obstacle.displacement(step.time))
-                               .norm());
-    constexpr double margin = 1.5;
+    // Obstacles move as they are told, blocks by about as much as is predicted.
+    constexpr double    margin    = 1.5;
+    std::vector<double> reaches   = d.contact->motions(step.u, step.predicted);
+    const auto         &obstacles = d.contact->surface().obstacles();
+    for (unsigned int i = 0; i < obstacles.size(); ++i)
+      if (obstacles[i].displacement)
+        reaches[reaches.size() - obstacles.size() + i] =
+          (obstacles[i].displacement(step_end) -
+           obstacles[i].displacement(step.time))
+            .norm();
+    for (double &reach : reaches)
+      reach *= margin;
     d.contact->set_time(step.time);
     d.contact->freeze_geometry(d.update == ContactUpdate::every_step &&
                                step.imbalance > near_rest);
-    d.contact->detect(step.u, margin * (2. * largest + obstacles));
+    d.contact->detect(step.u, reaches);
     d.is_detected = true;
     if (!d.contact->is_idle())
     {

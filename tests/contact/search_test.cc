@@ -273,7 +273,8 @@ namespace
         const std::vector<Tensor<1, 2>> nodal =
           move(bodies, random_motions(bodies, generator));
         bodies.surface.set_displacements(&nodal);
-        search.update(reach);
+        search.update(
+          std::vector<double>(bodies.surface.n_bodies(), 0.5 * reach));
         comparison.update();
         for (unsigned int i = 0; i < search.slaves().size(); ++i)
           if (search.corner(i) != 2)
@@ -326,7 +327,8 @@ namespace
         ranks[upper]     = upper_is_slave ? 0 : 1;
         ranks[1 - upper] = upper_is_slave ? 1 : 0;
         ContactSearch search(bodies.surface, ranks);
-        search.update(reach);
+        search.update(
+          std::vector<double>(bodies.surface.n_bodies(), 0.5 * reach));
         unsigned int n = 0, n_none = 0;
         const auto  &edges = bodies.surface.edges();
         for (unsigned int i = 0; i < search.slaves().size(); ++i)
@@ -418,7 +420,7 @@ namespace
         std::vector<Tensor<1, 2>> nodal(bodies.covers.n_covers());
         bodies.surface.set_displacements(&nodal);
         ContactSearch search(bodies.surface, {});
-        search.update(0.05);
+        search.update(std::vector<double>(bodies.surface.n_bodies(), 0.025));
         const auto  &edges  = bodies.surface.edges();
         double       length = 0.;
         unsigned int n_tips = 0;
@@ -648,7 +650,7 @@ namespace
       const std::vector<Tensor<1, 2>> nodal = move(bodies, motions);
       bodies.surface.set_displacements(&nodal);
       ContactSearch search(bodies.surface, {});
-      search.update(0.1);
+      search.update(std::vector<double>(bodies.surface.n_bodies(), 0.05));
       for (unsigned int i = 0; i < search.slaves().size(); ++i)
         if (search.corner(i) == 2)
           for (const double s : {0., 0.37, 0.9})
@@ -667,6 +669,67 @@ namespace
           }
     }
     EXPECT_GT(n, 100U);
+  }
+
+
+  /// A block that moves fast looks further, and so do the others towards it; among themselves they
+  /// look no further than before.
+  TEST(ContactDetection, FastBlocksAddNoCandidatesAmongOthers)
+  {
+    Geometry geometry;
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+        add_named_box(geometry,
+                      std::to_string(i) + "-" + std::to_string(j) + " ",
+                      Point<2>(1.02 * i, 1.02 * j),
+                      Point<2>(1.02 * i + 1., 1.02 * j + 1.));
+    Bodies                    bodies(std::move(geometry), Bodies::Options());
+    std::vector<Tensor<1, 2>> nodal(bodies.covers.n_covers());
+    bodies.surface.set_displacements(&nodal);
+    const auto        &edges = bodies.surface.edges();
+    const unsigned int fast =
+      bodies.mesh.block(bodies.mesh.find_element(Point<2>(0.5, 0.5)));
+    const auto masters_of = [&](const double way, const bool of_fast) {
+      std::vector<double> reaches(bodies.surface.n_bodies(), 0.025);
+      reaches[fast] += way;
+      ContactSearch search(bodies.surface, {});
+      search.update(reaches);
+      std::vector<unsigned int> result;
+      for (unsigned int i = 0; i < search.slaves().size(); ++i)
+        for (const unsigned int master : search.masters(i))
+          if (of_fast == (edges[search.slaves()[i]].body == fast ||
+                          edges[master].body == fast))
+          {
+            result.push_back(search.slaves()[i]);
+            result.push_back(search.corner(i));
+            result.push_back(master);
+          }
+      return result;
+    };
+    EXPECT_GT(masters_of(0., false).size(), 0U);
+    EXPECT_EQ(masters_of(0., false), masters_of(2., false));
+    EXPECT_GT(masters_of(2., true).size(), 3U * masters_of(0., true).size());
+
+    // The faces of the far block on the diagonal are found as soon as the way leads there.
+    const unsigned int far_block =
+      bodies.mesh.block(bodies.mesh.find_element(Point<2>(2.54, 2.54)));
+    for (const double way : {0.5, 2.})
+    {
+      std::vector<double> reaches(bodies.surface.n_bodies(), 0.025);
+      reaches[fast] += way;
+      ContactSearch search(bodies.surface, {});
+      search.update(reaches);
+      bool is_found = false;
+      for (unsigned int i = 0; i < search.slaves().size(); ++i)
+        for (const unsigned int master : search.masters(i))
+        {
+          const unsigned int a = edges[search.slaves()[i]].body,
+                             b = edges[master].body;
+          is_found = is_found || (std::min(a, b) == std::min(fast, far_block) &&
+                                  std::max(a, b) == std::max(fast, far_block));
+        }
+      EXPECT_EQ(is_found, way > 1.);
+    }
   }
 
 
@@ -693,7 +756,7 @@ namespace
       std::vector<Tensor<1, 2>> nodal(bodies.covers.n_covers());
       bodies.surface.set_displacements(&nodal);
       ContactSearch search(bodies.surface, {});
-      search.update(0.05);
+      search.update(std::vector<double>(bodies.surface.n_bodies(), 0.025));
       // one for each master at each division
       std::size_t n_projections = 0;
       for (unsigned int i = 0; i < search.slaves().size(); ++i)

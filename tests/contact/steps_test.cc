@@ -56,7 +56,7 @@ namespace
     begin_step()
     {
       const Vector begin = sunk_by(0.);
-      bodies->contact->detect(begin, reach);
+      bodies->contact->detect(begin);
       ContactTimeStep(*bodies->contact).begin(begin, 0.);
       bodies->contact->set_time(h);
     }
@@ -78,7 +78,7 @@ namespace
   TEST_F(TwoAndOne, PatternFollowsWhatTouches)
   {
     Contact &contact = *bodies->contact;
-    contact.detect(sunk_by(0.), reach);
+    contact.detect(sunk_by(0.));
     contact.assemble(sunk_by(0.), true);
     const auto n_all = contact.tangent().n_nonzero_elements();
 
@@ -150,7 +150,7 @@ namespace
       contact.assemble(moved({0., -gap - depth}, 0.), false);
       contact.accept();
       contact.freeze_geometry(true);
-      contact.detect(moved({0., -gap - depth}, 0.), reach);
+      contact.detect(moved({0., -gap - depth}, 0.));
       ContactTimeStep(contact).begin(moved({0., -gap - depth}, 0.), h);
       contact.set_time(2. * h);
     }
@@ -219,7 +219,7 @@ namespace
     contact.accept();
     // An open point has no cohesion in the next step, even if it closes.
     contact.freeze_geometry(true);
-    contact.detect(moved({slide, -gap + depth}, 0.), reach);
+    contact.detect(moved({slide, -gap + depth}, 0.));
     ContactTimeStep(contact).begin(moved({slide, -gap + depth}, 0.), 2. * h);
     (void)forces(moved({2. * slide, -gap - depth}, 0.));
     EXPECT_EQ(contact.report().force[0], 0.);
@@ -264,7 +264,7 @@ namespace
           };
           Contact   &contact = *bodies.contact;
           const auto begin   = [&](const Vector &u) {
-            contact.detect(u, reach);
+            contact.detect(u);
             ContactTimeStep(contact).begin(u, 0.);
             contact.set_time(h);
           };
@@ -435,7 +435,7 @@ namespace
       BodyMatrix   blocks(unknown_to_block);
       const Vector deep = sunk_by(1.2 * gap);
       const auto   step = [&](BodyMatrix *body_matrix) {
-        contact.detect(sunk_by(0.), reach);
+        contact.detect(sunk_by(0.));
         ContactTimeStep(contact).begin(sunk_by(0.), 0.);
         contact.set_time(h);
         ContactTimeStep(contact).assemble(deep, h, true, 0.5, body_matrix);
@@ -505,7 +505,7 @@ namespace
           });
       };
       const Vector begin = moved_by(0.);
-      bodies.contact->detect(begin, reach);
+      bodies.contact->detect(begin);
       ContactTimeStep(*bodies.contact).begin(begin, 0.);
       bodies.contact->set_time(h);
       double last = 0., largest_jump = 0., largest = 0.;
@@ -590,7 +590,7 @@ namespace
       for (const double way : {0., 1e-3, 3e-3, 6e-3})
       {
         const Vector begin = moved_by(way), end = moved_by(way + 1e-3);
-        bodies.contact->detect(begin, reach);
+        bodies.contact->detect(begin);
         ContactTimeStep(*bodies.contact).begin(begin, 0.);
         bodies.contact->set_time(h);
         ContactTimeStep(*bodies.contact).assemble(end, h, false);
@@ -668,7 +668,7 @@ namespace
         {
           const Vector begin = sunk_by(1e-3, is_there),
                        end   = sunk_by(depth, is_there);
-          bodies.contact->detect(begin, reach);
+          bodies.contact->detect(begin);
           ContactTimeStep(*bodies.contact).begin(begin, 0.);
           bodies.contact->set_time(h);
           ContactTimeStep(*bodies.contact).assemble(end, h, false);
@@ -715,7 +715,7 @@ namespace
     const Tensor<1, 2> normal(
       {std::sin(40. * degree), -std::cos(40. * degree)});
     const Vector begin = tip_at(before), end = tip_at(after);
-    bodies.contact->detect(begin, reach);
+    bodies.contact->detect(begin);
     ContactTimeStep(*bodies.contact).begin(begin, 0.);
     bodies.contact->set_time(h);
     ContactTimeStep(*bodies.contact).assemble(end, h, false);
@@ -769,7 +769,7 @@ namespace
     };
     Contact   &contact = *bodies.contact;
     const auto step    = [&](const Vector &begin, const Vector &end) {
-      contact.detect(begin, reach);
+      contact.detect(begin);
       ContactTimeStep(contact).begin(begin, 0.);
       contact.set_time(h);
       ContactTimeStep(contact).assemble(end, h, false);

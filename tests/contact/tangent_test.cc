@@ -302,7 +302,7 @@ namespace
       };
       const double h     = 0.01;
       const Vector begin = motion(0.), u = motion(1.);
-      contact.detect(begin, 0.1);
+      contact.detect(begin);
       ContactTimeStep(contact).begin(begin, 0.);
       contact.set_time(h);
       ContactTimeStep(contact).assemble(u, h, true);

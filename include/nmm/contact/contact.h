@@ -315,11 +315,13 @@ namespace NMM
 
     /**
      * Find candidate pairs and make contact points at the displacements @p u (locally relevant).
-     * Multipliers and anchors are carried over. Faces are searched for within the larger of
-     * @p least_reach [m] and the parameters' reach.
+     * Multipliers and anchors are carried over. Faces of two bodies are searched for within the sum
+     * of the reaches of both. The reach of a body is half of the parameters' one, or the larger
+     * distance [m] that @p least_reaches has for it; these are given for all bodies of the surface
+     * or for none.
      */
     void
-    detect(const Vector &u, double least_reach = 0.);
+    detect(const Vector &u, const std::vector<double> &least_reaches = {});
 
     /// Whether no rank has a candidate pair, so that assemble() would add nothing.
     bool
@@ -392,9 +394,10 @@ namespace NMM
     double
     accept();
 
-    /// Largest distance that a point of a face moves between two displacements [m].
-    double
-    largest_motion(const Vector &from, const Vector &to);
+    /// Largest distances that a point of a face of each body moves between two displacements [m].
+    /// Obstacles do not move with displacements.
+    std::vector<double>
+    motions(const Vector &from, const Vector &to);
 
     /// The reason why a step from detect() to @p end, at the time that is set, must not be
     /// accepted, or an empty one: a point has moved further than the reach of the search,

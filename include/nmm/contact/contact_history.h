@@ -73,7 +73,7 @@ namespace NMM
     serialize(Archive &archive, const unsigned int /*version*/)
     {
       archive &has_accepted_state &is_conserving &multipliers
-        &searched_displacements &searched_time &searched_reach &touching_reach
+        &searched_displacements &searched_time &searched_reaches &touching_reach
           &sticks &entrances &touching &pair_energies &former_bodies;
     }
 
@@ -87,8 +87,8 @@ namespace NMM
     std::vector<double> searched_displacements;
     /// Time of the last search for candidates [s].
     double searched_time = 0.;
-    /// Reach of the last search for candidates [m].
-    double searched_reach = 0.;
+    /// Reaches of all bodies in the last search for candidates [m].
+    std::vector<double> searched_reaches;
     /// Distance within which the next search must look so that it finds all faces that touch [m].
     double touching_reach = 0.;
     /// Anchors of all contact points that have a master and a law that transmits shear.

@@ -500,7 +500,8 @@ namespace NMM
           ? ramp_time(scene.parameters().relaxation.relaxation.step)
           : 0.;
       const RelaxationParameters parameters =
-        scene.parameters().relaxation.bounded(extent_of(*covers));
+        scene.parameters().relaxation.bounded(
+          covers->manifold_mesh().physical_mesh());
       do
       {
         const Vector begin = integrator->state().u;

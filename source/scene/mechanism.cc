@@ -94,17 +94,6 @@ namespace NMM
     }
 
 
-    double
-    extent_of(const CoverSystem &covers)
-    {
-      const auto corners = covers.manifold_mesh()
-                             .physical_mesh()
-                             .bounding_box()
-                             .get_boundary_points();
-      return corners.first.distance(corners.second);
-    }
-
-
     void
     refuse_motion(const CoverSystem              &covers,
                   const ElasticityProblem        &problem,

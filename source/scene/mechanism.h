@@ -56,11 +56,6 @@ namespace NMM
                     const FiniteElasticity::Vector &end);
 
 
-    /// Length of the diagonal of the bounding box of a solid [m].
-    double
-    extent_of(const CoverSystem &covers);
-
-
     /// @throws NumericalFailure which says that a relaxation from @p begin has moved too far, to @p end,
     /// and what has moved; the arguments are those of describe_motion().
     [[noreturn]] void

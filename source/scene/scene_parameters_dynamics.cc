@@ -1,4 +1,5 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/geometry/physical_mesh.h>
 #include <nmm/scene/scene_parameters.h>
 
 #include <algorithm>
@@ -365,7 +366,8 @@ namespace NMM
                 Patterns::Double(0),
                 "What moves further finds no rest (exit code 3, and the block "
                 "is named), and no step moves further than a hundredth of it "
-                "[m]; 0: ten times as far as the solid is long.");
+                "[m]; 0: twice the length of a block of mean size, at least a "
+                "tenth of the solid's, and steps of up to a tenth of that.");
     entries.add("Maximum steps",
                 relaxation.max_steps,
                 Patterns::Integer(1, 100000000),
@@ -374,14 +376,22 @@ namespace NMM
 
 
   RelaxationParameters
-  RelaxationSectionParameters::bounded(const double extent) const
+  RelaxationSectionParameters::bounded(const PhysicalMesh &mesh) const
   {
     RelaxationParameters result = relaxation;
     if (tolerance > 0.)
       result.tolerance = tolerance;
-    // A column that topples comes to rest further away than it is long.
+    // A column that topples comes to rest further away than it is long. A block that slides out of
+    // a rock mass has to be called a mechanism before its whole way has been computed.
     if (result.max_displacement == 0.)
-      result.max_displacement = 10. * extent;
+    {
+      const auto   corners = mesh.bounding_box().get_boundary_points();
+      const double extent  = corners.first.distance(corners.second);
+      result.max_displacement =
+        extent * std::max(0.1, 2. / std::sqrt(double(mesh.n_blocks())));
+      result.max_step_displacement =
+        0.1 * std::min(extent, result.max_displacement);
+    }
     return result;
   }
 

@@ -142,7 +142,8 @@ namespace NMM
       {
         const TimeIntegrator &integrator = relaxing.integrator();
         RelaxationParameters  parameters =
-          input.scene.parameters().relaxation.bounded(extent_of(input.covers));
+          input.scene.parameters().relaxation.bounded(
+            input.covers.manifold_mesh().physical_mesh());
         parameters.continued_step     = relaxing.continued_step;
         const Vector           begin  = integrator.state().u;
         const RelaxationReport result = relax(

@@ -19,6 +19,7 @@ namespace NMM
   }
 
   enum class Kinematics;
+  class PhysicalMesh;
 
   /// The kind of analysis.
   enum class Analysis
@@ -150,10 +151,11 @@ namespace NMM
     /// The tolerance [-]; 0 if the scene gives none.
     double tolerance = 0.;
 
-    /// The parameters of a relaxation to equilibrium; a solid of the length @p extent [m] may move
-    /// ten times that far if the scene says nothing.
+    /// The parameters of a relaxation to equilibrium. If the scene says nothing, what moves finds no
+    /// rest after twice the mean length of a block, the diagonal of the solid over the root of the
+    /// number of blocks, and at least a tenth of the diagonal.
     RelaxationParameters
-    bounded(double extent) const;
+    bounded(const PhysicalMesh &mesh) const;
 
     /**
      * Those of a trial of the factor of safety, in which nothing may move by more than

@@ -9,18 +9,19 @@
 
 #include <nmm/base/program.h>
 #include <nmm/contact/contact.h>
+#include <nmm/contact/contact_term.h>
 #include <nmm/contact/coulomb_law.h>
 #include <nmm/covers/aggregation.h>
 #include <nmm/covers/cover_system.h>
 #include <nmm/covers/own_meshes.h>
-#include <nmm/dynamics/contact_term.h>
-#include <nmm/dynamics/elastic_models.h>
 #include <nmm/dynamics/relaxation.h>
 #include <nmm/dynamics/time_integrator.h>
 #include <nmm/geometry/joint_network.h>
 #include <nmm/geometry/physical_mesh.h>
 #include <nmm/mechanics/displacement_field.h>
 #include <nmm/mechanics/finite_elasticity.h>
+#include <nmm/mechanics/mass_matrix.h>
+#include <nmm/mechanics/solid_term.h>
 #include <nmm/mechanics/stress_recovery.h>
 #include <nmm/output/contact_output.h>
 #include <nmm/quadrature/element_quadrature.h>
@@ -188,7 +189,7 @@ namespace StepNMM4
     AffineConstraints<double>                  constraints;
     std::unique_ptr<NMM::QuadratureCollection> quadrature, mass_quadrature;
     std::unique_ptr<NMM::FiniteElasticity>     elasticity;
-    std::unique_ptr<NMM::FiniteModel>          model;
+    std::unique_ptr<NMM::FiniteSolid>          model;
     std::unique_ptr<NMM::Contact>              contact;
 
     Vector
@@ -245,7 +246,10 @@ namespace StepNMM4
       *meshes.manifold_mesh, 4, 4, covers->locally_owned_elements());
     elasticity = std::make_unique<NMM::FiniteElasticity>(
       *covers, *quadrature, constraints, problem, /* may_float = */ true);
-    model = std::make_unique<NMM::FiniteModel>(*elasticity, *mass_quadrature);
+    model = std::make_unique<NMM::FiniteSolid>(
+      *elasticity,
+      NMM::Loading(),
+      NMM::make_mass_matrix(*elasticity, *mass_quadrature));
     contact =
       std::make_unique<NMM::Contact>(*surface,
                                      constraints,

@@ -1,7 +1,7 @@
 #ifndef nmm_source_dynamics_block_inertia_h
 #define nmm_source_dynamics_block_inertia_h
 
-#include <nmm/dynamics/mechanical_model.h>
+#include <nmm/mechanics/mechanical_model.h>
 
 #include <vector>
 

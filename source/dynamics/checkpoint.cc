@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <base/archive.h>
+#include <base/hash.h>
 #include <cmath>
 #include <dynamics/checkpoint_file.h>
-#include <dynamics/hash.h>
 #include <vector>
 
 namespace NMM

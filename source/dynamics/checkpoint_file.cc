@@ -1,12 +1,12 @@
 #include <nmm/base/program.h>
 
 #include <base/archive.h>
+#include <base/hash.h>
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <dynamics/checkpoint_file.h>
-#include <dynamics/hash.h>
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>

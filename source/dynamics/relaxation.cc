@@ -43,6 +43,14 @@ namespace NMM
   } // namespace
 
 
+  ContactUpdate
+  update_in_relaxation(const TimeScheme &scheme)
+  {
+    return scheme.is_conserving ? ContactUpdate::every_iteration
+                                : ContactUpdate::every_step;
+  }
+
+
   RelaxationReport
   relax(TimeIntegrator                                &integrator,
         const RelaxationParameters                    &parameters,

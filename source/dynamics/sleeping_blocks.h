@@ -1,8 +1,8 @@
 #ifndef nmm_source_dynamics_sleeping_blocks_h
 #define nmm_source_dynamics_sleeping_blocks_h
 
-#include <nmm/dynamics/mechanical_model.h>
 #include <nmm/dynamics/time_integrator.h>
+#include <nmm/mechanics/mechanical_model.h>
 
 #include <array>
 #include <dynamics/block_inertia.h>

@@ -1,7 +1,7 @@
 #ifndef nmm_source_dynamics_step_matrix_h
 #define nmm_source_dynamics_step_matrix_h
 
-#include <nmm/dynamics/mechanical_model.h>
+#include <nmm/mechanics/mechanical_model.h>
 
 #include <dynamics/scheme_step.h>
 #include <linear_algebra/active_items.h>

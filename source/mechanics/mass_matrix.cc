@@ -1,3 +1,4 @@
+#include <nmm/base/exceptions.h>
 #include <nmm/mechanics/mass_matrix.h>
 
 #include <linear_algebra/cover_matrix_assembler.h>
@@ -99,5 +100,28 @@ namespace NMM
       }
     }
     assembler.compress();
+  }
+
+
+  std::shared_ptr<const dealii::TrilinosWrappers::SparseMatrix>
+  make_mass_matrix(const FiniteElasticity     &elasticity,
+                   const QuadratureCollection &quadrature,
+                   const GhostPenalty         *ghost_penalty)
+  {
+    const ElasticityProblem &problem = elasticity.elasticity_problem();
+    for (const Material &material : problem.materials)
+      AssertThrow(material.density > 0.,
+                  InputError("The density is " +
+                               std::to_string(material.density),
+                             "material '" + material.name + "'",
+                             "dynamics needs a density above 0"));
+    auto matrix = std::make_shared<dealii::TrilinosWrappers::SparseMatrix>();
+    assemble_mass_matrix(elasticity.cover_system(),
+                         quadrature,
+                         elasticity.affine_constraints(),
+                         problem,
+                         ghost_penalty,
+                         *matrix);
+    return matrix;
   }
 } // namespace NMM

@@ -8,8 +8,8 @@
 #include <base/archive.h>
 #include <cmath>
 #include <dynamics/checkpoint_file.h>
-#include <dynamics/solid_hash.h>
 #include <limits>
+#include <mechanics/solid_hash.h>
 #include <scene/crack_growth_analysis.h>
 #include <sstream>
 

@@ -1,6 +1,7 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/base/stop.h>
 #include <nmm/dynamics/checkpoint.h>
+#include <nmm/mechanics/mass_matrix.h>
 
 #include <algorithm>
 #include <cmath>
@@ -117,12 +118,11 @@ namespace NMM
 
       elasticity = std::make_unique<FiniteElasticity>(
         *covers, *quadrature, constraints, problem, /* may_float = */ true);
+      const auto mass = make_mass_matrix(*elasticity, *mass_quadrature);
       if (kinematics == Kinematics::finite)
-        model =
-          std::make_unique<FiniteModel>(*elasticity, *mass_quadrature, loading);
+        model = std::make_unique<FiniteSolid>(*elasticity, loading, mass);
       else
-        model =
-          std::make_unique<SmallModel>(*elasticity, *mass_quadrature, loading);
+        model = std::make_unique<SmallSolid>(*elasticity, loading, mass);
 
       const TimeScheme scheme =
         parameters.time.time_scheme(kind, kinematics, contact != nullptr);

@@ -2,9 +2,9 @@
 #define nmm_source_scene_dynamic_analysis_h
 
 #include <nmm/contact/contact_history.h>
-#include <nmm/dynamics/elastic_models.h>
 #include <nmm/dynamics/leaving_blocks.h>
 #include <nmm/dynamics/relaxation.h>
+#include <nmm/mechanics/solid_term.h>
 #include <nmm/output/csv_series.h>
 
 #include <memory>
@@ -72,7 +72,7 @@ namespace NMM
       /// Loads and supports as functions of time.
       Loading                           loading;
       std::unique_ptr<FiniteElasticity> elasticity;
-      std::unique_ptr<ElasticModel>     model;
+      std::unique_ptr<SolidTerm>        model;
       std::unique_ptr<AccountedContact> contact_term;
       std::unique_ptr<MechanicalModel>  mechanics;
       std::unique_ptr<TimeIntegrator>   integrator;

@@ -1,5 +1,6 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/base/stop.h>
+#include <nmm/mechanics/mass_matrix.h>
 #include <nmm/output/csv_series.h>
 
 #include <algorithm>
@@ -46,14 +47,14 @@ namespace NMM
         *manifold_mesh, degree, degree, covers->locally_owned_elements());
       elasticity = std::make_unique<FiniteElasticity>(
         *covers, *quadrature, constraints, problem, /* may_float = */ true);
+      const auto mass = make_mass_matrix(*elasticity, *mass_quadrature);
       if (scene.parameters().model.kinematics == Kinematics::finite)
-        model = std::make_unique<FiniteModel>(*elasticity,
-                                              *mass_quadrature,
-                                              scene.make_loading());
+        model = std::make_unique<FiniteSolid>(*elasticity,
+                                              scene.make_loading(),
+                                              mass);
       else
-        model = std::make_unique<SmallModel>(*elasticity,
-                                             *mass_quadrature,
-                                             scene.make_loading());
+        model =
+          std::make_unique<SmallSolid>(*elasticity, scene.make_loading(), mass);
     }
 
 

@@ -1,8 +1,8 @@
 #ifndef nmm_source_scene_safety_factor_analysis_h
 #define nmm_source_scene_safety_factor_analysis_h
 
-#include <nmm/dynamics/elastic_models.h>
 #include <nmm/dynamics/strength_reduction.h>
+#include <nmm/mechanics/solid_term.h>
 
 #include <memory>
 #include <scene/scene_analysis.h>
@@ -40,7 +40,7 @@ namespace NMM
       // Each object refers to those above it.
       std::unique_ptr<QuadratureCollection> mass_quadrature;
       std::unique_ptr<FiniteElasticity>     elasticity;
-      std::unique_ptr<ElasticModel>         model;
+      std::unique_ptr<SolidTerm>            model;
 
       /// The state from which each trial starts, unless it starts without displacements.
       Vector            settled;

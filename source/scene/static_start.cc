@@ -1,11 +1,12 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/base/stop.h>
 #include <nmm/contact/contact_statics.h>
-#include <nmm/dynamics/contact_term.h>
-#include <nmm/dynamics/elastic_models.h>
+#include <nmm/contact/contact_term.h>
 #include <nmm/dynamics/relaxation.h>
 #include <nmm/mechanics/elastic_system.h>
+#include <nmm/mechanics/mass_matrix.h>
 #include <nmm/mechanics/nonlinear_statics.h>
+#include <nmm/mechanics/solid_term.h>
 
 #include <algorithm>
 #include <iomanip>
@@ -218,14 +219,13 @@ namespace NMM
       const LoadAmplitudes   amplitudes = amplitudes_at_start(input.scene);
       Loading                loading;
       loading.amplitudes = [amplitudes](const double) { return amplitudes; };
+      const auto mass    = make_mass_matrix(elasticity, input.mass_quadrature);
       if (is_small(input.scene))
-        model = std::make_unique<SmallModel>(elasticity,
-                                             input.mass_quadrature,
-                                             std::move(loading));
+        model =
+          std::make_unique<SmallSolid>(elasticity, std::move(loading), mass);
       else
-        model = std::make_unique<FiniteModel>(elasticity,
-                                              input.mass_quadrature,
-                                              std::move(loading));
+        model =
+          std::make_unique<FiniteSolid>(elasticity, std::move(loading), mass);
       std::vector<ForceTerm *> terms = {model.get()};
       if (input.contact != nullptr)
       {
@@ -258,9 +258,9 @@ namespace NMM
 
 
     InelasticTerms *
-    inelastic_terms_of(const ElasticModel *model)
+    inelastic_terms_of(const SolidTerm *model)
     {
-      const auto *const small = dynamic_cast<const SmallModel *>(model);
+      const auto *const small = dynamic_cast<const SmallSolid *>(model);
       return small == nullptr ? nullptr : small->inelastic_terms();
     }
 

@@ -1,11 +1,11 @@
 #ifndef nmm_source_scene_static_start_h
 #define nmm_source_scene_static_start_h
 
+#include <nmm/contact/contact_term.h>
 #include <nmm/covers/cover_system.h>
-#include <nmm/dynamics/contact_term.h>
-#include <nmm/dynamics/elastic_models.h>
 #include <nmm/dynamics/time_integrator.h>
 #include <nmm/mechanics/finite_elasticity.h>
+#include <nmm/mechanics/solid_term.h>
 #include <nmm/output/progress.h>
 #include <nmm/quadrature/element_quadrature.h>
 #include <nmm/scene/scene.h>
@@ -64,7 +64,7 @@ namespace NMM
 
     private:
       FiniteElasticity                 elasticity;
-      std::unique_ptr<ElasticModel>    model;
+      std::unique_ptr<SolidTerm>       model;
       std::unique_ptr<ContactTerm>     contact_term;
       std::unique_ptr<MechanicalModel> mechanics;
       std::unique_ptr<TimeIntegrator>  time_integrator;
@@ -82,7 +82,7 @@ namespace NMM
     /// The terms of inelastic materials; null if the materials are elastic, or with large
     /// displacements.
     InelasticTerms *
-    inelastic_terms_of(const ElasticModel *model);
+    inelastic_terms_of(const SolidTerm *model);
 
 
     /// Parameters of Newton's method for time steps and relaxation. With contact or materials that

@@ -1,6 +1,6 @@
 // Contact in time: friction on an incline, impact.
+#include <nmm/contact/contact_term.h>
 #include <nmm/covers/aggregation.h>
-#include <nmm/dynamics/contact_term.h>
 
 #include <dynamics/dynamic_model.h>
 #include <gtest/gtest.h>

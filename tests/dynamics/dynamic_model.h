@@ -1,9 +1,10 @@
 #ifndef nmm_tests_dynamics_dynamic_model_h
 #define nmm_tests_dynamics_dynamic_model_h
 
-#include <nmm/dynamics/elastic_models.h>
 #include <nmm/dynamics/step_control.h>
 #include <nmm/dynamics/time_integrator.h>
+#include <nmm/mechanics/mass_matrix.h>
+#include <nmm/mechanics/solid_term.h>
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
@@ -21,16 +22,15 @@ namespace NMM
     {
       std::unique_ptr<Model>            model;
       std::unique_ptr<FiniteElasticity> elasticity;
-      std::unique_ptr<ElasticModel>     solid;
+      std::unique_ptr<SolidTerm>        solid;
       std::unique_ptr<MechanicalModel>  mechanics;
 
       void
       make_small(Loading loading = {})
       {
         make_elasticity();
-        solid     = std::make_unique<SmallModel>(*elasticity,
-                                             *model->quadrature,
-                                             std::move(loading));
+        solid =
+          std::make_unique<SmallSolid>(*elasticity, std::move(loading), mass());
         mechanics = std::make_unique<MechanicalModel>(
           solid->layout(), std::vector<ForceTerm *>{solid.get()});
       }
@@ -39,11 +39,17 @@ namespace NMM
       make_finite(Loading loading = {})
       {
         make_elasticity();
-        solid     = std::make_unique<FiniteModel>(*elasticity,
-                                              *model->quadrature,
-                                              std::move(loading));
+        solid     = std::make_unique<FiniteSolid>(*elasticity,
+                                              std::move(loading),
+                                              mass());
         mechanics = std::make_unique<MechanicalModel>(
           solid->layout(), std::vector<ForceTerm *>{solid.get()});
+      }
+
+      std::shared_ptr<const ForceTerm::Matrix>
+      mass() const
+      {
+        return make_mass_matrix(*elasticity, *model->quadrature);
       }
 
       Vector

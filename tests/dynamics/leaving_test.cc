@@ -1,7 +1,7 @@
 // Blocks that leave the scene: who they are, what goes with them, what stays.
+#include <nmm/contact/contact_term.h>
 #include <nmm/covers/aggregation.h>
 #include <nmm/dynamics/checkpoint.h>
-#include <nmm/dynamics/contact_term.h>
 #include <nmm/dynamics/leaving_blocks.h>
 
 #include <dynamics/dynamic_model.h>

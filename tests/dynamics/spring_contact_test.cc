@@ -1,6 +1,6 @@
 // Springs beside contact.
 
-#include <nmm/dynamics/spring_term.h>
+#include <nmm/mechanics/spring_term.h>
 
 #include <array>
 #include <dynamics/dynamic_model.h>

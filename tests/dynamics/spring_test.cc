@@ -1,7 +1,7 @@
 // Springs between material points, and what a term that couples blocks may expect of others.
 
 #include <nmm/dynamics/relaxation.h>
-#include <nmm/dynamics/spring_term.h>
+#include <nmm/mechanics/spring_term.h>
 
 #include <deal.II/lac/full_matrix.h>
 

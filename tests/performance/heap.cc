@@ -13,6 +13,7 @@
 // theirs. The largest memory is that of the process: it is told of single heaps.
 
 #include <nmm/base/program.h>
+#include <nmm/mechanics/mass_matrix.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
@@ -81,13 +82,13 @@ namespace
   };
 
 
-  class TimedElements : public FiniteModel
+  class TimedElements : public FiniteSolid
   {
   public:
     TimedElements(FiniteElasticity           &elasticity,
                   const QuadratureCollection &quadrature,
                   Stages                     &stages)
-      : FiniteModel(elasticity, quadrature)
+      : FiniteSolid(elasticity, {}, make_mass_matrix(elasticity, quadrature))
       , stages(&stages)
     {
     }
@@ -96,7 +97,7 @@ namespace
     assemble(const Trial &trial, AssembledForces &forces) override
     {
       const Stopwatch watch(stages->elements);
-      return FiniteModel::assemble(trial, forces);
+      return FiniteSolid::assemble(trial, forces);
     }
 
   private:

@@ -3,16 +3,17 @@
 
 #include <nmm/base/program.h>
 #include <nmm/contact/contact_statics.h>
+#include <nmm/contact/contact_term.h>
 #include <nmm/contact/coulomb_law.h>
 #include <nmm/covers/graded_mesh.h>
-#include <nmm/dynamics/contact_term.h>
-#include <nmm/dynamics/elastic_models.h>
-#include <nmm/dynamics/spring_term.h>
 #include <nmm/dynamics/step_control.h>
 #include <nmm/fracture/fracture.h>
 #include <nmm/geometry/crack_extension.h>
 #include <nmm/geometry/physical_mesh.h>
 #include <nmm/materials/material_law.h>
+#include <nmm/mechanics/mass_matrix.h>
+#include <nmm/mechanics/solid_term.h>
+#include <nmm/mechanics/spring_term.h>
 #include <nmm/mechanics/static_elasticity.h>
 #include <nmm/mechanics/stress_recovery.h>
 #include <nmm/output/output.h>
@@ -295,7 +296,7 @@ namespace
   {
     // clang-format off
     // Example of dynamics/time_integrator.h
-    FiniteModel solid(elasticity, mass_quadrature, loading);
+    FiniteSolid solid(elasticity, loading, make_mass_matrix(elasticity, mass_quadrature));
     ContactTerm touch(solid.layout(), contact);
     SpringTerm springs(covers, solid.layout(), {spring});
     MechanicalModel model(solid.layout(), {&solid, &touch, &springs});
@@ -313,7 +314,7 @@ namespace
 
 
   // clang-format off
-  // Example of dynamics/force_term.h
+  // Example of mechanics/force_term.h
   class Band : public ForceTerm                    // a spring of the natural length 0
   {
   public:
@@ -437,7 +438,7 @@ namespace
                                      "contact/contact.h",
                                      "fracture/fracture.h",
                                      "dynamics/time_integrator.h",
-                                     "dynamics/force_term.h",
+                                     "mechanics/force_term.h",
                                      "output/output.h",
                                      "scene/scene.h"})
     {

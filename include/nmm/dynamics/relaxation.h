@@ -1,6 +1,7 @@
 #ifndef nmm_dynamics_relaxation_h
 #define nmm_dynamics_relaxation_h
 
+#include <nmm/contact/contact_term.h>
 #include <nmm/dynamics/step_control.h>
 
 #include <functional>
@@ -32,6 +33,12 @@ namespace NMM
     /// equilibrium that the true motion does not reach.
     double max_step_displacement = 0.;
   };
+
+
+  /// What is best for contact in a relaxation with @p scheme: every_step, unless its forces are
+  /// conserving.
+  ContactUpdate
+  update_in_relaxation(const TimeScheme &scheme);
 
 
   /// Result of relax().

@@ -1,8 +1,8 @@
 #ifndef nmm_dynamics_time_integrator_h
 #define nmm_dynamics_time_integrator_h
 
-#include <nmm/dynamics/mechanical_model.h>
 #include <nmm/dynamics/time_scheme.h>
+#include <nmm/mechanics/mechanical_model.h>
 #include <nmm/solution/newton_solver.h>
 
 #include <deal.II/base/tensor.h>
@@ -15,7 +15,8 @@
 /**
  * @defgroup dynamics Dynamics
  *
- * Time integration of blocks that deform, touch and move.
+ * Time integration of blocks that deform, touch and move. The forces are terms of the modules
+ * before this one: see ForceTerm.
  *
  * **In**: a FiniteElasticity with the solid, a Loading with loads and supports as functions of
  * time, and, if blocks touch, a Contact. **Out**: displacements, velocities and accelerations
@@ -23,13 +24,6 @@
  *
  * | file (in nmm/dynamics) | job |
  * |---|---|
- * | force_term.h | interface of one kind of force, and the unknowns of a body |
- * | force_sink.h | where forces between a few covers, of whichever blocks, are added |
- * | mechanical_model.h | the forces of a body as a list of terms |
- * | elastic_models.h | the term of a solid: small displacements, or total Lagrangian |
- * | contact_term.h | the term of contact |
- * | spring_term.h | the term of springs between material points |
- * | loading.h | loads, releases and base acceleration as functions of time |
  * | time_scheme.h | coefficients of the time integration schemes |
  * | time_integrator.h | one time step, energy account, sleeping and leaving blocks |
  * | step_control.h | lengths of time steps |
@@ -40,7 +34,7 @@
  *
  * Order of calls:
  * @code
- * FiniteModel solid(elasticity, mass_quadrature, loading);
+ * FiniteSolid solid(elasticity, loading, make_mass_matrix(elasticity, mass_quadrature));
  * ContactTerm touch(solid.layout(), contact);            // only if blocks touch
  * SpringTerm springs(covers, solid.layout(), {spring});  // or a term of one's own, see ForceTerm
  * MechanicalModel model(solid.layout(), {&solid, &touch, &springs});

@@ -28,6 +28,12 @@
  * | finite_elasticity.h | total Lagrangian forces and tangent |
  * | inelastic_terms.h | adds inelastic materials to small displacements |
  * | elastic_system.h, nonlinear_statics.h | static equilibrium at growing load factors |
+ * | force_term.h | interface of one kind of force, and the unknowns of a body |
+ * | force_sink.h | where forces between a few covers, of whichever blocks, are added |
+ * | mechanical_model.h | the forces of a body as a list of terms |
+ * | solid_term.h | the term of a solid: small displacements, or total Lagrangian |
+ * | spring_term.h | the term of springs between material points |
+ * | loading.h | loads, releases and base acceleration as functions of time |
  * | mass_matrix.h | consistent mass matrix |
  * | material_vector.h | positions of material points as functions of the unknowns |
  * | displacement_field.h, stress_recovery.h, block_motion.h | evaluation of a solution |

@@ -3,11 +3,13 @@
 
 #include <nmm/covers/aggregation.h>
 #include <nmm/covers/cover_system.h>
-#include <nmm/mechanics/elasticity_problem.h>
+#include <nmm/mechanics/finite_elasticity.h>
 #include <nmm/quadrature/element_quadrature.h>
 
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
+
+#include <memory>
 
 namespace NMM
 {
@@ -30,6 +32,15 @@ namespace NMM
                        const ElasticityProblem                 &problem,
                        const GhostPenalty                      *ghost_penalty,
                        dealii::TrilinosWrappers::SparseMatrix  &matrix);
+
+
+  /// The consistent mass matrix of the covers, constraints and densities of @p elasticity, for its
+  /// motion; @p quadrature must be exact for degree 2p, and @p ghost_penalty may be null.
+  /// @throws InputError for a material without density.
+  std::shared_ptr<const dealii::TrilinosWrappers::SparseMatrix>
+  make_mass_matrix(const FiniteElasticity     &elasticity,
+                   const QuadratureCollection &quadrature,
+                   const GhostPenalty         *ghost_penalty = nullptr);
 } // namespace NMM
 
 #endif

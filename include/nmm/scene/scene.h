@@ -2,9 +2,9 @@
 #define nmm_scene_scene_h
 
 #include <nmm/contact/contact.h>
-#include <nmm/dynamics/contact_term.h>
-#include <nmm/dynamics/loading.h>
+#include <nmm/contact/contact_term.h>
 #include <nmm/geometry/physical_mesh.h>
+#include <nmm/mechanics/loading.h>
 #include <nmm/scene/parameter_tree.h>
 #include <nmm/scene/scene_parameters.h>
 

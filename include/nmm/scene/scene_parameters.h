@@ -90,7 +90,7 @@ namespace NMM
   /// The description of the deformation.
   enum class Kinematics
   {
-    /// Displacements are small: one linear problem, StaticElasticity or SmallModel.
+    /// Displacements are small: one linear problem, StaticElasticity or SmallSolid.
     small,
     /// Displacements and rotations are of any size, in total Lagrangian form: FiniteElasticity.
     finite

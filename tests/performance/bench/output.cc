@@ -1,7 +1,8 @@
 // A run in time that writes its fields every 20 steps: what the files cost.
 
-#include <nmm/dynamics/elastic_models.h>
 #include <nmm/dynamics/time_integrator.h>
+#include <nmm/mechanics/mass_matrix.h>
+#include <nmm/mechanics/solid_term.h>
 #include <nmm/output/vtu.h>
 
 #include "staged_model.h"
@@ -59,16 +60,17 @@ namespace NMM
         model.problem.gravity             = Tensor<1, 2>({0., -9.81});
         model.problem.boundary_conditions = {
           condition(Type::displacement, "left")};
-        FiniteElasticity              elasticity(*model.covers,
+        FiniteElasticity elasticity(*model.covers,
                                     *model.quadrature,
                                     model.constraints,
                                     model.problem,
                                     /* may_float = */ true);
-        std::unique_ptr<ElasticModel> solid;
+        const auto       mass = make_mass_matrix(elasticity, *model.quadrature);
+        std::unique_ptr<SolidTerm> solid;
         if (is_finite)
-          solid = std::make_unique<FiniteModel>(elasticity, *model.quadrature);
+          solid = std::make_unique<FiniteSolid>(elasticity, Loading(), mass);
         else
-          solid = std::make_unique<SmallModel>(elasticity, *model.quadrature);
+          solid = std::make_unique<SmallSolid>(elasticity, Loading(), mass);
         MechanicalModel mechanics(solid->layout(), {solid.get()});
         TimeIntegrator  integrator(mechanics, TimeScheme::newmark());
         integrator.initialize();

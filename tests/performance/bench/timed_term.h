@@ -1,7 +1,7 @@
 #ifndef nmm_tests_performance_bench_timed_term_h
 #define nmm_tests_performance_bench_timed_term_h
 
-#include <nmm/dynamics/mechanical_model.h>
+#include <nmm/mechanics/mechanical_model.h>
 
 #include <deal.II/base/timer.h>
 

@@ -1,3 +1,5 @@
+#include <nmm/mechanics/mass_matrix.h>
+
 #include <deal.II/base/timer.h>
 
 #include <support/contact_bars/moving_bodies.h>
@@ -33,18 +35,25 @@ namespace NMM
       solid.reset();
       Bodies::start(parameters, kinematics == Kinematics::small);
       if (kinematics == Kinematics::small)
-        make_model(std::make_unique<SmallModel>(*elasticity,
-                                                quadrature,
-                                                std::move(loading)));
+        make_model(std::make_unique<SmallSolid>(*elasticity,
+                                                std::move(loading),
+                                                mass()));
       else
-        make_model(std::make_unique<FiniteModel>(*elasticity,
-                                                 quadrature,
-                                                 std::move(loading)));
+        make_model(std::make_unique<FiniteSolid>(*elasticity,
+                                                 std::move(loading),
+                                                 mass()));
+    }
+
+
+    std::shared_ptr<const ForceTerm::Matrix>
+    MovingBodies::mass() const
+    {
+      return make_mass_matrix(*elasticity, quadrature);
     }
 
 
     void
-    MovingBodies::make_model(std::unique_ptr<ElasticModel> solid_in)
+    MovingBodies::make_model(std::unique_ptr<SolidTerm> solid_in)
     {
       solid = std::move(solid_in);
       touch = std::make_unique<ContactTerm>(solid->layout(), *contact);

@@ -1,9 +1,9 @@
 #ifndef nmm_tests_support_contact_bars_moving_bodies_h
 #define nmm_tests_support_contact_bars_moving_bodies_h
 
-#include <nmm/dynamics/contact_term.h>
-#include <nmm/dynamics/elastic_models.h>
+#include <nmm/contact/contact_term.h>
 #include <nmm/dynamics/relaxation.h>
+#include <nmm/mechanics/solid_term.h>
 
 #include <contact/contact_model.h>
 
@@ -109,14 +109,18 @@ namespace NMM
       force_of(const std::string &master) const;
 
       /// The model is the sum of the terms of solid and contact.
-      std::unique_ptr<ElasticModel>    solid;
+      std::unique_ptr<SolidTerm>       solid;
       std::unique_ptr<ContactTerm>     touch;
       std::unique_ptr<MechanicalModel> model;
       std::unique_ptr<TimeIntegrator>  integrator;
 
       /// Make the model of @p solid and the contact.
       void
-      make_model(std::unique_ptr<ElasticModel> solid);
+      make_model(std::unique_ptr<SolidTerm> solid);
+
+      /// The mass matrix of the solid.
+      std::shared_ptr<const ForceTerm::Matrix>
+      mass() const;
 
     private:
       /// Sums of weights e_b^T M f for a block: f's two components.

@@ -50,11 +50,13 @@ namespace NMM
 
       // the contact goes on from where the statics left it
       if (stack.kinematics == Kinematics::small)
-        bodies.make_model(
-          std::make_unique<SmallModel>(*bodies.elasticity, bodies.quadrature));
+        bodies.make_model(std::make_unique<SmallSolid>(*bodies.elasticity,
+                                                       Loading(),
+                                                       bodies.mass()));
       else
-        bodies.make_model(
-          std::make_unique<FiniteModel>(*bodies.elasticity, bodies.quadrature));
+        bodies.make_model(std::make_unique<FiniteSolid>(*bodies.elasticity,
+                                                        Loading(),
+                                                        bodies.mass()));
       Vector begin(bodies.zero());
       begin = rest;
       bodies.integrate(TimeScheme::energy_momentum(), begin, bodies.zero());

@@ -1,5 +1,5 @@
-#ifndef nmm_dynamics_loading_h
-#define nmm_dynamics_loading_h
+#ifndef nmm_mechanics_loading_h
+#define nmm_mechanics_loading_h
 
 #include <nmm/mechanics/finite_elasticity.h>
 

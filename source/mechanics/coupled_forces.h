@@ -1,7 +1,7 @@
-#ifndef nmm_source_dynamics_coupled_forces_h
-#define nmm_source_dynamics_coupled_forces_h
+#ifndef nmm_source_mechanics_coupled_forces_h
+#define nmm_source_mechanics_coupled_forces_h
 
-#include <nmm/dynamics/force_term.h>
+#include <nmm/mechanics/force_term.h>
 
 #include <linear_algebra/active_items.h>
 #include <linear_algebra/extended_matrix.h>

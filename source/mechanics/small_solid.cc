@@ -1,19 +1,15 @@
-#include <nmm/dynamics/elastic_models.h>
+#include <nmm/mechanics/solid_term.h>
 
 #include <base/archive.h>
 #include <cmath>
-#include <dynamics/load_amplitudes.h>
+#include <mechanics/load_amplitudes.h>
 
 namespace NMM
 {
-  SmallModel::SmallModel(FiniteElasticity           &elasticity,
-                         const QuadratureCollection &mass_quadrature,
-                         Loading                     loading,
-                         const GhostPenalty         *ghost_penalty)
-    : ElasticModel(elasticity,
-                   mass_quadrature,
-                   std::move(loading),
-                   ghost_penalty)
+  SmallSolid::SmallSolid(FiniteElasticity             &elasticity,
+                         Loading                       loading,
+                         std::shared_ptr<const Matrix> mass)
+    : SolidTerm(elasticity, std::move(loading), std::move(mass))
   {
     for (Vector *vector : {&owned,
                            &forces,
@@ -27,11 +23,11 @@ namespace NMM
   }
 
 
-  SmallModel::~SmallModel() = default;
+  SmallSolid::~SmallSolid() = default;
 
 
   bool
-  SmallModel::update(Part &part, const LoadAmplitudes &amplitudes)
+  SmallSolid::update(Part &part, const LoadAmplitudes &amplitudes)
   {
     if (part.is_known && internal::equal(part.amplitudes, amplitudes))
       return false;
@@ -46,7 +42,7 @@ namespace NMM
 
 
   void
-  SmallModel::update(const LoadAmplitudes &amplitudes)
+  SmallSolid::update(const LoadAmplitudes &amplitudes)
   {
     const ElasticityProblem &problem = elasticity->elasticity_problem();
     const LoadAmplitudes     loads =
@@ -71,7 +67,7 @@ namespace NMM
 
 
   ForceProperties
-  SmallModel::properties() const
+  SmallSolid::properties() const
   {
     const bool is_elastic = inelastic == nullptr;
     return {/* is_linear = */ is_elastic,
@@ -81,14 +77,14 @@ namespace NMM
 
 
   InelasticTerms *
-  SmallModel::inelastic_terms() const
+  SmallSolid::inelastic_terms() const
   {
     return inelastic.get();
   }
 
 
   void
-  SmallModel::begin_step(const StepBegin &step)
+  SmallSolid::begin_step(const StepBegin &step)
   {
     if (!inelastic)
       return;
@@ -102,9 +98,9 @@ namespace NMM
 
 
   StepWork
-  SmallModel::commit(const Trial &step)
+  SmallSolid::commit(const Trial &step)
   {
-    StepWork work = ElasticModel::commit(step);
+    StepWork work = SolidTerm::commit(step);
     if (inelastic)
       work.dissipated = accept_inelastic(step);
     return work;
@@ -112,7 +108,7 @@ namespace NMM
 
 
   double
-  SmallModel::accept_inelastic(const Trial &step)
+  SmallSolid::accept_inelastic(const Trial &step)
   {
     inelastic->accept(*step.end);
     Vector motion(*step.end), force(inelastic->residual());
@@ -129,7 +125,7 @@ namespace NMM
 
 
   double
-  SmallModel::work_on_inelastic(const InelasticTerms::Totals &totals,
+  SmallSolid::work_on_inelastic(const InelasticTerms::Totals &totals,
                                 const double                  t_0,
                                 const double                  t_1) const
   {
@@ -144,7 +140,7 @@ namespace NMM
 
 
   void
-  SmallModel::save(internal::ByteWriter &archive) const
+  SmallSolid::save(internal::ByteWriter &archive) const
   {
     if (!inelastic)
       return;
@@ -154,7 +150,7 @@ namespace NMM
 
 
   void
-  SmallModel::restore(internal::ByteReader &archive)
+  SmallSolid::restore(internal::ByteReader &archive)
   {
     if (!inelastic)
       return;
@@ -165,7 +161,7 @@ namespace NMM
 
 
   Deformation
-  SmallModel::add_inelastic(const Vector    &u,
+  SmallSolid::add_inelastic(const Vector    &u,
                             const double     share,
                             const bool       with_tangent,
                             AssembledForces &sum)
@@ -182,7 +178,7 @@ namespace NMM
 
 
   Deformation
-  SmallModel::assemble(const Trial &trial, AssembledForces &sum)
+  SmallSolid::assemble(const Trial &trial, AssembledForces &sum)
   {
     const double t_0 = trial.begin_time, t_1 = trial.end_time;
     if (trial.is_conserving)
@@ -220,7 +216,7 @@ namespace NMM
 
 
   void
-  SmallModel::assemble_owned(const double t, const LoadAmplitudes &amplitudes)
+  SmallSolid::assemble_owned(const double t, const LoadAmplitudes &amplitudes)
   {
     update(amplitudes);
     elasticity->tangent().vmult(forces, owned);
@@ -238,7 +234,7 @@ namespace NMM
 
 
   void
-  SmallModel::external_forces(const Vector &, const double t, Vector &result)
+  SmallSolid::external_forces(const Vector &, const double t, Vector &result)
   {
     update(amplitudes_at(t));
     result = with_loads.forces;
@@ -248,7 +244,7 @@ namespace NMM
 
 
   double
-  SmallModel::energy_of_conditions(const Vector         &u,
+  SmallSolid::energy_of_conditions(const Vector         &u,
                                    const LoadAmplitudes &amplitudes)
   {
     set_amplitudes(amplitudes);
@@ -257,12 +253,12 @@ namespace NMM
 
 
   double
-  SmallModel::work_of_supports(const Vector &u,
+  SmallSolid::work_of_supports(const Vector &u,
                                const double  t,
                                const double  t_0,
                                const double  t_1)
   {
-    const double work = ElasticModel::work_of_supports(u, t, t_0, t_1);
+    const double work = SolidTerm::work_of_supports(u, t, t_0, t_1);
     if (!inelastic || !loads_change())
       return work;
     (void)inelastic->assemble(u, /* with_tangent = */ false);
@@ -272,7 +268,7 @@ namespace NMM
 
   /// The energy is quadratic in the prescribed displacements, whose mean is that of the step.
   double
-  SmallModel::work_of_supports_between(const Trial &step, const Vector &mean)
+  SmallSolid::work_of_supports_between(const Trial &step, const Vector &mean)
   {
     if (!loads_change())
       return 0.;

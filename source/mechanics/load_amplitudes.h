@@ -1,5 +1,5 @@
-#ifndef nmm_source_dynamics_load_amplitudes_h
-#define nmm_source_dynamics_load_amplitudes_h
+#ifndef nmm_source_mechanics_load_amplitudes_h
+#define nmm_source_mechanics_load_amplitudes_h
 
 #include <nmm/mechanics/finite_elasticity.h>
 

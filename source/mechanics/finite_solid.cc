@@ -1,4 +1,4 @@
-#include <nmm/dynamics/elastic_models.h>
+#include <nmm/mechanics/solid_term.h>
 
 #include <algorithm>
 #include <cmath>
@@ -6,29 +6,29 @@
 
 namespace NMM
 {
-  FiniteModel::FiniteModel(FiniteElasticity           &elasticity,
-                           const QuadratureCollection &mass_quadrature,
-                           Loading                     loading)
-    : ElasticModel(elasticity, mass_quadrature, std::move(loading), nullptr)
+  FiniteSolid::FiniteSolid(FiniteElasticity             &elasticity,
+                           Loading                       loading,
+                           std::shared_ptr<const Matrix> mass)
+    : SolidTerm(elasticity, std::move(loading), std::move(mass))
     , has_follower(!elasticity.tangent_is_symmetric())
   {
     set_fingerprint();
   }
 
 
-  const FiniteModel::Matrix *
-  FiniteModel::damp_by_stiffness(const double coefficient,
+  const FiniteSolid::Matrix *
+  FiniteSolid::damp_by_stiffness(const double coefficient,
                                  const bool   is_conserving)
   {
     if (!is_conserving)
-      return ElasticModel::damp_by_stiffness(coefficient, is_conserving);
+      return SolidTerm::damp_by_stiffness(coefficient, is_conserving);
     damping = coefficient;
     return nullptr;
   }
 
 
   ForceProperties
-  FiniteModel::properties() const
+  FiniteSolid::properties() const
   {
     return {/* is_linear = */ false,
             elasticity->tangent_is_symmetric(),
@@ -37,7 +37,7 @@ namespace NMM
 
 
   Deformation
-  FiniteModel::assemble_elasticity(const Trial &trial)
+  FiniteSolid::assemble_elasticity(const Trial &trial)
   {
     if (!trial.is_conserving)
     {
@@ -63,7 +63,7 @@ namespace NMM
 
 
   Deformation
-  FiniteModel::assemble(const Trial &trial, AssembledForces &forces)
+  FiniteSolid::assemble(const Trial &trial, AssembledForces &forces)
   {
     if (assemble_elasticity(trial) != Deformation::admissible)
       return Deformation::inverted;
@@ -84,7 +84,7 @@ namespace NMM
 
 
   StepFault
-  FiniteModel::find_fault(const Vector &)
+  FiniteSolid::find_fault(const Vector &)
   {
     StepFault fault;
     if (elasticity->largest_jump() > FiniteElasticity::largest_good_jump)
@@ -102,16 +102,16 @@ namespace NMM
 
   /// Without conserving forces, nothing is dissipated.
   StepWork
-  FiniteModel::commit(const Trial &step)
+  FiniteSolid::commit(const Trial &step)
   {
-    StepWork work   = ElasticModel::commit(step);
+    StepWork work   = SolidTerm::commit(step);
     work.dissipated = std::exchange(dissipated_between, 0.);
     return work;
   }
 
 
   void
-  FiniteModel::external_forces(const Vector &u, const double t, Vector &forces)
+  FiniteSolid::external_forces(const Vector &u, const double t, Vector &forces)
   {
     // dead loads do not depend on u and often not on t: then they are known already
     if (has_follower || !has_known || known_at != version() || loads_change())
@@ -137,7 +137,7 @@ namespace NMM
 
 
   double
-  FiniteModel::energy_of_conditions(const Vector         &u,
+  FiniteSolid::energy_of_conditions(const Vector         &u,
                                     const LoadAmplitudes &amplitudes)
   {
     set_amplitudes(amplitudes);
@@ -148,7 +148,7 @@ namespace NMM
 
 
   double
-  FiniteModel::work_of_supports_between(const Trial &step, const Vector &)
+  FiniteSolid::work_of_supports_between(const Trial &step, const Vector &)
   {
     return loads_change() &&
                assemble_elasticity(step) == Deformation::admissible

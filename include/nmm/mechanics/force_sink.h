@@ -1,5 +1,5 @@
-#ifndef nmm_dynamics_force_sink_h
-#define nmm_dynamics_force_sink_h
+#ifndef nmm_mechanics_force_sink_h
+#define nmm_mechanics_force_sink_h
 
 #include <nmm/mechanics/material_vector.h>
 

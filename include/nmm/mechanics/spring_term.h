@@ -1,7 +1,7 @@
-#ifndef nmm_dynamics_spring_term_h
-#define nmm_dynamics_spring_term_h
+#ifndef nmm_mechanics_spring_term_h
+#define nmm_mechanics_spring_term_h
 
-#include <nmm/dynamics/force_term.h>
+#include <nmm/mechanics/force_term.h>
 
 #include <optional>
 #include <vector>

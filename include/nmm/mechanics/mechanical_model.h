@@ -1,7 +1,7 @@
-#ifndef nmm_dynamics_mechanical_model_h
-#define nmm_dynamics_mechanical_model_h
+#ifndef nmm_mechanics_mechanical_model_h
+#define nmm_mechanics_mechanical_model_h
 
-#include <nmm/dynamics/force_term.h>
+#include <nmm/mechanics/force_term.h>
 
 #include <cstdint>
 #include <memory>
@@ -41,8 +41,8 @@ namespace NMM
 
 
   /**
-   * The forces r(u, t) of a body as the sum of a list of terms, such as the solid (FiniteModel,
-   * SmallModel), contact (ContactTerm) and springs (SpringTerm), which are called in the order of the
+   * The forces r(u, t) of a body as the sum of a list of terms, such as the solid (FiniteSolid,
+   * SmallSolid), contact (ContactTerm) and springs (SpringTerm), which are called in the order of the
    * list:
    * @code
    * MechanicalModel model(solid.layout(), {&solid, &contact, &springs});

@@ -1,9 +1,9 @@
 #include <nmm/base/exceptions.h>
-#include <nmm/dynamics/spring_term.h>
+#include <nmm/mechanics/spring_term.h>
 
 #include <algorithm>
+#include <base/hash.h>
 #include <cmath>
-#include <dynamics/hash.h>
 
 namespace NMM
 {

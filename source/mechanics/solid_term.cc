@@ -1,11 +1,10 @@
 #include <nmm/base/exceptions.h>
-#include <nmm/dynamics/elastic_models.h>
-#include <nmm/mechanics/mass_matrix.h>
+#include <nmm/mechanics/solid_term.h>
 
 #include <algorithm>
 #include <cmath>
-#include <dynamics/load_amplitudes.h>
-#include <dynamics/solid_hash.h>
+#include <mechanics/load_amplitudes.h>
+#include <mechanics/solid_hash.h>
 
 namespace NMM
 {
@@ -43,28 +42,20 @@ namespace NMM
   } // namespace
 
 
-  ElasticModel::ElasticModel(FiniteElasticity           &elasticity,
-                             const QuadratureCollection &mass_quadrature,
-                             Loading                     loading_in,
-                             const GhostPenalty         *ghost_penalty)
+  SolidTerm::SolidTerm(FiniteElasticity             &elasticity,
+                       Loading                       loading_in,
+                       std::shared_ptr<const Matrix> mass_in)
     : elasticity(&elasticity)
     , loading(std::move(loading_in))
+    , mass(std::move(mass_in))
   {
     const CoverSystem       &covers  = elasticity.cover_system();
     const ElasticityProblem &problem = elasticity.elasticity_problem();
-    for (const Material &material : problem.materials)
-      AssertThrow(material.density > 0.,
-                  InputError("The density is " +
-                               std::to_string(material.density),
-                             "material '" + material.name + "'",
-                             "dynamics needs a density above 0"));
     check_releases(loading, problem);
-    assemble_mass_matrix(covers,
-                         mass_quadrature,
-                         elasticity.affine_constraints(),
-                         problem,
-                         ghost_penalty,
-                         mass_matrix);
+    AssertThrow(mass != nullptr || !loading.base_acceleration,
+                InputError("The base of a solid without masses moves",
+                           "the base acceleration",
+                           "give the mass matrix"));
 
     zero     = elasticity.initial_solution();
     unknowns = {covers.communicator(),
@@ -72,7 +63,7 @@ namespace NMM
                 covers.locally_relevant_dofs(2),
                 &elasticity.affine_constraints(),
                 &positions,
-                &mass_matrix,
+                mass.get(),
                 covers.manifold_mesh().physical_mesh().n_blocks(),
                 {},
                 {}};
@@ -93,7 +84,7 @@ namespace NMM
 
 
   void
-  ElasticModel::set_fingerprint()
+  SolidTerm::set_fingerprint()
   {
     internal::Hash hash_of_solid =
       internal::hash_of_solid(elasticity->cover_system(),
@@ -104,7 +95,7 @@ namespace NMM
 
 
   void
-  ElasticModel::set_blocks()
+  SolidTerm::set_blocks()
   {
     const CoverSystem  &covers = elasticity->cover_system();
     const ManifoldMesh &mesh   = covers.manifold_mesh();
@@ -120,16 +111,18 @@ namespace NMM
 
 
   void
-  ElasticModel::set_active_blocks(const std::vector<bool> &is_active,
-                                  const std::vector<bool> &)
+  SolidTerm::set_active_blocks(const std::vector<bool> &is_active,
+                               const std::vector<bool> &)
   {
     elasticity->set_active_blocks(is_active);
   }
 
 
   void
-  ElasticModel::set_mass_of_translation()
+  SolidTerm::set_mass_of_translation()
   {
+    if (!loading.base_acceleration)
+      return;
     for (unsigned int c = 0; c < 2; ++c)
     {
       Vector translation(unknowns.locally_owned, unknowns.communicator);
@@ -139,13 +132,13 @@ namespace NMM
           translation(2 * k + c) = 1.;
       translation.compress(dealii::VectorOperation::insert);
       mass_of_translation[c].reinit(translation);
-      mass_matrix.vmult(mass_of_translation[c], translation);
+      mass->vmult(mass_of_translation[c], translation);
     }
   }
 
 
   void
-  ElasticModel::set_presence(const Presence &present)
+  SolidTerm::set_presence(const Presence &present)
   {
     last_loads_at.reset();
     n_passed = 0;
@@ -164,7 +157,7 @@ namespace NMM
 
 
   void
-  ElasticModel::set_absent_unknowns()
+  SolidTerm::set_absent_unknowns()
   {
     const CoverSystem  &covers = elasticity->cover_system();
     const ManifoldMesh &mesh   = covers.manifold_mesh();
@@ -187,7 +180,7 @@ namespace NMM
 
 
   LoadAmplitudes
-  ElasticModel::amplitudes_at(const double t, const bool with_loads) const
+  SolidTerm::amplitudes_at(const double t, const bool with_loads) const
   {
     LoadAmplitudes amplitudes;
     if (loading.amplitudes)
@@ -212,7 +205,7 @@ namespace NMM
 
 
   LoadAmplitudes
-  ElasticModel::amplitudes_between(const double t_0, const double t_1) const
+  SolidTerm::amplitudes_between(const double t_0, const double t_1) const
   {
     LoadAmplitudes middle = amplitudes_at(0.5 * (t_0 + t_1));
     if (!loads_change())
@@ -244,10 +237,10 @@ namespace NMM
   /// The energy of conditions is quadratic in the prescribed displacements. So its central
   /// difference is exactly the derivative times their change.
   double
-  ElasticModel::work_of_supports(const Vector &u,
-                                 const double  t,
-                                 const double  t_0,
-                                 const double  t_1)
+  SolidTerm::work_of_supports(const Vector &u,
+                              const double  t,
+                              const double  t_0,
+                              const double  t_1)
   {
     if (!loads_change())
       return 0.;
@@ -284,8 +277,8 @@ namespace NMM
 
   /// Supports are left out, because those that move would be held back by a damping that acts on the
   /// velocity.
-  const ElasticModel::Matrix *
-  ElasticModel::damp_by_stiffness(const double coefficient, bool)
+  const SolidTerm::Matrix *
+  SolidTerm::damp_by_stiffness(const double coefficient, bool)
   {
     if (coefficient == 0.)
       return nullptr;
@@ -301,7 +294,7 @@ namespace NMM
 
 
   StepWork
-  ElasticModel::commit(const Trial &step)
+  SolidTerm::commit(const Trial &step)
   {
     const double t_0 = step.begin_time, t_1 = step.end_time;
     StepWork     work;
@@ -335,7 +328,7 @@ namespace NMM
 
 
   bool
-  ElasticModel::set_amplitudes(const LoadAmplitudes &amplitudes)
+  SolidTerm::set_amplitudes(const LoadAmplitudes &amplitudes)
   {
     if (internal::equal(amplitudes, current))
       return false;
@@ -346,16 +339,16 @@ namespace NMM
 
 
   bool
-  ElasticModel::loads_change() const
+  SolidTerm::loads_change() const
   {
     return static_cast<bool>(loading.amplitudes);
   }
 
 
   void
-  ElasticModel::add_base_force(const double t,
-                               const double scale,
-                               Vector      &forces) const
+  SolidTerm::add_base_force(const double t,
+                            const double scale,
+                            Vector      &forces) const
   {
     if (!loading.base_acceleration)
       return;
@@ -366,7 +359,7 @@ namespace NMM
   }
 
 
-  ElasticModel::Vector
+  SolidTerm::Vector
   interpolate_velocity(
     const CoverSystem                                             &covers,
     const dealii::AffineConstraints<double>                       &constraints,
@@ -375,8 +368,8 @@ namespace NMM
   {
     const ManifoldMesh     &mesh  = covers.manifold_mesh();
     const dealii::IndexSet &owned = covers.locally_owned_covers();
-    ElasticModel::Vector    result(covers.locally_owned_dofs(2),
-                                covers.communicator());
+    SolidTerm::Vector       result(covers.locally_owned_dofs(2),
+                             covers.communicator());
     for (unsigned int e = 0; e < mesh.n_elements(); ++e)
       for (const unsigned int k : covers.covers(e))
         if (owned.is_element(k))

@@ -1,9 +1,8 @@
-#ifndef nmm_dynamics_contact_term_h
-#define nmm_dynamics_contact_term_h
+#ifndef nmm_contact_contact_term_h
+#define nmm_contact_contact_term_h
 
 #include <nmm/contact/contact.h>
-#include <nmm/dynamics/mechanical_model.h>
-#include <nmm/dynamics/time_scheme.h>
+#include <nmm/mechanics/mechanical_model.h>
 
 #include <memory>
 #include <vector>
@@ -39,11 +38,6 @@ namespace NMM
      */
     every_step
   };
-
-
-  /// What is best for a relaxation with @p scheme: every_step, unless its forces are conserving.
-  ContactUpdate
-  update_in_relaxation(const TimeScheme &scheme);
 
 
   /**

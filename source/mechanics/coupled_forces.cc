@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <dynamics/coupled_forces.h>
+#include <mechanics/coupled_forces.h>
 #include <utility>
 
 namespace NMM

@@ -1,6 +1,6 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/base/input_file.h>
-#include <nmm/dynamics/loading.h>
+#include <nmm/mechanics/loading.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
+#include <nmm/contact/contact_term.h>
 #include <nmm/contact/contact_time_step.h>
-#include <nmm/dynamics/contact_term.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -13,14 +13,6 @@
 
 namespace NMM
 {
-  ContactUpdate
-  update_in_relaxation(const TimeScheme &scheme)
-  {
-    return scheme.is_conserving ? ContactUpdate::every_iteration
-                                : ContactUpdate::every_step;
-  }
-
-
   struct ContactTerm::Data
   {
     const ModelLayout           *layout;

@@ -1,5 +1,5 @@
-#ifndef nmm_source_dynamics_hash_h
-#define nmm_source_dynamics_hash_h
+#ifndef nmm_source_base_hash_h
+#define nmm_source_base_hash_h
 
 #include <cstddef>
 #include <cstdint>

@@ -1,10 +1,10 @@
 #include <nmm/base/exceptions.h>
-#include <nmm/dynamics/mechanical_model.h>
+#include <nmm/mechanics/mechanical_model.h>
 
 #include <algorithm>
 #include <base/archive.h>
 #include <cmath>
-#include <dynamics/coupled_forces.h>
+#include <mechanics/coupled_forces.h>
 #include <utility>
 
 namespace NMM

@@ -1,11 +1,11 @@
-#ifndef nmm_dynamics_force_term_h
-#define nmm_dynamics_force_term_h
+#ifndef nmm_mechanics_force_term_h
+#define nmm_mechanics_force_term_h
 
 #include <nmm/base/assembly.h>
 #include <nmm/base/step_fault.h>
 #include <nmm/base/types.h>
-#include <nmm/dynamics/force_sink.h>
 #include <nmm/linear_algebra/body_matrix.h>
+#include <nmm/mechanics/force_sink.h>
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/lac/affine_constraints.h>
@@ -46,6 +46,7 @@ namespace NMM
     /// owned unknowns.
     const dealii::TrilinosWrappers::MPI::Vector *reference_positions = nullptr;
     /// Mass matrix M [kg/m]. The rows of constrained unknowns have an arbitrary diagonal entry.
+    /// Null for a solid at rest.
     const dealii::TrilinosWrappers::SparseMatrix *mass = nullptr;
     /// Number of blocks, absent ones included; 0 if there are none to distinguish.
     unsigned int n_blocks = 0;

@@ -1,10 +1,10 @@
-#ifndef nmm_source_dynamics_solid_hash_h
-#define nmm_source_dynamics_solid_hash_h
+#ifndef nmm_source_mechanics_solid_hash_h
+#define nmm_source_mechanics_solid_hash_h
 
 #include <nmm/covers/cover_system.h>
 #include <nmm/mechanics/elasticity_problem.h>
 
-#include <dynamics/hash.h>
+#include <base/hash.h>
 
 namespace NMM
 {

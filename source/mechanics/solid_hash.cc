@@ -1,7 +1,7 @@
 #include <nmm/materials/material_law.h>
 
 #include <algorithm>
-#include <dynamics/solid_hash.h>
+#include <mechanics/solid_hash.h>
 #include <memory>
 #include <typeinfo>
 

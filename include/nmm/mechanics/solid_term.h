@@ -1,11 +1,10 @@
-#ifndef nmm_dynamics_elastic_models_h
-#define nmm_dynamics_elastic_models_h
+#ifndef nmm_mechanics_solid_term_h
+#define nmm_mechanics_solid_term_h
 
-#include <nmm/covers/aggregation.h>
-#include <nmm/dynamics/loading.h>
-#include <nmm/dynamics/mechanical_model.h>
 #include <nmm/mechanics/finite_elasticity.h>
 #include <nmm/mechanics/inelastic_terms.h>
+#include <nmm/mechanics/loading.h>
+#include <nmm/mechanics/mechanical_model.h>
 
 #include <functional>
 #include <memory>
@@ -14,13 +13,13 @@
 namespace NMM
 {
   /**
-   * The force term of a solid: the common part of `small` and `finite` kinematics, with consistent
-   * mass (8), loads as functions of time, releases, base acceleration.
+   * The force term of a solid: the common part of `small` and `finite` kinematics, with loads as
+   * functions of time, releases, and the inertia forces of a moving base.
    *
    * Lifetime: the elasticity must outlive this object, and from then on only this object may set
    * its load amplitudes.
    */
-  class ElasticModel : public ForceTerm, public BlockTerm
+  class SolidTerm : public ForceTerm, public BlockTerm
   {
   public:
     /// The unknowns of the solid, for a MechanicalModel.
@@ -47,15 +46,14 @@ namespace NMM
 
   protected:
     /**
-     * Assemble the mass matrix with @p mass_quadrature, which must be exact for degree 2p.
-     * @p ghost_penalty may be null; see assemble_mass_matrix().
-     * @throws InputError for a material without density, the release of a load, or the release
-     * of a condition or fixed point that does not exist.
+     * @p mass is the matrix of ModelLayout::mass, see make_mass_matrix(); null for a solid at rest,
+     * whose base cannot move.
+     * @throws InputError for the release of a load, or of a condition or fixed point that does not
+     * exist, and for a base acceleration without mass.
      */
-    ElasticModel(FiniteElasticity           &elasticity,
-                 const QuadratureCollection &mass_quadrature,
-                 Loading                     loading,
-                 const GhostPenalty         *ghost_penalty);
+    SolidTerm(FiniteElasticity             &elasticity,
+              Loading                       loading,
+              std::shared_ptr<const Matrix> mass);
 
     /// Amplitudes at the time @p t [s], with the releases passed so far. Loads get the amplitude
     /// 0 unless @p with_loads.
@@ -131,9 +129,11 @@ namespace NMM
 
     /// Number of releases passed so far, and of changes of absent blocks or of the tangent by
     /// damp_by_stiffness().
-    unsigned int   n_passed = 0, n_changes = 0;
-    Matrix         mass_matrix;
-    Vector         positions, mass_of_translation[2];
+    unsigned int                  n_passed = 0, n_changes = 0;
+    std::shared_ptr<const Matrix> mass;
+    Vector                        positions;
+    /// The forces of a unit acceleration of the base [kg/m]; empty if the base does not move.
+    Vector         mass_of_translation[2];
     LoadAmplitudes current;
     Presence       presence;
     /// Loads at the end of the last step that was committed [N/m] and its time [s], unless they
@@ -146,13 +146,13 @@ namespace NMM
   /// The dynamic model in total Lagrangian kinematics, see FiniteElasticity. In conserving steps
   /// stiffness-proportional damping acts on the rate of the Green-Lagrange strain, and hence
   /// neither on rigid rotation nor on supports and ties.
-  class FiniteModel : public ElasticModel
+  class FiniteSolid : public SolidTerm
   {
   public:
-    /// See the constructor of ElasticModel for arguments and errors.
-    FiniteModel(FiniteElasticity           &elasticity,
-                const QuadratureCollection &mass_quadrature,
-                Loading                     loading = {});
+    /// See the constructor of SolidTerm for arguments and errors.
+    explicit FiniteSolid(FiniteElasticity             &elasticity,
+                         Loading                       loading = {},
+                         std::shared_ptr<const Matrix> mass    = nullptr);
 
     const Matrix *
     damp_by_stiffness(double coefficient, bool is_conserving) override;
@@ -209,15 +209,14 @@ namespace NMM
    * minus the change of the stored energy, so that the energy balance closes.
    * Stiffness-proportional damping uses the stiffness of the elastic solid.
    */
-  class SmallModel : public ElasticModel
+  class SmallSolid : public SolidTerm
   {
   public:
-    /// See the constructor of ElasticModel for arguments and errors.
-    SmallModel(FiniteElasticity           &elasticity,
-               const QuadratureCollection &mass_quadrature,
-               Loading                     loading       = {},
-               const GhostPenalty         *ghost_penalty = nullptr);
-    ~SmallModel() override;
+    /// See the constructor of SolidTerm for arguments and errors.
+    explicit SmallSolid(FiniteElasticity             &elasticity,
+                        Loading                       loading = {},
+                        std::shared_ptr<const Matrix> mass    = nullptr);
+    ~SmallSolid() override;
 
     void
     begin_step(const StepBegin &step) override;
